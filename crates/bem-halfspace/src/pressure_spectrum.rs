@@ -17,10 +17,6 @@ use crate::{Elastomer, PressureField, layer_factor};
 /// transform, and along x the bands are an eighth of the contact's own wave wide.
 const PERIOD: [usize; 2] = [8, 4];
 
-/// Waves per decade of the spectrum of a line contact, and its ends over the longest and shortest waves that count.
-const PER_DECADE: f64 = 40.0;
-const BEYOND: f64 = 1e-2;
-
 /// The frequencies of the `pressure` along a line contact, at increasing positions \[m], that slides at a `velocity` \[m/s].
 ///
 /// The compliance 1/|q| gives every octave of long waves the same part, down to those at which the material is elastic.
@@ -29,36 +25,11 @@ pub fn line_spectrum(
     elastomer: &(impl Elastomer + ?Sized),
     velocity: f64,
 ) -> Vec<StressBand> {
-    let (Some([first, _]), Some([last, _])) = (pressure.first(), pressure.last()) else {
-        return Vec::new();
-    };
-    let length = last - first;
-    let creep = elastomer.material().creep();
-    let slowest = creep
-        .elements()
-        .last()
-        .map_or(0.0, |one| one.retardation_time);
-    let longest = BEYOND / length.max(velocity * slowest);
-    let shortest = std::f64::consts::PI * pressure.len() as f64 / length;
-    let ratio = 10_f64.powf(PER_DECADE.recip());
-    let waves = std::iter::successors(Some(longest), |wave| Some(wave * ratio));
-    let (thickness, poisson) = (elastomer.thickness(), elastomer.material().poisson_ratio());
-    let band = |wave: f64| {
-        let sum = pressure.windows(2).map(|pair| {
-            let [[left, p], [right, q]] = [pair[0], pair[1]];
-            let angle = 0.5 * wave * (left + right);
-            Complex::from_polar(0.5 * (right - left) * (p + q), angle)
-        });
-        StressBand {
-            band: [wave * velocity; 2],
-            // The waves are equally spaced in the logarithm, which 1/|q| makes the measure.
-            weight: sum.sum::<Complex<f64>>().norm_sqr() * layer_factor(wave * thickness, poisson),
-        }
-    };
-    waves
-        .take_while(|wave| *wave < shortest)
-        .map(band)
-        .collect()
+    let material = elastomer.material();
+    let thickness = elastomer.thickness();
+    material.creep().bands_along(pressure, velocity, |wave| {
+        layer_factor(wave * thickness, material.poisson_ratio()) / wave
+    })
 }
 
 impl PressureField {

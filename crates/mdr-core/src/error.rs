@@ -5,7 +5,7 @@ use numerics::{InWords, InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
 
-use crate::{SlideRow, Sliding};
+use crate::{CurvePoint, SlideRow, Sliding, SteadySliding};
 
 /// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -107,11 +107,21 @@ pub enum MdrError {
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
+        /// What was found, with its bars; of a static state on springs.
+        reached: Box<SteadySliding>,
     },
     /// A quantity is known less well than asked for on the finest resolution allowed.
     #[error(transparent)]
     NotReached(#[from] NotReached),
-    /// The same of a march, with everything else that was found.
+    /// The depth along a history is known less well than asked for with the shortest parts of it allowed.
+    #[error("{missed}")]
+    HistoryNotReached {
+        /// What is not known well enough.
+        missed: NotReached,
+        /// What was found, with its bars.
+        reached: Vec<CurvePoint>,
+    },
+    /// The same of a march on the finest chain allowed.
     #[error("{missed}")]
     SlidingNotReached {
         /// What is not known well enough.

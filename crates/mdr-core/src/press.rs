@@ -59,6 +59,7 @@ pub fn indent(
         // The same contact on springs of another modulus.
         let ratio = material.relaxation_modulus(time)? * compliance;
         pressed.normal_force = pressed.normal_force * ratio;
+        pressed.load.iter_mut().for_each(|[_, load]| *load *= ratio);
     }
     Ok(pressed)
 }

@@ -1,4 +1,4 @@
-//! Mathematics without physics: integrals, roots, Legendre polynomials, refinement to a stated error,
+//! Mathematics without physics: integrals, waves, roots, Legendre polynomials, refinement to a stated error,
 //! checks of numbers.
 //!
 //! ```
@@ -27,6 +27,7 @@
 
 mod error_parts;
 mod estimate;
+mod fourier;
 mod invalid_parameter;
 #[cfg(feature = "least-squares")]
 pub mod least_squares;
@@ -39,6 +40,7 @@ mod whole_part;
 
 pub use error_parts::ErrorParts;
 pub use estimate::{Estimate, ValueWithError};
+pub use fourier::wave_power;
 pub use invalid_parameter::{
     InWords, InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
 };

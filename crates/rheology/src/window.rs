@@ -7,7 +7,15 @@
 //! ∫ ω J''(ω) dω = ω/η_f + Σ J_k/λ_k² (x − atan x),        x = ω λ_k
 //! ```
 
+use numerics::wave_power;
+
 use crate::CreepSpectrum;
+
+/// Waves per decade of the spectrum along a line; the longest over the length of the contact or of the slowest retardation, and
+/// the shortest over the shortest distance of two points, beyond which jumps have a thousandth of their power.
+const PER_DECADE: f64 = 40.0;
+const LONGEST: f64 = 1e-2;
+const SHORTEST: f64 = 1e2;
 
 /// What the stress of a stationary state has at some angular frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +72,31 @@ impl CreepSpectrum {
             below: share(below),
             above: share(above),
         })
+    }
+
+    /// The frequencies of a stationary load per length that slides at a `velocity` \[m/s]: straight between `points` of
+    /// increasing positions \[m], with a `compliance` that depends on the wave number [1/m], in any unit.
+    pub fn bands_along(
+        &self,
+        points: &[[f64; 2]],
+        velocity: f64,
+        compliance: impl Fn(f64) -> f64,
+    ) -> Vec<StressBand> {
+        let steps = points.windows(2).map(|pair| pair[1][0] - pair[0][0]);
+        let shortest = steps.clone().filter(|step| *step > 0.0);
+        let shortest = SHORTEST / shortest.fold(f64::INFINITY, f64::min);
+        let slowest = self.elements().last().map(|one| one.retardation_time);
+        let length = steps.sum::<f64>();
+        let longest = LONGEST / length.max(velocity * slowest.unwrap_or(0.0));
+        let step = 10_f64.powf(PER_DECADE.recip());
+        let waves = std::iter::successors(Some(longest), |wave| Some(wave * step));
+        // As wide as the waves are apart, around their middle.
+        let ends = [step.sqrt().recip(), step.sqrt()].map(|end| end * velocity);
+        let band = |wave: f64| StressBand {
+            band: ends.map(|end| end * wave),
+            weight: wave_power(points, wave) * (compliance(wave) * wave),
+        };
+        waves.take_while(|w| *w < shortest).map(band).collect()
     }
 
     /// ω J''(ω).

@@ -97,6 +97,15 @@ impl Chart {
 }
 
 impl Panel<'_> {
+    /// Right end, \[px\]: a map that is higher than wide has no use for the whole width.
+    pub(crate) fn right(&self) -> Result<f64, PlotError> {
+        let margin = match &self.chart.field {
+            None => right_margin(&self.chart.x)?,
+            Some(field) => field.right_margin()?,
+        };
+        Ok(self.frame.area.right() + margin)
+    }
+
     /// Lower end, \[px\].
     pub(crate) fn bottom(&self) -> f64 {
         self.frame.bottom() + self.legend.height_below()

@@ -27,7 +27,7 @@ impl Figure {
     }
 }
 
-/// Drawing of a figure, 480 px wide per column; the frames of charts one below the other line up.
+/// Drawing of a figure, 480 px wide per column, or less in the last one where maps are higher than wide; the frames of charts one below the other line up.
 ///
 /// # Errors
 /// Whatever could not be drawn faithfully: see [`PlotError`].
@@ -43,17 +43,18 @@ pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
         let widest = &mut left_margins[index % columns];
         *widest = widest.max(side_margin(&chart.y)?);
     }
-    let (mut panels, mut bottom) = (Vec::new(), 0.0_f64);
+    let (mut panels, mut right, mut bottom) = (Vec::new(), 0.0_f64, 0.0_f64);
     for row in charts.chunks(columns) {
         let top = bottom;
         for (column, (chart, left_margin)) in row.iter().zip(&left_margins).enumerate() {
             let left = PANEL_WIDTH * column as f64;
             let panel = chart.panel([left, top], *left_margin)?;
+            right = right.max(panel.right()?);
             bottom = bottom.max(panel.bottom());
             panels.push(panel);
         }
     }
-    let mut canvas = Canvas::new(PANEL_WIDTH * columns as f64, bottom);
+    let mut canvas = Canvas::new(right, bottom);
     panels
         .iter()
         .try_for_each(|panel| panel.draw(&mut canvas))?;

@@ -65,23 +65,27 @@ impl Pressed<'_> {
             let radius_change = changes(before, better, |point| point.contact_radius.value);
             let depths = better.iter().map(|point| point.indentation_depth.value);
             let deepest = depths.fold(0.0, f64::max);
-            if change <= self.options.relative_error * deepest {
-                let rounding = ROUNDING + QUADRATURE * self.options.relative_error;
-                let change = change + rounding * deepest;
-                let bars = [change, radius_change];
-                let mut better = self.with_bars(better, &radii, bars);
-                better[..grown.len()].copy_from_slice(&grown);
-                return Ok(better);
+            let asked = self.options.relative_error;
+            let is_reached = change <= asked * deepest;
+            if !is_reached && 2 * parts * self.points.len() <= MOST_PARTS {
+                continue;
             }
-            if 2 * parts * self.points.len() > MOST_PARTS {
-                return Err(MdrError::NotReached(NotReached {
-                    quantity: 0,
-                    asked: self.options.relative_error,
-                    value: deepest,
-                    error: change,
-                    elements: parts,
-                }));
-            }
+            let rounding = ROUNDING + QUADRATURE * asked;
+            let bars = [change + rounding * deepest, radius_change];
+            let mut reached = self.with_bars(better, &radii, bars);
+            reached[..grown.len()].copy_from_slice(&grown);
+            let missed = NotReached {
+                quantity: 0,
+                asked,
+                value: deepest,
+                error: change,
+                elements: parts,
+            };
+            return if is_reached {
+                Ok(reached)
+            } else {
+                Err(MdrError::HistoryNotReached { missed, reached })
+            };
         }
     }
 

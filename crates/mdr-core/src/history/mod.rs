@@ -79,7 +79,7 @@ impl Default for Follow {
 /// body turns down or ends before the largest depth; [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical
 /// edge, as the equator of a sphere, and [`MdrError::ForceBeyondEdge`] when it would under a force, or the line turns down or
 /// ends; [`MdrError::NotADisc`] when a part of the contact would open inside
-/// it, or close outside; [`MdrError::NotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
+/// it, or close outside; [`MdrError::HistoryNotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
 pub fn indent_along(
     body: &(impl Axisymmetric + ?Sized),
     material: &(impl Material + ?Sized),

@@ -128,6 +128,18 @@ impl March {
         [friction, normal * self.depth]
     }
 
+    /// Positions of the elements from the rearmost loaded one to the foremost \[m], with a free one on each side, and their
+    /// loads per length \[N/m].
+    pub(super) fn load(&self) -> Vec<[f64; 2]> {
+        let is_loaded = |load: &f64| *load > 0.0;
+        let rear = self.values.iter().position(is_loaded).unwrap_or(0);
+        let front = self.values.iter().rposition(is_loaded).unwrap_or(0);
+        let last = (front + 1).min(self.values.len() - 1);
+        let elements = rear.saturating_sub(1)..=last;
+        let load = |element: usize| [self.line.position(element), 4.0 * self.values[element]];
+        elements.map(load).collect()
+    }
+
     /// Distance slid at the end of the step to come, \[m].
     pub(super) fn next_sliding_distance(&self) -> f64 {
         (self.n_steps + 1) as f64 * self.line.spacing

@@ -120,6 +120,9 @@ pub struct Transient {
     pub last: SlideRow,
     /// Larger of the relative changes of depth and friction coefficient over the last contact length.
     pub drift: f64,
+    /// Positions of the elements around the last contact \[m] from the rear to the front, and the load per length there
+    /// \[N/m].
+    pub load: Vec<[f64; 2]>,
     /// What is shorter than one element may do to friction and depth.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) unresolved: [f64; 2],
@@ -183,6 +186,7 @@ pub(super) fn march(
                 let unresolved = march.unresolved(line, &transient.last);
                 return Ok(Transient {
                     unresolved,
+                    load: march.load(),
                     ..transient
                 });
             }
@@ -223,6 +227,7 @@ fn march_on(
     match rows.last() {
         Some(last) if given.is_some() || drift <= options.drift_tolerance => Ok(Some(Transient {
             last: *last,
+            load: Vec::new(),
             unresolved: [0.0; 2],
             drift,
             rows,

@@ -48,6 +48,8 @@ pub struct SteadySliding {
     pub contacts: Vec<[f64; 2]>,
     /// Number of polynomials that stand for the line.
     pub n_pieces: usize,
+    /// Positions \[m] from the rear to the front, and the load per length there \[N/m], straight between them.
+    pub load: Vec<[f64; 2]>,
 }
 
 /// Slides a line over a foundation, in the stationary state, until the error of the friction coefficient relative to its

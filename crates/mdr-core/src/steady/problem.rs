@@ -66,6 +66,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
                     value,
                     error,
                     relative_error,
+                    reached: Box::new(self.with_ends(state, tolerance)?),
                 });
             }
             tolerance = LAST_TOLERANCE.max(tolerance * (0.1 * wanted / error));
@@ -146,6 +147,15 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     }
 
     fn solve(&self, depth: f64, tolerance: f64) -> Result<Sweep, MdrError> {
+        self.solve_with(depth, tolerance, None)
+    }
+
+    fn solve_with(
+        &self,
+        depth: f64,
+        tolerance: f64,
+        loads: Option<Vec<[f64; 2]>>,
+    ) -> Result<Sweep, MdrError> {
         let range = Range::below(self.line, depth)?;
         let resolution = Resolution {
             depth,
@@ -154,7 +164,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         };
         let profile = Profile::new(self.line, &range, resolution)?;
         range.check_front(depth * profile.lowest, depth)?;
-        sweep(&self.foundation, &profile)
+        sweep(&self.foundation, &profile, loads)
     }
 
     /// The state in SI; the errors of its ends are not known yet.
@@ -188,10 +198,11 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             ends: ends.map(Estimate::exact),
             contacts: sums.contacts,
             n_pieces: sums.n_pieces,
+            load: Vec::new(),
         })
     }
 
-    /// The errors of both ends, from how far they move with more polynomials and another depth.
+    /// The load, and the errors of both ends, from how far they move with more polynomials and another depth.
     fn with_ends(
         &self,
         mut state: SteadySliding,
@@ -199,11 +210,15 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     ) -> Result<SteadySliding, MdrError> {
         let depth = state.indentation_depth;
         let finer = LAST_TOLERANCE.max(FINER * tolerance);
-        let ends = self.solve(depth.value - depth.error, finer)?.ends();
+        let sums = self.solve_with(depth.value - depth.error, finer, Some(Vec::new()))?;
+        let ends = sums.ends();
         let rounding = ROUNDING_OF_ENDS * (ends[1] - ends[0]);
         for (end, finer) in state.ends.iter_mut().zip(ends) {
             *end = Estimate::new(end.value, 2.0 * (end.value - finer).abs() + rounding);
         }
+        let unit = 4.0 * self.foundation.unit * depth.value;
+        let loads = sums.loads.into_iter().flatten().rev();
+        state.load = loads.map(|[x, load]| [x, unit * load]).collect();
         Ok(state)
     }
 }

@@ -17,6 +17,8 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 const LEFT_BY_ROUNDING: f64 = 1e-6;
 /// Layers thinner than this part of a segment are not looked into.
 const THINNEST: f64 = 1e-9;
+/// Difference from a straight line, relative to the load, that is left out of what is drawn and transformed.
+const STRAIGHT: f64 = 1e-3;
 /// A touch that is late by more than this part of the depth is a jump.
 const LARGEST_MISS: f64 = 1e-12;
 /// A contact that ends after less than this part of a segment ends at its start, and one that begins so close to its end
@@ -41,6 +43,8 @@ pub(super) struct Sweep {
     pub(super) too_steep: Option<f64>,
     /// Polynomials that stand for the line.
     pub(super) n_pieces: usize,
+    /// Positions \[m] from the front to the rear, and w there, straight between them; where it is asked for.
+    pub(super) loads: Option<Vec<[f64; 2]>>,
 }
 
 impl Sweep {
@@ -57,13 +61,18 @@ enum Surface {
     Loaded { stresses: Vec<f64>, fresh: bool },
 }
 
-/// Lets the line pass over the foundation.
-pub(super) fn sweep(foundation: &Foundation, profile: &Profile) -> Result<Sweep, MdrError> {
+/// Lets the line pass over the foundation, and with `loads` begins a list of what it carries.
+pub(super) fn sweep(
+    foundation: &Foundation,
+    profile: &Profile,
+    loads: Option<Vec<[f64; 2]>>,
+) -> Result<Sweep, MdrError> {
     let mut march = March {
         foundation,
         profile,
         sums: Sweep {
             n_pieces: profile.pieces.len(),
+            loads,
             ..Sweep::default()
         },
         surface: Surface::Free(Recovery::untouched()),
@@ -145,6 +154,7 @@ impl March<'_> {
         }
         self.miss(compression, segment, t);
         self.sums.contacts.push([position; 2]);
+        self.load_ends(position);
         self.surface = Surface::Loaded {
             stresses,
             fresh: true,
@@ -207,6 +217,10 @@ impl March<'_> {
         self.sums.work += passage.dissipation;
         self.sums.load_error += tail * self.foundation.stiffness(segment.length);
         self.sums.work_error += tail * passage.dissipation_change + passage.dissipation_rounding;
+        if let Some(loads) = &mut self.sums.loads {
+            let places = straight_parts(|t| passage.potential(t));
+            loads.extend(places.map(|[t, load]| [segment.position(t), load]));
+        }
         if let Some(contact) = self.sums.contacts.last_mut() {
             contact[0] = segment.ends[1];
         }
@@ -214,9 +228,18 @@ impl March<'_> {
 
     fn close(&mut self, displacement: f64, stresses: &[f64], position: f64) {
         self.sums.work += self.foundation.stored_energy(displacement, stresses);
+        self.load_ends(position);
         if let Some(contact) = self.sums.contacts.last_mut() {
             contact[0] = position;
         }
+    }
+
+    /// Where nothing is loaded on one side.
+    fn load_ends(&mut self, position: f64) {
+        self.sums
+            .loads
+            .iter_mut()
+            .for_each(|loads| loads.push([position, 0.0]));
     }
 
     /// The line has passed: what is still loaded springs back.
@@ -239,6 +262,27 @@ impl March<'_> {
 fn samples() -> impl Iterator<Item = f64> {
     let angle = std::f64::consts::PI / SAMPLES as f64;
     (1..=SAMPLES).map(move |k| -(angle * k as f64).cos())
+}
+
+/// Places between −1 and 1, and the values of a function there, which is straight between them.
+fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> {
+    let at = |t: f64| [t, value(t)];
+    let mut parts = vec![at(-1.0)];
+    // The nearest one that is still to be reached comes last.
+    let mut ahead: Vec<[f64; 2]> = samples().map(at).collect();
+    ahead.reverse();
+    while let (Some(&from), Some(&to)) = (parts.last(), ahead.last()) {
+        let middle = at(0.5 * (from[0] + to[0]));
+        let mean = 0.5 * (from[1] + to[1]);
+        let scale = middle[1].abs().max(mean.abs());
+        if to[0] - from[0] > THINNEST && (middle[1] - mean).abs() > STRAIGHT * scale {
+            ahead.push(middle);
+        } else {
+            parts.push(to);
+            ahead.pop();
+        }
+    }
+    parts.into_iter()
 }
 
 /// Where the load would turn to tension.

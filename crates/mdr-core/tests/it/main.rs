@@ -17,3 +17,4 @@ mod stationary_sliding_matches_references;
 mod support;
 mod transient_follows_the_exact_solution;
 mod units_do_not_matter;
+mod waves_of_the_load;

@@ -12,6 +12,9 @@ use crate::output::{OutputFolder, to_csv};
 /// All files that a fit may write.
 pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv";
 
+/// Points per decade of the curve of the series.
+const PER_DECADE: f64 = 30.0;
+
 /// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
 pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
     let comparison = compare(fitted)?;
@@ -54,7 +57,33 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         Points::Oscillation(points) => (OSCILLATION, points.iter().map(oscillation).collect()),
         Points::Relaxation(points) => (RELAXATION, points.iter().map(relaxation).collect()),
     };
-    Ok(Comparison { names, rows: rows? })
+    let rows = rows?;
+    let series = dense(rows.iter().map(|row| row[0])).map(|x| match &fitted.points {
+        Points::Oscillation(_) => {
+            let fit = spectrum.complex_modulus(x)?;
+            Ok(vec![x, fit.storage, fit.loss])
+        }
+        Points::Relaxation(_) => Ok(vec![x, spectrum.relaxation_modulus(x)?]),
+    });
+    let series = series.collect::<Result<_>>()?;
+    Ok(Comparison {
+        names,
+        rows,
+        series,
+    })
+}
+
+/// From the least to the largest of positive numbers, by equal factors.
+fn dense(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
+    let positive = numbers.filter(|number| *number > 0.0);
+    let [first, last] = positive.fold([f64::INFINITY, 0.0], |[first, last], number| {
+        [number.min(first), number.max(last)]
+    });
+    let step = 10_f64.powf(PER_DECADE.recip());
+    let inside = std::iter::successors(Some(first), move |number| Some(number * step));
+    inside
+        .take_while(move |number| *number < last)
+        .chain([last])
 }
 
 /// The material with where it comes from, as a part of a scene file.

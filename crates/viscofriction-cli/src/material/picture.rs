@@ -11,6 +11,8 @@ pub(super) const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_e
 pub(super) struct Comparison {
     pub(super) names: &'static str,
     pub(super) rows: Vec<Vec<f64>>,
+    /// Frequencies or times that are dense between the first and the last one, and the moduli of the series.
+    pub(super) series: Vec<Vec<f64>>,
 }
 
 pub(super) fn figure(comparison: &Comparison) -> Figure {
@@ -19,10 +21,11 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
         _ => ("time t [s]", &["G"][..]),
     };
     // A logarithm has no zero; the CSV file has all points.
-    let points = |column: usize| -> Vec<[f64; 2]> {
-        let points = comparison.rows.iter().map(|row| [row[0], row[column]]);
+    let points_of = |rows: &[Vec<f64>], column: usize| -> Vec<[f64; 2]> {
+        let points = rows.iter().map(|row| [row[0], row[column]]);
         points.filter(|point| point[1] > 0.0).collect()
     };
+    let points = |column| points_of(&comparison.rows, column);
     let n = moduli.len();
     let coloured = || moduli.iter().zip([Colour::Blue, Colour::Red]).enumerate();
     let measured = coloured().map(|(index, (name, colour))| {
@@ -31,7 +34,8 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
     });
     let fitted = coloured().map(|(index, (name, colour))| {
         let line = Line::thick(Dash::Solid);
-        Series::line(points(1 + n + index), line, colour).labelled(format!("{name} of the series"))
+        let points = points_of(&comparison.series, 1 + index);
+        Series::line(points, line, colour).labelled(format!("{name} of the series"))
     });
     let errors = coloured().map(|(index, (name, colour))| {
         let marker = Marker::filled(Shape::Diamond);

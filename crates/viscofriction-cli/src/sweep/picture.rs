@@ -183,7 +183,14 @@ impl Curves {
         for row in 0..rows {
             let value = |key: &Key| {
                 let name = key.name.rsplit('.').next().unwrap_or(key.name);
-                format!("{name} = {}", key.cells[row])
+                let (label, value) = (labelled(name), &key.cells[row]);
+                match label
+                    .strip_suffix(']')
+                    .and_then(|label| label.split_once(" ["))
+                {
+                    Some((quantity, unit)) => format!("{quantity} = {value} {unit}"),
+                    None => format!("{label} = {value}"),
+                }
             };
             let label = keys.iter().map(value).collect::<Vec<_>>().join(", ");
             let known = labels.iter().position(|known| *known == label);

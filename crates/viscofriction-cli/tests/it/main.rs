@@ -17,3 +17,4 @@ mod scenes;
 mod support;
 mod surfaces;
 mod sweeps;
+mod windows;

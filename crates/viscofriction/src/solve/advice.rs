@@ -44,6 +44,7 @@ pub(super) const fn of_line(error: &MdrError) -> &'static str {
         MdrError::TooCoarse { .. } => FINER,
         MdrError::NotConverged { .. }
         | MdrError::NotReached(_)
+        | MdrError::HistoryNotReached { .. }
         | MdrError::SlidingNotReached { .. }
         | MdrError::TooMuchDetail { .. } => LARGER_ERROR,
         MdrError::DepthBeyondEdge { .. } => LESS_LOAD,

@@ -54,19 +54,22 @@ pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     }
 }
 
-/// Of a stationary state, whose waves have one frequency each.
+/// Of a stationary state, whose waves have one frequency each; that of a motion from rest is taken as one at its end.
 fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
     let (Some(window), Motion::Sliding(load)) = (problem.window(), problem.motion()) else {
         return None;
     };
-    if load.sliding_distance().is_some() {
-        return None;
-    }
+    let velocity = load.velocity();
     let creep = problem.material().creep();
-    creep.outside_window(window, stress(problem, answer, load.velocity())?)
+    if answer.model == Model::Line {
+        // Every element of the line has the same compliance, whatever the wave.
+        let bands = creep.bands_along(&answer.fields.line_load, velocity, |_| 1.0);
+        return creep.outside_window(window, bands);
+    }
+    creep.outside_window(window, stress(problem, answer, velocity)?)
 }
 
-/// The frequencies of the pressure, where the method knows it.
+/// The frequencies of the pressure on the half space, where something slides.
 fn stress(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<StressBand>> {
     let elastomer = problem.elastomer().ok()?;
     let fields = &answer.fields;
@@ -78,7 +81,7 @@ fn stress(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<Stres
         (Body::Cylinder(_), None, _) => {
             Some(line_spectrum(&fields.line_pressure, &elastomer, velocity))
         }
-        (Body::Revolution(body), None, Some(contact)) if answer.model == Model::HalfSpace => {
+        (Body::Revolution(body), None, Some(contact)) => {
             let contact_radius = contact.x[1];
             let contact = ElasticContact {
                 contact_radius,

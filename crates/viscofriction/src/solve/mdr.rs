@@ -2,7 +2,8 @@
 
 use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
 use mdr_core::{
-    CurvePoint, Follow, MdrError, SlideRow, Sliding, indent, indent_along, slide, steady,
+    CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along, slide,
+    steady,
 };
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
@@ -21,14 +22,21 @@ pub(crate) fn stationary(
     relative_error: f64,
 ) -> Result<Answer> {
     let state = steady(&EquivalentLine(body), material, load, relative_error)?;
-    Ok(Answer {
+    Ok(of_steady(state))
+}
+
+/// The answer of a stationary state.
+pub(crate) fn of_steady(state: SteadySliding) -> Answer {
+    let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
         indentation_depth: Some(state.indentation_depth),
         error_parts: ErrorParts::of_elements(state.friction_coefficient.error),
         contact_box: Some(contact_box(state.ends)),
         unknowns: state.n_pieces,
         ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force)
-    })
+    };
+    answer.fields.line_load = state.load;
+    answer
 }
 
 /// From first touch to the stationary state, or over a distance.
@@ -64,6 +72,7 @@ pub(crate) fn of_march(state: Sliding) -> Answer {
         friction_coefficient: row.friction_coefficient,
     };
     answer.fields.history = state.finest.rows.iter().map(row).collect();
+    answer.fields.line_load = state.finest.load;
     answer
 }
 
@@ -94,8 +103,13 @@ pub(crate) fn followed(
 ) -> Result<Answer> {
     let options = following(problem, relative_error);
     let curve = indent_along(body, problem.material(), problem.history(), &options)?;
-    let last = curve.last().copied();
-    let last = last.ok_or(MdrError::Empty { list: "history" })?;
+    let found = of_curve(problem, method, &curve);
+    Ok(found.ok_or(MdrError::Empty { list: "history" })?)
+}
+
+/// The answer of a history; none without points.
+pub(crate) fn of_curve(problem: &Problem, method: Method, curve: &[CurvePoint]) -> Option<Answer> {
+    let last = curve.last()?;
     let radius = last.contact_radius;
     let ends = Estimate::new(-radius.value, radius.error);
     let touches = radius.value > 0.0;
@@ -105,8 +119,8 @@ pub(crate) fn followed(
         iterations: curve.len(),
         ..Answer::new(method, problem.model(), last.normal_force)
     };
-    answer.fields.curve = curve_of(&curve);
-    Ok(answer)
+    answer.fields.curve = curve_of(curve);
+    Some(answer)
 }
 
 pub(super) fn curve_of(points: &[CurvePoint]) -> Curve {

@@ -90,7 +90,7 @@ fn watched(
             missed: None,
         },
         Err(why) => {
-            let answer = reached(problem, of_the_method, &why);
+            let answer = reached(problem, method, of_the_method, &why);
             let why = limited.or_memory(why);
             match answer {
                 Some(answer) => Found {
@@ -139,7 +139,12 @@ impl Found {
 }
 
 /// The answer that an error of a method holds.
-fn reached(problem: &Problem, accuracy: Accuracy, why: &SolveError) -> Option<Answer> {
+fn reached(
+    problem: &Problem,
+    method: Method,
+    accuracy: Accuracy,
+    why: &SolveError,
+) -> Option<Answer> {
     match why {
         SolveError::HalfSpace(BemError::NotReached { reached, .. }) => {
             let rough = match problem.body() {
@@ -151,6 +156,53 @@ fn reached(problem: &Problem, accuracy: Accuracy, why: &SolveError) -> Option<An
         SolveError::Line(MdrError::SlidingNotReached { reached, .. }) => {
             Some(mdr::of_march((**reached).clone()))
         }
+        SolveError::Line(MdrError::NotConverged { reached, .. }) if method == Method::MdrSteady => {
+            Some(mdr::of_steady((**reached).clone()))
+        }
+        SolveError::Line(MdrError::HistoryNotReached { reached, .. }) => {
+            mdr::of_curve(problem, method, reached)
+        }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mdr_core::{Follow, indent_along};
+    use numerics::NotReached;
+
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_history_that_was_not_reached_has_the_answer_of_its_curve() {
+        let history = "history = [{ time = 0.0, indentation_depth = 0.0 }, { time = 1.0, indentation_depth = 1e-5 }]";
+        let text = format!(
+            "[indenter.sphere]\nradius = 5e-3\n[material.elastic]\nshear_modulus = 1e6\n[load]\n{history}"
+        );
+        let scene: Scene = text.parse().expect("a scene");
+        let problem = Problem::try_from(&scene).expect("a problem");
+        let Body::Revolution(body) = problem.body() else {
+            panic!("a body of revolution");
+        };
+        let reached = indent_along(
+            &**body,
+            problem.material(),
+            problem.history(),
+            &Follow::default(),
+        );
+        let missed = NotReached {
+            quantity: 0,
+            asked: 1e-12,
+            value: 1e-5,
+            error: 1e-9,
+            elements: 1,
+        };
+        let reached = reached.expect("a curve");
+        let why = SolveError::Line(MdrError::HistoryNotReached { missed, reached });
+        let (method, accuracy) = (Method::MdrTransient, problem.accuracy());
+        let found = super::reached(&problem, method, accuracy, &why).expect("an answer");
+        let answered = solve_by(&problem, method, accuracy).expect("an answer");
+        assert_eq!(found.fields.curve, answered.fields.curve, "the same points");
     }
 }

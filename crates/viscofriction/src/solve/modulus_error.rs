@@ -109,19 +109,12 @@ impl Problem {
     fn check_times(&self, answer: &Answer, [shortest, longest]: [f64; 2]) -> Result<()> {
         let contact = answer.contact_box.as_ref();
         let length = contact.map(|contact| contact.x[1] - contact.x[0]);
-        let times: Vec<f64> = match self.motion() {
-            Motion::Pressing(load) => vec![load.duration()],
+        let times = match self.motion() {
             Motion::Sliding(load) => {
                 let lengths = [length, load.sliding_distance()].into_iter().flatten();
                 lengths.map(|length| length / load.velocity()).collect()
             }
-            Motion::History(_) => {
-                let between = self.history().windows(2);
-                let between = between.map(|pair| pair[1].time - pair[0].time);
-                let all = self.history().last().zip(self.history().first());
-                let all = all.map(|(last, first)| last.time - first.time);
-                between.filter(|time| *time > 0.0).chain(all).collect()
-            }
+            Motion::Pressing(_) | Motion::History(_) => self.durations(),
         };
         let is_outside = |time: &f64| !(shortest..=longest).contains(time);
         match times.into_iter().find(is_outside) {

@@ -173,6 +173,22 @@ impl Problem {
         &self.history
     }
 
+    /// How long a force or a depth is held, or the parts of a history between two times take and all of it, \[s]; none of
+    /// sliding.
+    pub(super) fn durations(&self) -> Vec<f64> {
+        match self.motion {
+            Motion::Sliding(_) => Vec::new(),
+            Motion::Pressing(load) => vec![load.duration()],
+            Motion::History(_) => {
+                let between = self.history.windows(2);
+                let between = between.map(|pair| pair[1].time - pair[0].time);
+                let all = self.history.last().zip(self.history.first());
+                let all = all.map(|(last, first)| last.time - first.time);
+                between.filter(|time| *time > 0.0).chain(all).collect()
+            }
+        }
+    }
+
     /// How well the answer is asked for.
     pub const fn accuracy(&self) -> Accuracy {
         self.accuracy

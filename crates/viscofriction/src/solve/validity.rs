@@ -45,7 +45,7 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
             problem.thickness()
         ));
     }
-    warnings.extend(extrapolated(problem, answer));
+    warnings.extend(extrapolated(problem, answer).or_else(|| held_outside(problem)));
     warnings.extend(cut_off(body, answer));
     warnings
 }
@@ -63,6 +63,20 @@ fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
             percent(Some(outside)),
             percent(of_window.below_window),
             percent(of_window.above_window)
+        )
+    })
+}
+
+/// That a force or a depth is held, or a history takes or changes in, times at which the material was not measured.
+fn held_outside(problem: &Problem) -> Option<String> {
+    let [longest, shortest] = problem.window()?.map(f64::recip);
+    let mut taken = problem.durations();
+    taken.sort_by(f64::total_cmp);
+    let (first, last) = (*taken.first()?, *taken.last()?);
+    (first < shortest || last > longest).then(|| {
+        format!(
+            "what happens takes from {first:.3e} s to {last:.3e} s, and the frequencies at which the material was measured are \
+             those of times from {shortest:.3e} s to {longest:.3e} s; beyond them its moduli are extrapolated"
         )
     })
 }

@@ -25,6 +25,8 @@ const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
 const ENDLESS: Refusal = "its elements end, and a cylinder or a periodic surface does not";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
+const NO_SHARE: Refusal =
+    "it does not say which part of the friction comes from outside of valid_frequencies";
 const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
 const NOTHING_SLIDES: Refusal =
@@ -276,6 +278,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
 }
 
 fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad) -> Work<'a> {
+    require(problem.window().is_none(), NO_SHARE)?;
     let cone_or_paraboloid = match body {
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
         _ => None,
@@ -329,6 +332,7 @@ fn closed_half_space<'a>(
         )?;
         return ready(move |_| Ok(slow));
     };
+    require(problem.window().is_none(), NO_SHARE)?;
     let tabulated = scaling_factor(profile.exponent()).map(|s| s.error / s.value);
     require(
         tabulated.is_ok_and(|error| error <= asked),
