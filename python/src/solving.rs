@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields};
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
-use viscofriction::{Answer, Body, Files, Problem, Scene, SolveError, choose, solve};
+use viscofriction::{Answer, Body, Files, Problem, Scene, SolveError, plan, solve};
 
 use crate::background;
 use crate::reading::read_file;
@@ -38,7 +38,7 @@ impl Scenes {
             None => Problem::new(&scene, &self.folder, read_file),
         };
         let problem = problem.map_err(wrong)?;
-        choose(&problem).map_err(wrong)?;
+        plan(&problem).map_err(wrong)?;
         Ok(problem)
     }
 }
@@ -143,7 +143,7 @@ pub(crate) fn solve_loads<'py>(
         Ok(matches!(problem.body(), Body::Revolution(_)).then_some(problem))
     });
     let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
-    let is_quick = |problem: &Problem| matches!(choose(problem), Ok(Method::Analytic));
+    let is_quick = |problem: &Problem| plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);
     let is_quick = count == 1 && problems[0].as_ref().is_some_and(is_quick);
     let work = move |index: usize| {
         let solve = |problem: &Problem| {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use viscofriction::WrongInput;
 use viscofriction::scene::{Source, profile, topography};
-use viscofriction::solve::problem_of;
+use viscofriction::solve::{plan_of, problem_of};
 
 use crate::input::read_input;
 use crate::material::check_table;
@@ -35,7 +35,8 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
     match kind {
         InputKind::Scene => {
             let source = Source::new(file, contents.to_vec())?;
-            problem_of(&source, None, read_input).map(drop)
+            let problem = problem_of(&source, None, read_input)?;
+            plan_of(&source, &problem).map(drop)
         }
         InputKind::Profile => profile(file, contents).map(drop).map_err(WrongInput),
         InputKind::HeightMap => {

@@ -49,9 +49,8 @@ pub use files::{Files, ReadFile};
 pub use numerics::{ErrorParts, Estimate, Watch};
 pub use scene::Scene;
 pub use solve::{
-    Answer, Body, ContactBox, Fields, HistoryRow, Motion, NotOffered, Omission, Problem,
-    Revolution, SolveError, check_memory, choose, problem_of, solve, solve_by, solve_watched,
-    with_fields,
+    Answer, Body, ContactBox, Fields, HistoryRow, Motion, NotOffered, Omission, Plan, Problem,
+    Revolution, SolveError, plan, plan_of, problem_of, solve, with_fields,
 };
 pub use text::{WrongInput, line_of};
 pub use {bem_halfspace, friction_analytic, indenters, mdr_core, numerics, rheology};

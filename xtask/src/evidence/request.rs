@@ -3,7 +3,7 @@
 use anyhow::{Result, anyhow};
 use viscofriction::Estimate;
 use viscofriction::scene::{Accuracy, Method, Model, Scene};
-use viscofriction::solve::{Answer, Problem, choose, solve};
+use viscofriction::solve::{Answer, Problem, plan, solve};
 
 /// A method of one model, and how accurate its result is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +74,7 @@ impl Request {
 
     /// Whether the method solves such scenes.
     pub(super) fn is_offered(&self, scene: &Scene) -> Result<bool> {
-        Ok(choose(&self.problem(scene)?).is_ok())
+        Ok(plan(&self.problem(scene)?).is_ok())
     }
 
     pub(super) fn solve(&self, scene: &Scene) -> Result<Answer> {

@@ -13,7 +13,7 @@ use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::Method;
 use viscofriction::solve::{
-    Answer, Omission, Problem, SolveError, check_memory, problem_of, solve_watched, with_fields,
+    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, with_fields,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -64,16 +64,15 @@ pub(crate) struct Timed<'a> {
 /// Reads the scene, solves it, and prints the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
-    let (problem, method) = problem_of(&source, options.method, read_input)?;
+    let problem = problem_of(&source, options.method, read_input)?;
     let problem = problem.or_max_memory(half_of_free_memory());
-    let fits = check_memory(&problem, method, problem.accuracy());
-    fits.map_err(|error| source.locate(&error))?;
+    let plan = plan_of(&source, &problem)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();
-    let task = format!("{path} by {}", method.name());
+    let task = format!("{path} by {}", plan.method().name());
     let started = Instant::now();
-    let answer = progress::during(task, |watch| in_pool(&problem, watch));
+    let answer = progress::during(task, |watch| in_pool(plan, problem.threads(), watch));
     let seconds = started.elapsed().as_secs_f64();
     let (mut answer, missed) = match answer {
         Ok(answer) => (answer, None),
@@ -108,12 +107,11 @@ pub(crate) fn run(options: &Run) -> Result<()> {
 const CHEAPEST: &str = ", the cheapest that answers the scene";
 
 /// Solves on as many threads as the scene says, or on all.
-fn in_pool(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
-    let threads = problem.threads().unwrap_or(0);
+fn in_pool(plan: Plan<'_>, threads: Option<usize>, watch: &dyn Watch) -> Result<Answer> {
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
+        .num_threads(threads.unwrap_or(0))
         .build()?;
-    Ok(pool.install(|| solve_watched(problem, watch))?)
+    Ok(pool.install(|| plan.solve(watch))?)
 }
 
 fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {

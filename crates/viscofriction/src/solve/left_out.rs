@@ -91,7 +91,7 @@ pub(crate) fn left_out(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let mut parts = candidates(problem, answer);
     parts.retain(|omission| {
         let other = omission.done_by(answer.model, problem.motion());
-        other.is_none_or(|method| work(problem, method, problem.accuracy()).is_ok())
+        other.is_none_or(|method| work(problem, method).is_ok())
     });
     parts
 }

@@ -19,20 +19,12 @@ use crate::scene::{Accuracy, SceneError};
 /// Elements along the contact with which a relative error is first sought.
 const FIRST: usize = 16;
 
-/// Refuses a method that needs more memory than [`Problem::max_memory`], if there is one, and a periodic surface with waves
-/// that are too short for all grids.
-///
-/// # Errors
-/// [`SceneError`] with what is needed, what is allowed, and the key that is best changed.
-pub fn check_memory(
-    problem: &Problem,
-    method: Method,
-    accuracy: Accuracy,
-) -> Result<(), SceneError> {
+/// Refuses a method that needs more memory than is allowed, and a periodic surface with waves that are too short for all grids.
+pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
     if let Body::Periodic(surface) = problem.body() {
         return check_waves(problem, surface);
     }
-    let (elements, change) = match accuracy {
+    let (elements, change) = match problem.accuracy() {
         Accuracy::Elements(elements) => (elements, ["solve.elements", "fewer elements"]),
         Accuracy::RelativeError(_) => (FIRST, OTHERWISE),
     };

@@ -16,8 +16,8 @@ mod left_out;
 mod mdr;
 mod memory;
 mod modulus_error;
-mod offer;
 mod omission;
+mod plan;
 mod problem;
 mod validity;
 mod with_fields;
@@ -33,18 +33,17 @@ pub use expansion::Expansion;
 pub use half_space::{HalfSpace, half_space};
 pub use heights::{body_of_heights, warnings as warnings_of_heights};
 use memory::Limited;
-pub use memory::check_memory;
-pub(crate) use offer::not_offered;
-pub use offer::{choose, problem_of};
 pub use omission::Omission;
+pub use plan::{Plan, plan, plan_of, problem_of};
 pub use problem::{Motion, Problem};
 pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;
 use self::left_out::left_out;
+use self::memory::check_memory;
 use self::validity::{not_modelled, warnings};
-use self::work::{rough, work};
-use crate::scene::{Accuracy, Method};
+use self::work::rough;
+use crate::scene::Method;
 use bem_halfspace::BemError;
 use mdr_core::MdrError;
 use numerics::{Unwatched, Watch};
@@ -54,54 +53,41 @@ use numerics::{Unwatched, Watch};
 /// # Errors
 /// [`SolveError`] where no method answers the scene, or what was asked for was not reached; it says what was.
 pub fn solve(problem: &Problem) -> Result<Answer> {
-    solve_watched(problem, &Unwatched)
+    plan(problem)?.solve(&Unwatched)
 }
 
-/// Like [`solve`], and tells how far it is; `watch` may end a refinement before a grid.
-///
-/// # Errors
-/// As for [`solve`].
-pub fn solve_watched(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
-    watched(problem, choose(problem)?, problem.accuracy(), watch)
-}
-
-/// Asks a method that answers the scene.
-///
-/// # Errors
-/// [`SolveError`] where what was asked for was not reached.
-pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
-    watched(problem, method, accuracy, &Unwatched)
-}
-
-fn watched(
-    problem: &Problem,
-    method: Method,
-    accuracy: Accuracy,
-    watch: &dyn Watch,
-) -> Result<Answer> {
-    check_memory(problem, method, accuracy)?;
-    let refused = |why| SolveError::Refused { method, why };
-    let of_the_method = problem.of_the_method(accuracy);
-    let work = work(problem, method, of_the_method).map_err(refused)?;
-    let limited = Limited::new(problem, method, watch);
-    let found = match work(&limited) {
-        Ok(answer) => Found {
-            answer,
-            missed: None,
-        },
-        Err(why) => {
-            let answer = reached(problem, method, of_the_method, &why);
-            let why = limited.or_memory(why);
-            match answer {
-                Some(answer) => Found {
-                    answer,
-                    missed: Some(why),
-                },
-                None => return Err(why),
+impl Plan<'_> {
+    /// The answer; `watch` is told how far it is, and may end a refinement before a grid.
+    ///
+    /// # Errors
+    /// [`SolveError`] where what was asked for was not reached; it says what was.
+    pub fn solve(self, watch: &dyn Watch) -> Result<Answer> {
+        let Self {
+            problem,
+            method,
+            work,
+        } = self;
+        check_memory(problem, method)?;
+        let limited = Limited::new(problem, method, watch);
+        let found = match work(&limited) {
+            Ok(answer) => Found {
+                answer,
+                missed: None,
+            },
+            Err(why) => {
+                let answer = reached(problem, method, &why);
+                let why = limited.or_memory(why);
+                match answer {
+                    Some(answer) => Found {
+                        answer,
+                        missed: Some(why),
+                    },
+                    None => return Err(why),
+                }
             }
-        }
-    };
-    found.complete(problem, method, accuracy)
+        };
+        found.complete(problem, method)
+    }
 }
 
 /// What a method has found, and why it is not what was asked, where it is not.
@@ -112,9 +98,9 @@ struct Found {
 
 impl Found {
     /// The answer with what is said of it, and refused where it is not what was asked.
-    fn complete(self, problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
+    fn complete(self, problem: &Problem, method: Method) -> Result<Answer> {
         let answer = problem.with_modulus_error(self.answer)?;
-        let missed = self.missed.or_else(|| problem.missed(&answer, accuracy));
+        let missed = self.missed.or_else(|| problem.missed(&answer));
         // Closed forms of pressing are those of both models.
         let model = method.model().unwrap_or(problem.model());
         let mut answer = Answer {
@@ -139,16 +125,11 @@ impl Found {
 }
 
 /// The answer that an error of a method holds.
-fn reached(
-    problem: &Problem,
-    method: Method,
-    accuracy: Accuracy,
-    why: &SolveError,
-) -> Option<Answer> {
+fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer> {
     match why {
         SolveError::HalfSpace(BemError::NotReached { reached, .. }) => {
             let rough = match problem.body() {
-                Body::Periodic(surface) => Some(rough(problem, surface, accuracy).ok()?),
+                Body::Periodic(surface) => Some(rough(problem, surface).ok()?),
                 _ => None,
             };
             elements::reached(problem, rough, (**reached).clone())
@@ -200,9 +181,8 @@ mod tests {
         };
         let reached = reached.expect("a curve");
         let why = SolveError::Line(MdrError::HistoryNotReached { missed, reached });
-        let (method, accuracy) = (Method::MdrTransient, problem.accuracy());
-        let found = super::reached(&problem, method, accuracy, &why).expect("an answer");
-        let answered = solve_by(&problem, method, accuracy).expect("an answer");
+        let found = super::reached(&problem, Method::MdrTransient, &why).expect("an answer");
+        let answered = solve(&problem).expect("an answer");
         assert_eq!(found.fields.curve, answered.fields.curve, "the same points");
     }
 }

@@ -25,8 +25,8 @@ impl Problem {
     }
 
     /// What is asked of a method, so that the bars have room for the error of the moduli.
-    pub(crate) fn of_the_method(&self, accuracy: Accuracy) -> Accuracy {
-        match accuracy {
+    pub(crate) fn of_the_method(&self) -> Accuracy {
+        match self.accuracy() {
             Accuracy::RelativeError(error) if self.expansion().is_some() => {
                 Accuracy::RelativeError(OF_THE_METHOD * error)
             }
@@ -86,9 +86,9 @@ impl Problem {
     }
 
     /// That the bar with the error of the moduli is larger than what was asked.
-    pub(crate) fn missed(&self, answer: &Answer, accuracy: Accuracy) -> Option<SolveError> {
+    pub(crate) fn missed(&self, answer: &Answer) -> Option<SolveError> {
         let ValueWithError { value, error } = *answer.asked();
-        match accuracy {
+        match self.accuracy() {
             Accuracy::RelativeError(asked)
                 if self.expansion().is_some()
                     && !matches!(self.motion(), Motion::History(_))

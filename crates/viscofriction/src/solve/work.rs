@@ -18,8 +18,10 @@ use super::{analytic, elements, mdr};
 use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
 use crate::scene::{Accuracy, Control, Model};
 
-/// What one method computes, with all that it needs, or why it does not.
-pub(crate) type Work<'a> = Result<Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + 'a>, Refusal>;
+/// What one method computes, with all that it needs.
+pub(super) type Work<'a> = Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + Send + 'a>;
+/// Or why it does not.
+type Offer<'a> = Result<Work<'a>, Refusal>;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
@@ -33,7 +35,8 @@ const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
 /// The work of a method, whichever method and model the problem names.
-pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
+pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
+    let accuracy = problem.of_the_method();
     let has_layers = matches!(method, BemSteady | BemTransient);
     require(has_layers || !problem.thickness().is_finite(), NO_LAYER)?;
     if let History(_) = problem.motion() {
@@ -49,9 +52,7 @@ pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Wor
         (Body::HeightMap(map), BemSteady | BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
         }
-        (Body::Periodic(surface), BemSteady | BemTransient) => {
-            periodic(problem, surface, method, accuracy)
-        }
+        (Body::Periodic(surface), BemSteady | BemTransient) => periodic(problem, surface, method),
         (Body::Periodic(_), _) => Err("it has no periodic surfaces; boundary elements slide them"),
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
@@ -60,7 +61,7 @@ pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Wor
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
-fn ready<'a>(answer: impl FnOnce(&dyn Watch) -> Result<Answer> + 'a) -> Work<'a> {
+fn ready<'a>(answer: impl FnOnce(&dyn Watch) -> Result<Answer> + Send + 'a) -> Offer<'a> {
     Ok(Box::new(answer))
 }
 
@@ -78,7 +79,7 @@ fn has_force(problem: &Problem) -> bool {
 }
 
 /// Of a body of revolution the one-dimensional model is exact here, on the half space too.
-fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
+fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> {
     match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
         (BemTransient, body) => {
@@ -100,7 +101,7 @@ fn line_contact<'a>(
     cylinder: &'a Cylinder,
     method: Method,
     accuracy: Accuracy,
-) -> Work<'a> {
+) -> Offer<'a> {
     let Control::NormalForce(force) = problem.motion().control() else {
         return Err(
             "a line contact has no depth, which grows with the logarithm of the length; give load.normal_force",
@@ -143,7 +144,6 @@ fn line_contact<'a>(
 pub(super) fn rough<'a>(
     problem: &Problem,
     surface: &'a PeriodicSurface,
-    accuracy: Accuracy,
 ) -> Result<Rough<'a>, Refusal> {
     let Control::NormalForce(force) = problem.motion().control() else {
         return Err("a periodic surface is pressed by a mean pressure");
@@ -156,7 +156,7 @@ pub(super) fn rough<'a>(
         velocity == 0.0 || problem.material().creep().fluidity() <= 0.0,
         "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
     )?;
-    let Accuracy::RelativeError(relative_error) = accuracy else {
+    let Accuracy::RelativeError(relative_error) = problem.of_the_method() else {
         return Err("it refines the period itself; give relative_error instead of elements");
     };
     let area: f64 = surface.period().iter().product();
@@ -168,13 +168,8 @@ pub(super) fn rough<'a>(
     })
 }
 
-fn periodic<'a>(
-    problem: &'a Problem,
-    surface: &'a PeriodicSurface,
-    method: Method,
-    accuracy: Accuracy,
-) -> Work<'a> {
-    let rough = rough(problem, surface, accuracy)?;
+fn periodic<'a>(problem: &'a Problem, surface: &'a PeriodicSurface, method: Method) -> Offer<'a> {
+    let rough = rough(problem, surface)?;
     let load = match problem.motion() {
         Sliding(load) => load,
         Pressing(load) if method == BemTransient => {
@@ -197,7 +192,7 @@ fn boundary_elements<'a>(
     surface: &'a dyn Surface,
     method: Method,
     accuracy: Accuracy,
-) -> Work<'a> {
+) -> Offer<'a> {
     let is_stationary = method == BemSteady;
     let load = match problem.motion() {
         Sliding(load) => load,
@@ -233,7 +228,7 @@ fn one_dimensional<'a>(
     body: &'a dyn Axisymmetric,
     method: Method,
     accuracy: Accuracy,
-) -> Work<'a> {
+) -> Offer<'a> {
     let material = problem.material();
     match (method, problem.motion()) {
         (MdrSteady, Sliding(load)) => {
@@ -259,7 +254,7 @@ fn one_dimensional<'a>(
     }
 }
 
-fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Work<'a> {
+fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Offer<'a> {
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
     };
@@ -277,7 +272,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     }
 }
 
-fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad) -> Work<'a> {
+fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad) -> Offer<'a> {
     require(problem.window().is_none(), NO_SHARE)?;
     let cone_or_paraboloid = match body {
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
@@ -321,7 +316,7 @@ fn closed_half_space<'a>(
     body: &'a Revolution,
     load: SlidingLoad,
     asked: f64,
-) -> Work<'a> {
+) -> Offer<'a> {
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, problem.simple())
     else {
         require(load.sliding_distance().is_none(), STATIONARY)?;

@@ -5,7 +5,7 @@ use toml::{Table, Value};
 use super::vary::{MOST_POINTS, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::scene::{SceneError, Source, scene_file, split_index};
-use crate::solve::{self, Answer, Problem, check_memory, choose, not_offered, solve};
+use crate::solve::{self, Answer, Problem, plan_of, solve};
 use crate::text::WrongInput;
 
 /// Keys of a scene whose values are names of files.
@@ -93,9 +93,7 @@ impl Plan {
         let mut threads = None;
         for point in 0..self.n_points() {
             let problem = self.problem(point)?;
-            let method = choose(&problem).map_err(|error| not_offered(&self.source, &error))?;
-            let fits = check_memory(&problem, method, problem.accuracy());
-            fits.map_err(|error| self.source.locate(&error))?;
+            plan_of(&self.source, &problem)?;
             threads = problem.threads();
         }
         Ok(threads)
