@@ -37,9 +37,4 @@ impl Random {
         let passed = |index: &usize| *index as f64 <= mark;
         items[(1..items.len()).take_while(passed).count()]
     }
-
-    /// One of the words between blanks.
-    pub(crate) fn word<'a>(&mut self, words: &'a str) -> &'a str {
-        self.choice(&words.split(' ').collect::<Vec<_>>())
-    }
 }

@@ -8,6 +8,7 @@ mod fit;
 mod report;
 mod request;
 mod rough;
+mod sample;
 mod speed_range;
 mod stability;
 mod stationary;
@@ -48,9 +49,9 @@ enum Experiment {
     /// Judge every method on stiff and extreme cases; fails when one is wrong.
     Stability(stability::Options),
     /// Search random scenes for answers that contradict each other; goes on where it was interrupted.
-    Agreement(agreement::Options),
+    Agreement(sample::Options),
     /// Compare the error bars of every method with its deviations on random scenes.
-    Calibration(calibration::Options),
+    Calibration(sample::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
     SpeedRange,
     /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed.
@@ -85,8 +86,8 @@ impl Experiment {
             Self::Stationary(stationary::Options::default()),
             Self::WorkPrecision,
             Self::Stability(stability::Options::default()),
-            Self::Agreement(agreement::Options::default()),
-            Self::Calibration(calibration::Options::default()),
+            Self::Agreement(sample::Options::default()),
+            Self::Calibration(sample::Options::default()),
             Self::SpeedRange,
             Self::Rough,
         ]

@@ -10,18 +10,20 @@ fn may_be(part: f64, [held, all]: [usize; 2]) -> bool {
     held as f64 >= part * all as f64 - 2.0 * scatter
 }
 
-/// Without the errors of the references, of the answers whose references are sharp: 95 % of each method with 20 of them or
-/// more, and 99 % of all together.
+/// Without the errors of the references, of the answers whose references are sharp: 95 % of each method, by elements or to
+/// an error, with 20 of them or more, and 99 % of all together.
 #[test]
 fn error_bars_hold_on_random_scenes() {
-    let evidence = Evidence::quick("calibration", "calibration --scenes 200");
+    let evidence = Evidence::quick("calibration", "calibration --scenes 150");
     let rows = evidence.rows("calibration");
-    let mut methods: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    let mut methods: BTreeMap<[&str; 2], [usize; 2]> = BTreeMap::new();
     for row in &rows {
         let [deviation, bar, reference] =
             ["deviation", "error_bar", "reference_error"].map(|column| number(row, column));
         let is_sharp = usize::from(reference <= bar / 3.0);
-        let [held, all] = methods.entry(&row["method"]).or_default();
+        let method = row["method"].split(", ").next().unwrap_or_default();
+        let counts = methods.entry([method, &*row["asked_kind"]]);
+        let [held, all] = counts.or_default();
         *held += is_sharp * usize::from(deviation <= bar);
         *all += is_sharp;
     }
@@ -30,12 +32,12 @@ fn error_bars_hold_on_random_scenes() {
     for (method, [held, all]) in &large {
         assert!(
             may_be(0.95, [*held, *all]),
-            "{method}: {held} of {all} hold"
+            "{method:?}: {held} of {all} hold"
         );
     }
     let [held, all] = total;
     assert!(may_be(0.99, total), "{held} of {all} hold: {methods:?}");
-    assert!(all >= 500 && large.len() >= 8, "too few: {methods:?}");
+    assert!(all >= 250 && large.len() >= 7, "too few: {methods:?}");
 }
 
 #[test]

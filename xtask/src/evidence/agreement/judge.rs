@@ -14,9 +14,9 @@ use viscofriction::solve::{Answer, choose, solve_watched};
 use viscofriction::{Estimate, Watch};
 
 use super::relation::{self, Derived, Relation};
-use super::sample::{Case, methods, sample};
 use super::units::factor;
 use crate::evidence::request::presses;
+use crate::evidence::sample::{Case, Range, methods, sample};
 use crate::random::Random;
 
 /// What one relation says of one scene.
@@ -75,10 +75,10 @@ const VAGUE: f64 = 0.01;
 const STEEPEST: f64 = 4.0;
 
 /// Draws the scene with this number, and judges it; a scene that contradicts itself stays in its folder.
-pub(super) fn judge(seed: u64, number: usize, out: &Path) -> Result<Vec<Row>> {
+pub(super) fn judge(seed: u64, number: usize, range: &Range, out: &Path) -> Result<Vec<Row>> {
     let mut random = Random::new(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
     let folder = out.join(format!("agreement-{seed}-{number}"));
-    let case = sample(&mut random, &folder)?;
+    let case = sample(&mut random, range, &folder)?;
     let judged = judged(&case, &folder, &mut random);
     let about = about(&case);
     let row = |row: Row| Row {

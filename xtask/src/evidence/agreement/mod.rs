@@ -2,38 +2,38 @@
 
 mod judge;
 mod relation;
-mod sample;
+
 mod units;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use anyhow::{Result, ensure};
-use clap::Args;
+use anyhow::Result;
 use strum::IntoEnumIterator as _;
+use viscofriction::scene::{IndenterKind, MaterialKind};
 
 use super::Report;
+use super::sample::{Motion, Options, Range};
 use crate::meter::median;
-use crate::output::{WrongInput, markdown_table, read_csv, to_csv, write_atomically};
+use crate::output::{markdown_table, read_csv, to_csv, write_atomically};
 use crate::tasks::in_parallel;
 use judge::{Row, Verdict, judge};
 use relation::Relation;
 
-/// Which scenes.
-#[derive(Debug, Default, Args)]
-pub(super) struct Options {
-    /// Number of scenes, from 1 to 100000 [default: 5000, quick 60].
-    #[arg(long, value_name = "N")]
-    scenes: Option<usize>,
-    /// Which scenes; rows of other seeds that the table holds stay there [default: 2014].
-    #[arg(long)]
-    seed: Option<u64>,
-}
-
-const SEED: u64 = 2014;
 const SCENES: usize = 5000;
-const QUICK_SCENES: usize = 60;
-const MOST_SCENES: usize = 100_000;
+const QUICK_SCENES: usize = 150;
+/// A half is stationary.
+const MOTIONS: [Motion; 20] = {
+    use Motion::{History, Pressed, SlidingForTime, SlidingOverDistance, Stationary};
+    let mut motions = [Stationary; 20];
+    motions[10] = SlidingForTime;
+    (motions[11], motions[12]) = (SlidingOverDistance, SlidingOverDistance);
+    (motions[13], motions[14], motions[15]) = (Pressed, Pressed, Pressed);
+    (motions[16], motions[17], motions[18], motions[19]) = (History, History, History, History);
+    motions
+};
+/// Some scenes are extreme.
+const DECADES: [f64; 8] = [3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 9.0, 40.0];
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "agreement.csv";
 /// Scenes that are judged before they are written.
@@ -46,12 +46,9 @@ const NAMED: usize = 20;
 
 /// Judges random scenes, of which `out` may hold some.
 pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Report> {
-    let count = options
-        .scenes
-        .unwrap_or(if quick { QUICK_SCENES } else { SCENES });
-    let wrong = format!("--scenes {count} is not from 1 to {MOST_SCENES}");
-    ensure!((1..=MOST_SCENES).contains(&count), WrongInput(wrong));
-    let seed = options.seed.unwrap_or(SEED);
+    let count = options.count(if quick { QUICK_SCENES } else { SCENES })?;
+    let seed = options.seed();
+    let range = range(quick);
     let file = out.join(ROWS);
     let mut rows: Vec<Row> = if file.exists() {
         read_csv(&file)?
@@ -65,7 +62,7 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
         .collect();
     for (chunk, some) in missing.chunks(AT_ONCE).enumerate() {
         let task = format!("agreement, {} of {}", chunk * AT_ONCE, missing.len());
-        let judged = in_parallel(task, some, |number| judge(seed, *number, out))?;
+        let judged = in_parallel(task, some, |number| judge(seed, *number, &range, out))?;
         rows.extend(judged.into_iter().flatten());
         write_atomically(&file, to_csv(&rows)?.as_bytes())?;
     }
@@ -81,6 +78,21 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
         ),
         failure: failure(&rows),
     })
+}
+
+/// Everything that a scene can be.
+fn range(quick: bool) -> Range {
+    Range {
+        bodies: IndenterKind::iter().collect(),
+        materials: MaterialKind::iter().collect(),
+        motions: &MOTIONS,
+        decades: &DECADES,
+        speeds: 3.0,
+        layers: 0.2,
+        depths: 0.3,
+        distances: if quick { 0.2 } else { 1.0 },
+        memory: "48 MiB",
+    }
 }
 
 /// The names of the relations in the table, that of an answer in itself first.

@@ -9,8 +9,8 @@ use viscofriction::scene::{
 };
 use viscofriction::solve::Answer;
 
-use super::sample::Case;
 use super::units::in_other_units;
+use crate::evidence::sample::Case;
 use crate::random::Random;
 
 /// What is done to a scene, and what its answer must then be.

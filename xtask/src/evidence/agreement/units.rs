@@ -2,7 +2,7 @@
 
 use viscofriction::scene::{Indenter, Load, MaterialTable, Term};
 
-use super::sample::Case;
+use crate::evidence::sample::Case;
 
 /// Factors of lengths, stresses and times.
 #[derive(Clone, Copy)]

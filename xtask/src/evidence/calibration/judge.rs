@@ -8,7 +8,7 @@ use viscofriction::Estimate;
 use viscofriction::scene::{Method, Model};
 
 use super::reference::{SHARP, closed_form, is_numerical, numerical};
-use super::scenes::{Label, Scene};
+use super::scene::{Label, Scene};
 use crate::evidence::request::{Reference, Request, presses};
 
 /// A scene, and one bar.
@@ -71,7 +71,8 @@ pub(super) fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Verdict>>
     for of_model in requests.chunk_by(|one, other| one.model == other.model) {
         let mut solved = Vec::new();
         for request in of_model {
-            if request.is_offered(&scene.file)? {
+            // A model may also find that it cannot take what is given.
+            if request.is_offered(&scene.file).unwrap_or(false) {
                 let answer = request.solve(&scene.file);
                 solved.push((request, answer.map(|answer| answer.asked())));
             }
@@ -132,10 +133,16 @@ fn bar(
 
 /// What the table of the results calls a method.
 fn name(request: &Request, scene: &Scene) -> String {
-    let motion = match (request.method, request.model) {
+    let is_on_half_space = request.model == Model::HalfSpace;
+    let group = match request.method {
+        _ if presses(&scene.file) && scene.is_at_depth() => ", pressed to a depth",
         _ if presses(&scene.file) => ", pressed",
+        _ if !is_on_half_space => "",
+        _ if scene.is_rough() => ", rough",
         _ if scene.is_cylinder() => ", cylinder",
-        (Method::Analytic, Model::HalfSpace) => ", half space",
+        _ if scene.is_flat() => ", flat end",
+        _ if scene.is_at_depth() => ", depth",
+        Method::Analytic => ", half space",
         _ => "",
     };
     let resolution = if request.is_by_elements() {
@@ -143,5 +150,5 @@ fn name(request: &Request, scene: &Scene) -> String {
     } else {
         ""
     };
-    format!("{}{motion}{resolution}", request.method.name())
+    format!("{}{group}{resolution}", request.method.name())
 }

@@ -3,42 +3,28 @@
 mod judge;
 mod reference;
 mod requests;
-mod scenes;
+mod scene;
 
 use std::collections::BTreeMap;
 
-use anyhow::{Result, ensure};
-use clap::Args;
+use anyhow::Result;
 use viscofriction::scene::Method;
 use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
 };
 
+use super::sample::Options;
 use super::{Report, Table};
 use crate::meter::median;
-use crate::output::{WrongInput, markdown_table};
+use crate::output::markdown_table;
 use crate::random::Random;
 use crate::tasks::in_parallel;
 use judge::{Bar, Refusal, Row, judge};
-use requests::{FULL, QUICK, plane_strain, requests};
+use requests::{FULL, QUICK, requests};
+use scene::Scene;
 
-/// Which scenes.
-#[derive(Debug, Default, Args)]
-pub(super) struct Options {
-    /// Number of scenes, from 1 to 100000 [default: 300, quick 40].
-    #[arg(long, value_name = "N")]
-    scenes: Option<usize>,
-    /// Which scenes; the same seed gives the same ones [default: 2014].
-    #[arg(long)]
-    seed: Option<u64>,
-}
-
-const SEED: u64 = 2014;
 const SCENES: usize = 300;
 const QUICK_SCENES: usize = 40;
-/// A scene with a cylinder follows for so many others.
-const SCENES_PER_CYLINDER: usize = 10;
-const MOST_SCENES: usize = 100_000;
 
 /// Judges the bars of every method; a quick run takes fewer scenes, larger errors and fewer elements on the half space.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
@@ -47,19 +33,12 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     } else {
         (SCENES, FULL)
     };
-    let count = options.scenes.unwrap_or(usual);
-    let wrong = format!("--scenes {count} is not from 1 to {MOST_SCENES}");
-    ensure!((1..=MOST_SCENES).contains(&count), WrongInput(wrong));
-    let mut random = Random::new(options.seed.unwrap_or(SEED));
+    let mut random = Random::new(options.seed());
     let mut scenes = Vec::new();
-    for number in 1..=count {
-        let scene = scenes::scene(number, &mut random)?;
+    for number in 1..=options.count(usual)? {
+        let scene = Scene::new(number, &mut random, extent.memory)?;
         let requests = requests(&mut random, &scene, &extent);
         scenes.push((scene, requests));
-    }
-    for number in count + 1..=count + count / SCENES_PER_CYLINDER {
-        let scene = scenes::cylinder(number, &mut random)?;
-        scenes.push((scene, plane_strain(&mut random, &extent)));
     }
     let judged = in_parallel("calibration", &scenes, |(scene, requests)| {
         judge(scene, requests)

@@ -1,6 +1,6 @@
 //! What a result is compared with: a closed form, or the stationary solver of the model with a far smaller error.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, bail};
 use friction_analytic::{
     FrictionError, LineContact, cylinder_sliding, power_indentation_after_impulse,
 };
@@ -9,7 +9,7 @@ use rheology::Viscous;
 use viscofriction::scene::{self, Control, MaterialTable, Method, Model};
 use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 
-use super::scenes::Scene;
+use super::scene::Scene;
 use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
 
 /// Half the lengths of contacts over the radius of a cylinder, between which a force is sought.
@@ -33,7 +33,11 @@ pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<
             Ok(None)
         };
     }
-    if scene.is_cylinder() {
+    let has_one_time = matches!(
+        scene.file.material,
+        MaterialTable::KelvinVoigt { .. } | MaterialTable::StandardSolid { .. }
+    );
+    if scene.is_cylinder() && has_one_time && !presses(&scene.file) {
         return cylinder(&scene.file).map(Some);
     }
     let closed_form = Request::to_error(request.model, Method::Analytic, sharp_for(bar));
@@ -45,8 +49,7 @@ pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<
 
 /// Whether a stationary solver can judge a result that no closed form does.
 pub(super) fn is_numerical(scene: &Scene, request: &Request) -> bool {
-    let is_stationary = !presses(&scene.file) && scene.file.solve.sliding_distance.is_none();
-    request.method != Method::Analytic || is_stationary
+    request.method != Method::Analytic || scene.is_stationary()
 }
 
 fn sharp_for(bar: f64) -> f64 {
@@ -56,32 +59,33 @@ fn sharp_for(bar: f64) -> f64 {
 
 /// The stationary solver of a model, sharp for bars of this relative length.
 pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Reference> {
-    let is_elastic = matches!(scene.file.material, MaterialTable::Elastic { .. });
-    if is_elastic && !presses(&scene.file) {
+    if scene.is_elastic() && !presses(&scene.file) {
         return Ok(Reference::new(
             0.0,
             0.0,
             "no friction on an elastic material",
         ));
     }
-    match model {
+    let found = match model {
         Model::Line => first_reached(&scene.file, model, &LINE_ERRORS),
-        Model::HalfSpace => half_space(&scene.file, sharp_for(bar)),
-    }
+        Model::HalfSpace if scene.is_rough() || scene.is_flat() => {
+            first_reached(&scene.file, model, &[SHARP * bar])
+        }
+        Model::HalfSpace => first_reached(&scene.file, model, &[sharp_for(bar)]),
+    };
+    found.or_else(as_far_as_it_came)
 }
 
 /// Where the error is not reached, what was reached is the reference, with the error that it has.
-fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
-    first_reached(scene, Model::HalfSpace, &[error]).or_else(|failure| {
-        let reached = failure.downcast_ref().and_then(SolveError::reached);
-        match reached.and_then(|answer| answer.friction_coefficient) {
-            Some(friction) => {
-                let source = "bem-steady, as far as it came";
-                Ok(Reference::new(friction.value, friction.error, source))
-            }
-            None => Err(failure),
+fn as_far_as_it_came(failure: Error) -> Result<Reference> {
+    let reached = failure.downcast_ref().and_then(SolveError::reached);
+    match reached.and_then(|answer| answer.friction_coefficient) {
+        Some(friction) => {
+            let source = "the stationary solver, as far as it came";
+            Ok(Reference::new(friction.value, friction.error, source))
         }
-    })
+        None => Err(failure),
+    }
 }
 
 /// The contact of Hunter's cylinder (1961) that carries the force.

@@ -2,16 +2,20 @@
 
 use viscofriction::scene::{Accuracy, MaterialTable, Method, Model};
 
-use super::scenes::Scene;
+use super::scene::Scene;
 use crate::evidence::request::{Request, presses};
 use crate::random::Random;
 
 /// How much is computed.
 pub(super) struct Extent {
+    /// Memory of one solution.
+    pub(super) memory: &'static str,
     /// Every n-th scene is also solved on the half space, which costs most.
-    half_space_every: usize,
+    half_space_every: f64,
     /// Decimal logarithms of the relative errors asked of the stationary half space.
     half_space_errors: [f64; 2],
+    /// The same of rough surfaces and flat ends.
+    coarse_errors: [f64; 2],
     /// The same of a march on the line.
     march_errors: [f64; 2],
     /// Elements along the contact.
@@ -22,8 +26,10 @@ pub(super) struct Extent {
 }
 
 pub(super) const FULL: Extent = Extent {
-    half_space_every: 3,
+    memory: "128 MiB",
+    half_space_every: 1.5,
     half_space_errors: [-2.5, -2.0],
+    coarse_errors: [-1.7, -1.3],
     march_errors: [-2.0, -1.4],
     grids: [8, 12, 16, 24, 32],
     marches: [8, 8, 10, 10, 12],
@@ -31,8 +37,10 @@ pub(super) const FULL: Extent = Extent {
 };
 
 pub(super) const QUICK: Extent = Extent {
-    half_space_every: 4,
+    memory: "48 MiB",
+    half_space_every: 6.0,
     half_space_errors: [-2.0, -2.0],
+    coarse_errors: [-1.3, -1.3],
     march_errors: [-1.6, -1.3],
     grids: [8, 8, 12, 12, 16],
     marches: [8; 5],
@@ -48,20 +56,31 @@ const CLOSED: Accuracy = Accuracy::RelativeError(1e-2);
 /// What is asked of a scene, by model, closed forms first; not every one is offered there.
 ///
 /// Left out is what costs too much or has no reference: a chain to an error at a cusp or an edge, where errors fall too
-/// slowly; the half space at an edge, before the stationary state, and in the scenes between.
+/// slowly; an edge on the line with a dashpot, where the friction is infinite; rough surfaces at rest; the half space before
+/// the stationary state, and in the scenes between.
 pub(super) fn requests(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Request> {
     if presses(&scene.file) {
-        return pressed(random);
+        let asked = pressed(random);
+        return if scene.is_rough() { Vec::new() } else { asked };
+    }
+    if scene.is_rough() {
+        let asked = (Method::BemSteady, error(random, extent.coarse_errors));
+        return of_model(Model::HalfSpace, &[asked]);
+    }
+    if scene.is_cylinder() {
+        return plane_strain(random, extent);
     }
     let is_slow = |request: &Request| {
         request.method == Method::MdrTransient && !request.is_by_elements() && scene.is_sharp()
     };
     let mut requests = line(random, extent);
     requests.retain(|request| !is_slow(request));
+    if scene.is_flat() && scene.has_dashpot() {
+        requests.clear();
+    }
     let on_half_space = half_space(random, scene, extent);
-    let is_stationary = scene.file.solve.sliding_distance.is_none();
-    let is_turn = scene.label.number.is_multiple_of(extent.half_space_every);
-    if is_stationary && is_turn && !scene.has_edge() {
+    let is_turn = random.uniform() * extent.half_space_every < 1.0;
+    if scene.is_stationary() && is_turn {
         requests.extend(on_half_space);
     }
     requests
@@ -96,9 +115,14 @@ fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Reques
     } else {
         &extent.marches
     };
+    let errors = if scene.is_flat() {
+        extent.coarse_errors
+    } else {
+        extent.half_space_errors
+    };
     let asked = [
         (Method::Analytic, CLOSED),
-        (Method::BemSteady, error(random, extent.half_space_errors)),
+        (Method::BemSteady, error(random, errors)),
         (Method::BemSteady, elements(random, &extent.grids)),
         (Method::BemTransient, elements(random, marches)),
     ];
@@ -106,7 +130,7 @@ fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Reques
 }
 
 /// Of a cylinder.
-pub(super) fn plane_strain(random: &mut Random, extent: &Extent) -> Vec<Request> {
+fn plane_strain(random: &mut Random, extent: &Extent) -> Vec<Request> {
     let asked = [
         (Method::BemSteady, error(random, extent.half_space_errors)),
         (Method::BemSteady, elements(random, &LINES)),

@@ -1,178 +1,19 @@
-//! Random scenes over all that a scene can be: every kind of body and material is drawn from the types of the scene file, so
-//! that the compiler refuses one that is forgotten.
+//! Bodies and materials of random scenes, one arm for each kind.
 
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use std::path::Path;
 
-use anyhow::{Context, Result};
-use strum::IntoEnumIterator as _;
-use viscofriction::npy::to_npy;
 use viscofriction::scene::{
-    Branch, Edges, HeightMapTable, HeightsAre, Indenter, IndenterKind, Layer, Load, LoadPoint,
-    MaterialKind, MaterialTable, Method, Model, Scene, SelfAffineSurface, Shift, ShiftLaw, Solve,
-    Term,
+    Branch, Edges, HeightMapTable, HeightsAre, Indenter, IndenterKind, MaterialKind, MaterialTable,
+    SelfAffineSurface, Shift, ShiftLaw, Term,
 };
-use viscofriction::solve::{Body, Problem, body, choose, half_space};
-use viscofriction::{Files, WrongInput};
 
-use crate::output::write_atomically;
-use crate::random::Random;
+use super::{HEIGHTS, Lengths, MATERIAL, PROFILE, Sample};
 
-/// A scene, and what the files hold that it names.
-#[derive(Debug, Clone)]
-pub(super) struct Case {
-    pub(super) scene: Scene,
-    /// Lengths of a profile or a height map.
-    pub(super) lengths: Option<Lengths>,
-    /// The material of a file.
-    pub(super) material: Option<MaterialTable>,
-    /// About half the length of the contact, \[m].
-    pub(super) contact: f64,
-}
-
-/// A file of lengths \[m], row by row.
-#[derive(Debug, Clone)]
-pub(super) struct Lengths {
-    file: &'static str,
-    pub(super) columns: usize,
-    pub(super) values: Vec<f64>,
-}
-
-/// Memory of one solution, which bounds the size of a scene.
-const MEMORY: &str = "48 MiB";
-/// Relative errors that are asked for.
-const ERRORS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
-/// Half the decades over which the units of length, stress and time are spread; some scenes are extreme.
-const DECADES: [f64; 8] = [3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 9.0, 40.0];
-/// Files that scenes name.
-const HEIGHTS: [&str; 2] = ["heights.npy", "heights.csv"];
 /// Of materials that know their shift law, \[°C].
 const TEMPERATURES: [f64; 2] = [10.0, 40.0];
-const PROFILE: &str = "profile.csv";
-const MATERIAL: &str = "material.toml";
-
-/// Reads a file of a case.
-pub(super) fn read(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
-    std::fs::read(path).map_err(|error| WrongInput(format!("{}: {error}", path.display())))
-}
-
-impl Case {
-    /// Writes the scene, as `viscofriction run` takes it, and its files into a folder.
-    pub(super) fn write(&self, folder: &Path, name: &str) -> Result<()> {
-        let text = toml::to_string(&self.scene).context("a scene as text")?;
-        write_atomically(&folder.join(name), text.as_bytes())?;
-        self.write_files(folder)
-    }
-
-    fn write_files(&self, folder: &Path) -> Result<()> {
-        if let Some(lengths) = &self.lengths {
-            write_atomically(&folder.join(lengths.file), &lengths.contents())?;
-        }
-        if let Some(material) = &self.material {
-            let text = toml::to_string(&BTreeMap::from([("material", material)]))?;
-            write_atomically(&folder.join(MATERIAL), text.as_bytes())?;
-        }
-        Ok(())
-    }
-
-    /// The problem that the scene states, or what is wrong with it.
-    pub(super) fn problem(&self, folder: &Path) -> Result<Problem> {
-        self.write_files(folder)?;
-        Ok(Problem::new(&self.scene, folder, read)?)
-    }
-}
-
-impl Lengths {
-    fn contents(&self) -> Vec<u8> {
-        let rows = self.values.chunks(self.columns);
-        if self.file == HEIGHTS[0] {
-            return to_npy(&self.values, &[rows.len(), self.columns]);
-        }
-        let header = (self.file == PROFILE).then(|| "radius_m,height_m".to_owned());
-        let line = |row: &[f64]| {
-            let cells: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
-            cells.join(",")
-        };
-        let lines: Vec<String> = header.into_iter().chain(rows.map(line)).collect();
-        lines.join("\n").into()
-    }
-}
-
-/// A scene that is drawn.
-struct Sample<'a> {
-    random: &'a mut Random,
-    /// Units in which the numbers of the scene are moderate, \[m], \[Pa], \[s].
-    length: f64,
-    stress: f64,
-    time: f64,
-    /// Half the length of the contact, and the time in which the body slides over it or is pressed.
-    contact: f64,
-    contact_time: f64,
-    lengths: Option<Lengths>,
-    material: Option<MaterialTable>,
-}
-
-/// The next scene of the generator; its files are tried in `folder`.
-pub(super) fn sample(random: &mut Random, folder: &Path) -> Result<Case> {
-    let decades = random.choice(&DECADES);
-    let [length, stress, time] = [1.0, 2.0, 1.0].map(|more| random.decades(decades * more));
-    let contact = 0.3 * random.decades(0.3) * length;
-    let contact_time = random.decades(3.0) * time;
-    let kinds: Vec<IndenterKind> = IndenterKind::iter().collect();
-    let materials: Vec<MaterialKind> = MaterialKind::iter().collect();
-    let (kind, material) = (random.choice(&kinds), random.choice(&materials));
-    let mut sample = Sample {
-        random,
-        length,
-        stress,
-        time,
-        contact,
-        contact_time,
-        lengths: None,
-        material: None,
-    };
-    let indenter = sample.body(kind);
-    let material = sample.half_space(material);
-    let is_thin = sample.random.uniform() < 0.2;
-    let thickness = contact * 10_f64.powf(sample.random.between([-1.3, 2.0]));
-    let mut case = Case {
-        scene: Scene {
-            indenter,
-            material,
-            layer: is_thin.then_some(Layer { thickness }),
-            load: EMPTY,
-            solve: Solve::default(),
-        },
-        lengths: sample.lengths.take(),
-        material: sample.material.take(),
-        contact,
-    };
-    case.write_files(folder)?;
-    for _ in 0..MOTIONS {
-        (case.scene.load, case.scene.solve) = (EMPTY, Solve::default());
-        sample.motion(&mut case.scene, folder)?;
-        let problem = case.problem(folder);
-        if problem.is_ok_and(|problem| choose(&problem).is_ok()) {
-            break;
-        }
-    }
-    Ok(case)
-}
-
-/// Motions that are drawn for a body until one has a method, or the last one is refused.
-const MOTIONS: usize = 3;
-const EMPTY: Load = Load {
-    normal_force: None,
-    indentation_depth: None,
-    mean_pressure: None,
-    velocity: None,
-    history: None,
-    history_file: None,
-};
 
 impl Sample<'_> {
-    fn body(&mut self, kind: IndenterKind) -> Indenter {
+    pub(super) fn body(&mut self, kind: IndenterKind) -> Indenter {
         let slope = 10_f64.powf(self.random.between([-2.5, -0.3]));
         let radius = self.length * 10_f64.powf(self.random.between([0.3, 1.5]));
         let tip = self.contact * 10_f64.powf(self.random.between([-1.0, 0.3]));
@@ -300,7 +141,7 @@ impl Sample<'_> {
     }
 
     #[expect(clippy::too_many_lines, reason = "one arm for each kind")]
-    fn half_space(&mut self, kind: MaterialKind) -> MaterialTable {
+    pub(super) fn half_space(&mut self, kind: MaterialKind) -> MaterialTable {
         let compressible = self.random.between([-0.9, 0.5]);
         let poisson_ratio = self.random.choice(&[0.5, compressible]);
         let stress = self.stress;
@@ -404,91 +245,4 @@ impl Sample<'_> {
             shift: None,
         }
     }
-
-    /// Load, motion, model and what is asked.
-    fn motion(&mut self, scene: &mut Scene, folder: &Path) -> Result<()> {
-        let files = Files::of(scene, folder, read)?;
-        let body = body(&scene.indenter, &files)?.body;
-        let [force, depth] = self.load(scene, &body, &files)?;
-        let is_round = matches!(body, Body::Revolution(_)) && scene.layer.is_none();
-        if is_round && self.random.uniform() < 0.25 {
-            scene.solve.model = Some(Model::Line);
-        }
-        scene.solve.relative_error = Some(self.random.choice(&ERRORS));
-        scene.solve.max_memory = Some(MEMORY.to_owned());
-        let at_depth = self.random.uniform() < 0.3;
-        let kind = self.random.uniform();
-        if let Body::Periodic(surface) = &body {
-            let area: f64 = surface.period().iter().product();
-            scene.load.mean_pressure = Some(force / area);
-        } else if kind > 0.8 {
-            scene.load.history =
-                Some(self.history(if at_depth { None } else { Some(force) }, depth));
-            return Ok(());
-        } else if at_depth {
-            scene.load.indentation_depth = Some(depth);
-        } else {
-            scene.load.normal_force = Some(force);
-        }
-        let velocity = 2.0 * self.contact / self.contact_time;
-        let lengths = 3.0 * self.random.decades(1.0);
-        scene.load.velocity = Some(if kind > 0.65 { 0.0 } else { velocity });
-        if kind > 0.65 {
-            scene.solve.duration = Some(self.contact_time);
-        } else if kind > 0.55 {
-            scene.solve.sliding_distance = Some(lengths * self.contact);
-        } else if kind > 0.5 {
-            scene.solve.duration = Some(lengths * self.contact_time);
-        }
-        Ok(())
-    }
-
-    /// Force \[N] and depth \[m] of a contact of about the length that was drawn: D = h(a) = 2 (1 − ν) F J(t)/(4 a).
-    fn load(&mut self, scene: &Scene, body: &Body, files: &Files<'_>) -> Result<[f64; 2]> {
-        let material = half_space(&scene.material, files)?.material;
-        let compliance =
-            material.half_space_factor() * material.creep_compliance(self.contact_time)?;
-        let depth = match body {
-            Body::Revolution(body) => match body.profile_height(self.contact) {
-                height if height > 0.0 => height,
-                _ => 0.02 * self.contact,
-            },
-            Body::Periodic(surface) => {
-                let area: f64 = surface.period().iter().product();
-                let pressure = surface.rms_slope() * 10_f64.powf(self.random.between([-2.0, 0.5]));
-                return Ok([pressure * area / compliance, 0.0]);
-            }
-            Body::Cylinder(cylinder) => {
-                // F' J(t) 2 (1 − ν) = π a²/R.
-                let force = self.contact * self.contact / cylinder.radius() / compliance;
-                return Ok([force, 0.01 * self.contact]);
-            }
-            Body::HeightMap(_) => 0.02 * self.contact,
-        };
-        Ok([4.0 * self.contact * depth / compliance, depth])
-    }
-
-    /// Up to six points that rise and fall, with dwells and jumps, of a force or, without one, of a depth.
-    fn history(&mut self, force: Option<f64>, depth: f64) -> Vec<LoadPoint> {
-        let count = self.random.choice(&[2, 3, 4, 6]);
-        let (mut time, mut level) = (0.0, 0.0);
-        let mut points = Vec::new();
-        for _ in 0..count {
-            points.push(LoadPoint {
-                time,
-                normal_force: force.map(|force| force * level),
-                indentation_depth: force.is_none().then_some(depth * level),
-            });
-            let step = self.contact_time * self.random.decades(1.0);
-            time += self.random.choice(&[step, step, step, step, 0.0]);
-            let next = self.random.uniform();
-            level = self.random.choice(&[next, next, next, level, 0.0]);
-        }
-        points
-    }
-}
-
-/// The methods, from the types of the scene file.
-pub(super) fn methods() -> impl Iterator<Item = Method> {
-    Method::iter()
 }
