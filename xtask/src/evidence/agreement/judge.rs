@@ -10,7 +10,7 @@ use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
 use viscofriction::scene::{Method, Model};
-use viscofriction::solve::{Answer, choose, solve_watched};
+use viscofriction::solve::{Answer, SolveError, plan};
 use viscofriction::{Estimate, Watch};
 
 use super::relation::{self, Derived, Relation};
@@ -248,7 +248,9 @@ fn answer(
             until: Instant::now() + PATIENCE,
             has_ended: AtomicBool::new(false),
         };
-        solve_watched(&problem, &patience).map_err(|error| {
+        let plan = plan(&problem).map_err(SolveError::from);
+        let solved = plan.and_then(|plan| plan.solve(&patience));
+        solved.map_err(|error| {
             let has_ended = patience.has_ended.load(Ordering::Relaxed);
             format!("{}{error}", if has_ended { UNFINISHED } else { "" })
         })
@@ -290,7 +292,7 @@ fn other_method(
         case.scene.solve.method = Some(*method);
         let problem = case.problem(folder);
         let is_other = *method != chosen && is_of_model(method);
-        is_other && problem.is_ok_and(|problem| choose(&problem).is_ok())
+        is_other && problem.is_ok_and(|problem| plan(&problem).is_ok())
     };
     let offered: Vec<Method> = methods().filter(is_offered).collect();
     (!offered.is_empty()).then(|| random.choice(&offered))

@@ -13,7 +13,7 @@ use viscofriction::npy::to_npy;
 use viscofriction::scene::{
     IndenterKind, Layer, Load, LoadPoint, MaterialKind, MaterialTable, Method, Model, Scene, Solve,
 };
-use viscofriction::solve::{Body, Problem, body, choose, half_space};
+use viscofriction::solve::{Body, Problem, body, half_space, plan};
 use viscofriction::{Files, WrongInput};
 
 use crate::output::write_atomically;
@@ -207,7 +207,7 @@ pub(super) fn sample(random: &mut Random, range: &Range, folder: &Path) -> Resul
         (case.scene.load, case.scene.solve) = (EMPTY, Solve::default());
         sample.motion(&mut case.scene, range, folder)?;
         let problem = case.problem(folder);
-        if problem.is_ok_and(|problem| choose(&problem).is_ok()) {
+        if problem.is_ok_and(|problem| plan(&problem).is_ok()) {
             break;
         }
     }
