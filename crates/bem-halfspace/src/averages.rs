@@ -51,6 +51,9 @@ pub struct Refinement {
     pub friction_from_dissipation: Average,
     /// Part of the friction that elements may miss because the surface forgets within them.
     pub unresolved: f64,
+    /// Whether the contact ends within a few elements of an edge of the body, so that the elements do not see which of the two
+    /// it ends at.
+    pub hides_edge: bool,
     /// Normal force, \[N].
     pub normal_force: Average,
     /// Depth after the sliding distance of the load, or the

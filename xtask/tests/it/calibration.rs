@@ -28,7 +28,7 @@ fn error_bars_hold_on_random_scenes() {
         *all += is_sharp;
     }
     let total: [usize; 2] = [0, 1].map(|part| methods.values().map(|counts| counts[part]).sum());
-    let large: Vec<_> = methods.iter().filter(|(_, [_, all])| *all >= 20).collect();
+    let large: Vec<_> = methods.iter().filter(|(_, [_, all])| *all >= 15).collect();
     for (method, [held, all]) in &large {
         assert!(
             may_be(0.95, [*held, *all]),

@@ -3,7 +3,9 @@
 use numerics::Estimate;
 
 /// Powers of the elements that are believed where they are observed.
-const OBSERVED: [f64; 2] = [0.5, 1.5];
+pub(super) const OBSERVED: [f64; 2] = [0.5, 1.5];
+/// Those where elements hide an edge: values may turn around once it is seen, so that nothing observed is believed.
+pub(super) const HIDDEN_EDGE: [f64; 2] = [0.5, 0.5];
 
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
@@ -24,12 +26,12 @@ pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
     }
 }
 
-/// By how much the limit changes if errors fall with the observed power instead of `order`.
+/// By how much the limit changes if errors fall with the observed power, between two `powers`, instead of `order`.
 ///
 /// Where the edge of a flat end is just inside the contact, elements that are longer than what is around it see a punch, whose
 /// errors fall with the root of the elements. The larger of the last two counts, because one may agree by accident.
-pub(super) fn by_observed_order(values: &[f64], order: f64) -> f64 {
-    let [slowest, fastest] = OBSERVED.map(f64::exp2);
+pub(super) fn by_observed_order(values: &[f64], order: f64, powers: [f64; 2]) -> f64 {
+    let [slowest, fastest] = powers.map(f64::exp2);
     let change = |window: &[f64]| {
         let [before, last] = [window[2] - window[0], window[4] - window[2]];
         if last == 0.0 {

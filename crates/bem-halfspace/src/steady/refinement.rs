@@ -16,7 +16,7 @@ use crate::Reached;
 use crate::averages::{Average, Refinement};
 use crate::bars::{self, DEPTH, FORCE, FRICTION, NAMES};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
-use crate::steady::extrapolation::{by_observed_order, extrapolate};
+use crate::steady::extrapolation::{HIDDEN_EDGE, OBSERVED, by_observed_order, extrapolate};
 use crate::steady::loading::Loading;
 use crate::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::steady::{Reuse, SteadyOptions, solve};
@@ -218,7 +218,9 @@ impl Grids<'_> {
             .map_or(0.0, |last| quantity(last).scatter);
         let limit = extrapolate(&values, order).widened(scatter);
         if self.problem.loading.has_edges {
-            return limit.widened(by_observed_order(&values, order));
+            let hides_edge = refinements.last().is_some_and(|last| last.hides_edge);
+            let powers = if hides_edge { HIDDEN_EDGE } else { OBSERVED };
+            return limit.widened(by_observed_order(&values, order, powers));
         }
         limit
     }
@@ -377,7 +379,16 @@ impl Grids<'_> {
         let unresolved = states
             .iter()
             .map(|state| state.unresolved(creep, self.problem.plan.kinks));
+        let edges: Vec<f64> =
+            self.problem
+                .surface
+                .as_axisymmetric()
+                .map_or_else(Vec::new, |body| {
+                    let kinks = body.kinks().into_iter();
+                    kinks.map(|kink| kink.radius).collect()
+                });
         let averages = Refinement {
+            hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),
             friction_from_dissipation: Average::of_halves(&states, |state| {

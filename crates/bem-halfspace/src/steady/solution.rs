@@ -13,6 +13,9 @@ use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
 use crate::steady::sliding_creep::SlidingCreep;
 
+/// Elements between an edge of the body and the end of the contact with which the two are told apart.
+const BEYOND_EDGE: f64 = 4.0;
+
 /// A stationary state with its error bars.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 
@@ -93,6 +96,13 @@ impl SteadySliding {
         let [rear, front] = self.contact_x;
         let half_length = 0.5 * (front - rear);
         creep.unresolved(self.pressure.grid.spacing()[0], half_length, kinks)
+    }
+
+    /// Whether the front is closer to an edge of the body than [`BEYOND_EDGE`] elements.
+    pub(super) fn hides_edge(&self, radii: &[f64]) -> bool {
+        let close = BEYOND_EDGE * self.pressure.grid.spacing()[0];
+        let [_, front] = self.contact_x;
+        radii.iter().any(|radius| (front - radius).abs() < close)
     }
 
     /// Turns a solution in the units of the mesh into one in SI.

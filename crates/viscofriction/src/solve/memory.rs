@@ -48,6 +48,12 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
         wavelengths.flat_map(|period| (0..31).map(move |power| period / f64::from(1 << power)));
     let fitting = wavelengths.filter(|shortest| elements_for_bars(numbers(*shortest)) <= most);
     let shortest = fitting.fold(f64::INFINITY, f64::min);
+    if shortest.is_infinite() {
+        let problem = format!(
+            "the largest grid that it allows a periodic surface has {most} elements, too few for an error bar with any waves"
+        );
+        return Err(SceneError::at("solve.max_memory", problem));
+    }
     let [x, y] = numbers(shortest).map(|number| 2 * number);
     let problem = format!(
         "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the largest has {most:.3e}: leave \
