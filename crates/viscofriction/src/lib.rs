@@ -28,14 +28,17 @@
 
 mod files;
 #[cfg(feature = "fit")]
+#[path = "../../measurements/src/indentation/mod.rs"]
 pub mod indentation;
 #[cfg(feature = "fit")]
+#[path = "../../measurements/src/moduli/mod.rs"]
 pub mod moduli;
 pub mod npy;
 pub mod scene;
 pub mod solve;
 pub mod sweep;
 #[cfg(feature = "fit")]
+#[path = "../../measurements/src/table/mod.rs"]
 mod table;
 mod text;
 

@@ -15,7 +15,10 @@ use viscofriction::moduli::{
 
 use crate::support::{assert_close, table};
 
-const EXPORTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/exports");
+const EXPORTS: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../measurements/tests/data/exports"
+);
 
 /// Frequency, \[Hz], storage and loss modulus in shear, \[MPa].
 const POINTS: [[f64; 3]; 3] = [[0.1, 1.5, 0.3], [1.0, 2.25, 0.45], [10.0, 4.0, 1.2]];
