@@ -27,19 +27,10 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod files;
-#[cfg(feature = "fit")]
-#[path = "../../measurements/src/indentation/mod.rs"]
-pub mod indentation;
-#[cfg(feature = "fit")]
-#[path = "../../measurements/src/moduli/mod.rs"]
-pub mod moduli;
 pub mod npy;
 pub mod scene;
 pub mod solve;
 pub mod sweep;
-#[cfg(feature = "fit")]
-#[path = "../../measurements/src/table/mod.rs"]
-mod table;
 mod text;
 
 /// The programs of that page compile and run.

@@ -2,17 +2,15 @@
 
 use std::fmt::Write as _;
 
-use rayon::prelude::*;
-use viscofriction::indentation::{
+use indenters::{Axisymmetric, Control, FlatPunch, HistoryPoint, PowerProfile, Sphere};
+use mdr_core::{Follow, indent_along};
+use measurements::indentation::{
     Finding, FitOptions, Flag, IndentationCurve, IndentationFit, Rheology, fit_indentation,
 };
-use viscofriction::indenters::{
-    Axisymmetric, Control, FlatPunch, HistoryPoint, PowerProfile, Sphere,
-};
-use viscofriction::mdr_core::{Follow, indent_along};
-use viscofriction::rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
+use rayon::prelude::*;
+use rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
 
-use crate::support::{Folder, Normal, assert_close};
+use crate::support::{Normal, assert_close};
 
 /// A body on a known material; contact point, baseline and tilt of its curves are always the same.
 struct Case {
@@ -154,6 +152,10 @@ fn holds((finding, truth): (&Finding, &f64)) -> bool {
 
 /// `VISCOFRICTION_CURVES` is the number of curves, 240 unless it is set; docs/fit-indentation.md has the table of more.
 #[test]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the table is for whoever asks for it"
+)]
 fn intervals_hold_the_truth_in_95_of_100_curves_of_any_noise_and_few_are_flagged() {
     let given = std::env::var("VISCOFRICTION_CURVES");
     let n_curves = given.map_or(240, |n| n.parse().expect("a number"));
@@ -191,7 +193,8 @@ fn intervals_hold_the_truth_in_95_of_100_curves_of_any_noise_and_few_are_flagged
         )
         .expect("text");
     }
-    Folder::new("intervals").write("table.txt", &table);
+    let file = concat!(env!("CARGO_TARGET_TMPDIR"), "/intervals.txt");
+    std::fs::write(file, &table).expect("the table can be written");
     let is_few = all_flagged as f64 <= 0.02 * n_curves as f64;
     assert!(is_few, "{all_flagged} of {n_curves} flagged\n{table}");
     let mean = parts.iter().sum::<f64>() / parts.len() as f64;
@@ -433,65 +436,4 @@ fn a_tenth_of_wild_points_does_not_move_the_result() {
     forces.for_each(|force| *force += jump);
     let fit = case.fit(&curve).expect("a fit");
     assert_found(&fit.findings[..3], &case.truth);
-}
-
-/// The names of three instruments, and the order of time, depth and force with their factors.
-const TABLES: [(&str, [(usize, f64); 3]); 3] = [
-    ("t (ms);d [µm];F / nN", [(0, 1e3), (1, 1e6), (2, 1e9)]),
-    (
-        "height (measured) [nm];vDeflection [mV];time [s]",
-        [(3, -1e9), (2, MILLIVOLT), (0, 1.0)],
-    ),
-    (
-        "force [pN];piezo [nm];t [min]",
-        [(2, 1e12), (3, 1e9), (0, 1.0 / 60.0)],
-    ),
-];
-
-/// [mV/N] of a cantilever of 0.06 N/m and a detector of 50 nm/V.
-const MILLIVOLT: f64 = 1e3 / (0.06 * 5e-8);
-
-#[test]
-fn a_map_of_tables_in_any_order_and_unit_has_a_row_for_each() {
-    let folder = Folder::new("map");
-    let case = &cases()[0];
-    let curve = case.curve(400, 0.003, 1);
-    let expected = case.fit(&curve).expect("a fit");
-    let damaged = ("time;depth;force\ns;m;N", [(0, 1.0), (1, 1.0), (2, -1.0)]);
-    for (file, (names, columns)) in TABLES.into_iter().chain([damaged]).enumerate() {
-        let cells = |i: usize| {
-            let [time, depth, force] = [curve.time[i], curve.depth[i], curve.force[i]];
-            let numbers = [time, depth, force, depth + force / 0.06];
-            let cell = |(column, factor): (usize, f64)| format!("{:?}", factor * numbers[column]);
-            columns.map(cell).join(";")
-        };
-        let rows: Vec<String> = (0..curve.time.len()).map(cells).collect();
-        let text = format!("# an instrument\n{names}\n{}\n", rows.join("\n"));
-        folder.write(&format!("{file}.csv"), text);
-    }
-    let curves = "0.csv 1.csv 2.csv 3.csv 4.csv";
-    let options = "--sphere 5e-6 --spring-constant 0.06 --sensitivity 5e-8 --out out";
-    folder.done(format!("fit-indentation {curves} {options}"));
-    let csv = folder.text("out/curves.csv");
-    let rows: Vec<Vec<&str>> = csv.lines().map(|row| row.split(',').collect()).collect();
-    for row in &rows[1..4] {
-        for (k, finding) in expected.findings.iter().take(3).enumerate() {
-            let value = row[2 + 4 * k].parse().expect("a number");
-            let expected = finding.estimate.expect("it is determined").value;
-            let what = format!("{}: {}", row[0], finding.name);
-            assert_close(what, value, expected, 1e-6);
-        }
-    }
-    for (row, reason) in [(4, "3.csv: the force falls"), (5, "4.csv: No such file")] {
-        let is_kept = rows[row][1].starts_with(reason) && rows[row].ends_with(&["", "", ""]);
-        assert!(is_kept, "{:?}", rows[row]);
-    }
-    for (options, wrong) in [
-        ("3.csv --sphere 5e-6", "3.csv: the force falls"),
-        ("0.csv --sphere 5e-9", "equator"),
-        ("2.csv --sphere 5e-6", "spring_constant"),
-        ("0.csv --cone 90", "--cone must be greater than 0"),
-    ] {
-        folder.ends(&format!("fit-indentation {options}"), 2, wrong);
-    }
 }

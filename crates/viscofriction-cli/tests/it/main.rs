@@ -3,10 +3,7 @@
 mod answers_agree;
 mod documented_commands;
 mod explained_omissions;
-#[path = "../../../measurements/tests/it/exported_tables.rs"]
-mod exported_tables;
 mod files;
-#[path = "../../../measurements/tests/it/fit_indentation.rs"]
 mod fit_indentation;
 mod fit_material;
 mod fuzzed_inputs;
