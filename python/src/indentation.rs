@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
+use measurements::indentation::{
+    CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, fit_indentation,
+    indentation_curve,
+};
 use numpy::{IntoPyArray as _, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Deserialize as _;
-use viscofriction::indentation::{
-    CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, fit_indentation,
-    indentation_curve,
-};
 use viscofriction::scene::Indenter;
 use viscofriction::solve::body;
 use viscofriction::{Body, Files, rheology};

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
-use pyo3::prelude::*;
-use rheology::fit::{Isotherm, ModulusPoint};
-use viscofriction::moduli::{
+use measurements::moduli::{
     self, Deformation, MeasuredModuli, Measurements, Shifting, TableOptions, measured_moduli,
     shear_per_tension,
 };
+use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use rheology::fit::{Isotherm, ModulusPoint};
 use viscofriction::scene::Shift;
 
 use crate::reading::read_table;

@@ -27,16 +27,10 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod files;
-#[cfg(feature = "fit")]
-pub mod indentation;
-#[cfg(feature = "fit")]
-pub mod moduli;
 pub mod npy;
 pub mod scene;
 pub mod solve;
 pub mod sweep;
-#[cfg(feature = "fit")]
-mod table;
 mod text;
 
 /// The programs of that page compile and run.

@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
 use clap::Args;
+use measurements::indentation::{
+    CurveOptions, Finding, FitOptions, IndentationFit, Rheology, fit_indentation, indentation_curve,
+};
 use rayon::prelude::*;
 use rheology::Material as _;
 use viscofriction::WrongInput;
-use viscofriction::indentation::{
-    CurveOptions, Finding, FitOptions, IndentationFit, Rheology, fit_indentation, indentation_curve,
-};
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
 use viscofriction::numerics::{in_range, positive};
 
 use crate::input::{protect, read_table};
-use crate::material::prony;
+use crate::material::{prony, wrong_table};
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
 
@@ -164,7 +164,7 @@ impl FitIndentation {
             sensitivity: self.sensitivity,
             ramp_rate: self.ramp_rate,
         };
-        let curve = indentation_curve(file, &read_table(file)?, &read)?;
+        let curve = indentation_curve(file, &read_table(file)?, &read).map_err(wrong_table)?;
         let options = FitOptions {
             rheology: self.material,
             branches: self.branches,

@@ -1,6 +1,6 @@
 //! A curve, its fit, and the residuals between them.
 
-use viscofriction::indentation::IndentationFit;
+use measurements::indentation::IndentationFit;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 /// Points of a picture.

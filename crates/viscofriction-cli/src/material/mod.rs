@@ -7,16 +7,17 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
+use measurements::MeasurementError;
+use measurements::moduli::{
+    Deformation, MeasuredModuli, Measurements, Shifted, Shifting, TableOptions, master_curve,
+    measured_moduli, shear_per_tension,
+};
 use rheology::fit::{
     Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelativeError,
     RelaxationPoint, identify,
 };
 use rheology::{InvalidParameter, RheologyError};
 use viscofriction::WrongInput;
-use viscofriction::moduli::{
-    Deformation, MeasuredModuli, Measurements, Shifted, Shifting, TableOptions, master_curve,
-    measured_moduli, shear_per_tension,
-};
 use viscofriction::scene::ShiftLaw;
 
 use crate::input::read_table;
@@ -72,7 +73,7 @@ pub(crate) struct FitMaterial {
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let contents = read_table(&options.data)?;
     let table = options.table()?;
-    let moduli = measured_moduli(&options.data, &contents, &table)?;
+    let moduli = measured_moduli(&options.data, &contents, &table).map_err(wrong_table)?;
     let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));
     if moduli.celsius.is_none() && options.shifting() != Shifting::default() {
         let problem =
@@ -126,7 +127,13 @@ pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput
         shear_per_tension: 1.0 / 3.0,
         deformation: None,
     };
-    measured_moduli(file, contents, &incompressible).map(|_| ())
+    let moduli = measured_moduli(file, contents, &incompressible);
+    moduli.map(drop).map_err(wrong_table)
+}
+
+/// What is wrong with a table is the user's.
+pub(crate) fn wrong_table(error: MeasurementError) -> WrongInput {
+    WrongInput(error.to_string())
 }
 
 /// What the command found.

@@ -3,7 +3,6 @@
 mod answers_agree;
 mod documented_commands;
 mod explained_omissions;
-mod exported_tables;
 mod files;
 mod fit_indentation;
 mod fit_material;

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use rheology::Shift;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 use toml::Table;
 
 use super::SceneError;
-use super::shift::Shift;
 use super::source::checked;
 
 /// The half space; every kind may have a Poisson ratio.

@@ -9,7 +9,6 @@ mod history;
 mod indenter;
 mod load;
 mod material;
-mod shift;
 mod solve;
 mod source;
 
@@ -27,9 +26,7 @@ pub use indenters::Control;
 pub use load::{Load, LoadPoint};
 pub use material::{Branch, MaterialKind, MaterialTable};
 pub use numerics::Accuracy;
-#[cfg(feature = "fit")]
-pub(crate) use shift::KELVIN_AT_ZERO_CELSIUS;
-pub use shift::{Shift, ShiftLaw};
+pub use rheology::{Shift, ShiftLaw};
 pub use solve::{Method, Model, Solve};
 pub use source::Source;
 pub(crate) use source::{scene_file, split_index};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{IndentationCurve, igor};
-use crate::WrongInput;
+use crate::MeasurementError;
 use crate::moduli::Deformation;
 use crate::table::Quantity::{self, Deflection, Depth, Force, Height, Other, Piezo, Time, Tip};
 use crate::table::{Column, Line, Meaning, Source, Table, Vocabulary, text_of};
@@ -74,12 +74,12 @@ pub struct CurveOptions {
 /// deflection are the depth.
 ///
 /// # Errors
-/// [`WrongInput`] with file, line and column, or with the option that is missing.
+/// [`MeasurementError`] with file, line and column, or with the option that is missing.
 pub fn indentation_curve(
     file: &Path,
     contents: &[u8],
     options: &CurveOptions,
-) -> Result<IndentationCurve, WrongInput> {
+) -> Result<IndentationCurve, MeasurementError> {
     let text = text_of(contents, &CURVES);
     let stiffness = options.spring_constant.or_else(|| stated_stiffness(&text));
     let options = &CurveOptions {
@@ -139,7 +139,11 @@ struct Segment {
 }
 
 impl Segment {
-    fn of(source: &Source, table: &Table, options: &CurveOptions) -> Result<Self, WrongInput> {
+    fn of(
+        source: &Source,
+        table: &Table,
+        options: &CurveOptions,
+    ) -> Result<Self, MeasurementError> {
         let missing = |what: &str| source.wrong_line(table.line, &format!("{what} is needed"));
         let stiffness = || {
             let needed = missing("the stiffness of the cantilever (spring_constant)");
@@ -174,7 +178,7 @@ impl Segment {
     }
 
     /// Time, depth and force of every row.
-    fn points(&self, table: &Table, rows: &[&Line]) -> Result<Vec<[f64; 3]>, WrongInput> {
+    fn points(&self, table: &Table, rows: &[&Line]) -> Result<Vec<[f64; 3]>, MeasurementError> {
         let point = |line: &&Line| {
             let numbers = table.numbers(line)?;
             let [.., load, place] = numbers[..] else {
@@ -186,7 +190,7 @@ impl Segment {
             let depth = self.of_place * place + self.of_force * force;
             Ok((!is_nothing).then_some([numbers[0], depth, force]))
         };
-        let points: Result<Vec<_>, WrongInput> = rows.iter().map(point).collect();
+        let points: Result<Vec<_>, MeasurementError> = rows.iter().map(point).collect();
         Ok(points?.into_iter().flatten().collect())
     }
 

@@ -4,36 +4,18 @@
 //! is known from its exports and manuals; the numbers are made up.
 
 use std::f64::consts::TAU;
-use std::fs;
 use std::path::Path;
 
 use encoding_rs::{GB18030, SHIFT_JIS, UTF_8, WINDOWS_1252};
-use viscofriction::indentation::{CurveOptions, indentation_curve};
-use viscofriction::moduli::{
+use measurements::indentation::{CurveOptions, indentation_curve};
+use measurements::moduli::{
     Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
 };
 
-use crate::support::{assert_close, table};
-
-const EXPORTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/exports");
+use crate::support::assert_close;
 
 /// Frequency, \[Hz], storage and loss modulus in shear, \[MPa].
 const POINTS: [[f64; 3]; 3] = [[0.1, 1.5, 0.3], [1.0, 2.25, 0.45], [10.0, 4.0, 1.2]];
-
-/// The bytes of a text in an encoding.
-fn encoded(text: &str, encoding: &str) -> Vec<u8> {
-    let marked = ["\u{feff}", text].concat();
-    match encoding {
-        "UTF-8" => text.into(),
-        "UTF-8 with CRLF" => text.replace('\n', "\r\n").into(),
-        "UTF-8 with BOM" => marked.into(),
-        "UTF-16" => marked.encode_utf16().flat_map(u16::to_le_bytes).collect(),
-        _ => {
-            let bytes = text.chars().map(u8::try_from);
-            bytes.collect::<Result<_, _>>().expect("Latin-1")
-        }
-    }
-}
 
 /// What is read when storage modulus alone is one of this kind.
 #[track_caller]
@@ -64,7 +46,7 @@ fn isotherms(read: MeasuredModuli) -> Vec<(f64, Vec<[f64; 3]>)> {
 
 #[test]
 fn names_in_six_languages_are_those_of_the_same_quantities() {
-    for [names] in table("names of moduli") {
+    for names in include_str!("../data/names_of_moduli.txt").lines() {
         let above = "Sample;SBR 1502\nInstrument;Eplexor\nDatum;12.03.2024\n\n";
         let text = format!("{above}{names}\n0,1;20;1,5;0,3\n1;20;2,25;0,45\n10;20;4;1,2\n");
         let is_european = names.chars().all(|letter| letter < '\u{100}');
@@ -95,60 +77,78 @@ const CURVE: [[f64; 2]; 6] = [
 ];
 
 #[test]
-fn force_curves_of_three_makers_have_the_same_points() {
+fn curves_of_three_makers_and_in_any_unit_have_the_same_points() {
     let options = CurveOptions {
         spring_constant: Some(0.1),
-        sensitivity: None,
+        sensitivity: Some(5e-8),
         ramp_rate: Some(0.5 / 0.75),
     };
-    for [software, text] in table("exports of curves") {
-        let read = |text: &str, options: &CurveOptions| {
-            indentation_curve(Path::new("curve.txt"), text.as_bytes(), options)
+    let exports = include_str!("../data/curves.txt").split("\n== ").skip(1);
+    for export in exports {
+        let (title, text) = export.split_once('\n').expect("a title");
+        let read = |options: &CurveOptions| {
+            let curve = indentation_curve(Path::new("curve.txt"), text.as_bytes(), options);
+            curve.map_err(|error| error.to_string())
         };
-        let curve = read(&text, &options).unwrap_or_else(|error| panic!("{software}: {error}"));
-        assert_eq!(curve.time.len(), 6, "{software}: {curve:?}");
+        let curve = read(&options).unwrap_or_else(|error| panic!("{title}: {error}"));
+        assert_eq!(curve.time.len(), CURVE.len(), "{title}: {curve:?}");
         for (i, [force, depth]) in CURVE.into_iter().enumerate() {
             let close = |of: &str, read: f64, written: f64, least: f64| {
-                let off = (read - written).abs();
-                assert!(
-                    off <= 1e-9 * least,
-                    "{software}, {of} {i}: {read}, not {written}"
-                );
+                let is_close = (read - written).abs() <= 1e-9 * least;
+                assert!(is_close, "{title}, {of} {i}: {read}, not {written}");
             };
             close("time", curve.time[i], 0.25 * i as f64, 1.0);
             close("depth", curve.depth[i], 1e-9 * depth, 1e-7);
             close("force", curve.force[i], 1e-9 * force, 1e-9);
         }
-        let is_stated = text.contains("pringConstant");
-        let alone = read(&text, &CurveOptions::default());
-        let reason = alone.err().map(|error| error.to_string());
-        let is_asked_for = reason.as_ref().is_some_and(|reason| {
-            ["ramp_rate", "spring_constant"]
-                .iter()
-                .any(|option| reason.contains(option))
-        });
-        assert_eq!(is_asked_for, !is_stated, "{software}: {reason:?}");
+        let needed = title.split_once("; ").map(|(_, option)| option);
+        let reason = read(&CurveOptions::default()).err();
+        let is_named = needed.is_none_or(|needed| reason.iter().any(|one| one.contains(needed)));
+        let is_right = is_named && reason.is_some() == needed.is_some();
+        assert!(is_right, "{title}: {reason:?}");
+    }
+}
+
+/// A storage modulus is of the given kind without E or G in its name.
+#[track_caller]
+fn assert_has_the_points(contents: &[u8], deformation: Option<Deformation>, n_isotherms: usize) {
+    let isotherms = isotherms(read(contents, deformation));
+    assert_eq!(isotherms.len(), n_isotherms, "{isotherms:?}");
+    let points = &isotherms[0].1;
+    assert_eq!(points.len(), POINTS.len(), "{points:?}");
+    for (read, written) in points.iter().flatten().zip(POINTS.iter().flatten()) {
+        assert_close("modulus or frequency", *read, *written, 1e-12);
     }
 }
 
 #[test]
 fn seven_layouts_of_instruments_have_the_same_points() {
-    for [file, encoding, modulus, count] in table("exports") {
-        let path = Path::new(EXPORTS).join(&file);
-        let text = fs::read_to_string(path).expect("an export");
-        let deformation = match &*modulus {
-            "E" => Some(Deformation::Tension),
-            "G" => Some(Deformation::Shear),
-            _ => None,
-        };
-        let isotherms = isotherms(read(&encoded(&text, &encoding), deformation));
-        assert_eq!(isotherms.len().to_string(), count, "{file}: {isotherms:?}");
-        let points = &isotherms[0].1;
-        assert_eq!(points.len(), POINTS.len(), "{file}: {points:?}");
-        for (read, written) in points.iter().flatten().zip(POINTS.iter().flatten()) {
-            assert_close(&file, *read, *written, 1e-12);
-        }
-    }
+    // TA Instruments TRIOS, text with carriage returns: steps between lines of metadata, units below the names.
+    assert_has_the_points(
+        include_bytes!("../data/exports/trios.txt"),
+        Some(Deformation::Shear),
+        2,
+    );
+    // Anton Paar RheoCompass, CSV in UTF-16: an empty first column, units in brackets, empty lines, a count of points.
+    assert_has_the_points(
+        include_bytes!("../data/exports/rheocompass.csv"),
+        Some(Deformation::Shear),
+        1,
+    );
+    // Netzsch Proteus, CSV in Latin-1: metadata in comments, names with units in a comment too.
+    assert_has_the_points(include_bytes!("../data/exports/proteus.csv"), None, 1);
+    // Mettler Toledo STARe, text: columns that are aligned by blanks, units right-aligned below them.
+    assert_has_the_points(include_bytes!("../data/exports/stare.txt"), None, 1);
+    // GABO Eplexor, text: from the highest frequency down, a modulus that is not read.
+    assert_has_the_points(include_bytes!("../data/exports/eplexor.txt"), None, 1);
+    // Malvern rSpace for Kinexus, CSV with a byte-order mark: quotes, and words for the moduli.
+    assert_has_the_points(include_bytes!("../data/exports/rspace.csv"), None, 1);
+    // PerkinElmer DMA 8000, text: a loss factor instead of a loss modulus.
+    assert_has_the_points(
+        include_bytes!("../data/exports/pyris.txt"),
+        Some(Deformation::Tension),
+        1,
+    );
 }
 
 /// One frequency after the other over the temperature, and a temperature that comes back.

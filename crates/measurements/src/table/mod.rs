@@ -8,13 +8,13 @@ use std::cmp::Reverse;
 use std::fmt::Display;
 use std::path::Path;
 
-use crate::WrongInput;
+use crate::MeasurementError;
 use Quantity::{Frequency, Loss, Storage};
 use columns::{HALVES, divided};
 pub(crate) use columns::{Quantity, Vocabulary};
 use layout::{Layout, is_comment, tagged};
 
-type Result<T, E = WrongInput> = std::result::Result<T, E>;
+type Result<T, E = MeasurementError> = std::result::Result<T, E>;
 
 /// The text of a file.
 pub(crate) use layout::text_of;
@@ -162,12 +162,12 @@ impl<'a> Source<'a> {
     }
 
     /// What is wrong with a whole line.
-    pub(crate) fn wrong_line(&self, line: usize, problem: &dyn Display) -> WrongInput {
-        WrongInput(format!("{}, line {line}: {problem}", self.file.display()))
+    pub(crate) fn wrong_line(&self, line: usize, problem: &dyn Display) -> MeasurementError {
+        MeasurementError::Table(format!("{}, line {line}: {problem}", self.file.display()))
     }
 
     /// What is wrong with the whole text.
-    pub(crate) fn wrong_end(&self, problem: &dyn Display) -> WrongInput {
+    pub(crate) fn wrong_end(&self, problem: &dyn Display) -> MeasurementError {
         self.wrong_line(self.lines.last().map_or(1, |line| line.number), problem)
     }
 
@@ -180,7 +180,7 @@ impl<'a> Source<'a> {
         format!("separated by {separators}, the columns are {names}")
     }
 
-    fn without_head(&self) -> WrongInput {
+    fn without_head(&self) -> MeasurementError {
         let needed = format!("a line of names is needed: {}", self.vocabulary.names);
         let is_number = |cell: &&&str| self.layout.number(cell).is_some();
         let is_row = |line: &Line| line.cells.iter().filter(is_number).count() > 1;
@@ -196,11 +196,11 @@ impl<'a> Source<'a> {
         self.wrong_line(line.number, &format!("{needed}; {}", self.found(line)))
     }
 
-    fn wrong(&self, line: usize, column: &Column, expected: &str, cell: &str) -> WrongInput {
+    fn wrong(&self, line: usize, column: &Column, expected: &str, cell: &str) -> MeasurementError {
         let [name, cell] = [column.name, cell].map(|text| shown(text, 40));
         let place = column.place + 1;
         let problem = format!("column {place} ({name}): expected {expected}, but found '{cell}'");
-        WrongInput(format!("{}, line {line}, {problem}", self.file.display()))
+        MeasurementError::Table(format!("{}, line {line}, {problem}", self.file.display()))
     }
 }
 
@@ -377,7 +377,7 @@ impl<'a> Table<'a> {
     }
 
     /// What is wrong with a frequency or time.
-    pub(crate) fn wrong_first(&self, line: &Line, expected: &str) -> WrongInput {
+    pub(crate) fn wrong_first(&self, line: &Line, expected: &str) -> MeasurementError {
         let first = self.find(self.needed[0]).unwrap_or(&self.columns[0]);
         self.wrong(line, first, expected)
     }
@@ -402,7 +402,7 @@ impl<'a> Table<'a> {
         number.ok_or_else(|| self.wrong(line, column, "a finite number"))
     }
 
-    fn wrong(&self, line: &Line, column: &Column, expected: &str) -> WrongInput {
+    fn wrong(&self, line: &Line, column: &Column, expected: &str) -> MeasurementError {
         let cell = line.cells.get(column.place).copied().unwrap_or_default();
         self.source.wrong(line.number, column, expected, cell)
     }

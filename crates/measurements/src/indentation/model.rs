@@ -2,15 +2,14 @@
 //!
 //! The parameters are the logarithms of moduli and times (of a power law ln G₁ and β), contact point, baseline and tilt.
 
-use indenters::{Axisymmetric, Control};
+use indenters::{Axisymmetric, Control, HistoryPoint};
+use mdr_core::{ForceDerivatives, MdrError, force_derivatives};
 use rheology::{
     Compressible, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, Springpot,
 };
 
 use super::depth::ends;
 use super::{FitOptions, IndentationCurve};
-use crate::indenters::HistoryPoint;
-use crate::mdr_core::{ForceDerivatives, MdrError, force_derivatives};
 
 /// A material with free parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

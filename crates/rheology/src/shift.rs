@@ -1,15 +1,15 @@
 //! How the times of a material change with its temperature.
 
-use rheology::{ArrheniusShift, RheologyError, WlfShift};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::{ArrheniusShift, RheologyError, WlfShift};
 
 /// What is to be added to °C for K.
-pub(crate) const KELVIN_AT_ZERO_CELSIUS: f64 = 273.15;
+pub const KELVIN_AT_ZERO_CELSIUS: f64 = 273.15;
 
 /// A law of time–temperature superposition, and where it was found.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Shift {
     /// Temperature of the material beside which it stands, \[°C].
     pub temperature: f64,
@@ -20,8 +20,10 @@ pub struct Shift {
 }
 
 /// How times change with temperature.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum ShiftLaw {
     /// C₁ and C₂ \[K] of Williams, Landel and Ferry, both greater than 0.
     Wlf([f64; 2]),

@@ -20,12 +20,11 @@ mod search;
 mod start;
 
 use indenters::Axisymmetric;
+use mdr_core::MdrError;
 use rheology::Prony;
-use serde::Serialize;
 
-use crate::mdr_core::MdrError;
+use crate::MeasurementError;
 pub use flag::Flag;
-use numerics::InvalidParameter;
 pub use read::{CurveOptions, indentation_curve};
 
 /// What was measured, one value per point, in SI.
@@ -105,7 +104,8 @@ impl Default for FitOptions {
 }
 
 /// What a curve says about one quantity.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Finding {
     /// Name, as G_inf.
     pub name: String,
@@ -118,7 +118,8 @@ pub struct Finding {
 }
 
 /// A material found in a curve.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct IndentationFit {
     /// Material, contact point, baseline and tilt.
@@ -141,32 +142,15 @@ pub struct IndentationFit {
     pub flags: Vec<Flag>,
 }
 
-/// Why a curve is not fitted.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum IndentationError {
-    /// An option is out of range.
-    #[error(transparent)]
-    InvalidParameter(#[from] InvalidParameter),
-    /// The curve is damaged.
-    #[error("{0}")]
-    Damaged(Flag),
-    /// The forward model refuses the curve.
-    #[error(transparent)]
-    Model(#[from] MdrError),
-    /// No start leads to a minimum.
-    #[error("no material of this kind has a force like that of the curve")]
-    NotConverged,
-}
-
 /// Finds the material behind a curve.
 ///
 /// # Errors
-/// [`IndentationError`] with the reason.
+/// [`MeasurementError`] with the reason.
 pub fn fit_indentation(
     body: &dyn Axisymmetric,
     curve: &IndentationCurve,
     options: &FitOptions,
-) -> Result<IndentationFit, IndentationError> {
+) -> Result<IndentationFit, MeasurementError> {
     crate::moduli::shear_per_tension(options.poisson_ratio)?;
     let n = curve.time.len();
     for (name, other) in [("depths", &curve.depth), ("forces", &curve.force)] {
@@ -178,14 +162,14 @@ pub fn fit_indentation(
         numerics::in_range("branches", branches as f64, holds, "from 1 to 6")?;
     }
     let measured =
-        checks::usable(curve, options.before_retraction).map_err(IndentationError::Damaged)?;
+        checks::usable(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
     let curve = &measured.curve;
     let begin = start::start(body, curve, options)?;
-    checks::before(&measured, &begin).map_err(IndentationError::Damaged)?;
+    checks::before(&measured, &begin).map_err(MeasurementError::Damaged)?;
     let found = search::search(body, &measured, options, &begin)?;
     let statistics = intervals::Statistics::of(&found)?;
     let judgement = judgement::Judgement::new(&found, &begin, &statistics);
-    let flags = judgement.flags().map_err(IndentationError::Damaged)?;
+    let flags = judgement.flags().map_err(MeasurementError::Damaged)?;
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
     let residuals = statistics.forces.residuals.iter().enumerate();

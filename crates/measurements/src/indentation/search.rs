@@ -8,7 +8,8 @@ use super::means::Measured;
 use super::model::{Kind, Model};
 use super::noise::{Linear, Noise, normal_matrix};
 use super::start::Start;
-use super::{FitOptions, IndentationCurve, IndentationError, Rheology};
+use super::{FitOptions, IndentationCurve, Rheology};
+use crate::MeasurementError;
 
 /// More are never told apart by one curve.
 pub(super) const MAX_BRANCHES: usize = 6;
@@ -36,7 +37,7 @@ pub(super) fn search<'a>(
     measured: &'a Measured,
     options: &FitOptions,
     begin: &Start,
-) -> Result<Found<'a>, IndentationError> {
+) -> Result<Found<'a>, MeasurementError> {
     let curve = &measured.curve;
     let few = curve.decimated(FEW);
     let of_kind = |kind| {
@@ -69,7 +70,7 @@ pub(super) fn search<'a>(
         // Nearly always the whole depth is too large for the body.
         let elastic = Model::new(body, curve, Kind::Branches(0), options);
         let refused = elastic.forces(&[0.0, curve.depth[0], 0.0, 0.0]).err();
-        refused.map_or(IndentationError::NotConverged, IndentationError::Model)
+        refused.map_or(MeasurementError::NotConverged, MeasurementError::Model)
     })
 }
 

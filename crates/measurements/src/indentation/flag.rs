@@ -59,6 +59,7 @@ pub enum Flag {
 }
 
 /// As its sentence.
+#[cfg(feature = "serde")]
 impl serde::Serialize for Flag {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)

@@ -12,7 +12,7 @@ use numerics::in_range;
 use rheology::InvalidParameter;
 use rheology::fit::{Isotherm, ModulusPoint, RelaxationPoint};
 
-use crate::WrongInput;
+use crate::MeasurementError;
 pub use crate::table::Deformation;
 use crate::table::Quantity::{Loss, LossFactor, Set, Storage, Temperature, Time};
 use crate::table::{Column, Line, Meaning, Source, Table, text_of};
@@ -62,12 +62,12 @@ pub fn shear_per_tension(poisson_ratio: f64) -> Result<f64, InvalidParameter> {
 /// Reads the contents of a file, which need not be there: tables with a line of names each, among other text.
 ///
 /// # Errors
-/// [`WrongInput`] with file, line and column.
+/// [`MeasurementError`] with file, line and column.
 pub fn measured_moduli(
     file: &Path,
     contents: &[u8],
     options: &TableOptions,
-) -> Result<MeasuredModuli, WrongInput> {
+) -> Result<MeasuredModuli, MeasurementError> {
     let text = text_of(contents, &MODULI);
     let scale = |column: &Column| match column.deformation {
         Some(Deformation::Tension) => options.shear_per_tension,
@@ -121,7 +121,7 @@ impl Kind {
     }
 }
 
-fn row(table: &Table, line: &Line) -> Result<Row, WrongInput> {
+fn row(table: &Table, line: &Line) -> Result<Row, MeasurementError> {
     let numbers = table.positives(line)?;
     let [first, last] = [numbers[1], numbers[numbers.len() - 1]];
     let moduli = match table.needed[1..] {
@@ -142,7 +142,7 @@ fn measurements(
     source: &Source,
     groups: Vec<Group>,
     is_relaxation: bool,
-) -> Result<Measurements, WrongInput> {
+) -> Result<Measurements, MeasurementError> {
     if !is_relaxation {
         let isotherms = groups.into_iter().map(isotherm).collect();
         return Ok(Measurements::Oscillation(isotherms));

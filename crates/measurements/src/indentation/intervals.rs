@@ -8,6 +8,7 @@
 //! noises that are likely, and v, by how much the variance of the parameter is larger than if they were independent. The error
 //! of a smoothed depth is added to both.
 
+use mdr_core::MdrError;
 use numerics::Estimate;
 use numerics::least_squares::{inverse, minimise};
 
@@ -15,7 +16,6 @@ use super::model::{Forces, Kind, Model};
 use super::noise::{Linear, Noise, RIDGE, correlated_points, normal_matrix};
 use super::search::Found;
 use super::{Finding, IndentationCurve};
-use crate::mdr_core::MdrError;
 
 /// 95 % of a normal distribution are within so many standard deviations.
 const NORMAL: f64 = 1.959_963_984_540_054;

@@ -1,12 +1,13 @@
 //! Where a fit begins: the elastic material that is closest to the approach, with its contact point and baseline.
 
 use indenters::Axisymmetric;
+use mdr_core::MdrError;
 
 use super::depth::{ends, median};
 use super::model::{Kind, Model};
 use super::noise::correlated_points;
-use super::{FitOptions, Flag, IndentationCurve, IndentationError};
-use crate::mdr_core::MdrError;
+use super::{FitOptions, Flag, IndentationCurve};
+use crate::MeasurementError;
 
 /// An elastic fit of the approach.
 pub(super) struct Start {
@@ -41,7 +42,7 @@ pub(super) fn start(
     body: &dyn Axisymmetric,
     curve: &IndentationCurve,
     options: &FitOptions,
-) -> Result<Start, IndentationError> {
+) -> Result<Start, MeasurementError> {
     let IndentationCurve { time, depth, .. } = curve;
     let range = ends(depth)[1] - depth[0];
     let is_deep = |one: &f64| *one >= depth[0] + APPROACH * range;
@@ -49,7 +50,7 @@ pub(super) fn start(
     let few = curve.first((turn + 1).max(FEWEST)).decimated(POINTS);
     let model = Model::new(body, &few, Kind::Branches(0), options);
     if turn == 0 {
-        return Err(IndentationError::Damaged(Flag::WrongSign));
+        return Err(MeasurementError::Damaged(Flag::WrongSign));
     }
     let fit = |contact_point: f64| {
         let start = elastic(&model, contact_point).ok()?;

@@ -1,9 +1,7 @@
 //! Isotherms onto one curve, at exactly the temperature that is wanted.
 
 use rheology::fit::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};
-use rheology::{ArrheniusShift, RheologyError, WlfShift};
-
-use crate::scene::{KELVIN_AT_ZERO_CELSIUS, Shift, ShiftLaw};
+use rheology::{ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError, Shift, ShiftLaw, WlfShift};
 
 /// How isotherms are shifted.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

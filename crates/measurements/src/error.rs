@@ -1,0 +1,27 @@
+//! Why a table or a curve is refused.
+
+use mdr_core::MdrError;
+use numerics::InvalidParameter;
+use thiserror::Error;
+
+use crate::indentation::Flag;
+
+/// Why a table cannot be read, or a curve not be fitted.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MeasurementError {
+    /// An option is out of range.
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
+    /// What is wrong with a table, with file, line and column.
+    #[error("{0}")]
+    Table(String),
+    /// The curve is damaged.
+    #[error("{0}")]
+    Damaged(Flag),
+    /// The forward model refuses the curve.
+    #[error(transparent)]
+    Model(#[from] MdrError),
+    /// No start leads to a minimum.
+    #[error("no material of this kind has a force like that of the curve")]
+    NotConverged,
+}

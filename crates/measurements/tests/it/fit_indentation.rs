@@ -1,0 +1,439 @@
+//! From measured curves of force over depth to the material behind them.
+
+use std::fmt::Write as _;
+
+use indenters::{Axisymmetric, Control, FlatPunch, HistoryPoint, PowerProfile, Sphere};
+use mdr_core::{Follow, indent_along};
+use measurements::indentation::{
+    Finding, FitOptions, Flag, IndentationCurve, IndentationFit, Rheology, fit_indentation,
+};
+use rayon::prelude::*;
+use rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
+
+use crate::support::{Normal, assert_close};
+
+/// A body on a known material; contact point, baseline and tilt of its curves are always the same.
+struct Case {
+    name: &'static str,
+    body: Box<dyn Axisymmetric>,
+    material: Prony,
+    rheology: Rheology,
+    /// In the order of the findings.
+    truth: Vec<f64>,
+}
+
+const CONTACT_POINT: f64 = 0.437e-6;
+const BASELINE: f64 = 2e-10;
+const TILT: f64 = -1e-5;
+
+impl Case {
+    /// The moduli and times of a series, or G(1 s) and the exponent of a power law.
+    fn new(name: &'static str, body: impl Axisymmetric + 'static, of_material: &[f64]) -> Self {
+        let (spectrum, rheology) = if of_material[1] < 1.0 {
+            let unit = Springpot::new(1.0, of_material[1]).expect("a springpot");
+            let coefficient = of_material[0] / unit.relaxation_modulus(1.0).expect("a modulus");
+            let pot = Springpot::new(coefficient, of_material[1]).expect("a springpot");
+            let expansion = pot.expand([1e-3, 1e5], 1e-6).expect("an expansion");
+            (expansion.spectrum, Rheology::PowerLaw)
+        } else {
+            let branches = of_material[1..]
+                .chunks(2)
+                .map(|pair| RelaxationBranch::new(pair[0], pair[1]));
+            let spectrum = RelaxationSpectrum::new(of_material[0], 0.0, branches.collect());
+            (spectrum.expect("a spectrum"), Rheology::StandardSolid)
+        };
+        Self {
+            name,
+            body: Box::new(body),
+            material: Prony::new(spectrum).expect("a material"),
+            rheology,
+            truth: [of_material, &[CONTACT_POINT, BASELINE, TILT]].concat(),
+        }
+    }
+
+    /// With white noise of the force alone.
+    fn curve(&self, points: usize, level: f64, seed: u64) -> IndentationCurve {
+        self.noisy_curve(points, level, &NOISES[0], seed)
+    }
+
+    /// The exact force of an approach for a second to 1.5 µm, a dwell, and the way back, and Gaussian noise of a part of its
+    /// peak.
+    fn noisy_curve(&self, points: usize, level: f64, kind: &Noise, seed: u64) -> IndentationCurve {
+        let time = (0..points).map(|i| 3.0 * i as f64 / (points - 1) as f64);
+        let time: Vec<f64> = time.collect();
+        let depth = time.iter().map(|t| 1.5e-6 * t.min(1.0).min(3.0 - t));
+        let mut depth: Vec<f64> = depth.collect();
+        let history = time.iter().zip(&depth).map(|(&time, depth)| HistoryPoint {
+            time,
+            control: Control::IndentationDepth(depth - CONTACT_POINT),
+        });
+        let history: Vec<HistoryPoint> = history.collect();
+        let exact = indent_along(&*self.body, &self.material, &history, &Follow::default());
+        let exact = exact.expect("a curve").into_iter().zip(&depth);
+        let force =
+            exact.map(|(point, d)| point.normal_force.value + BASELINE + TILT * (d - 0.75e-6));
+        let mut force: Vec<f64> = force.collect();
+        let noise = level * peak(&force);
+        let mut normal = Normal(seed);
+        let mut last = normal.draw();
+        for force in &mut force {
+            *force += noise * last;
+            let news = (1.0 - kind.correlation * kind.correlation).sqrt();
+            last = kind.correlation * last + news * normal.draw();
+        }
+        change(&mut depth, |depth| {
+            depth + 1.5e-6 * kind.depth * normal.draw()
+        });
+        IndentationCurve { time, depth, force }
+    }
+
+    fn fit(&self, curve: &IndentationCurve) -> Result<IndentationFit, String> {
+        let rheology = self.rheology;
+        let options = FitOptions {
+            rheology,
+            ..FitOptions::default()
+        };
+        fit_indentation(&*self.body, curve, &options).map_err(|error| error.to_string())
+    }
+}
+
+fn peak(force: &[f64]) -> f64 {
+    force.iter().copied().fold(0.0, f64::max)
+}
+
+fn sphere(of_material: &[f64]) -> Case {
+    Case::new("sphere", Sphere::new(5e-6).expect("a sphere"), of_material)
+}
+
+fn cases() -> [Case; 5] {
+    let cone = PowerProfile::cone(0.7).expect("a cone");
+    let pyramid = PowerProfile::pyramid(1.4).expect("a pyramid");
+    let punch = FlatPunch::new(1e-6).expect("a punch");
+    [
+        sphere(&[1e3, 2e3, 0.3]),
+        Case::new("cone, relaxes nearly to nothing", cone, &[200.0, 5e3, 0.15]),
+        Case::new("punch, relaxes slowly", punch, &[4e3, 3e3, 1.0]),
+        sphere(&[1.5e3, 0.2]),
+        Case::new("pyramid, power law", pyramid, &[2e3, 0.45]),
+    ]
+}
+
+/// Noise in parts of the peak force.
+const LEVELS: [f64; 3] = [0.003, 0.01, 0.03];
+
+/// Of the force, from point to point, and of the depth, in parts of its range.
+struct Noise {
+    name: &'static str,
+    correlation: f64,
+    depth: f64,
+}
+
+const NOISES: [Noise; 4] = [
+    Noise::new("white", 0.0, 0.0),
+    Noise::new("correlation 0.9", 0.9, 0.0),
+    Noise::new("correlation 0.99", 0.99, 0.0),
+    Noise::new("white, depth 0.3 %", 0.0, 0.003),
+];
+
+impl Noise {
+    const fn new(name: &'static str, correlation: f64, depth: f64) -> Self {
+        Self {
+            name,
+            correlation,
+            depth,
+        }
+    }
+}
+
+fn holds((finding, truth): (&Finding, &f64)) -> bool {
+    let [lower, upper] = finding.interval;
+    lower.is_none_or(|end| end <= *truth) && upper.is_none_or(|end| end >= *truth)
+}
+
+/// `VISCOFRICTION_CURVES` is the number of curves, 240 unless it is set; docs/fit-indentation.md has the table of more.
+#[test]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the table is for whoever asks for it"
+)]
+fn intervals_hold_the_truth_in_95_of_100_curves_of_any_noise_and_few_are_flagged() {
+    let given = std::env::var("VISCOFRICTION_CURVES");
+    let n_curves = given.map_or(240, |n| n.parse().expect("a number"));
+    let cases = cases();
+    let each = n_curves / cases.len() / NOISES.len();
+    let mut table = String::new();
+    let mut parts = Vec::new();
+    let mut all_flagged = 0;
+    for (noise, case) in NOISES
+        .iter()
+        .flat_map(|noise| cases.iter().map(move |case| (noise, case)))
+    {
+        let first = table.lines().count() * each;
+        let fits = (0..each).into_par_iter().map(|seed| {
+            let level = LEVELS[seed % LEVELS.len()];
+            let curve = case.noisy_curve(400, level, noise, 1 + 1_000_003 * (first + seed) as u64);
+            let fit = case.fit(&curve).ok()?;
+            let hits: Vec<bool> = fit.findings.iter().zip(&case.truth).map(holds).collect();
+            Some((hits, !fit.flags.is_empty()))
+        });
+        let fits: Vec<Option<(Vec<bool>, bool)>> = fits.collect();
+        let fitted: Vec<_> = fits.iter().flatten().collect();
+        let flagged = each - fitted.iter().filter(|(_, flagged)| !flagged).count();
+        all_flagged += flagged;
+        write!(table, "{}, {}:", noise.name, case.name).expect("text");
+        for parameter in 0..case.truth.len() {
+            let inside = fitted.iter().filter(|(hits, _)| hits[parameter]).count();
+            parts.push(inside as f64 / fitted.len() as f64);
+            write!(table, " {:.1} %", 100.0 * parts[parts.len() - 1]).expect("text");
+        }
+        writeln!(
+            table,
+            "; flagged {:.1} %",
+            100.0 * flagged as f64 / each as f64
+        )
+        .expect("text");
+    }
+    let file = concat!(env!("CARGO_TARGET_TMPDIR"), "/intervals.txt");
+    std::fs::write(file, &table).expect("the table can be written");
+    let is_few = all_flagged as f64 <= 0.02 * n_curves as f64;
+    assert!(is_few, "{all_flagged} of {n_curves} flagged\n{table}");
+    let mean = parts.iter().sum::<f64>() / parts.len() as f64;
+    // As if the parameters of a curve were one trial; each of them may be off by four standard deviations.
+    let spread = |part: f64, n: usize| (part * (1.0 - part) / n as f64).sqrt();
+    let allowed = 0.01 + 2.0 * spread(0.95, n_curves);
+    assert!((mean - 0.95).abs() < allowed, "{mean}\n{table}");
+    // A curve is only four times as long as noise of the correlation 0.99 lasts.
+    let off = parts.into_iter().map(|part| (part - 0.95).abs());
+    let worst = off.fold(0.0, f64::max);
+    assert!(worst < 0.06 + 4.0 * spread(0.95, each), "{worst}\n{table}");
+}
+
+#[test]
+fn noiseless_curves_give_the_material_itself() {
+    for case in cases() {
+        let curve = case.curve(1000, 0.0, 1);
+        let fit = case.fit(&curve).expect("a fit");
+        // Of a power law the series in the fit is good to 1e-4 of its modulus, of which a tilt is a small part.
+        let of_tilt = 1e-4 * peak(&curve.force) / (1.5e-6 * TILT.abs());
+        for (finding, truth) in fit.findings.iter().zip(&case.truth) {
+            let value = finding.estimate.expect("it is determined").value;
+            let what = format!("{}, {}", case.name, finding.name);
+            let is_tilt = finding.name == "tilt";
+            assert_close(what, value, *truth, if is_tilt { of_tilt } else { 1e-3 });
+        }
+        assert_eq!(fit.flags, [], "{}", case.name);
+    }
+}
+
+/// What is done to a curve of 600 points with a peak.
+type Damage = fn(&mut IndentationCurve, f64);
+
+/// How the reasons begin, and what has them.
+const REASONS: [(&str, Damage); 8] = [
+    ("point 71 has no number", |c, _| c.force[70] = f64::NAN),
+    ("at point 301 the time", |c, _| {
+        add(&mut c.time[300..], -1.5);
+    }),
+    ("points are missing after", |c, _| {
+        add(&mut c.time[250..], 0.5);
+    }),
+    ("the force is cut off at", |c, peak| {
+        change(&mut c.force, |force| force.min(0.6 * peak));
+    }),
+    ("the force falls while", |c, _| {
+        change(&mut c.force, |force| -force);
+    }),
+    ("there is no contact", |c, _| {
+        let mut normal = Normal(5);
+        change(&mut c.force, |_| 1e-10 * normal.draw());
+    }),
+    ("the body jumps into contact", |c, peak| {
+        add(&mut c.force[45..56], -0.15 * peak);
+    }),
+    ("on the way back the body sticks", |c, peak| {
+        add(&mut c.force[500..540], -0.3 * peak);
+    }),
+];
+
+fn change(numbers: &mut [f64], mut to: impl FnMut(f64) -> f64) {
+    numbers.iter_mut().for_each(|number| *number = to(*number));
+}
+
+fn add(numbers: &mut [f64], by: f64) {
+    change(numbers, |number| number + by);
+}
+
+#[test]
+fn damaged_curves_are_refused_with_a_reason_and_sound_ones_never() {
+    for case in cases() {
+        for seed in 0..20 {
+            let flags = case.fit(&case.curve(600, 0.01, seed)).expect("a fit").flags;
+            assert_eq!(flags, [], "{}, seed {seed}", case.name);
+        }
+        for (reason, damage) in REASONS {
+            let mut curve = case.curve(600, 0.005, 7);
+            let peak = peak(&curve.force);
+            damage(&mut curve, peak);
+            let error = case.fit(&curve).expect_err(reason);
+            let is_right = error.starts_with(reason);
+            assert!(is_right, "{}, {reason}: {error}", case.name);
+        }
+        let mut curve = case.curve(600, 0.005, 7);
+        let rate = 0.05 * peak(&curve.force);
+        let drift = curve.force.iter_mut().zip(&curve.time);
+        drift.for_each(|(force, time)| *force += rate * time);
+        let flags = case.fit(&curve).expect("a fit").flags;
+        let is_drift = flags.iter().any(|flag| matches!(flag, Flag::Drift(_)));
+        assert!(is_drift, "{}, drift: {flags:?}", case.name);
+    }
+}
+
+/// Curves that are not what they are taken for, though each of them can be fitted.
+const DISTORTIONS: [(&str, Damage); 6] = [
+    ("a lag of 25 ms", |c, _| {
+        let force = c.force.clone();
+        (5..600).for_each(|i| c.force[i] = force[i - 5]);
+    }),
+    ("the piezo taken for the depth", |c, peak| {
+        let bent = c.depth.iter_mut().zip(&c.force);
+        bent.for_each(|(depth, force)| *depth += 3e-7 * force / peak);
+    }),
+    ("a thin sample", |c, _| {
+        // Dimitriadis et al. (2002), for a sphere of 5 µm on a bonded layer of 4 µm.
+        let thicker = c.force.iter_mut().zip(&c.depth);
+        thicker.for_each(|(force, depth)| {
+            let x = (5e-6 * (depth - CONTACT_POINT).max(0.0)).sqrt() / 4e-6;
+            *force *= 1.0 + 1.133 * x + 1.283 * x * x + 0.769 * x.powi(3) + 0.0975 * x.powi(4);
+        });
+    }),
+    ("a drift of 5 %", |c, peak| {
+        let drift = c.force.iter_mut().zip(&c.time);
+        drift.for_each(|(force, time)| *force += 0.05 * peak * time / 3.0);
+    }),
+    ("a body that sticks by 4 %", |c, peak| {
+        (400..540).for_each(|i| c.force[i] -= 0.04 * peak * (i - 400) as f64 / 140.0);
+    }),
+    ("a body that sticks to the end", |c, peak| {
+        (400..600).for_each(|i| c.force[i] -= 0.25 * peak * (i - 400) as f64 / 200.0);
+    }),
+];
+
+#[test]
+fn curves_that_fit_a_wrong_model_well_are_flagged_or_refused() {
+    let flagged = |case: &Case, curve: &IndentationCurve, what: &str| match case.fit(curve) {
+        Ok(fit) => assert_ne!(fit.flags, [], "{what}: {:?}", fit.findings),
+        Err(reason) => assert!(reason.contains("sticks"), "{what}: {reason}"),
+    };
+    for case in [sphere(&[1e3, 2e3, 0.3]), sphere(&[1.5e3, 0.2])] {
+        for (what, distort) in DISTORTIONS {
+            let mut curve = case.curve(600, 0.0, 7);
+            let peak = peak(&curve.force);
+            distort(&mut curve, peak);
+            let mut normal = Normal(3);
+            change(&mut curve.force, |force| {
+                force + 0.003 * peak * normal.draw()
+            });
+            flagged(&case, &curve, what);
+        }
+        let cone = Case {
+            body: Box::new(PowerProfile::cone(0.7).expect("a cone")),
+            ..sphere(&case.truth[..case.truth.len() - 3])
+        };
+        flagged(
+            &case,
+            &cone.curve(600, 0.003, 3),
+            "a cone taken for a sphere",
+        );
+        let in_micrometres = Case {
+            body: Box::new(Sphere::new(5.0).expect("a sphere")),
+            ..sphere(&case.truth[..case.truth.len() - 3])
+        };
+        let fit = in_micrometres.fit(&case.curve(600, 0.003, 3));
+        let flags = fit.expect("a fit").flags;
+        let is_blunt = flags.iter().any(|flag| matches!(flag, Flag::Blunt(_)));
+        assert!(is_blunt, "a radius in another unit: {flags:?}");
+    }
+}
+
+#[test]
+fn standard_errors_are_what_intervals_say() {
+    let case = sphere(&[1e3, 2e3, 0.3]);
+    let options = FitOptions {
+        branches: Some(2),
+        rheology: Rheology::Prony,
+        profile: true,
+        ..FitOptions::default()
+    };
+    let curve = case.curve(200, 0.03, 5);
+    let fit = fit_indentation(&*case.body, &curve, &options).expect("a fit");
+    for finding in fit.findings {
+        if let (Some(estimate), [Some(lower), Some(upper)]) = (finding.estimate, finding.interval) {
+            assert_close(&finding.name, estimate.error, (upper - lower) / 3.92, 1e-3);
+        }
+    }
+}
+
+/// The means of neighbours say what the points say; where the body turns around, points stay as they are.
+#[test]
+fn a_curve_of_1e5_points_is_fitted_by_means_of_neighbours() {
+    let case = sphere(&[1e3, 2e3, 0.3]);
+    let curve = case.curve(100_000, 0.01, 2);
+    let fit = case.fit(&curve).expect("a fit");
+    assert_found(&fit.findings, &case.truth);
+    let relative = fit.findings[0].estimate.expect("it is determined").error / 1e3;
+    assert!(relative < 1.5e-3, "{relative}: not that of all points");
+    assert!(fit.points.len() < 10_000, "{} points", fit.points.len());
+    let deepest = fit.points.iter().map(|point| point[1]).fold(0.0, f64::max);
+    assert_close("the end of the approach", deepest, 1.5e-6, 1e-5);
+    assert_eq!(fit.flags, [], "flags");
+    let mut bent = curve.clone();
+    let (what, distort) = DISTORTIONS[1];
+    distort(&mut bent, peak(&curve.force));
+    assert_ne!(case.fit(&bent).expect("a fit").flags, [], "{what}");
+}
+
+#[test]
+fn two_branches_are_told_apart_and_a_third_is_not_invented() {
+    let case = sphere(&[1e3, 2e3, 0.02, 1.5e3, 0.5]);
+    let curve = case.curve(1000, 0.002, 4);
+    let options = FitOptions {
+        rheology: Rheology::Prony,
+        ..FitOptions::default()
+    };
+    let fit = fit_indentation(&*case.body, &curve, &options).expect("a fit");
+    assert_eq!(fit.findings.len(), case.truth.len(), "{:?}", fit.findings);
+    assert_found(&fit.findings, &case.truth);
+}
+
+#[track_caller]
+fn assert_found(findings: &[Finding], truth: &[f64]) {
+    for (finding, truth) in findings.iter().zip(truth) {
+        let estimate = finding.estimate.expect("it is determined");
+        let off = (estimate.value - truth).abs();
+        assert!(off < 4.0 * estimate.error, "{finding:?} and not {truth}");
+    }
+}
+
+#[test]
+fn a_time_far_beyond_the_curve_is_a_bound_and_not_a_number() {
+    for (of_material, is_bound) in [(&[1e3, 2e3, 120.0][..], true), (&[3e3, 1.0, 1e-9], false)] {
+        let case = sphere(of_material);
+        let fit = case.fit(&case.curve(600, 0.001, 3)).expect("a fit");
+        let time = &fit.findings[2];
+        assert_eq!(time.estimate, None, "{time:?}");
+        assert_eq!(time.interval[1], None, "{time:?}");
+        let lower = time.interval[0].unwrap_or_default();
+        assert_eq!(lower > 3.0, is_bound, "{time:?}");
+    }
+}
+
+#[test]
+fn a_tenth_of_wild_points_does_not_move_the_result() {
+    let case = &cases()[0];
+    let mut curve = case.curve(600, 0.01, 9);
+    let jump = 0.4 * peak(&curve.force);
+    let forces = curve.force.iter_mut().step_by(11);
+    forces.for_each(|force| *force += jump);
+    let fit = case.fit(&curve).expect("a fit");
+    assert_found(&fit.findings[..3], &case.truth);
+}
