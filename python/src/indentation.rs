@@ -112,6 +112,8 @@ fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>>
     dictionary.set_item("correlation", fit.correlation)?;
     dictionary.set_item("equilibrium_modulus", spectrum.equilibrium_modulus())?;
     dictionary.set_item("branches", branches)?;
+    let [lowest, highest] = fit.valid_frequencies;
+    dictionary.set_item("valid_frequencies", (lowest, highest))?;
     dictionary.set_item("noise", fit.noise)?;
     dictionary.set_item("residual", fit.residual)?;
     dictionary.set_item("correlated_points", fit.correlated_points)?;

@@ -130,6 +130,8 @@ def test_branches_have_names_and_exchanged_pairs_are_refused() -> None:
     exchanged = [(time, modulus) for modulus, time in pairs[:2]]
     with pytest.raises(ValueError, match=r"seem to be exchanged: 0.001 Pa and 1e\+07 s"):
         vf.Prony(1e6, exchanged)
+    with pytest.raises(ValueError, match="give the transpose"):
+        vf.Prony(1e6, np.array(pairs[:2]).T)
     # Who names them means them.
     assert vf.Prony(1e6, moduli=times[:2], relaxation_times=moduli[:2]).branches == tuple(exchanged)
     for given in (

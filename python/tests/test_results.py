@@ -78,6 +78,7 @@ def test_numbers_of_tables_are_numbers() -> None:
     several = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=SPEEDS).to_dict()
     assert several["velocity"] == SPEEDS.tolist()
     assert {type(value) for value in several["friction_coefficient"]} == {float}
+    assert {len(column) for column in several.values()} == {SPEEDS.size}, "columns of a DataFrame"
 
 
 def test_many_answers_are_a_table_in_a_notebook() -> None:

@@ -284,7 +284,9 @@ class HeightMap(Compared, Body):
         edges: Edges = "wall",
         shortest_wavelength: float | None = None,
     ) -> None:
-        self.heights: NDArray[np.float64] = numbers("heights", heights, dimensions=2, holes=True)
+        # A copy, so that a body stays what it was made of.
+        self.heights: NDArray[np.float64] = numbers("heights", heights, dimensions=2, holes=True).copy("K")
+        self.heights.flags.writeable = False
         pair = spacing if isinstance(spacing, Sequence) else (spacing, spacing)
         steps = numbers("spacing", pair, dimensions=1)
         if steps.shape != (2,) or not (steps > 0).all():

@@ -273,7 +273,12 @@ def fit_indentation(
     for name, unit, estimate, (lower, upper) in found["findings"]:
         value, error = estimate or (None, None)
         findings[name] = Finding(value, error, unit, (lower, upper))
-    material_found = Prony(found["equilibrium_modulus"], found["branches"], poisson_ratio=poisson_ratio)
+    material_found = Prony(
+        found["equilibrium_modulus"],
+        found["branches"],
+        poisson_ratio=poisson_ratio,
+        valid_frequencies=found["valid_frequencies"],
+    )
     seconds, metres, measured, fitted = found["points"]
     return IndentationFit(
         findings,

@@ -207,6 +207,11 @@ def _pairs(branches: Branches) -> tuple[tuple[float, float], ...]:
             f"branches: a pair is a modulus [Pa] and a relaxation time [s], and these seem to be exchanged: {modulus:g} Pa and {time:g} s, "
             f"every time more than {_EXCHANGED:g} times the modulus; if they are meant, give moduli=… and relaxation_times=…"
         )
+    if are_numbers and not has_names and len(pairs) == 2 and min(pairs[0]) > _EXCHANGED * max(pairs[1]) > 0:
+        raise ValueError(
+            "branches: a pair is a modulus [Pa] and a relaxation time [s], and here the first seem to be two moduli and the second two "
+            "times; give the transpose, or moduli=… and relaxation_times=…"
+        )
     return tuple(pairs)
 
 

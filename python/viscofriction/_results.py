@@ -247,30 +247,16 @@ class Answer(Compared):
         return every[0] if self.shape == () else every
 
     def to_dict(self) -> dict[str, Any]:
-        """All that is known: of a single scene the keys and values of the program's JSON, of an array lists."""
+        """All that is known: of a single scene the keys and values of the program's JSON, of an array a list for each column."""
         if self.shape == () and self._answers[0] is not None:
             whole: dict[str, Any] = json.loads(self._answers[0]["json"])
             return whole
         entries: dict[str, Any] = {name: np.ravel(load).tolist() for name, load in self.loads.items()}
         entries |= {"method": self.method, "model": self.model}
-        for name, values in self._columns.items():
-            if name.startswith("error_") or name in EDGES or name == "contact_box_error":
-                continue
-            if not np.isnan(values).all():
-                entries[name] = plain(values)
-        if self.contact_box:
-            edges = {name: plain(self._columns[name]) for name in self.contact_box}
-            entries["contact_box"] = edges
-            entries["contact_box_error"] = plain(self._columns["contact_box_error"])
-        parts = {name: values for name, values in self._columns.items() if name.startswith("error_")}
-        known = {name[len("error_") :]: plain(values) for name, values in parts.items() if not np.isnan(values).all()}
-        if known:
-            entries["error_parts"] = known
-        for name in ("unknowns", "iterations"):
+        known = {name: values for name, values in self._columns.items() if not np.isnan(values).all()}
+        entries |= {name: plain(values) for name, values in known.items()}
+        for name in ("unknowns", "iterations", "warnings", "not_modelled", "left_out"):
             entries[name] = self._one_or_all(name)
-        entries["warnings"] = self.warnings
-        entries["not_modelled"] = self.not_modelled
-        entries["left_out"] = self._one_or_all("left_out")
         return entries
 
     def _rows(self) -> list[tuple[str, str, str, str]]:

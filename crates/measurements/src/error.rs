@@ -24,4 +24,9 @@ pub enum MeasurementError {
     /// No start leads to a minimum.
     #[error("no material of this kind has a force like that of the curve")]
     NotConverged,
+    /// Every material of the kind explains the curve as well.
+    #[error(
+        "the curve does not determine any quantity of the material: are depth, force and the size of the body right?"
+    )]
+    NotDetermined,
 }

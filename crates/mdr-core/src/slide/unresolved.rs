@@ -1,13 +1,14 @@
 //! What a march does not see because it is shorter than one element, and what may therefore be alike on all resolutions.
 //!
 //! ```text
-//! F' = 4 [w Δx/2 + Σ_k G_k l_k² |r/Δx − h̃'| + 2 Σ_k G_k l_k Σ_j |r_j − r_(j−1)|],   l_k = min(Δx, v τ_k)
-//! H' = 4 [w Δx/2 |h̃'| + (η₀ v + Σ_k G_k l_k) (∫ h̃'² dx − r²/Δx)
+//! F' = 4 [w Δx/2 + w' + Σ_k G_k l_k² |r/Δx − h̃'| + 2 Σ_k G_k l_k Σ_j |r_j − r_(j−1)|],   l_k = min(Δx, v τ_k)
+//! H' = 4 [(w Δx/2 + w') |h̃'| + (η₀ v + Σ_k G_k l_k) (∫ h̃'² dx − r²/Δx)
 //!         + w_f (h_(f+1) − d)⁺ + Σ_k ½ G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²]
 //! δd = d F'/F_N,   δμ = H'/F_N + 2 μ F'/F_N
 //! ```
 //! The contact may go on behind its rearmost element, with the load w that this has at the end of the step. It is left at the
-//! slope h̃' there and not at the mean r/Δx over the last element. A tip inside an element is steeper than the mean.
+//! slope h̃' there and not at the mean r/Δx over the last element. Where the slope jumps there, as at the tip of a cone, what
+//! branches carry fades over the lengths l_k behind it: w' = ½ Σ_k G_k l_k² |δh̃'|. A tip inside an element is steeper than the mean.
 //! At a steep kink the foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and
 //! branches that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r,
 //! which is r_(j−1) where it rises evenly, and which the step does not see.
@@ -90,7 +91,9 @@ impl LastStep<'_> {
         }
         let at_once = self.fast.viscous + self.fast.carried;
         let load = (self.loads[rear] - at_once * (mean - behind)).max(0.0);
-        let carried = 0.5 * load * self.elements.spacing;
+        let spacing = self.elements.spacing;
+        let fading = (self.fast.left * (slope - behind).abs()).min(self.loads[rear] * spacing);
+        let carried = 0.5 * (load * spacing + fading);
         [
             carried * behind.abs(),
             carried + self.fast.left * (mean - slope).abs(),

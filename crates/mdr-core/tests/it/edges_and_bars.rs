@@ -8,7 +8,7 @@ use indenters::{
 use mdr_core::{MdrError, indent, press, slide, steady};
 use numerics::{Accuracy, Estimate};
 use proptest::prelude::*;
-use rheology::{Compressible, Elastic, Material, Prony, Viscous};
+use rheology::{Compressible, Elastic, Material, Prony, Springpot, Viscous};
 
 use crate::support::{
     Line, assert_agree, assert_close, at_depth, body, decades, fixed_cases, load, named, power,
@@ -90,7 +90,13 @@ fn bars_hold_what_is_shorter_than_one_element() {
     let kelvin_voigt = |[modulus, viscosity]: [f64; 2]| prony([modulus, viscosity], &[]);
     let fluid = |viscosity: f64, branches: &[(f64, f64)]| prony([0.0, viscosity], branches);
     let flowing = fluid(0.011, &[(0.3707, 1.011), (0.2736, 1.306)]);
-    let cases: [(&dyn Axisymmetric, Prony, [f64; 2]); 5] = [
+    let cone = PowerProfile::cone(0.0131).expect("a cone");
+    // It leaves the contact just behind the tip.
+    let springpot = Springpot::new(1.006e-3, 0.831).expect("a springpot");
+    let springpot = springpot.expand([6e-5, 60.0], 1e-6).expect("a series");
+    let springpot = Prony::new(springpot.spectrum).expect("a material");
+    let cases: [(&dyn Axisymmetric, Prony, [f64; 2]); 6] = [
+        (&cone, springpot, [2.9e-6, 2.44]),
         (
             wide,
             kelvin_voigt([166_537.0, 15_146.0]),

@@ -128,6 +128,9 @@ pub struct IndentationFit {
     pub correlation: Vec<Vec<f64>>,
     /// The material, of a power law its expansion over the times of the curve.
     pub material: Prony,
+    /// The lowest and the highest angular frequency that the curve tells of: one over its whole time, and over its shortest step,
+    /// \[rad/s].
+    pub valid_frequencies: [f64; 2],
     /// Standard deviation of the force about the fit, by the median, \[N]: of the points before the contact, where there are
     /// at least 10, and of all.
     pub noise: Option<f64>,
@@ -172,15 +175,22 @@ pub fn fit_indentation(
     let flags = judgement.flags().map_err(MeasurementError::Damaged)?;
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
+    let findings = statistics.findings(&found, options.profile);
+    let of_material = &findings[..found.model.kind.n_parameters()];
+    if of_material.iter().all(|one| one.estimate.is_none()) {
+        return Err(MeasurementError::NotDetermined);
+    }
+    let [shortest, longest] = found.model.times;
     let residuals = statistics.forces.residuals.iter().enumerate();
     let points = residuals.map(|(i, residual)| {
         let force = curve.force[i];
         [curve.time[i], curve.depth[i], force, force - residual]
     });
     Ok(IndentationFit {
-        findings: statistics.findings(&found, options.profile),
+        findings,
         correlation: statistics.correlation(),
         material,
+        valid_frequencies: [longest.recip(), shortest.recip()],
         noise: judgement.noise,
         residual: found.squares.scale,
         correlated_points: statistics.correlated_points,

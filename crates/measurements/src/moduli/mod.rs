@@ -133,7 +133,7 @@ fn row(table: &Table, line: &Line) -> Result<Row, MeasurementError> {
         line: line.number,
         at: numbers[0],
         moduli,
-        temperature: table.optional(line, Temperature)?,
+        temperature: table.temperature(line)?,
         set: table.optional(line, Set)?,
     })
 }

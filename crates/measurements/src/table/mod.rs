@@ -8,6 +8,8 @@ use std::cmp::Reverse;
 use std::fmt::Display;
 use std::path::Path;
 
+use rheology::KELVIN_AT_ZERO_CELSIUS;
+
 use crate::MeasurementError;
 use Quantity::{Frequency, Loss, Storage};
 use columns::{HALVES, divided};
@@ -374,6 +376,23 @@ impl<'a> Table<'a> {
     pub(crate) fn optional(&self, line: &Line, quantity: Quantity) -> Result<Option<f64>> {
         let column = self.find(quantity);
         column.map(|column| self.number(line, column)).transpose()
+    }
+
+    /// A temperature, in its own unit, where there is one.
+    pub(crate) fn temperature(&self, line: &Line) -> Result<Option<f64>> {
+        let Some(column) = self.find(Quantity::Temperature) else {
+            return Ok(None);
+        };
+        let temperature = self.number(line, column)?;
+        let zero = match &*column.unit {
+            "K" => 0.0,
+            _ => -KELVIN_AT_ZERO_CELSIUS,
+        };
+        if temperature > zero {
+            Ok(Some(temperature))
+        } else {
+            Err(self.wrong(line, column, "a temperature above absolute zero"))
+        }
     }
 
     /// What is wrong with a frequency or time.

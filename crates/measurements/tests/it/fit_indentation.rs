@@ -222,6 +222,11 @@ fn noiseless_curves_give_the_material_itself() {
             assert_close(what, value, *truth, if is_tilt { of_tilt } else { 1e-3 });
         }
         assert_eq!(fit.flags, [], "{}", case.name);
+        // Three seconds in 999 steps.
+        let expected = [1.0 / 3.0, 333.0];
+        for (found, expected) in fit.valid_frequencies.into_iter().zip(expected) {
+            assert_close("an end of the window", found, expected, 1e-9);
+        }
     }
 }
 
@@ -278,6 +283,11 @@ fn damaged_curves_are_refused_with_a_reason_and_sound_ones_never() {
             let is_right = error.starts_with(reason);
             assert!(is_right, "{}, {reason}: {error}", case.name);
         }
+        let IndentationCurve { time, depth, force } = case.curve(600, 0.005, 7);
+        let (depth, force) = (force, depth);
+        let exchanged = case.fit(&IndentationCurve { time, depth, force });
+        let is_fitted = exchanged.is_ok_and(|fit| fit.findings[0].estimate.is_some());
+        assert!(!is_fitted, "{}: depth and force exchanged", case.name);
         let mut curve = case.curve(600, 0.005, 7);
         let rate = 0.05 * peak(&curve.force);
         let drift = curve.force.iter_mut().zip(&curve.time);

@@ -122,6 +122,11 @@ const NAMES: &str = "findings.csv correlation.csv fit.csv fit.svg fit.png materi
 /// Reads the curves, fits them, and writes what they say.
 pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let body = options.body.shape()?;
+    if options.branches.is_some() && options.material != Rheology::Prony {
+        let problem =
+            "--branches is for --material prony; the other materials have no branches to choose";
+        return Err(WrongInput(problem.to_owned()).into());
+    }
     options.curves.iter().for_each(|file| protect(file));
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
@@ -146,7 +151,9 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     out.draw("fit", &picture::figure(&fit))?;
     // Last: with it the others are there. What is not determined is said in front of the numbers.
     let findings = options.table(&fit).replace('\n', "\n# ");
-    let material = prony(&fit.material.relaxation(), options.poisson_ratio, "");
+    let [lowest, highest] = fit.valid_frequencies;
+    let measured = format!("valid_frequencies = [{lowest:?}, {highest:?}]\n");
+    let material = prony(&fit.material.relaxation(), options.poisson_ratio, &measured);
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
     print_line(&format!("written into {}", out.path().display()))
