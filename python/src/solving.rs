@@ -143,7 +143,11 @@ pub(crate) fn solve_loads<'py>(
         Ok(matches!(problem.body(), Body::Revolution(_)).then_some(problem))
     });
     let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
-    let is_quick = |problem: &Problem| plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);
+    // A history in closed form may take seconds.
+    let is_quick = |problem: &Problem| {
+        let is_closed = plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);
+        is_closed && problem.history().is_empty()
+    };
     let is_quick = count == 1 && problems[0].as_ref().is_some_and(is_quick);
     let work = move |index: usize| {
         let solve = |problem: &Problem| {

@@ -53,6 +53,11 @@ pub enum Flag {
     /// A body that is so blunt is rather one in another unit.
     #[error("the contact is {0:.0e} times as wide as deep: is the radius of the body in metres?")]
     Blunt(f64),
+    /// Linear theory ends long before, and mostly the unit is another one.
+    #[error(
+        "the contact is {0:.1e} times as deep as wide: are the radius of the body and the depth in metres?"
+    )]
+    Sharp(f64),
     /// The body presses again, perhaps on a surface that has not recovered.
     #[error("the body presses again, where the force of the fit need not be exact")]
     PressedAgain,

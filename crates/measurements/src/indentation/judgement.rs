@@ -137,7 +137,7 @@ impl<'a> Judgement<'a> {
             self.drift(&self.before)
                 .or_else(|| self.drift(&self.behind)),
         );
-        flags.extend(blunt(self.found));
+        flags.extend(out_of_scale(self.found));
         if presses_again(self.found.model.curve) {
             flags.push(Flag::PressedAgain);
         }
@@ -184,15 +184,17 @@ impl<'a> Judgement<'a> {
     }
 }
 
-/// Whether a curved body is far too large for the depth.
-fn blunt(found: &Found) -> Option<Flag> {
+/// Whether a curved body is far too large or too small for the depth.
+fn out_of_scale(found: &Found) -> Option<Flag> {
     let Model { body, curve, .. } = &found.model;
     let depth = ends(&curve.depth)[1] - found.parameters[found.model.contact_point()];
     let is_curved = body.profile_exponent().is_finite();
     let radius = indenters::contact_radius(*body, depth)
         .ok()
         .filter(|_| is_curved)?;
-    (radius > BLUNT * depth).then_some(Flag::Blunt(radius / depth))
+    let is_sharp = radius < depth;
+    let sharp = is_sharp.then_some(Flag::Sharp(depth / radius));
+    sharp.or((radius > BLUNT * depth).then_some(Flag::Blunt(radius / depth)))
 }
 
 /// How far the force falls below what it is before the contact: on the way in, or else on the way back, where that is more.

@@ -354,14 +354,18 @@ fn curves_that_fit_a_wrong_model_well_are_flagged_or_refused() {
             &cone.curve(600, 0.003, 3),
             "a cone taken for a sphere",
         );
-        let in_micrometres = Case {
-            body: Box::new(Sphere::new(5.0).expect("a sphere")),
-            ..sphere(&case.truth[..case.truth.len() - 3])
-        };
-        let fit = in_micrometres.fit(&case.curve(600, 0.003, 3));
-        let flags = fit.expect("a fit").flags;
-        let is_blunt = flags.iter().any(|flag| matches!(flag, Flag::Blunt(_)));
-        assert!(is_blunt, "a radius in another unit: {flags:?}");
+        let large = Sphere::new(5.0).expect("a sphere");
+        let small = PowerProfile::paraboloid(1e8).expect("a paraboloid");
+        let bodies: [Box<dyn Axisymmetric>; 2] = [Box::new(large), Box::new(small)];
+        for (body, name) in bodies.into_iter().zip(["wide as deep", "deep as wide"]) {
+            let other = Case {
+                body,
+                ..sphere(&case.truth[..case.truth.len() - 3])
+            };
+            let flags = other.fit(&case.curve(600, 0.003, 3)).expect("a fit").flags;
+            let mut said = flags.iter().map(ToString::to_string);
+            assert!(said.any(|flag| flag.contains(name)), "{name}: {flags:?}");
+        }
     }
 }
 
