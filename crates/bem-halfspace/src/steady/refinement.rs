@@ -379,14 +379,7 @@ impl Grids<'_> {
         let unresolved = states
             .iter()
             .map(|state| state.unresolved(creep, self.problem.plan.kinks));
-        let edges: Vec<f64> =
-            self.problem
-                .surface
-                .as_axisymmetric()
-                .map_or_else(Vec::new, |body| {
-                    let kinks = body.kinks().into_iter();
-                    kinks.map(|kink| kink.radius).collect()
-                });
+        let edges = self.edges_of_body();
         let averages = Refinement {
             hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
             spacing: spacings.sum::<f64>() / states.len() as f64,
@@ -408,6 +401,13 @@ impl Grids<'_> {
             state,
             options,
         })
+    }
+
+    /// Radii at which the slope of the body jumps, \[m].
+    fn edges_of_body(&self) -> Vec<f64> {
+        let body = self.problem.surface.as_axisymmetric();
+        let kinks = body.map_or_else(Vec::new, |body| body.kinks());
+        kinks.into_iter().map(|kink| kink.radius).collect()
     }
 
     /// The solution on a grid, or on a slightly finer one where pivoting cycles.

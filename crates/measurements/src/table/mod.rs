@@ -384,7 +384,7 @@ impl<'a> Table<'a> {
             return Ok(None);
         };
         let temperature = self.number(line, column)?;
-        let zero = match &*column.unit {
+        let zero = match column.unit {
             "K" => 0.0,
             _ => -KELVIN_AT_ZERO_CELSIUS,
         };

@@ -3,16 +3,16 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
+use viscofriction::Estimate;
 use viscofriction::scene::{Method, Model};
 use viscofriction::solve::{Answer, SolveError, plan};
-use viscofriction::{Estimate, Watch};
 
+use super::patience::Patience;
 use super::relation::{self, Derived, Relation};
 use super::units::factor;
 use crate::evidence::request::presses;
@@ -212,26 +212,7 @@ impl Verdict {
 }
 
 const PANIC: &str = "panicked: ";
-/// A refinement is ended before the grid that begins later than this.
-const PATIENCE: Duration = Duration::from_secs(10);
 const UNFINISHED: &str = "not finished: ";
-
-/// Ends a refinement that takes too long.
-#[derive(Debug)]
-struct Patience {
-    until: Instant,
-    has_ended: AtomicBool,
-}
-
-impl Watch for Patience {
-    fn allows(&self, _: usize) -> bool {
-        let is_early = Instant::now() < self.until;
-        self.has_ended.fetch_or(!is_early, Ordering::Relaxed);
-        is_early
-    }
-
-    fn done(&self, _: f64) {}
-}
 
 /// The answer, or the sentence that says why there is none.
 fn answer(
@@ -244,15 +225,12 @@ fn answer(
     case.scene.solve.method = method;
     let solved = || {
         let problem = case.problem(folder).map_err(|error| format!("{error:#}"))?;
-        let patience = Patience {
-            until: Instant::now() + PATIENCE,
-            has_ended: AtomicBool::new(false),
-        };
+        let patience = Patience::default();
         let plan = plan(&problem).map_err(SolveError::from);
         let solved = plan.and_then(|plan| plan.solve(&patience));
         solved.map_err(|error| {
-            let has_ended = patience.has_ended.load(Ordering::Relaxed);
-            format!("{}{error}", if has_ended { UNFINISHED } else { "" })
+            let unfinished = if patience.has_ended() { UNFINISHED } else { "" };
+            format!("{unfinished}{error}")
         })
     };
     let solved =

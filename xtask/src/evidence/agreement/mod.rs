@@ -1,6 +1,7 @@
 //! Do answers contradict each other? Random scenes over all that a scene can be, and relations that their answers must obey.
 
 mod judge;
+mod patience;
 mod relation;
 
 mod units;
