@@ -34,6 +34,8 @@ const MISFIT_OF_PATH: f64 = 5.0;
 
 /// Width of a contact over its depth, above which no body is meant: a sphere has R/d = 10⁵.
 const BLUNT: f64 = 300.0;
+/// And depth over width under a body with a round tip.
+const SHARP: f64 = 3.0;
 
 /// What the points without contact say.
 pub(super) struct Judgement<'a> {
@@ -192,7 +194,7 @@ fn out_of_scale(found: &Found) -> Option<Flag> {
     let radius = indenters::contact_radius(*body, depth)
         .ok()
         .filter(|_| is_curved)?;
-    let is_sharp = radius < depth;
+    let is_sharp = body.profile_exponent() > 1.0 && depth > SHARP * radius;
     let sharp = is_sharp.then_some(Flag::Sharp(depth / radius));
     sharp.or((radius > BLUNT * depth).then_some(Flag::Blunt(radius / depth)))
 }

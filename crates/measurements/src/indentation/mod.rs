@@ -176,8 +176,9 @@ pub fn fit_indentation(
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
     let findings = statistics.findings(&found, options.profile);
-    let of_material = &findings[..found.model.kind.n_parameters()];
-    if of_material.iter().all(|one| one.estimate.is_none()) {
+    // More branches than a curve has are none of them determined, but its contact point is.
+    let with_contact_point = &findings[..=found.model.contact_point()];
+    if with_contact_point.iter().all(|one| one.estimate.is_none()) {
         return Err(MeasurementError::NotDetermined);
     }
     let [shortest, longest] = found.model.times;
