@@ -8,7 +8,8 @@
 //! ```
 //! The contact may go on behind its rearmost element, with the load w that this has at the end of the step. It is left at the
 //! slope h̃' there and not at the mean r/Δx over the last element. Where the slope jumps there, as at the tip of a cone, what
-//! branches carry fades over the lengths l_k behind it: w' = Σ_k G_k l_k² |δh̃'| at most. A tip inside an element is steeper than the mean.
+//! branches carry fades over the lengths l_k behind it: w' = Σ_k G_k l_k² |δh̃'|, at most w Δx/2. A tip inside an element is
+//! steeper than the mean.
 //! At a steep kink the foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and
 //! branches that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r,
 //! which is r_(j−1) where it rises evenly, and which the step does not see.
@@ -92,7 +93,7 @@ impl LastStep<'_> {
         let at_once = self.fast.viscous + self.fast.carried;
         let load = (self.loads[rear] - at_once * (mean - behind)).max(0.0);
         let spacing = self.elements.spacing;
-        // What fades is convex, so that half of what is there at first is left in the mean at most.
+        // A load that fades is a convex function of the distance: its mean is at most half of what it begins with.
         let fading = self.fast.left * (slope - behind).abs();
         let carried = 0.5 * load * spacing + fading.min(0.5 * self.loads[rear] * spacing);
         [

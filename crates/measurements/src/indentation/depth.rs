@@ -54,8 +54,11 @@ pub(super) fn noise(time: &[f64], values: &[f64], counts: &[f64]) -> f64 {
         let variance = part * part / counts[i + 1] + (1.0 - part).powi(2) / counts[i - 1];
         (values[i] - between).abs() / (1.0 / counts[i] + variance).sqrt()
     };
-    1.4826 * median((1..values.len().max(2) - 1).map(bend).collect())
+    BY_MEDIAN * median((1..values.len().max(2) - 1).map(bend).collect())
 }
+
+/// Standard deviation of a normal distribution over its median deviation.
+pub(super) const BY_MEDIAN: f64 = 1.4826;
 
 /// The middle one; 0 of none.
 pub(super) fn median(mut values: Vec<f64>) -> f64 {

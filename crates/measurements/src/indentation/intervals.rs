@@ -170,18 +170,15 @@ fn middle(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
     let n = rows.len();
     let Linear { time, counts, .. } = found.linear;
     let white = Noise::WHITE.likelihood(&found.linear).variance();
-    let rooted = |values: &[f64], power: f64| -> Vec<f64> {
+    let weighed = |values: &Vec<f64>| -> Vec<f64> {
         let pairs = values.iter().zip(counts);
-        pairs
-            .map(|(value, count)| value * count.powf(power))
-            .collect()
+        pairs.map(|(value, count)| value * count.sqrt()).collect()
     };
+    let columns: Vec<Vec<f64>> = rows.iter().map(weighed).collect();
     let mut middle = vec![0.0; n * n];
     for &(noise, weight) in &found.noises {
         let variance = noise.likelihood(&found.linear).variance();
         let factor = weight * variance / white;
-        let columns = rows.iter().map(|row| rooted(row, 0.5));
-        let columns: Vec<Vec<f64>> = columns.collect();
         for (k, column) in columns.iter().enumerate() {
             let spread = noise.covariance(time, counts, column);
             for (j, other) in columns.iter().enumerate() {

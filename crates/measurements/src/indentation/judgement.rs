@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::IndentationCurve;
 use super::checks::{SIGNIFICANT, presses_again};
-use super::depth::{ends, median};
+use super::depth::{BY_MEDIAN, ends, median};
 use super::flag::Flag;
 use super::intervals::Statistics;
 use super::model::Model;
@@ -70,7 +70,7 @@ impl<'a> Judgement<'a> {
             begin,
             statistics,
             behind: last.map_or(n, |last| last + 1)..n,
-            noise: is_known.then(|| 1.4826 * median(off.collect())),
+            noise: is_known.then(|| BY_MEDIAN * median(off.collect())),
             process: None,
             is_misfit: statistics.correlated_points > LASTING,
             before,

@@ -3,7 +3,7 @@
 use indenters::Axisymmetric;
 use numerics::least_squares::{Linearised, Range, minimise};
 
-use super::depth::median;
+use super::depth::{BY_MEDIAN, median};
 use super::means::Measured;
 use super::model::{Kind, Model};
 use super::noise::{Linear, Noise, normal_matrix};
@@ -218,8 +218,6 @@ fn in_order(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
 /// the residuals about it, say nothing: they count as that median (Hampel 1974, DOI 10.1080/01621459.1974.10482962).
 const WILD: f64 = 4.0;
 const NEAR: usize = 12;
-/// Standard deviation of a normal distribution over its median deviation.
-const BY_MEDIAN: f64 = 1.4826;
 
 /// Squares of residuals, without those of wild points, in units of a scale.
 pub(super) struct Squares<'a> {
