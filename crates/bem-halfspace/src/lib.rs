@@ -27,45 +27,27 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-mod averages;
-mod bands;
-mod bars;
-mod bounds;
-mod chunks;
-mod conjugate_residuals;
 pub mod contact;
-mod convolution;
+mod elements;
 mod error;
-mod fast_length;
-mod footprint;
-mod grid;
-pub mod indent;
-mod influence;
-mod layer;
-mod mirror;
-pub mod periodic;
-mod plan;
-mod plane_transform;
-mod pressure_field;
-mod pressure_spectrum;
-mod reached;
-mod rectangle;
-mod reductions;
-mod resolution;
-pub mod slide;
-pub mod steady;
+mod estimate;
+mod motions;
+mod parallel;
+mod stationary;
 mod stepping;
+mod substrate;
+mod transform;
 
-pub use bars::ContactEstimate;
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
-pub use convolution::{Convolution, ConvolutionWorkspace};
+pub use elements::footprint::Footprint;
+pub use elements::grid::Grid;
+pub use elements::resolution::GridOptions;
 pub use error::BemError;
-pub use footprint::Footprint;
-pub use grid::Grid;
-pub use indent::{indent, indent_on_grid, press, press_on_grid};
+pub use estimate::bars::ContactEstimate;
+pub use estimate::reached::Reached;
+pub use indent::{indent_on_grid, press, press_on_grid};
 pub use indenters::{Control, HistoryPoint, PressingLoad, SlidingLoad};
-pub use influence::influence;
-pub use layer::{Elastomer, Layer, layer_factor};
+pub use motions::{indent, slide};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
 pub use periodic::{
@@ -76,8 +58,10 @@ pub use periodic::{
     PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
     slide_periodic_on_grid, steady_periodic_on_grid,
 };
-pub use pressure_spectrum::line_spectrum;
-pub use reached::Reached;
-pub use resolution::GridOptions;
-pub use slide::{PressureField, slide, slide_on_grid};
-pub use steady::{steady, steady_line, steady_line_on_grid, steady_on_grid};
+pub use slide::{PressureField, slide_on_grid};
+pub use stationary::{periodic, steady};
+pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
+pub use substrate::influence::influence;
+pub use substrate::layer::{Elastomer, Layer, layer_factor};
+pub use transform::convolution::{Convolution, ConvolutionWorkspace};
+pub use transform::pressure_spectrum::line_spectrum;

@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
-use crate::bands::Bands;
-use crate::chunks::Starts;
+use crate::parallel::bands::Bands;
+use crate::parallel::chunks::Starts;
 
 /// Neighbours in contact, in one row and not continued in it.
 #[derive(Debug, Clone, Copy)]

@@ -25,8 +25,8 @@
 
 use std::f64::consts::PI;
 
-use crate::bands::{Bands, for_each_row, resize};
 use crate::contact::active_set::{ActiveSet, sum_blocks};
+use crate::parallel::bands::{Bands, for_each_row, resize};
 use crate::{Convolution, Grid};
 
 /// Edge of the smallest blocks in elements; in smaller ones the inverse is right without their neighbours.

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use crate::Convolution;
-use crate::bands::resize;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::preconditioner::{Preconditioner, Weights};
-use crate::reductions::sum;
+use crate::parallel::bands::resize;
+use crate::parallel::reductions::sum;
 
 /// Buffers beside the load and its displacement.
 #[derive(Debug, Clone)]

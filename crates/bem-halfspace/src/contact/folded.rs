@@ -4,13 +4,13 @@
 //! front of the plane determines them all. Of an element through whose centre the plane passes, half the load is in front.
 
 use crate::BemError;
-use crate::bands::Bands;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
 use crate::contact::{Accuracy, ContactState, Solved, map_force, solve_loads};
-use crate::convolution::{Convolution, Surroundings};
-use crate::mirror::{Mirror, NO_MIRRORS, images};
+use crate::elements::mirror::{Mirror, NO_MIRRORS, images};
+use crate::parallel::bands::Bands;
+use crate::transform::convolution::{Convolution, Surroundings};
 
 /// Solves the contact on the part of the grid that the mirrors of separation and first guess leave.
 pub(super) fn solve_in_front_of_mirrors(

@@ -17,7 +17,7 @@ use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::Weights;
 use crate::contact::problem::{Accuracy, LoadProblem, Solved};
 use crate::contact::{ContactState, Control};
-use crate::reductions::sum;
+use crate::parallel::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::Convolution;
-use crate::mirror::Mirror;
+use crate::elements::mirror::Mirror;
 
 /// One half in the first row and the first column where a mirror passes through them, else one.
 #[derive(Debug, Clone, Copy)]

@@ -21,8 +21,8 @@ mod state;
 
 use std::f64::consts::PI;
 
-use crate::chunks::in_pool;
-use crate::convolution::Surroundings;
+use crate::parallel::chunks::in_pool;
+use crate::transform::convolution::Surroundings;
 use crate::{BemError, Convolution};
 use folded::solve_in_front_of_mirrors;
 use indenters::Control;

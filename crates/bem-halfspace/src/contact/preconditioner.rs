@@ -16,8 +16,8 @@ use std::ops::Range;
 use crate::contact::active_set::{ActiveSet, Run, sum_blocks};
 use crate::contact::far_loads::{FarLoads, SMALLEST};
 use crate::contact::mirror_weights::MirrorWeights;
-use crate::mirror::Mirror;
-use crate::reductions::add;
+use crate::elements::mirror::Mirror;
+use crate::parallel::reductions::add;
 use crate::{Convolution, ConvolutionWorkspace};
 
 /// Weights of its two approximations. It is positive definite, so that the iteration converges, with any positive ones;

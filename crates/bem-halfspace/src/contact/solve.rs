@@ -1,15 +1,15 @@
 //! Where to iterate, and from which first guess.
 
 use crate::BemError;
-use crate::bands::for_each_row;
-use crate::bounds::Bounds;
-use crate::chunks::in_pool;
 use crate::contact::iteration::Iteration;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::{Accuracy, LoadProblem, Solved};
 use crate::contact::state::{ContactBox, ContactState};
 use crate::contact::{Control, map_force};
-use crate::convolution::Surroundings;
+use crate::elements::bounds::Bounds;
+use crate::parallel::bands::for_each_row;
+use crate::parallel::chunks::in_pool;
+use crate::transform::convolution::Surroundings;
 
 /// A box is used where it has fewer elements than this part of the grid: with its margin and the product on the whole grid
 /// at its end, a larger one takes as long as the grid.

@@ -1,10 +1,10 @@
 //! Pressure and buffers of a contact solve, on a grid and on a part of it.
 
-use crate::bands::for_each_row;
-use crate::bounds::Bounds;
 use crate::contact::fields::Fields;
-use crate::convolution::Surroundings;
-use crate::mirror::Mirror;
+use crate::elements::bounds::Bounds;
+use crate::elements::mirror::Mirror;
+use crate::parallel::bands::for_each_row;
+use crate::transform::convolution::Surroundings;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next. With the

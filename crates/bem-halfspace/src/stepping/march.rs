@@ -4,7 +4,7 @@ use indenters::{SlidingLoad, Surface};
 use numerics::positive;
 
 use super::{March, MeanSlopes, Motion, MotionRow, Route};
-use crate::grid::whole;
+use crate::elements::grid::whole;
 use crate::{BemError, Elastomer, GridOptions};
 
 /// Steps after which a march is not begun.
@@ -42,7 +42,7 @@ impl<'a> March<'a> {
         self.steps_done as f64 / self.route.legs.len() as f64
     }
 
-    /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load, in steps of one
+    /// The march of [`slide_on_grid`](crate::motions::slide::slide_on_grid), over the sliding distance of the load, in steps of one
     /// element; the last, of a half to one and a half, ends at the distance.
     ///
     /// # Errors

@@ -24,11 +24,11 @@ use indenters::{Control, Surface};
 use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 
-use crate::bounds::Bounds;
 use crate::contact::{ContactBox, check_heights};
-use crate::layer::Base;
-use crate::pressure_field::PressureField;
-use crate::resolution::Layout;
+use crate::elements::bounds::Bounds;
+use crate::elements::pressure_field::PressureField;
+use crate::elements::resolution::Layout;
+use crate::substrate::layer::Base;
 use crate::{BemError, Elastomer, GridOptions};
 pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};

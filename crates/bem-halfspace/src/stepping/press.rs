@@ -6,8 +6,8 @@ use indenters::Control;
 
 use super::{Leg, March, MotionRow};
 use crate::BemError;
-use crate::bounds::Bounds;
-use crate::mirror::images;
+use crate::elements::bounds::Bounds;
+use crate::elements::mirror::images;
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
 /// solver would take a smaller box of its own.

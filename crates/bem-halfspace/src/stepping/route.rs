@@ -7,7 +7,7 @@ use numerics::{finite, positive};
 use super::Motion;
 use crate::BemError;
 use crate::contact::check_control;
-use crate::grid::whole;
+use crate::elements::grid::whole;
 
 /// One step of the path, seen from the elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,7 @@ pub(crate) struct Route {
 
 impl Route {
     /// The path through the ends of motions, each with its duration \[s], from a centre of an element at time and position
-    /// zero. Refuses what [`March::new`](crate::slide::March::new) does.
+    /// zero. Refuses what [`March::new`](crate::motions::slide::March::new) does.
     pub(crate) fn through(
         motions: impl Iterator<Item = (Motion, f64)>,
         spacing: f64,

@@ -10,8 +10,8 @@ use std::ops::Range;
 
 use rheology::ExponentialStep;
 
-use crate::layer::Base;
-use crate::resolution::Layout;
+use crate::elements::resolution::Layout;
+use crate::substrate::layer::Base;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.

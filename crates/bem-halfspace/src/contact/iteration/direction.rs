@@ -2,7 +2,7 @@
 
 use crate::contact::Control;
 use crate::contact::iteration::Iteration;
-use crate::reductions::sum;
+use crate::parallel::reductions::sum;
 
 impl Iteration<'_> {
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.

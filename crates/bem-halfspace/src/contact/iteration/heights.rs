@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::contact::Control;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
-use crate::reductions::{add, larger, lower, reduce, sum};
+use crate::parallel::reductions::{add, larger, lower, reduce, sum};
 
 /// Heights of the deformed surface.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,0 +1,111 @@
+//! Boxes of elements.
+
+use std::ops::Range;
+
+use crate::elements::mirror::Mirror;
+use crate::parallel::bands::{Bands, for_each_row};
+use crate::transform::fast_length::fast_length;
+
+/// Half-open ranges of rows and columns of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Bounds {
+    pub(crate) lower: [usize; 2],
+    pub(crate) upper: [usize; 2],
+}
+
+impl Bounds {
+    /// Of no element.
+    pub(crate) const EMPTY: Self = Self {
+        lower: [0; 2],
+        upper: [0; 2],
+    };
+
+    pub(crate) const fn around(element: [usize; 2]) -> Self {
+        Self {
+            lower: element,
+            upper: [element[0] + 1, element[1] + 1],
+        }
+    }
+
+    /// The smallest box that holds all elements; none without any.
+    pub(crate) fn of(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
+        let boxes = elements.map(Self::around);
+        boxes.reduce(|bounds, element| bounds.union(&element))
+    }
+
+    /// The smallest box that holds the elements of a field, as [row, column], for which `is` is true.
+    pub(crate) fn of_field(
+        shape: [usize; 2],
+        is: impl Fn([usize; 2]) -> bool + Sync,
+    ) -> Option<Self> {
+        let bands = Bands::new(shape);
+        let in_band = |band| {
+            let elements = bands.elements(band);
+            let elements = elements.map(|index| [index / shape[1], index % shape[1]]);
+            Self::of(elements.filter(|element| is(*element)))
+        };
+        let both = |left: Option<Self>, right: Option<Self>| match (left, right) {
+            (Some(left), Some(right)) => Some(left.union(&right)),
+            (left, right) => left.or(right),
+        };
+        bands.gather(in_band, both)
+    }
+
+    /// The smallest box that holds both.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self {
+            lower: [0, 1].map(|axis| self.lower[axis].min(other.lower[axis])),
+            upper: [0, 1].map(|axis| self.upper[axis].max(other.upper[axis])),
+        }
+    }
+
+    pub(crate) fn contains(&self, [row, column]: [usize; 2]) -> bool {
+        self.rows().contains(&row) && self.columns().contains(&column)
+    }
+
+    pub(crate) const fn rows(&self) -> Range<usize> {
+        self.lower[0]..self.upper[0]
+    }
+
+    pub(crate) const fn columns(&self) -> Range<usize> {
+        self.lower[1]..self.upper[1]
+    }
+
+    pub(crate) const fn shape(&self) -> [usize; 2] {
+        [self.upper[0] - self.lower[0], self.upper[1] - self.lower[1]]
+    }
+
+    pub(crate) const fn n_elements(&self) -> usize {
+        self.shape()[0] * self.shape()[1]
+    }
+
+    /// Position of an element of the field in the box, row-major.
+    pub(crate) const fn place(&self, [row, column]: [usize; 2]) -> usize {
+        (row - self.lower[0]) * self.shape()[1] + column - self.lower[1]
+    }
+
+    /// Copies what lies inside the box from a field with `columns` columns.
+    pub(crate) fn cut(&self, (field, columns): (&[f64], usize), part: &mut [f64]) {
+        for_each_row(part, self.shape()[1], |row, part| {
+            let start = (self.lower[0] + row) * columns;
+            part.copy_from_slice(&field[start..][self.columns()]);
+        });
+    }
+
+    /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast; from the rear
+    /// of the field on along the axes with mirrors there.
+    pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
+        let mut grown = *self;
+        for (axis, &available) in field.iter().enumerate() {
+            let is_free = mirrors[axis].is_none();
+            let rear = if is_free { self.lower[axis] } else { 0 };
+            let needed = self.upper[axis] - rear;
+            let wanted = needed + (needed / 16).max(2) * 2;
+            let length = (fast_length(2 * wanted) / 2).min(available);
+            let behind = (length - needed) / 2;
+            grown.lower[axis] = rear.saturating_sub(behind).min(available - length);
+            grown.upper[axis] = grown.lower[axis] + length;
+        }
+        grown
+    }
+}

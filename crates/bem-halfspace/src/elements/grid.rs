@@ -1,0 +1,99 @@
+//! Rectangular elements in a regular grid.
+
+use crate::BemError;
+use crate::elements::mirror::Mirror;
+use numerics::{positive, whole_part};
+
+/// More elements than this would not fit into the memory of a large machine.
+const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
+
+/// A regular grid of rectangular elements, stored row-major with y fastest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Grid {
+    shape: [usize; 2],
+    spacing: [f64; 2],
+}
+
+impl Grid {
+    /// `shape` = (n_x, n_y) elements with edges of length `spacing` = (Δx, Δy), \[m].
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for an empty grid or a spacing that is not finite and greater than zero;
+    /// [`BemError::GridTooLarge`] above 2^28 elements.
+    pub fn new(shape: [usize; 2], spacing: [f64; 2]) -> Result<Self, BemError> {
+        positive("spacing along x", spacing[0])?;
+        positive("spacing along y", spacing[1])?;
+        positive("number of elements along x", shape[0] as f64)?;
+        positive("number of elements along y", shape[1] as f64)?;
+        let elements = shape[0] as f64 * shape[1] as f64;
+        if elements > MAX_ELEMENTS {
+            return Err(BemError::GridTooLarge {
+                elements,
+                limit: MAX_ELEMENTS,
+            });
+        }
+        Ok(Self { shape, spacing })
+    }
+
+    /// The grid of blocks of two by two elements that covers this one.
+    pub(crate) fn blocks(&self) -> Self {
+        Self {
+            shape: self.shape.map(|n| n.div_ceil(2)),
+            spacing: self.spacing.map(|edge| 2.0 * edge),
+        }
+    }
+
+    /// The part in front of mirrors through the middle of the grid.
+    pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
+        Self {
+            shape: [0, 1].map(|axis| mirrors[axis].part_of(self.shape[axis])),
+            ..*self
+        }
+    }
+
+    /// The grid of which this is the part in front of mirrors.
+    pub(crate) fn unfolded(&self, mirrors: [Mirror; 2]) -> Self {
+        Self {
+            shape: [0, 1].map(|axis| mirrors[axis].whole_of(self.shape[axis])),
+            ..*self
+        }
+    }
+
+    /// Number of elements [n_x, n_y].
+    pub const fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    /// Edges of an element [Δx, Δy], \[m].
+    pub const fn spacing(&self) -> [f64; 2] {
+        self.spacing
+    }
+
+    /// Number of elements.
+    pub const fn n_elements(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// Area of an element, \[m²].
+    pub fn element_area(&self) -> f64 {
+        self.spacing[0] * self.spacing[1]
+    }
+}
+
+/// Number of elements that covers a length; infinite and huge ratios are left to [`Grid::new`] to refuse.
+pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
+    // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
+    whole((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
+}
+
+/// A whole number of elements as an integer, 0 for negative ones; refuses one that is beyond any grid, and what is none.
+pub(crate) fn whole(elements: f64) -> Result<usize, BemError> {
+    if elements > MAX_ELEMENTS || elements.is_nan() {
+        return Err(BemError::GridTooLarge {
+            elements,
+            limit: MAX_ELEMENTS,
+        });
+    }
+    Ok(whole_part(elements))
+}

@@ -1,0 +1,8 @@
+//! The elements: where they are, boxes of them, their mirrors, and the pressure on them.
+
+pub(crate) mod bounds;
+pub(crate) mod footprint;
+pub(crate) mod grid;
+pub(crate) mod mirror;
+pub(crate) mod pressure_field;
+pub(crate) mod resolution;

@@ -1,0 +1,56 @@
+//! Pressure on the elements of a grid.
+
+use numerics::whole_part;
+
+use crate::elements::bounds::Bounds;
+use crate::{BemError, Grid};
+
+/// Pressure over the contact at the end of a simulation.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PressureField {
+    /// The grid of the field.
+    pub grid: Grid,
+    /// Centre of the first element relative to the lowest point of the indenter, \[m].
+    pub origin: [f64; 2],
+    /// Pressure P ≥ 0, \[Pa], row-major with y fastest. Along the front edge it is singular: its maximum grows without
+    /// limit on refinement.
+    pub pressure: Vec<f64>,
+}
+
+impl PressureField {
+    /// The sum of the pressures of elements in a box, of which the first has its centre at `origin`.
+    pub(crate) fn over(
+        bounds: &Bounds,
+        (spacing, origin): ([f64; 2], [f64; 2]),
+        loaded: impl Iterator<Item = ([usize; 2], f64)>,
+    ) -> Result<Self, BemError> {
+        let grid = Grid::new(bounds.shape(), spacing)?;
+        let mut pressure = vec![0.0; grid.n_elements()];
+        for (element, value) in loaded {
+            pressure[bounds.place(element)] += value;
+        }
+        Ok(Self {
+            grid,
+            origin,
+            pressure,
+        })
+    }
+
+    /// Largest pressure of an element, \[Pa].
+    pub fn largest(&self) -> f64 {
+        self.pressure.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
+    pub fn at(&self, position: [f64; 2]) -> f64 {
+        let [rows, columns] = self.grid.shape();
+        let index =
+            |axis: usize| (position[axis] - self.origin[axis]) / self.grid.spacing()[axis] + 0.5;
+        let [row, column] = [index(0).floor(), index(1).floor()];
+        if !(row >= 0.0 && row < rows as f64 && column >= 0.0 && column < columns as f64) {
+            return 0.0;
+        }
+        self.pressure[whole_part(row) * columns + whole_part(column)]
+    }
+}

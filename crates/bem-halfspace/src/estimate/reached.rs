@@ -1,0 +1,50 @@
+//! What was found where the error asked for was not reached.
+
+use crate::motions::indent::{IndentCurve, PressEstimate};
+use crate::motions::slide::SlideEstimate;
+use crate::stationary::steady::{LineEstimate, SteadyEstimate};
+#[cfg(feature = "rough")]
+use crate::{PeriodicEstimate, PeriodicSliding, PeriodicTransient};
+
+/// The result that [`BemError::NotReached`](crate::BemError::NotReached) holds, with its bars, by the function that found it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reached {
+    /// Of [`steady`](crate::steady()).
+    Steady(SteadyEstimate),
+    /// Of [`steady_line`](crate::steady_line).
+    Line(LineEstimate),
+    /// Of [`slide`](crate::slide()).
+    Slide(SlideEstimate),
+    /// Of [`press`](crate::press) and [`indent`](crate::indent()).
+    Press(PressEstimate),
+    /// Of [`follow`](crate::motions::indent::follow).
+    Curve(IndentCurve),
+    #[cfg(feature = "rough")]
+    /// Of [`steady_periodic`](crate::steady_periodic) and [`press_periodic`](crate::press_periodic).
+    Periodic(PeriodicEstimate<PeriodicSliding>),
+    #[cfg(feature = "rough")]
+    /// Of [`slide_periodic`](crate::slide_periodic).
+    PeriodicTransient(PeriodicEstimate<PeriodicTransient>),
+}
+
+macro_rules! found {
+    ($($found:ty => $variant:ident,)*) => {
+        $(impl From<$found> for Reached {
+            fn from(found: $found) -> Self {
+                Self::$variant(found)
+            }
+        })*
+    };
+}
+found! {
+    SteadyEstimate => Steady,
+    LineEstimate => Line,
+    SlideEstimate => Slide,
+    PressEstimate => Press,
+    IndentCurve => Curve,
+}
+#[cfg(feature = "rough")]
+found! {
+    PeriodicEstimate<PeriodicSliding> => Periodic,
+    PeriodicEstimate<PeriodicTransient> => PeriodicTransient,
+}

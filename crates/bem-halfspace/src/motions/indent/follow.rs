@@ -1,0 +1,268 @@
+//! A history with error bars, from several grids.
+
+use indenters::{Control, HistoryPoint, PressingLoad, Surface};
+use numerics::{Accuracy, ErrorParts, Estimate, Quantity, Request};
+use numerics::{in_range, not_negative, positive, refine};
+use rheology::Material as _;
+
+use super::history::refined;
+use super::press::{BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
+use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
+use crate::contact::check_control;
+use crate::estimate::bars::{DEPTH, FORCE, reacts_at_once, refused};
+use crate::{BemError, Elastomer, GridOptions};
+
+/// Elements along the largest contact after which the error asked for is given up.
+const LARGEST_GRID: usize = 256;
+/// Steps in time on one grid after which the error asked for is given up; between two points they may always be halved
+/// three times.
+const MOST_STEPS: usize = 4096;
+const FEWEST_STEPS: usize = 8;
+/// Duration of a jump, as a part of that of the history.
+const JUMP: f64 = 1e-9;
+
+/// The contact at one point of a history; an error of 0 says that a quantity is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct IndentPoint {
+    /// Time, \[s].
+    pub time: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: Estimate,
+    /// Depth of the lowest point below the undeformed surface, \[m]; where no force presses, that of the first touch.
+    pub indentation_depth: Estimate,
+    /// Contact area, \[m²].
+    pub contact_area: Estimate,
+}
+
+/// A history with its error bars.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct IndentCurve {
+    /// The points of the history; the error of a quantity is the largest one at any of them.
+    pub points: Vec<IndentPoint>,
+    /// What the error of the force consists of, or that of the depth under a force.
+    pub error_parts: ErrorParts,
+    /// Elements in contact at the last point.
+    pub n_contact: usize,
+    /// Steps in time.
+    pub n_steps: usize,
+    /// The finest grid.
+    pub options: GridOptions,
+}
+
+/// Follows a force or a depth that is straight between the points of a history, to an error relative to the largest depth
+/// or force, whichever is not given; or with a number of elements along the largest contact, about, and whatever error that
+/// has.
+///
+/// The half space is undeformed before the first point. Two points of the same time are a jump, and so is a first one at
+/// which the body is pressed already; a jump takes one part in 10⁹ of the history.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for fewer than two points, times that decrease, force and depth in one history, a history
+/// that never presses, and a jump of the depth on a material that does not react at once; [`BemError::NotReached`] with what
+/// was reached on the finest grid allowed; otherwise like [`indent_history`].
+pub fn follow<'w>(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    history: &[HistoryPoint],
+    request: impl Into<Request<'w>>,
+) -> Result<IndentCurve, BemError> {
+    let request = request.into();
+    let path = Path::new(history, reacts_at_once(elastomer))?;
+    let plan = path.spring(elastomer)?.plan(&surface, path.largest())?;
+    let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
+        let mut options = HistoryOptions::new(grid(&plan, elements));
+        let most = MOST_STEPS / times.len();
+        options.max_steps = most.clamp(FEWEST_STEPS, options.max_steps);
+        let control = |time| path.at(time);
+        let found = match request.accuracy {
+            Accuracy::RelativeError(asked) => {
+                options.relative_error = 0.5 * asked;
+                indent_history(surface, elastomer, control, &times, &options)
+            }
+            Accuracy::Elements(_) => refined(surface, elastomer, control, &times, &options),
+        };
+        Ok::<_, BemError>((found?, options.grid))
+    };
+    let others = |(found, _): &(IndentHistory, GridOptions), _: &dyn Fn(f64)| {
+        let of_steps = |quantity: Quantity| ErrorParts {
+            time_stepping: Some(found.time_error * quantity.size),
+            ..ErrorParts::NONE
+        };
+        let quantities = path.quantities(found).into_iter();
+        Ok(quantities.map(of_steps).collect())
+    };
+    let fine = refine(
+        &goal(request, LARGEST_GRID),
+        solve,
+        |(found, _)| path.quantities(found),
+        others,
+    )?;
+    let worst = |place: usize| {
+        let rows = fine.parts.iter().skip(place).step_by(PLACES.len());
+        let worst = rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
+        worst.copied().unwrap_or(ErrorParts::NONE)
+    };
+    let (found, options) = fine.value;
+    let errors = PLACES.map(|place| worst(place).sum());
+    let found = IndentCurve {
+        points: path.with_errors(history, &found.rows, errors),
+        error_parts: worst(path.sought()),
+        n_contact: found.rows.last().map_or(0, |row| row.n_contact),
+        n_steps: found.rows.len() * found.steps_per_row,
+        options,
+    };
+    refused(fine.missed, found)
+}
+
+/// Memory that [`follow`] takes at most for a number of elements along the largest contact, \[bytes].
+///
+/// # Errors
+/// As for [`follow`], before anything is solved.
+pub fn follow_memory(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    history: &[HistoryPoint],
+    elements: usize,
+) -> Result<f64, BemError> {
+    let path = Path::new(history, reacts_at_once(elastomer))?;
+    let plan = path.spring(elastomer)?.plan(&surface, path.largest())?;
+    let creep = elastomer.material().creep();
+    let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
+    let per_element = BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    Ok(per_element * n_followed(&surface, &grid(&plan, elements)))
+}
+
+/// Places of area, force and depth among the quantities of a row, so that the last two are where errors have their names.
+const PLACES: [usize; 3] = [0, FORCE, DEPTH];
+
+fn of_row(row: &MotionRow) -> [f64; 3] {
+    [row.contact_area, row.normal_force, row.indentation_depth]
+}
+
+/// A history of which every point is later than the one before.
+struct Path {
+    is_force: bool,
+    /// Time since the first one, and force or depth; at the first one nothing is pressed.
+    points: Vec<[f64; 2]>,
+}
+
+impl Path {
+    fn new(history: &[HistoryPoint], reacts_at_once: bool) -> Result<Self, BemError> {
+        let allowed = "at least 2";
+        let n_points = history.len() as f64;
+        in_range("number of points", n_points, n_points >= 2.0, allowed)?;
+        let is_force = |step: &HistoryPoint| matches!(step.control, Control::NormalForce(_));
+        let (first, last) = (history[0], history[history.len() - 1]);
+        let shortest = JUMP * positive("duration", last.time - first.time)?;
+        let is_forced = is_force(&first);
+        let mut before = first.time;
+        let mut points = vec![[0.0, check_control(first.control)?.min(0.0)]];
+        for (index, step) in history.iter().enumerate() {
+            not_negative("time between two points", step.time - before)?;
+            before = step.time;
+            let value = check_control(step.control)?;
+            let allowed = "a force at all points of a history, or a depth at all";
+            in_range("control", value, is_force(step) == is_forced, allowed)?;
+            if index == 0 && value <= 0.0 {
+                continue;
+            }
+            let [last, _] = points[points.len() - 1];
+            let time = step.time - first.time;
+            if time < last + shortest && !is_forced && !reacts_at_once {
+                // A lone dashpot holds against a jump with any force.
+                positive("time between two depths", time - last)?;
+            }
+            points.push([time.max(last + shortest), value]);
+        }
+        Ok(Self {
+            is_force: is_forced,
+            points,
+        })
+    }
+
+    fn control(&self, value: f64) -> Control {
+        if self.is_force {
+            Control::NormalForce(value)
+        } else {
+            Control::IndentationDepth(value)
+        }
+    }
+
+    /// The largest force or depth.
+    fn largest(&self) -> Control {
+        let values = self.points.iter().map(|[_, value]| *value);
+        self.control(values.fold(0.0, f64::max))
+    }
+
+    /// The elastic contact that reaches at least as far as that of any point: under a force that of the largest one held all
+    /// the time, because ∫ J dF ≤ J(t) max F.
+    fn spring(&self, elastomer: &(impl Elastomer + ?Sized)) -> Result<Spring, BemError> {
+        let [duration, _] = self.points[self.points.len() - 1];
+        let load = PressingLoad::new(self.largest(), duration)?;
+        if self.is_force {
+            Spring::after(elastomer, &load)
+        } else {
+            Spring::new(elastomer, 1.0, false)
+        }
+    }
+
+    /// Straight between two points.
+    fn at(&self, time: f64) -> Control {
+        let end = self.points.partition_point(|[before, _]| *before < time);
+        let end = end.clamp(1, self.points.len() - 1);
+        let [[start, from], [end, to]] = [self.points[end - 1], self.points[end]];
+        let part = ((time - start) / (end - start)).min(1.0);
+        self.control(from + part * (to - from))
+    }
+
+    /// Place of force or depth, whichever is not given.
+    const fn sought(&self) -> usize {
+        if self.is_force { DEPTH } else { FORCE }
+    }
+
+    /// Those of all rows, of which the one that is sought must have the error asked for, relative to its largest value.
+    fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
+        let largest = |place: usize| {
+            let values = found.rows.iter().map(|row| of_row(row)[place].abs());
+            values.fold(0.0, f64::max)
+        };
+        let sizes = PLACES.map(largest);
+        let of_row = |row: &MotionRow| {
+            let values = of_row(row);
+            PLACES.map(|place| Quantity {
+                size: sizes[place],
+                drives: place == self.sought(),
+                ..Quantity::from(values[place])
+            })
+        };
+        found.rows.iter().flat_map(of_row).collect()
+    }
+
+    /// The points of a history with the errors of area, force and depth.
+    fn with_errors(
+        &self,
+        history: &[HistoryPoint],
+        rows: &[MotionRow],
+        mut errors: [f64; 3],
+    ) -> Vec<IndentPoint> {
+        errors[FORCE + DEPTH - self.sought()] = 0.0;
+        let point = |(step, values): (&HistoryPoint, [f64; 3])| {
+            let known = |place: usize| Estimate::new(values[place], errors[place]);
+            let [contact_area, normal_force, indentation_depth] = PLACES.map(known);
+            IndentPoint {
+                time: step.time,
+                normal_force,
+                indentation_depth,
+                contact_area,
+            }
+        };
+        // Nothing is pressed at a first point that has no row.
+        let free = (rows.len() < history.len()).then_some([0.0, 0.0, self.points[0][1]]);
+        let contacts = free.into_iter().chain(rows.iter().map(of_row));
+        history.iter().zip(contacts).map(point).collect()
+    }
+}

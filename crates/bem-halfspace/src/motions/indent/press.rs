@@ -1,0 +1,382 @@
+//! One control, constant in time.
+//!
+//! While the contact grows, or stays as it is, a constant force acts on every material like the force F J(t) on a spring of
+//! unit modulus, and a constant depth makes G(t) times its force (Lee & Radok 1960), with J and G taken
+//! 2 (1 − ν) times as compliant. So one elastic contact is all that has to be solved.
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
+use numerics::{ErrorParts, Goal, Request, positive};
+use rheology::{Compressible, Elastic, Material as _};
+
+use crate::elements::pressure_field::PressureField;
+use crate::error::check_contact_elements;
+use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
+use crate::estimate::plan::GridPlan;
+use crate::stepping::{March, Motion};
+use crate::{BemError, Elastomer, GridOptions, Layer};
+
+/// Elements along the contact after which the error asked for is given up.
+const LARGEST_GRID: usize = 512;
+/// Depth and force converge faster than that, cusps or not.
+const ORDER: f64 = 1.0;
+/// Least relative error of n elements in contact, over n^(−3/4): near the outline the pressure grows with the root of the
+/// distance, so that the outermost elements carry such a part of the force, and are in contact or not as wholes. Grids may
+/// have this error in common by chance. It is twice what half of the random scenes of docs/calibration.md deviate by.
+const LEAST: f64 = 0.07;
+/// By so many edges of an element a disc of elements has to be wider than a flat punch to be as stiff: uniform pressures do not
+/// follow the singular one at the edge. On a half space, 160 to 512 elements along a disc err by 3e-5 to 5e-7 with it.
+const EDGE: f64 = 0.113;
+/// With fewer elements along a disc grids of different spacings have the same one.
+const FEWEST_OF_DISC: usize = 4;
+/// Of a transform of the elements along x and y, and of all steps of a history.
+const WORK: f64 = 2.0;
+
+/// Memory for an element in front of the mirrors, \[bytes].
+pub(super) const BYTES_PER_ELEMENT: f64 = 600.0;
+
+/// A contact under a control that was constant, on one grid.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct PressSolution {
+    /// Depth of the lowest point, \[m].
+    pub indentation_depth: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Area of the elements in contact, \[m²].
+    pub contact_area: f64,
+    /// Ends of the contact along x relative to the lowest point, \[m].
+    pub contact_x: [f64; 2],
+    /// Ends of the contact along y relative to the lowest point, \[m].
+    pub contact_y: [f64; 2],
+    /// Number of elements in contact.
+    pub n_contact: usize,
+    /// Iterations of the contact solver.
+    pub iterations: usize,
+    /// Pressure over the contact; none under a force on a material that creeps, where it depends on how the contact has
+    /// grown.
+    pub pressure: Option<PressureField>,
+}
+
+/// A contact under a control that was constant, with its error bars.
+pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
+
+/// Presses `surface` into a half space and waits until the material has come to rest, to a relative error of depth or
+/// force, whichever is not given; or with a number of elements along the contact, about, and whatever error that has.
+///
+/// # Errors
+/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`]
+/// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
+pub fn press<'w>(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    control: Control,
+    request: impl Into<Request<'w>>,
+) -> Result<PressEstimate, BemError> {
+    let spring = Spring::at_rest(elastomer)?;
+    estimate(&surface, &spring, control, request.into())
+}
+
+/// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
+/// of depth or force, whichever is not given; or with a number of elements along the contact, about.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] where a depth was held for so long that no force is left; otherwise like [`press`].
+pub fn indent<'w>(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &PressingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<PressEstimate, BemError> {
+    let spring = Spring::after(elastomer, load)?;
+    estimate(&surface, &spring, load.control(), request.into())
+}
+
+/// Memory that [`indent`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`indent`], before anything is solved.
+pub fn indent_memory(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &PressingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let plan = Spring::after(elastomer, load)?.plan(&surface, load.control())?;
+    Ok(BYTES_PER_ELEMENT * n_followed(&surface, &grid(&plan, elements)))
+}
+
+/// Elements in front of the mirrors.
+pub(super) fn n_followed(surface: &dyn Surface, options: &GridOptions) -> f64 {
+    let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
+    let followed: f64 = mirrored.map(|_| 0.5).product();
+    followed * options.footprint.n_elements(options.spacing)
+}
+
+pub(super) fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
+    let spacing = 2.0 * plan.length() / elements as f64;
+    GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
+}
+
+/// Like [`press`], on one grid.
+///
+/// # Errors
+/// [`BemError::NoEquilibrium`]; [`BemError::InvalidParameter`] for numbers out of range; [`BemError::GridTooLarge`];
+/// [`BemError::GridTooCoarse`] when the contact covers fewer than three elements along x or y;
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
+/// [`BemError::Material`].
+pub fn press_on_grid(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    control: Control,
+    options: &GridOptions,
+) -> Result<PressSolution, BemError> {
+    Spring::at_rest(elastomer)?.solve(&surface, control, options)
+}
+
+/// Like [`indent`], on one grid.
+///
+/// # Errors
+/// As for [`press_on_grid`], and [`BemError::InvalidParameter`] where a depth was held for so long that no force is left.
+pub fn indent_on_grid(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &PressingLoad,
+    options: &GridOptions,
+) -> Result<PressSolution, BemError> {
+    Spring::after(elastomer, load)?.solve(&surface, load.control(), options)
+}
+
+/// The spring that stands for a material under a constant control.
+pub(super) struct Spring {
+    /// With the compliance 2 (1 − ν)/G = 1, and the Poisson ratio of the material.
+    unit: Compressible,
+    thickness: f64,
+    /// 2 (1 − ν) J, or its inverse where the depth is given, \[1/Pa].
+    compliance: f64,
+    /// Whether its pressure is that of the material too.
+    has_pressure: bool,
+}
+
+impl Spring {
+    fn at_rest(elastomer: &(impl Elastomer + ?Sized)) -> Result<Self, BemError> {
+        let material = elastomer.material();
+        let modulus = material.relaxation().equilibrium_modulus();
+        if modulus == 0.0 {
+            return Err(BemError::NoEquilibrium);
+        }
+        let compliance = positive("2 (1 - ν) / G", material.half_space_factor() / modulus)?;
+        Self::new(elastomer, compliance, true)
+    }
+
+    pub(super) fn new(
+        elastomer: &(impl Elastomer + ?Sized),
+        compliance: f64,
+        has_pressure: bool,
+    ) -> Result<Self, BemError> {
+        let material = elastomer.material();
+        let spring = Elastic::new(material.half_space_factor())?;
+        Ok(Self {
+            unit: Compressible::new(&spring, material.poisson_ratio())?,
+            thickness: elastomer.thickness(),
+            compliance,
+            has_pressure,
+        })
+    }
+
+    fn layer(&self) -> Result<Layer<'_, Compressible>, BemError> {
+        Ok(Layer::new(&self.unit, self.thickness)?)
+    }
+
+    pub(super) fn plan(
+        &self,
+        surface: &dyn Surface,
+        control: Control,
+    ) -> Result<GridPlan, BemError> {
+        GridPlan::pressed(surface, &self.layer()?, self.scaled(control)?)
+    }
+
+    pub(super) fn after(
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &PressingLoad,
+    ) -> Result<Self, BemError> {
+        let material = elastomer.material();
+        let (factor, duration) = (material.half_space_factor(), load.duration());
+        let is_elastic = material.creep().is_elastic();
+        match load.control() {
+            Control::NormalForce(_) => {
+                let compliance = factor * material.creep_compliance(duration)?;
+                Self::new(elastomer, compliance, is_elastic)
+            }
+            Control::IndentationDepth(_) => {
+                let stiffness = material.relaxation_modulus(duration)? / factor;
+                let stiffness = positive("relaxation modulus of a depth held so long", stiffness)?;
+                Self::new(elastomer, stiffness.recip(), true)
+            }
+        }
+    }
+
+    /// The control of the spring of unit modulus.
+    fn scaled(&self, control: Control) -> Result<Control, BemError> {
+        Ok(match control {
+            Control::NormalForce(force) => {
+                let force = positive("normal_force", force)?;
+                Control::NormalForce(positive("compliance × force", force * self.compliance)?)
+            }
+            Control::IndentationDepth(depth) => {
+                Control::IndentationDepth(positive("indentation_depth", depth)?)
+            }
+        })
+    }
+
+    fn solve(
+        &self,
+        surface: &dyn Surface,
+        control: Control,
+        options: &GridOptions,
+    ) -> Result<PressSolution, BemError> {
+        let motion = Motion {
+            time: 1.0,
+            position: 0.0,
+            control: self.scaled(control)?,
+        };
+        let mut march = March::new(surface, &self.layer()?, &[motion], options)?;
+        let row = march.first()?;
+        check_contact_elements(march.elements_across())?;
+        let [contact_x, contact_y] = march.contact_edges();
+        let mut pressure = march.pressure()?;
+        for value in &mut pressure.pressure {
+            *value /= self.compliance;
+        }
+        Ok(PressSolution {
+            indentation_depth: row.indentation_depth,
+            normal_force: match control {
+                Control::NormalForce(force) => force,
+                Control::IndentationDepth(_) => row.normal_force / self.compliance,
+            },
+            contact_area: row.n_contact as f64 * pressure.grid.element_area(),
+            contact_x,
+            contact_y,
+            n_contact: row.n_contact,
+            iterations: row.iterations,
+            pressure: self.has_pressure.then_some(pressure),
+        })
+    }
+}
+
+/// On grids of up to so many elements along the contact.
+pub(super) const fn goal(request: Request, largest: usize) -> Goal {
+    Goal {
+        request,
+        largest,
+        order: ORDER,
+        work: WORK,
+        others: 0.0,
+        selection: 2.0,
+    }
+}
+
+fn estimate(
+    surface: &dyn Surface,
+    spring: &Spring,
+    control: Control,
+    request: Request,
+) -> Result<PressEstimate, BemError> {
+    let plan = spring.plan(surface, control)?;
+    let resolution = Resolution {
+        goal: goal(request, LARGEST_GRID),
+        control,
+        target: Target::Depth,
+        has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
+        better: 0.0,
+    };
+    let punch = surface.as_axisymmetric().and_then(radius_of_punch);
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
+        let mut options = grid(&plan, elements);
+        let state = if let Some(radius) = punch {
+            if elements < FEWEST_OF_DISC {
+                let needed = FEWEST_OF_DISC;
+                return Err(BemError::GridTooCoarse { elements, needed });
+            }
+            // Refuses more than any grid has, which would take for ever to count.
+            options.footprint.elements(options.spacing)?;
+            let [spacing, wider] = disc_of_elements(radius, elements);
+            options.spacing = [spacing; 2];
+            let mut state = spring.solve(&FlatPunch::new(wider)?, control, &options)?;
+            state.contact_area = PI * radius * radius;
+            state
+        } else {
+            spring.solve(surface, control, &options)?
+        };
+        Ok(state.on_grid(control, options, elements))
+    };
+    bars::resolve(&resolution, solve, |estimate: PressEstimate| {
+        if let Some(body) = surface.as_axisymmetric() {
+            // Refuses a contact beyond the end of the body, as beyond the equator of a sphere.
+            contact_radius(body, estimate.finest.indentation_depth)?;
+        }
+        Ok(estimate)
+    })
+}
+
+/// The radius of a body that is a flat punch.
+fn radius_of_punch(body: &dyn Axisymmetric) -> Option<f64> {
+    let radius = body.max_radius();
+    (radius.is_finite() && body.profile_height(radius) <= 0.0).then_some(radius)
+}
+
+/// Spacing of about so many elements along a disc, and the radius of the disc, wider by [`EDGE`], whose elements are together
+/// exactly as large as it: with any spacing they may be larger or smaller by an element for each root of their number.
+fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
+    let within = |square: f64| {
+        let row = |place: u32| (square - f64::from(place).powi(2)).sqrt().floor();
+        let rows = (1_u32..).map(row).take_while(|half| *half >= 0.0);
+        2.0 * row(0) + 1.0 + rows.map(|half| 2.0 * (2.0 * half + 1.0)).sum::<f64>()
+    };
+    let mut square = (0.5 * elements as f64).powi(2).ceil();
+    loop {
+        let squared_radius = within(square) * FRAC_1_PI;
+        if (square..square + 1.0).contains(&squared_radius) {
+            let wide = squared_radius.sqrt();
+            let spacing = radius / (wide - EDGE);
+            return [spacing, wide * spacing];
+        }
+        square += 1.0;
+    }
+}
+
+impl PressSolution {
+    /// A residual of the size of the tolerance changes the depth by as much, and the force by as many times that part as
+    /// there are elements along the contact.
+    fn on_grid(
+        self,
+        control: Control,
+        options: GridOptions,
+        elements: usize,
+    ) -> OnGrid<Self, GridOptions> {
+        let error = match control {
+            Control::NormalForce(_) => self.indentation_depth,
+            Control::IndentationDepth(_) => elements as f64 * self.normal_force,
+        };
+        OnGrid {
+            quantities: [
+                0.0,
+                self.normal_force,
+                self.indentation_depth,
+                self.contact_area,
+                self.pressure.as_ref().map_or(0.0, PressureField::largest),
+            ],
+            dissipated: None,
+            other_error: ErrorParts {
+                iteration: Some(options.contact.tolerance * error),
+                ..ErrorParts::NONE
+            },
+            least: LEAST * (self.n_contact as f64).powf(-0.75),
+            spacing: options.spacing[0],
+            state: self,
+            options,
+        }
+    }
+}

@@ -1,0 +1,347 @@
+//! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
+
+use indenters::{Control, SlidingLoad, Surface};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request};
+use rheology::{CreepSpectrum, Material as _};
+
+use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
+use crate::estimate::plan::GridPlan;
+use crate::motions::slide::stationary::settle;
+use crate::motions::slide::{
+    March, PressureField, SlideRow, StationaryOptions, Transient, slide_over,
+};
+use crate::{BemError, ContactOptions, Elastomer, GridOptions};
+
+/// Elements along the contact after which a march in time gives up; it takes about a minute.
+const LARGEST_GRID: usize = 32;
+/// Order of the error under a smooth body, that of a step in time.
+const ORDER: f64 = 1.0;
+/// Of the elements of a contact in as many steps as it has along it.
+const WORK: f64 = 3.0;
+/// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
+const LENGTHS: f64 = 24.0;
+const DRIFT: f64 = 0.05;
+/// Distances v λ of the slowest element until a solid counts as stationary.
+const MEMORIES: f64 = 12.0;
+/// Of a contact: over a shorter distance elements are not made as short as a step.
+const SHORT: f64 = 2.0 / 3.0;
+/// Contact lengths after which a march to the stationary state is not begun.
+const LONGEST: f64 = 500.0;
+/// Change of the friction by which a solid counts as stationary, relative to the error asked for.
+const SETTLED: f64 = 0.1;
+
+/// Memory for an element that is followed, but for what it remembers, and for a step of a march, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 150.0;
+const BYTES_PER_STEP: f64 = 600.0;
+
+/// The end of a march with its error bars: after the sliding distance, or in the stationary state.
+pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
+
+/// Slides `surface` over a linear viscoelastic half space from first touch on, in time, under a force or at a depth: over
+/// the sliding distance of the load, or without one until the state is stationary.
+///
+/// # Errors
+/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
+/// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
+/// [`slide_on_grid`](super::slide_on_grid).
+pub fn slide<'w>(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<SlideEstimate, BemError> {
+    Problem::new(&surface, elastomer, load, request.into())?.solve()
+}
+
+/// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`slide`], before anything is solved.
+pub fn slide_memory(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let surface: &dyn Surface = &surface;
+    let problem = Problem::new(
+        surface,
+        elastomer,
+        load,
+        Accuracy::Elements(elements).into(),
+    )?;
+    let options = problem.options(elements);
+    let (spacing, footprint) = (options.spacing, options.footprint);
+    let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
+    let Path { distance, step, .. } = problem.path;
+    let steps = distance / step * elements as f64;
+    // A material without memory needs no more elements than the footprint has.
+    let behind = if n_fields > 0 {
+        distance / spacing[0]
+    } else {
+        0.0
+    };
+    let across = (footprint.y[1] - footprint.y[0]) / spacing[1];
+    let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
+    let n_elements = followed * (footprint.n_elements(spacing) + behind * across);
+    let per_element = BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    Ok(per_element * n_elements + BYTES_PER_STEP * steps)
+}
+
+/// One march, the friction at its end, and the error of its extrapolation to the stationary state, where that is asked for.
+type End = (Transient, f64, Option<f64>);
+
+struct Problem<'a, M: ?Sized> {
+    surface: &'a dyn Surface,
+    elastomer: &'a M,
+    load: &'a SlidingLoad,
+    creep: CreepSpectrum,
+    plan: GridPlan,
+    path: Path,
+    request: Request<'a>,
+}
+
+/// The distance that is slid, and on what elements and steps, so that it is a whole number of both on all grids.
+#[derive(Clone, Copy)]
+struct Path {
+    /// \[m], the longest for a stationary state.
+    distance: f64,
+    /// Length of an element times the elements along the contact, \[m].
+    length: f64,
+    /// The same of a step: over less than a contact steps are shorter than elements, and become shorter with them.
+    step: f64,
+}
+
+impl Path {
+    fn new(plan: &GridPlan, load: &SlidingLoad, memory: f64) -> Self {
+        let length = plan.length();
+        let Some(distance) = load.sliding_distance() else {
+            let lengths = LENGTHS + (MEMORIES * memory / length).ceil();
+            return Self {
+                distance: lengths * length,
+                length,
+                step: length,
+            };
+        };
+        let step = distance / (distance / length).round().max(1.0);
+        let length = if step < SHORT * length { length } else { step };
+        Self {
+            distance,
+            length,
+            step,
+        }
+    }
+}
+
+impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
+    fn new(
+        surface: &'a dyn Surface,
+        elastomer: &'a M,
+        load: &'a SlidingLoad,
+        request: Request<'a>,
+    ) -> Result<Self, BemError> {
+        let plan = GridPlan::sliding(surface, elastomer, load)?;
+        let creep = elastomer.material().creep();
+        Ok(Self {
+            path: Path::new(&plan, load, memory_of(elastomer, load)),
+            plan,
+            creep,
+            surface,
+            elastomer,
+            load,
+            request,
+        })
+    }
+
+    fn solve(&self) -> Result<SlideEstimate, BemError> {
+        let resolution = Resolution {
+            goal: Goal {
+                request: self.request,
+                largest: LARGEST_GRID,
+                order: bars::order_of_friction(self.plan.apex_exponent, ORDER),
+                work: WORK,
+                others: 0.0,
+                selection: 2.0,
+            },
+            control: self.load.control(),
+            // Nothing is dissipated in an elastic half space, where the depth stands for the friction.
+            target: if self.creep.is_elastic() {
+                Target::Depth
+            } else {
+                Target::Friction
+            },
+            has_peak: peak_has_limit(self.surface, self.elastomer),
+            better: 0.0,
+        };
+        let march = |elements, tell: &dyn Fn(f64)| self.march(elements, tell);
+        bars::resolve(&resolution, march, |mut estimate: SlideEstimate| {
+            if self.creep.is_elastic() {
+                estimate.friction_coefficient = Estimate::exact(0.0);
+                estimate.error_parts = ErrorParts::NONE;
+            }
+            if self.load.sliding_distance().is_none() {
+                let rest = depth_that_is_left(&estimate.finest.rows);
+                let depth = estimate
+                    .indentation_depth
+                    .filter(|_| self.creep.fluidity() <= 0.0);
+                estimate.indentation_depth =
+                    depth.map(|depth| Estimate::new(depth.value, depth.error + rest));
+            }
+            Ok(estimate)
+        })
+    }
+
+    /// At a depth the body reaches the boundary of its footprint.
+    fn options(&self, elements: usize) -> GridOptions {
+        let spacing = self.path.length / elements as f64;
+        let footprint = match self.load.control() {
+            Control::NormalForce(_) => self.plan.footprint,
+            Control::IndentationDepth(_) => self.plan.footprint.widened(spacing),
+        };
+        GridOptions::new([spacing; 2], footprint)
+    }
+
+    fn march(
+        &self,
+        elements: usize,
+        tell: &dyn Fn(f64),
+    ) -> Result<OnGrid<Transient, GridOptions>, BemError> {
+        let options = self.options(elements);
+        let (control, distance) = (self.load.control(), self.load.sliding_distance());
+        let march = |load| {
+            let step = self.path.step / elements as f64;
+            March::in_steps(self.surface, self.elastomer, load, &options, step)
+        };
+        let (transient, friction, truncation) = match (control, distance) {
+            (Control::NormalForce(_), None) => {
+                self.check_memory()?;
+                let load = self.load.after(self.path.distance)?;
+                self.to_stationary(march(&load)?, &load, tell)?
+            }
+            _ => over_distance(march(self.load)?, self.load, tell)?,
+        };
+        let last = transient.last();
+        let quantities = [
+            friction,
+            last.normal_force,
+            last.indentation_depth,
+            last.contact_area,
+            transient.pressure.largest(),
+        ];
+        let iteration = || iteration_error(self.surface, &transient.pressure);
+        Ok(OnGrid {
+            quantities,
+            dissipated: None,
+            other_error: ErrorParts {
+                iteration: (!self.creep.is_elastic()).then(iteration),
+                truncation,
+                ..ErrorParts::NONE
+            },
+            least: 0.0,
+            spacing: options.spacing[0],
+            state: transient,
+            options,
+        })
+    }
+
+    /// Refuses a material that remembers the first touch for too long.
+    fn check_memory(&self) -> Result<(), BemError> {
+        let contact_length = self.plan.length();
+        if self.path.distance <= LONGEST * contact_length {
+            return Ok(());
+        }
+        Err(BemError::MemoryTooLong {
+            memory: memory_of(self.elastomer, self.load),
+            contact_length,
+            limit: LONGEST,
+        })
+    }
+
+    fn to_stationary(
+        &self,
+        march: March<'_>,
+        load: &SlidingLoad,
+        tell: &dyn Fn(f64),
+    ) -> Result<End, BemError> {
+        let memory = memory_of(self.elastomer, load);
+        if memory > 0.0 {
+            return self.until_forgotten(memory, march, load, tell);
+        }
+        let end = over_distance(march, load, tell)?;
+        if self.creep.is_elastic() {
+            return Ok(end);
+        }
+        let state = end.0.stationary(DRIFT)?;
+        let (friction, error) = (state.friction_coefficient, state.distance_error);
+        Ok((end.0, friction, Some(error)))
+    }
+
+    /// Slides until a material that recovers has forgotten the first touch.
+    fn until_forgotten(
+        &self,
+        memory: f64,
+        march: March<'_>,
+        load: &SlidingLoad,
+        tell: &dyn Fn(f64),
+    ) -> Result<End, BemError> {
+        let stationary = StationaryOptions {
+            tolerance: match self.request.accuracy {
+                Accuracy::RelativeError(error) => SETTLED * error,
+                Accuracy::Elements(_) => SETTLED * DRIFT,
+            },
+            over_distance: 2.0 * self.plan.length() + memory,
+        };
+        let end = settle(march, load, &stationary, tell)?;
+        let friction = end.friction_coefficient;
+        Ok((end.transient, friction, Some(end.rest * friction.abs())))
+    }
+}
+
+fn over_distance(
+    march: March<'_>,
+    load: &SlidingLoad,
+    tell: &dyn Fn(f64),
+) -> Result<End, BemError> {
+    let transient = slide_over(march, load, tell)?;
+    let friction = transient.last().friction_coefficient;
+    Ok((transient, friction, None))
+}
+
+/// Change of the depth over the second half of a march, \[m]: the track behind the body misses what is beyond its beginning,
+/// which is felt in inverse proportion to the distance. So depth comes to rest more slowly than friction, by which a march ends.
+fn depth_that_is_left(rows: &[SlideRow]) -> f64 {
+    let [last, half] = [rows.len(), rows.len().div_ceil(2)].map(|count| &rows[count - 1]);
+    (last.indentation_depth - half.indentation_depth).abs()
+}
+
+/// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
+fn memory_of(elastomer: &(impl Elastomer + ?Sized), load: &SlidingLoad) -> f64 {
+    let creep = elastomer.material().creep();
+    let elements = creep.elements().iter();
+    let times = elements.map(|element| element.retardation_time);
+    let memory = load.velocity() * times.fold(0.0, f64::max);
+    if creep.fluidity() > 0.0 && elastomer.thickness().is_finite() {
+        memory.max(elastomer.thickness())
+    } else {
+        memory
+    }
+}
+
+/// How much a residual of the size of the tolerance changes the friction.
+///
+/// A residual that alternates from element to element changes the pressure by as many times its part of the displacement
+/// as there are elements along the contact, and the friction by as much of the mean modulus of the slope.
+fn iteration_error(surface: &dyn Surface, field: &PressureField) -> f64 {
+    let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
+    let [mut load, mut rise] = [0.0; 2];
+    for (index, pressure) in field.pressure.iter().enumerate() {
+        let x = field.origin[0] + (index / columns) as f64 * dx;
+        let y = field.origin[1] + (index % columns) as f64 * dy;
+        let difference = surface.height([x + 0.5 * dx, y]) - surface.height([x - 0.5 * dx, y]);
+        load += pressure;
+        if *pressure > 0.0 {
+            rise += pressure * (difference / dx).abs();
+        }
+    }
+    ContactOptions::default().tolerance * rows as f64 * (rise / load)
+}

@@ -1,0 +1,81 @@
+//! Sliding from first touch, through the transition, towards the stationary state, and any other motion.
+//!
+//! The elements are fixed in the half space. In a step the pressure is constant, the surface moves by
+//!
+//! ```text
+//! u(t + Δt) = history + 2 (1 − ν) α/(4π) K P,        α = Δt/η and history = u(t) on a dashpot
+//! ```
+//!
+//! and at the end of the step the contact conditions hold. [`slide_on_grid`] advances the indenter by one element per step, so
+//! that its motion is exact on the grid; [`follow`] moves it by any amount, stops it and takes it back. Both are a
+//! [`March`].
+
+mod estimate;
+mod stationary;
+mod transient;
+
+use indenters::{SlidingLoad, Surface};
+
+pub use crate::elements::pressure_field::PressureField;
+pub use crate::stepping::{March, Motion, MotionRow};
+use crate::{BemError, Elastomer, GridOptions};
+pub use estimate::{SlideEstimate, slide, slide_memory};
+pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
+pub use transient::{SlideRow, Transient};
+
+/// Presses `surface` into an undeformed half space under a constant force or at a constant depth and slides it from first
+/// touch over the sliding distance of the load, on one grid.
+///
+/// The element in which the lowest point starts has it in its centre. Of a surface that is
+/// [its own mirror image](Surface::mirrors) about y = 0, over a footprint that is so too, only the half at y ≥ 0 is
+/// followed.
+///
+/// # Errors
+/// [`BemError::SlidingDistanceMissing`]; [`BemError::InvalidParameter`] for options out of range;
+/// [`BemError::GridTooLarge`]; [`BemError::TooManySteps`]; [`BemError::GridTooCoarse`] when
+/// the contact at the end covers fewer than three elements along x or y;
+/// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`] at the end; [`BemError::ContactNotConverged`];
+/// [`BemError::InvalidHeight`]; [`BemError::Material`].
+pub fn slide_on_grid(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &GridOptions,
+) -> Result<Transient, BemError> {
+    slide_over(
+        March::sliding(&surface, elastomer, load, options)?,
+        load,
+        &|_| (),
+    )
+}
+
+/// Tells which part of the march is done.
+fn slide_over(
+    mut march: March<'_>,
+    load: &SlidingLoad,
+    tell: &dyn Fn(f64),
+) -> Result<Transient, BemError> {
+    let mut rows = Vec::new();
+    while let Some(row) = march.step()? {
+        // At a depth there may be no contact for a while, under a force there always is.
+        rows.extend(SlideRow::of(&row));
+        tell(march.part_done());
+    }
+    Transient::of(&march, load, rows)
+}
+
+/// Takes `surface` through `motions` over an undeformed half space.
+///
+/// At time zero the lowest point is over the centre of an element at position zero.
+///
+/// # Errors
+/// Like [`March::new`] and [`March::step`].
+pub fn follow(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    motions: &[Motion],
+    options: &GridOptions,
+) -> Result<Vec<MotionRow>, BemError> {
+    let mut march = March::new(&surface, elastomer, motions, options)?;
+    std::iter::from_fn(|| march.step().transpose()).collect()
+}

@@ -1,0 +1,236 @@
+//! The stationary state behind a transient.
+//!
+//! On a material that flows the surface ahead of the indenter sinks like ln t, so the friction coefficient approaches
+//! its limit only like the reciprocal of the sliding distance S:
+//!
+//! ```text
+//! μ(S) = μ_∞ + m₁/S + m₂/S² + …
+//! ```
+//! On a solid it does so exponentially, once the distance is longer than v λ for every retardation time λ.
+
+use indenters::{SlidingLoad, Surface};
+use numerics::{between_zero_and_one, positive};
+
+use crate::motions::slide::{March, SlideRow, Transient};
+use crate::{BemError, Elastomer, GridOptions};
+
+/// So many have a last quarter.
+const FEWEST_STEPS: usize = 4;
+
+/// The limit of the friction coefficient for an infinite sliding distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct StationaryFriction {
+    /// μ_∞, extrapolated from the distances S, S/2 and S/4.
+    pub friction_coefficient: f64,
+    /// Estimated absolute error of the extrapolation: half of how much the limits differ to which the steps of the last two
+    /// fifths of the distance extrapolate. A term 1/S³ that is left changes them by 3.6 times its size at the end, and the contact
+    /// changes by whole elements, and the friction with it. Otherwise the error of the grid is not in it.
+    pub distance_error: f64,
+    /// Relative change of the friction coefficient over the second half of the distance, which is also, to leading
+    /// order, the relative difference between its last value and the limit.
+    pub drift: f64,
+}
+
+impl Transient {
+    /// The last step.
+    ///
+    /// # Panics
+    /// Never for a transient of this crate: it has at least one step.
+    pub fn last(&self) -> &SlideRow {
+        &self.rows[self.rows.len() - 1]
+    }
+
+    /// The stationary friction coefficient, with the slope averaged over each step.
+    ///
+    /// The state counts as stationary when the friction coefficient changed by less than `drift_tolerance` of its
+    /// value over the second half of the sliding distance. The extrapolation is that of a material that flows; on a
+    /// solid its error covers the extrapolation of a friction that is stationary already.
+    ///
+    /// # Errors
+    /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
+    pub fn stationary(&self, drift_tolerance: f64) -> Result<StationaryFriction, BemError> {
+        let n = self.rows.len();
+        let last = self.last();
+        let value = last.friction_coefficient;
+        let not_stationary = |drift| BemError::NotStationary {
+            sliding_distance: last.sliding_distance,
+            drift,
+            friction_coefficient: value,
+            tolerance: drift_tolerance,
+        };
+        if n < FEWEST_STEPS {
+            return Err(not_stationary(1.0));
+        }
+        let points = halvings(&self.rows);
+        let drift = ((value - points[1].1) / value).abs();
+        if drift <= drift_tolerance {
+            return Ok(StationaryFriction {
+                friction_coefficient: value_at_zero(&points),
+                distance_error: 0.5 * spread_of_limits(&self.rows),
+                drift,
+            });
+        }
+        Err(not_stationary(drift))
+    }
+}
+
+/// By how much the limits differ to which the steps of the last two fifths of the distance extrapolate.
+fn spread_of_limits(rows: &[SlideRow]) -> f64 {
+    let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
+    let first = (3 * rows.len() / 5).max(FEWEST_STEPS);
+    for count in first..=rows.len() {
+        let limit = value_at_zero(&halvings(&rows[..count]));
+        lowest = limit.min(lowest);
+        highest = limit.max(highest);
+    }
+    highest - lowest
+}
+
+/// The last row and those at a half and a quarter of its distance, as (reciprocal distance, friction coefficient).
+fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
+    let n = rows.len();
+    [n, n / 2, n / 4].map(|count| {
+        let step = &rows[count - 1];
+        (1.0 / step.sliding_distance, step.friction_coefficient)
+    })
+}
+
+/// Value at zero of the polynomial through the points (Lagrange).
+fn value_at_zero(points: &[(f64, f64)]) -> f64 {
+    let term = |&(position, value): &(f64, f64)| {
+        let others = points.iter().map(|&(other, _)| other);
+        let others = others.filter(|other| other.total_cmp(&position).is_ne());
+        let factors = others.map(|other| other / (other - position));
+        value * factors.product::<f64>()
+    };
+    points.iter().map(term).sum()
+}
+
+/// When a state counts as stationary.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StationaryOptions {
+    /// Largest change of the friction coefficient, extrapolated where the material flows, relative to its value.
+    pub tolerance: f64,
+    /// Distance over which it changes by no more, \[m]: several contact lengths, and several v λ of the slowest
+    /// retardation time λ that matters.
+    pub over_distance: f64,
+}
+
+/// A transient that has come to its end.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct StationarySlide {
+    /// The rows from first touch on.
+    pub transient: Transient,
+    /// Friction coefficient, extrapolated to an infinite distance where the material flows.
+    pub friction_coefficient: f64,
+    /// Largest change of it over the distance that was asked for, relative to its value.
+    pub change: f64,
+    /// Estimated relative error of the distance that is left, from the change over the second half of that distance.
+    pub rest: f64,
+}
+
+/// Like [`slide_on_grid`](crate::motions::slide::slide_on_grid), but stops as soon as the friction coefficient is stationary; the
+/// sliding distance of the load is the longest allowed.
+///
+/// On an elastic half space, where there is no friction, changes of the order of the contact tolerance count as none.
+///
+/// # Errors
+/// [`BemError::NotStationary`] with the change reached; otherwise like [`slide_on_grid`](crate::motions::slide::slide_on_grid).
+pub fn slide_to_stationary(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &GridOptions,
+    stationary: &StationaryOptions,
+) -> Result<StationarySlide, BemError> {
+    let march = March::sliding(&surface, elastomer, load, options)?;
+    settle(march, load, stationary, &|_| ())
+}
+
+/// Tells which part of the longest distance allowed is done.
+pub(super) fn settle(
+    mut march: March,
+    load: &SlidingLoad,
+    stationary: &StationaryOptions,
+    tell: &dyn Fn(f64),
+) -> Result<StationarySlide, BemError> {
+    between_zero_and_one("stationary tolerance", stationary.tolerance)?;
+    positive("over_distance", stationary.over_distance)?;
+    let flows = march.sinks;
+    let mut rows = Vec::new();
+    let mut limits = Limits::default();
+    let mut change = 1.0;
+    while let Some(row) = march.step()? {
+        rows.extend(SlideRow::of(&row));
+        tell(march.part_done());
+        let noise = NOISE * march.tolerance() * march.steepness();
+        limits.push(&rows, flows);
+        change = limits.change(stationary.over_distance, noise);
+        if change <= stationary.tolerance {
+            let friction_coefficient = limits.last();
+            let transient = Transient::of(&march, load, rows)?;
+            return Ok(StationarySlide {
+                transient,
+                friction_coefficient,
+                change,
+                rest: limits.change(0.5 * stationary.over_distance, noise) / CHANGE_OVER_REST,
+            });
+        }
+    }
+    Err(BemError::NotStationary {
+        sliding_distance: rows.last().map_or(0.0, |row| row.sliding_distance),
+        drift: change,
+        friction_coefficient: limits.last(),
+        tolerance: stationary.tolerance,
+    })
+}
+
+/// √e − 1: what falls at least e-fold over a distance changes so many times over the second half of it as it may still do.
+const CHANGE_OVER_REST: f64 = 0.6487;
+/// The pressure is accurate to about this many contact tolerances.
+const NOISE: f64 = 1e3;
+
+/// The friction coefficients for an infinite distance that the steps so far extrapolate to, with their distances.
+#[derive(Debug, Default)]
+struct Limits(Vec<[f64; 2]>);
+
+impl Limits {
+    fn push(&mut self, rows: &[SlideRow], flows: bool) {
+        let Some(last) = rows.last() else {
+            return;
+        };
+        let limit = match rows.len() {
+            4.. if flows => value_at_zero(&halvings(rows)),
+            _ => last.friction_coefficient,
+        };
+        self.0.push([last.sliding_distance, limit]);
+    }
+
+    fn last(&self) -> f64 {
+        self.0.last().map_or(0.0, |[_, limit]| *limit)
+    }
+
+    /// Largest change relative to the last value over the last part of the distance, beyond the noise; 1, as from nothing,
+    /// when the distance was not as long.
+    fn change(&self, over_distance: f64, noise: f64) -> f64 {
+        let Some(&[distance, limit]) = self.0.last() else {
+            return 1.0;
+        };
+        let start = distance - over_distance;
+        // As from half the distance on: what is extrapolated looks back that far.
+        if start <= 0.0 || self.0.len() < 8 {
+            return 1.0;
+        }
+        let recent = self.0.iter().rev().take_while(|[then, _]| *then >= start);
+        let changes = recent.map(|[_, then]| (then - limit).abs());
+        let largest = changes.fold(0.0, f64::max);
+        if largest <= noise {
+            return 0.0;
+        }
+        largest / limit.abs()
+    }
+}

@@ -1,0 +1,101 @@
+//! What a sliding simulation returns.
+
+use indenters::SlidingLoad;
+
+use crate::BemError;
+use crate::elements::pressure_field::PressureField;
+use crate::error::check_contact_elements;
+use crate::motions::slide::{March, MotionRow};
+
+/// The state after one step of sliding.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SlideRow {
+    /// Sliding distance since first touch, \[m].
+    pub sliding_distance: f64,
+    /// Time since first touch, \[s].
+    pub time: f64,
+    /// Depth of the lowest point below the undeformed surface, \[m]. On a half space that
+    /// flows it grows like the logarithm of the distance, without end.
+    pub indentation_depth: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Friction coefficient: the pressure of the step times the slope that it meets, on a dashpot the mean over the step.
+    pub friction_coefficient: f64,
+    /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term on a
+    /// dashpot.
+    pub friction_coefficient_end_of_step: f64,
+    /// Area of the elements in contact, \[m²].
+    pub contact_area: f64,
+    /// Rear and front of the contact relative to the lowest point, \[m].
+    pub contact_x: [f64; 2],
+    /// Sides of the contact relative to the lowest point, \[m].
+    pub contact_y: [f64; 2],
+    /// Number of elements in contact.
+    pub n_contact: usize,
+    /// Iterations of the contact solver.
+    pub iterations: usize,
+}
+
+impl SlideRow {
+    /// The row of a step with a force; none without one, because there is no coefficient.
+    pub(super) fn of(row: &MotionRow) -> Option<Self> {
+        let (Some(contact_x), Some(contact_y)) = (row.contact_x, row.contact_y) else {
+            return None;
+        };
+        (row.normal_force > 0.0).then_some(Self {
+            sliding_distance: row.position,
+            time: row.time,
+            indentation_depth: row.indentation_depth,
+            normal_force: row.normal_force,
+            friction_coefficient: row.tangential_force / row.normal_force,
+            friction_coefficient_end_of_step: row.tangential_force_end_of_step / row.normal_force,
+            contact_area: row.contact_area,
+            contact_x,
+            contact_y,
+            n_contact: row.n_contact,
+            iterations: row.iterations,
+        })
+    }
+}
+
+/// A sliding simulation from first touch on.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Transient {
+    /// One entry per step, by increasing distance; never empty.
+    pub rows: Vec<SlideRow>,
+    /// Pressure in the last step.
+    pub pressure: PressureField,
+    /// Number of elements of the half space whose displacement was followed.
+    pub n_elements: usize,
+}
+
+impl Transient {
+    /// The rows of a march under a load, if its last contact is resolved.
+    pub(super) fn of(
+        march: &March<'_>,
+        load: &SlidingLoad,
+        rows: Vec<SlideRow>,
+    ) -> Result<Self, BemError> {
+        let pressure = march.pressure()?;
+        let [length, width] = pressure.grid.shape();
+        check_contact_elements(length.min(width))?;
+        if let Some(force) = load.normal_force() {
+            let contact_length = length as f64 * pressure.grid.spacing()[0];
+            let distance = load.sliding_distance().unwrap_or(f64::INFINITY);
+            let time = contact_length.min(distance) / load.velocity();
+            let depth_scale = march.depth_scale(force, contact_length, time)?;
+            let rise = march.largest_rise();
+            if rise > depth_scale {
+                return Err(BemError::SlopeNotResolved { rise, depth_scale });
+            }
+        }
+        Ok(Self {
+            rows,
+            pressure,
+            n_elements: march.n_elements(),
+        })
+    }
+}

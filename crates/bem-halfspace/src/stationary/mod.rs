@@ -1,0 +1,7 @@
+//! Stationary sliding, solved directly.
+
+mod conjugate_residuals;
+pub mod periodic;
+pub mod steady;
+
+pub use steady::steady;

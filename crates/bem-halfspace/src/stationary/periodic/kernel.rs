@@ -1,0 +1,184 @@
+//! How a sliding material answers waves of pressure.
+//!
+//! ```text
+//! û(q) = 2 p̂(q) M / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) M / |q|,        q_x ≥ 0
+//! ```
+//!
+//! In the frame that moves with the surface a wave passes with the angular frequency −q_x v. The gap of an element is
+//! evaluated at the fraction θ = −δ/π of it, with the loss angle δ at the shortest wave along x: there displacement and
+//! pressure are in phase, and less than a quarter period apart for all other waves.
+
+use std::f64::consts::PI;
+
+use numerics::positive;
+use rheology::{CreepSpectrum, Material as _};
+use rustfft::num_complex::Complex;
+
+use crate::stationary::periodic::waves::Waves;
+use crate::substrate::layer::Base;
+use crate::{BemError, Elastomer, Grid};
+
+/// A material under a surface that slides.
+#[derive(Debug, Clone)]
+pub(super) struct Sliding {
+    pub(super) creep: CreepSpectrum,
+    /// 1 − ν.
+    pub(super) factor: f64,
+    velocity: f64,
+    base: Base,
+}
+
+impl Sliding {
+    pub(super) fn new(
+        elastomer: &(impl Elastomer + ?Sized),
+        velocity: f64,
+    ) -> Result<Self, BemError> {
+        let creep = elastomer.material().creep();
+        if creep.fluidity() > 0.0 {
+            return Err(BemError::FlowsUnderWaves);
+        }
+        Ok(Self {
+            factor: 0.5
+                * positive(
+                    "half-space factor",
+                    elastomer.material().half_space_factor(),
+                )?,
+            creep,
+            velocity,
+            base: Base::of(elastomer),
+        })
+    }
+
+    /// At rest, a time \[s] after a pressure was laid on: as on a spring of the compliance at that time.
+    #[cfg(feature = "rough")]
+    pub(super) fn at_rest(
+        elastomer: &(impl Elastomer + ?Sized),
+        time: f64,
+    ) -> Result<Self, BemError> {
+        let creep = elastomer.material().creep();
+        let spring = CreepSpectrum::new(creep.creep_compliance(time)?, 0.0, Vec::new())?;
+        Ok(Self {
+            creep: spring,
+            factor: 0.5 * elastomer.material().half_space_factor(),
+            velocity: 0.0,
+            base: Base::of(elastomer),
+        })
+    }
+
+    #[cfg(feature = "rough")]
+    pub(super) const fn is_on_layer(&self) -> bool {
+        self.base.is_layer()
+    }
+
+    /// Largest pressure of a wave along x of this length that lifts a half space by an amplitude, \[Pa].
+    #[cfg(feature = "rough")]
+    pub(super) fn pressure_of(&self, length: f64, amplitude: f64) -> Result<f64, BemError> {
+        let wave_number = 2.0 * PI / length;
+        Ok(amplitude * wave_number / self.compliances(&[wave_number])?[0].norm())
+    }
+
+    /// How deep the mean pressure 1 \[Pa] presses a layer that is given time, \[m/Pa].
+    pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
+        Ok(self.compliances(&[0.0])?[0].re * self.base.mean())
+    }
+
+    /// (1 − ν) [J' + i J''] of every row, before any shift.
+    pub(super) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
+        let compliance = |q_x: &f64| {
+            let frequency = (q_x * self.velocity).abs();
+            let compliance = self.creep.complex_compliance(frequency)?;
+            positive("storage compliance", compliance.storage)?;
+            let loss = compliance.loss.copysign(*q_x);
+            Ok(Complex::new(compliance.storage, loss) * self.factor)
+        };
+        along_x.iter().map(compliance).collect()
+    }
+}
+
+/// Products with the waves of one grid and symbols by row of the transform.
+pub(super) struct Kernel {
+    waves: Waves,
+    /// |q| û/p̂ at the centre of an element.
+    at_centre: Vec<Complex<f64>>,
+    /// The shift to the point at which the gap is evaluated.
+    shift: Vec<Complex<f64>>,
+    /// Their product.
+    factors: Vec<Complex<f64>>,
+}
+
+impl Kernel {
+    pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
+        let dx = grid.spacing()[0];
+        let waves = Waves::new(grid, &sliding.base);
+        let along_x = &waves.along_x;
+        let mut at_centre = sliding.compliances(along_x)?;
+        let shortest = sliding.compliances(&[PI / dx])?[0];
+        let theta = -shortest.arg() / PI;
+        let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
+        let mut shift: Vec<_> = along_x.iter().map(turn).collect();
+        let mut factors: Vec<_> = at_centre.iter().zip(&shift).map(|(c, s)| c * s).collect();
+        let rows = along_x.len();
+        if rows.is_multiple_of(2) {
+            // The shortest wave stands for both directions, so that its symbols are real.
+            let middle = rows / 2;
+            factors[middle] = Complex::from(factors[middle].norm());
+            for symbols in [&mut at_centre, &mut shift] {
+                symbols[middle] = Complex::from(symbols[middle].re);
+            }
+        }
+        Ok(Self {
+            waves,
+            at_centre,
+            shift,
+            factors,
+        })
+    }
+
+    /// Displacements where the gaps are evaluated.
+    pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row] / q;
+        self.waves.apply(pressure, result, symbol);
+    }
+
+    /// The inverse of [`displace`](Self::displace) on the whole grid.
+    pub(super) fn invert(&mut self, displacement: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row].inv() * q;
+        self.waves.apply(displacement, result, symbol);
+    }
+
+    /// The pressure that displaces the centres of all elements.
+    pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row].inv() * q;
+        self.waves.apply(field, result, symbol);
+    }
+
+    /// The displacements K z of the centres for (1 + w K) z = r with one weight w for all elements.
+    pub(super) fn relax(&mut self, weight: f64, residual: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| {
+            let kernel = self.at_centre[row];
+            kernel / (kernel * weight + q)
+        };
+        self.waves.apply(residual, result, symbol);
+    }
+
+    /// Heights at the points where the gaps are evaluated, by trigonometric interpolation.
+    pub(super) fn shifted(&mut self, heights: &[f64], result: &mut [f64]) {
+        self.waves.apply(heights, result, |row, _| self.shift[row]);
+    }
+
+    /// Slopes ∂h/∂x at the centres.
+    pub(super) fn slopes(&mut self, heights: &[f64], result: &mut [f64]) {
+        let rows = self.shift.len();
+        self.waves.apply(heights, result, |row, [q_x, _]| {
+            // The slope of the shortest wave vanishes at the centres.
+            Complex::new(0.0, if 2 * row == rows { 0.0 } else { q_x })
+        });
+    }
+
+    /// The field whose mean product with the pressure is the power dissipated per area and velocity.
+    pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
+        let symbol =
+            |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);
+        self.waves.apply(pressure, result, symbol);
+    }
+}

@@ -1,0 +1,257 @@
+//! Sliding of a periodic surface from rest, one step after the other.
+//!
+//! The elements go with the surface, and the material passes them by one element in a step, or by a part of one, over which the
+//! pressure of a point of the material is held:
+//!
+//! ```text
+//! u = 2 (1 − ν) α w + history,        w = K p / (4π)        at the end of the step
+//! ```
+//!
+//! A wave that passes with the frequency ω = q_x v meets the compliance J_Δ of inputs that are held instead of J. So the
+//! contact is that of a surface of which every wave is multiplied by J_Δ/J, about half a step behind where much flows: in
+//! full contact the pressure of the stationary state is then exact. The first step is as short as it must be for the last to end
+//! at the distance; between whole elements the waves of the surface are shifted.
+
+use std::f64::consts::PI;
+
+use numerics::positive;
+use rheology::{ExponentialStep, Material as _};
+use rustfft::num_complex::Complex;
+
+use crate::elements::grid::elements_along;
+use crate::parallel::reductions::{add, dot};
+use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::{PeriodicLoad, area_fraction, check_surface};
+use crate::substrate::layer::Base;
+use crate::transform::plane_transform::ZERO;
+use crate::{
+    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
+    ConvolutionWorkspace, Elastomer, Grid, PressureField, solve_contact,
+};
+
+/// The state at the end of a step of a periodic surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PeriodicRow {
+    /// Sliding distance, \[m].
+    pub sliding_distance: f64,
+    /// Time, \[s].
+    pub time: f64,
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Part of the period in contact, as in [`PeriodicSliding`](crate::PeriodicSliding).
+    pub area_fraction: f64,
+    /// Depth of the mean plane, as in [`PeriodicSliding`](crate::PeriodicSliding), \[m].
+    pub mean_depth: f64,
+}
+
+/// A periodic surface that has slid from rest.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct PeriodicTransient {
+    /// One entry for each step; the last is at the end of the distance.
+    pub rows: Vec<PeriodicRow>,
+    /// Pressure at the end; the first height is at the origin.
+    pub pressure: PressureField,
+}
+
+/// Presses a periodic surface into a material at rest and slides it from there over a distance \[m], in steps of one element, of
+/// which the first is shorter where the distance has no whole number of them.
+///
+/// `heights` as in [`steady_periodic_on_grid`](crate::steady_periodic_on_grid), whose state it comes to after some contact
+/// lengths, once the slowest relaxation that matters is over.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for a velocity of 0, and a distance that is not positive; [`BemError::GridTooLarge`] for one
+/// of too many elements; otherwise those of [`steady_periodic_on_grid`](crate::steady_periodic_on_grid).
+pub fn slide_periodic_on_grid(
+    grid: &Grid,
+    heights: &[f64],
+    elastomer: &(impl Elastomer + ?Sized),
+    (load, sliding_distance): (&PeriodicLoad, f64),
+    options: &ContactOptions,
+) -> Result<PeriodicTransient, BemError> {
+    let way = Way {
+        distance: sliding_distance,
+        steps_per_element: 1.0,
+    };
+    slide_along(grid, heights, elastomer, (load, way), options)
+}
+
+/// A sliding distance \[m], and how many steps are taken for each element of it, a whole number.
+#[derive(Clone, Copy)]
+pub(super) struct Way {
+    pub(super) distance: f64,
+    pub(super) steps_per_element: f64,
+}
+
+pub(super) fn slide_along(
+    grid: &Grid,
+    heights: &[f64],
+    elastomer: &(impl Elastomer + ?Sized),
+    (load, way): (&PeriodicLoad, Way),
+    options: &ContactOptions,
+) -> Result<PeriodicTransient, BemError> {
+    check_surface(grid, heights)?;
+    let velocity = positive("velocity", load.velocity())?;
+    let distance = positive("sliding distance", way.distance)?;
+    let (in_element, edge) = (way.steps_per_element, grid.spacing()[0]);
+    let whole_step = edge / in_element;
+    let n_steps = elements_along(distance, whole_step)?;
+    let mut march = March::new(grid, heights, elastomer, velocity)?;
+    let rows = (0..n_steps).rev().map(|left| {
+        let (to_go, is_first) = (left as f64, left + 1 == n_steps);
+        let slid = distance - to_go * whole_step;
+        let behind = to_go % in_element;
+        if is_first {
+            march.prepare(slid, behind * whole_step)?;
+        } else if left + 2 == n_steps || in_element > 1.0 {
+            march.prepare(whole_step, behind * whole_step)?;
+        }
+        if behind + 1.0 >= in_element {
+            march.pass_element();
+        }
+        let state = march.step(load.mean_pressure(), options)?;
+        Ok(PeriodicRow {
+            sliding_distance: slid,
+            time: slid / velocity,
+            ..state
+        })
+    });
+    Ok(PeriodicTransient {
+        rows: rows.collect::<Result<_, BemError>>()?,
+        pressure: PressureField {
+            grid: *grid,
+            origin: [0.0; 2],
+            pressure: march.state.pressure().to_vec(),
+        },
+    })
+}
+
+struct March<'a> {
+    given: &'a [f64],
+    sliding: Sliding,
+    velocity: f64,
+    waves: Waves,
+    /// Of the surface whose waves are multiplied by J_Δ/J, \[m].
+    heights: Vec<f64>,
+    mean_height: f64,
+    /// ∂h/∂x.
+    slopes: Vec<f64>,
+    convolution: Convolution,
+    workspace: ConvolutionWorkspace,
+    state: ContactState,
+    step: ExponentialStep,
+    /// 2 (1 − ν).
+    factor: f64,
+    /// Field after field.
+    memory: Vec<f64>,
+    /// Heights plus displacement without load.
+    separation: Vec<f64>,
+    /// 2 (1 − ν) w.
+    input: Vec<f64>,
+}
+
+impl<'a> March<'a> {
+    fn new(
+        grid: &Grid,
+        heights: &'a [f64],
+        elastomer: &(impl Elastomer + ?Sized),
+        velocity: f64,
+    ) -> Result<Self, BemError> {
+        let n = grid.n_elements();
+        let sliding = Sliding::new(elastomer, velocity)?;
+        let step = ExponentialStep::creep(&sliding.creep, grid.spacing()[0] / velocity)?;
+        let convolution = Convolution::periodic_on(elastomer, grid);
+        Ok(Self {
+            given: heights,
+            velocity,
+            waves: Waves::new(grid, &Base::default()),
+            heights: vec![0.0; n],
+            mean_height: heights.iter().sum::<f64>() / n as f64,
+            slopes: vec![0.0; n],
+            state: ContactState::new(&convolution),
+            workspace: convolution.workspace(),
+            convolution,
+            factor: elastomer.material().half_space_factor(),
+            memory: vec![0.0; n * step.n_fields()],
+            separation: vec![0.0; n],
+            input: vec![0.0; n],
+            sliding,
+            step,
+        })
+    }
+
+    /// Takes steps of a length \[m] after which the material is a part of an element \[m] behind the points of the surface that
+    /// it passes.
+    fn prepare(&mut self, length: f64, behind: f64) -> Result<(), BemError> {
+        self.step = ExponentialStep::creep(&self.sliding.creep, length / self.velocity)?;
+        let along_x = &self.waves.along_x;
+        let (step, factor, rows) = (&self.step, self.sliding.factor, along_x.len());
+        let compliances = self.sliding.compliances(along_x)?.into_iter();
+        let symbol = |(row, compliance): (usize, Complex<f64>)| {
+            let q_x = along_x[row];
+            let held = step.turning_response(q_x * length);
+            let held = Complex::new(held.storage, held.loss) * factor / compliance;
+            // The shortest wave stands for both directions, so that its symbols are real; its slope vanishes at the elements.
+            if 2 * row == rows {
+                [held.norm().into(), ZERO]
+            } else {
+                let turn = Complex::from_polar(1.0, q_x * behind);
+                [held * turn, Complex::i() * q_x * turn]
+            }
+        };
+        let symbols: Vec<_> = compliances.enumerate().map(symbol).collect();
+        let waves = &mut self.waves;
+        waves.apply(self.given, &mut self.heights, |row, _| symbols[row][0]);
+        waves.apply(self.given, &mut self.slopes, |row, _| symbols[row][1]);
+        Ok(())
+    }
+
+    /// Passes one element of the material.
+    fn pass_element(&mut self) {
+        let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
+        for field in self.memory.chunks_exact_mut(n) {
+            field.rotate_left(columns);
+        }
+    }
+
+    /// Solves the contact at the end of a step; distance and time are not filled in.
+    fn step(
+        &mut self,
+        mean_pressure: f64,
+        options: &ContactOptions,
+    ) -> Result<PeriodicRow, BemError> {
+        let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
+        self.step.history(&self.memory, &mut self.separation);
+        add(&mut self.separation, 1.0, &self.heights);
+        let area = n as f64 * self.convolution.grid().element_area();
+        let problem = ContactProblem {
+            convolution: &self.convolution,
+            separation: &self.separation,
+            compliance: self.factor * self.step.response(),
+            control: Control::NormalForce(mean_pressure * area),
+        };
+        let contact = solve_contact(&problem, &mut self.state, options)?;
+        self.remember();
+        let pressure = self.state.pressure();
+        Ok(PeriodicRow {
+            sliding_distance: 0.0,
+            time: 0.0,
+            friction_coefficient: dot(pressure, &self.slopes) / pressure.iter().sum::<f64>(),
+            area_fraction: area_fraction(columns, pressure),
+            mean_depth: contact.indentation_depth - self.mean_height,
+        })
+    }
+
+    fn remember(&mut self) {
+        let pressure = self.state.pressure();
+        self.convolution
+            .apply_to_all(&mut self.workspace, pressure, &mut self.input);
+        let per_load = self.factor / (4.0 * PI);
+        self.input.iter_mut().for_each(|value| *value *= per_load);
+        self.step.advance(&self.input, &mut self.memory);
+    }
+}

@@ -1,0 +1,228 @@
+//! Stationary sliding of periodic surfaces, rough and wavy ones.
+//!
+//! A rigid surface h(x, y) with the periods L_x and L_y slides along x on a viscoelastic half space. In the frame that moves
+//! with it the stationary state is one complementarity problem
+//!
+//! ```text
+//! gap = h + u − d ≥ 0,  p ≥ 0,  p · gap = 0,  mean of p given,      û(q) = 2 p̂(q) / (|q| E*(−q_x v))
+//! ```
+//!
+//! with a kernel that is translation-invariant and not symmetric. It is solved on grids of half the elements along both
+//! axes, of a quarter and so on, from the coarsest to that asked for. The friction is found in two ways,
+//!
+//! ```text
+//! μ ⟨p⟩ = ⟨p ∂h/∂x⟩ = Σ_q 2 |p̂|² (|q_x|/|q|) Im E*(|q_x| v)/|E*|².
+//! ```
+//!
+//! The search of the active set is in `search.rs`, the
+//! equations of a given contact in `equations.rs`.
+
+#[cfg(feature = "rough")]
+mod depth;
+mod equations;
+#[cfg(feature = "rough")]
+mod estimate;
+mod far_loads;
+mod kernel;
+mod march;
+mod nested;
+mod search;
+mod waves;
+
+use numerics::{InvalidParameter, in_range, not_negative, positive};
+
+use crate::contact::check_length;
+use crate::parallel::chunks::in_pool;
+use crate::parallel::reductions::dot;
+use crate::{BemError, Elastomer, Grid, PressureField};
+use equations::Equations;
+#[cfg(feature = "rough")]
+pub use estimate::{
+    PeriodicEstimate, elements_for_bars, press_periodic, slide_periodic, steady_periodic,
+    steady_periodic_at_depth,
+};
+use kernel::Sliding;
+pub use march::{PeriodicRow, PeriodicTransient, slide_periodic_on_grid};
+
+/// How a periodic surface is pressed and moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PeriodicLoad {
+    mean_pressure: f64,
+    velocity: f64,
+}
+
+impl PeriodicLoad {
+    /// A mean pressure > 0 \[Pa] over the whole period, and a velocity ≥ 0 \[m/s] towards positive x.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] for other numbers.
+    pub fn new(mean_pressure: f64, velocity: f64) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            mean_pressure: positive("mean_pressure", mean_pressure)?,
+            velocity: not_negative("velocity", velocity)?,
+        })
+    }
+
+    /// Mean pressure over the period, \[Pa].
+    pub const fn mean_pressure(&self) -> f64 {
+        self.mean_pressure
+    }
+
+    /// Sliding speed v, \[m/s].
+    pub const fn velocity(&self) -> f64 {
+        self.velocity
+    }
+}
+
+/// When the solver stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PeriodicOptions {
+    /// Largest |gap| in the contact and largest penetration outside, relative to the largest displacement from the mean;
+    /// between 0 and 1.
+    pub tolerance: f64,
+    /// Products with the kernel on the finest grid after which the solver gives up.
+    pub max_products: usize,
+}
+
+impl Default for PeriodicOptions {
+    /// 1e-6, and 2000 products.
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-6,
+            max_products: 2000,
+        }
+    }
+}
+
+/// A stationary state of a periodic surface on one grid.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct PeriodicSliding {
+    /// Friction coefficient ⟨p ∂h/∂x⟩/⟨p⟩, with the slope of the trigonometric polynomial through the heights.
+    pub friction_coefficient: f64,
+    /// The same from the power that the material dissipates. On a finer grid both are the same; their difference says how
+    /// well this one resolves the contact.
+    pub friction_from_dissipation: f64,
+    /// Part of the period in contact: the elements in contact, less 0.12 elements for each of their edges to one that is
+    /// not, by which counted areas are too large.
+    pub area_fraction: f64,
+    /// Depth of the mean plane of the surface, \[m]: below the mean of the deformed half space, which the mean pressure moves
+    /// without limit, or below the surface of a layer at rest; negative in light contact.
+    pub mean_depth: f64,
+    /// Products with the kernel on this grid.
+    pub products: usize,
+    /// Residual reached, in the sense of [`PeriodicOptions::tolerance`].
+    pub residual: f64,
+    /// Pressure of the elements; the first height is at the origin.
+    pub pressure: PressureField,
+}
+
+/// Solves the stationary sliding of a periodic surface on a linear viscoelastic solid.
+///
+/// `heights` \[m] has the height at the centre of every element of the grid, whose edges are the periods; between
+/// them the surface is the trigonometric polynomial. The lowest points touch first; the surface slides towards positive x.
+/// At the velocity 0 the contact is the elastic one long after pressing.
+///
+/// # Errors
+/// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for options out of range, one
+/// row or column only, and heights that are all the same; [`BemError::FlowsUnderWaves`]; [`BemError::Material`];
+/// [`BemError::ContactNotConverged`].
+pub fn steady_periodic_on_grid(
+    grid: &Grid,
+    heights: &[f64],
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &PeriodicLoad,
+    options: &PeriodicOptions,
+) -> Result<PeriodicSliding, BemError> {
+    options.validate()?;
+    check_surface(grid, heights)?;
+    let problem = search::Problem {
+        sliding: &Sliding::new(elastomer, load.velocity)?,
+        grid,
+        heights,
+        mean_pressure: load.mean_pressure,
+        tolerance: options.tolerance,
+        max_products: options.max_products,
+    };
+    solve_from(&mut Vec::new(), problem)
+}
+
+/// From a guess of the pressure on this grid or on elements of twice the edges, or from none; it becomes the pressure of this grid.
+fn solve_from(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
+    in_pool(problem.grid.n_elements(), || solve_here(guess, problem))
+}
+
+fn solve_here(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
+    let mut equations = Equations::new(problem.sliding, problem.grid)?;
+    let solved = nested::solve(problem, &mut equations, guess)?;
+    let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();
+    let mut field = vec![0.0; pressure.len()];
+    let mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
+    equations.kernel.slopes(problem.heights, &mut field);
+    let from_slopes = mean(&field);
+    equations.kernel.dissipate(&pressure, &mut field);
+    let from_dissipation = mean(&field);
+    let squeezed = problem.mean_pressure * problem.sliding.mean_compliance()?;
+    let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
+    Ok(PeriodicSliding {
+        friction_coefficient: from_slopes,
+        friction_from_dissipation: from_dissipation,
+        area_fraction: area_fraction(problem.grid.shape()[1], &pressure),
+        mean_depth: solved.depth - mean_height + squeezed,
+        products: solved.products,
+        residual: solved.residual,
+        pressure: PressureField {
+            grid: *problem.grid,
+            origin: [0.0; 2],
+            pressure,
+        },
+    })
+}
+
+/// Part of an element by which counted areas are too large for each edge between an element in contact and one that is not.
+const EXCESS_PER_EDGE: f64 = 0.12;
+
+/// The part of the elements in contact, less the excess at its edges.
+fn area_fraction(columns: usize, pressure: &[f64]) -> f64 {
+    let n = pressure.len();
+    let inside = |element: usize| pressure[element] > 0.0;
+    let [mut count, mut edges] = [0; 2];
+    for element in 0..n {
+        let row = element / columns * columns;
+        let neighbours = [(element + columns) % n, row + (element + 1 - row) % columns];
+        count += usize::from(inside(element));
+        let differs = |other: &usize| inside(*other) != inside(element);
+        edges += neighbours.into_iter().filter(differs).count();
+    }
+    let corrected = count as f64 - EXCESS_PER_EDGE * edges as f64;
+    corrected.max(0.0) / n as f64
+}
+
+impl PeriodicOptions {
+    fn validate(&self) -> Result<(), InvalidParameter> {
+        numerics::between_zero_and_one("tolerance", self.tolerance)?;
+        positive("max_products", self.max_products as f64).map(drop)
+    }
+}
+
+fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError> {
+    let [rows, columns] = grid.shape();
+    check_length("heights", heights.len(), grid.n_elements())?;
+    let allowed = "at least 2";
+    in_range("rows of heights", rows as f64, rows >= 2, allowed)?;
+    in_range("columns of heights", columns as f64, columns >= 2, allowed)?;
+    if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
+        return Err(BemError::InvalidHeight {
+            row: index / columns,
+            column: index % columns,
+            value: heights[index],
+        });
+    }
+    let is_flat = heights.iter().all(|h| h.total_cmp(&heights[0]).is_eq());
+    let allowed = "not the same everywhere: a flat surface has no friction";
+    in_range("height", heights[0], !is_flat, allowed)?;
+    Ok(())
+}

@@ -1,0 +1,131 @@
+//! Nested grids, and the full contact.
+
+use std::f64::consts::PI;
+
+use rustfft::num_complex::Complex;
+
+use crate::stationary::periodic::equations::Equations;
+use crate::stationary::periodic::search::{self, Problem, Solved};
+use crate::stationary::periodic::waves::Waves;
+use crate::substrate::layer::Base;
+use crate::transform::plane_transform::ZERO;
+use crate::{BemError, Grid};
+
+/// Grids with fewer elements along an edge are not made coarser.
+const SMALLEST_EDGE: usize = 32;
+/// Tolerance of a solution that is only a start.
+const COARSE_TOLERANCE: f64 = 1e-4;
+const COARSE_PRODUCTS: usize = 300;
+
+/// Solves the problem with the equations of its grid from a guess on them, or on elements of twice the edges, or from none. The guess
+/// becomes the pressure, and outside the contact the gap, as a negative pressure.
+pub(super) fn solve(
+    problem: Problem,
+    equations: &mut Equations,
+    guess: &mut Vec<f64>,
+) -> Result<Solved, BemError> {
+    if let Some(solved) = full_contact(&problem, equations, guess) {
+        return Ok(solved);
+    }
+    if 4 * guess.len() == problem.heights.len() {
+        *guess = doubled(guess, problem.grid.blocks().shape());
+    } else if guess.len() != problem.heights.len() {
+        guess.clear();
+        start(&problem, guess)?;
+    }
+    search::solve(problem, equations, guess)
+}
+
+/// Starts from the solution on elements of twice the edges, if they can be so long.
+fn start(problem: &Problem, pressure: &mut Vec<f64>) -> Result<(), BemError> {
+    let can_be_halved = |n: &usize| n.is_multiple_of(2) && *n >= 2 * SMALLEST_EDGE;
+    if !problem.grid.shape().iter().all(can_be_halved) {
+        return Ok(());
+    }
+    let grid = problem.grid.blocks();
+    let heights = halved(problem.grid, problem.heights);
+    let coarse = Problem {
+        grid: &grid,
+        heights: &heights,
+        tolerance: problem.tolerance.max(COARSE_TOLERANCE),
+        max_products: problem.max_products.min(COARSE_PRODUCTS),
+        ..*problem
+    };
+    let mut guess = Vec::new();
+    start(&coarse, &mut guess)?;
+    let mut equations = Equations::new(problem.sliding, &grid)?;
+    match search::solve(coarse, &mut equations, &mut guess) {
+        // Whatever was reached is a guess.
+        Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
+        Err(error) => return Err(error),
+    }
+    *pressure = doubled(&guess, grid.shape());
+    Ok(())
+}
+
+/// The waves that fit on a grid of twice the edges, at the centres of its elements.
+fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
+    let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
+    let cut = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
+    let mut field = vec![0.0; heights.len()];
+    Waves::new(grid, &Base::default()).apply(heights, &mut field, |row, [q_x, q]| {
+        // For the mean this is another mean, which changes nothing but the depth of a guess.
+        let q_y = if row == 0 {
+            q
+        } else {
+            (q * q - q_x * q_x).max(0.0).sqrt()
+        };
+        let is_kept = (q_x * dx).abs() < cut && q_y * dy < cut;
+        if is_kept {
+            Complex::from_polar(1.0, 0.5 * (q_x * dx + q_y * dy))
+        } else {
+            ZERO
+        }
+    });
+    let rows = field.chunks_exact(columns).step_by(2);
+    rows.flat_map(|row| row.iter().step_by(2).copied())
+        .collect()
+}
+
+/// Bilinear between the centres of elements of twice the edges.
+fn doubled(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+    let value = |element: usize| {
+        let place = [element / (2 * columns), element % (2 * columns)];
+        let [row, column] = place.map(|index| index / 2);
+        let beside = |index: usize, length: usize| match index % 2 {
+            0 => (index / 2 + length - 1) % length,
+            _ => (index / 2 + 1) % length,
+        };
+        let [next_row, next_column] = [beside(place[0], rows), beside(place[1], columns)];
+        let at = |row: usize, column: usize| field[row * columns + column];
+        (9.0 * at(row, column)
+            + 3.0 * (at(next_row, column) + at(row, next_column))
+            + at(next_row, next_column))
+            / 16.0
+    };
+    (0..4 * field.len()).map(value).collect()
+}
+
+/// The pressure that makes the half space follow the surface everywhere, where it is nowhere a tension.
+fn full_contact(
+    problem: &Problem,
+    equations: &mut Equations,
+    pressure: &mut Vec<f64>,
+) -> Option<Solved> {
+    let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
+    let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
+    let mut full = vec![0.0; displacement.len()];
+    equations.kernel.invert_at_centre(&displacement, &mut full);
+    let total: f64 = full.iter().sum();
+    let rest = problem.mean_pressure - total / full.len() as f64;
+    full.iter_mut().for_each(|pressure| *pressure += rest);
+    if full.iter().any(|pressure| *pressure <= 0.0) {
+        return None;
+    }
+    *pressure = full;
+    Some(Solved {
+        depth: mean,
+        products: 1,
+        residual: 0.0,
+    })
+}

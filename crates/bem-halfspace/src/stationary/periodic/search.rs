@@ -1,0 +1,274 @@
+//! Search of the active set: solve the equations of a contact, take elements in tension out of it and those that penetrate
+//! into it.
+//!
+//! The equations are solved to a fifth of the residual that the change of the contact has left, and to a part of the
+//! heights, which is smaller after each contact in vain; penetrations are told from what is left of the residual, on
+//! average. Should the number of violations not fall below its minimum in ten contacts, only the larger ones change sides,
+//! and after thirty only the last one of all, after an accurate solution: the operator has a positive symmetric part, so that
+//! this ends (Murty 1974).
+
+use crate::parallel::reductions::larger;
+use crate::stationary::periodic::equations::Equations;
+use crate::stationary::periodic::kernel::Sliding;
+use crate::{BemError, Grid};
+
+/// Part of the residual to which the equations are solved; with 0.1 there are up to a quarter more products in light contact.
+const PART: f64 = 0.2;
+/// Root mean square of the residual, as a part of that of the heights, and by which factor it is less after a contact in
+/// vain. Without it the contact of a solid whose moduli differ by 1000 takes up to twice as many products on 1024² elements.
+const ROUGH: f64 = 0.01;
+const FINER: f64 = 0.3;
+const FINEST: i32 = 4;
+/// Penetrations beside the contact below so many root mean squares of the residual in it are not told from it; with 2 or 5 there
+/// are as many products.
+const NOISE: f64 = 3.0;
+/// Likewise far from it, as a part of the largest residual.
+const HIDDEN: f64 = 0.3;
+/// Part of the pressure up to which tension is small. With 1e-2 thousands of elements came in far away that had to leave
+/// again, and now and then for ever.
+const SMALL_TENSION: f64 = 1e-3;
+/// Contacts without fewer violations up to which all violating elements change sides, and then the larger ones.
+const ALL: i32 = 10;
+const LARGER: i32 = 30;
+/// Part of the largest violation from which others count as large.
+const LARGE: f64 = 0.3;
+/// Part of the tolerance to which the equations are solved.
+const LAST: f64 = 0.5;
+
+/// A contact problem on one grid.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub(super) sliding: &'a Sliding,
+    pub(super) grid: &'a Grid,
+    /// At the centres of the elements, \[m].
+    pub(super) heights: &'a [f64],
+    /// \[Pa].
+    pub(super) mean_pressure: f64,
+    /// Largest residual, relative to the largest displacement.
+    pub(super) tolerance: f64,
+    /// Products with the kernel.
+    pub(super) max_products: usize,
+}
+
+/// A solved contact; the pressure is a field of its own.
+pub(super) struct Solved {
+    /// Mean of h + u over the contact, \[m].
+    pub(super) depth: f64,
+    pub(super) products: usize,
+    pub(super) residual: f64,
+}
+
+/// The fields of a search.
+struct Search<'a> {
+    problem: Problem<'a>,
+    equations: &'a mut Equations,
+    /// Where the gaps are evaluated, \[m].
+    heights: Vec<f64>,
+    contact: Vec<bool>,
+    pressure: Vec<f64>,
+    gap: Vec<f64>,
+    /// Depth that has been taken from the gap, and the largest displacement, \[m].
+    depth: f64,
+    scale: f64,
+    /// Root mean square of the heights, \[m].
+    roughness: f64,
+    /// Largest residual, relative to the largest displacement.
+    residual: f64,
+}
+
+/// Part of the largest violation from which elements on the wrong side change; where there is none, the last one changes.
+type Least = Option<f64>;
+
+/// Solves the problem from a first guess of the pressure, which is the solution afterwards: outside the contact it is the
+/// gap, as a negative multiple of the displacement of an element under its own pressure. Without a positive pressure half
+/// of the elements are taken for the contact.
+pub(super) fn solve(
+    problem: Problem,
+    equations: &mut Equations,
+    pressure: &mut Vec<f64>,
+) -> Result<Solved, BemError> {
+    let mut search = Search::new(problem, equations, std::mem::take(pressure));
+    let solved = search.run();
+    *pressure = search.pressure;
+    let own = search.equations.own_displacement;
+    for ((pressure, gap), inside) in pressure.iter_mut().zip(&search.gap).zip(&search.contact) {
+        *pressure = if *inside {
+            pressure.max(0.0)
+        } else {
+            -gap.max(0.0) / own
+        };
+    }
+    solved
+}
+
+impl<'a> Search<'a> {
+    fn new(problem: Problem<'a>, equations: &'a mut Equations, mut pressure: Vec<f64>) -> Self {
+        let n = problem.grid.n_elements();
+        let mut heights = vec![0.0; n];
+        equations.kernel.shifted(problem.heights, &mut heights);
+        let mean = heights.iter().sum::<f64>() / n as f64;
+        let variance = heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / n as f64;
+        if pressure.iter().all(|pressure| *pressure <= 0.0) {
+            pressure = heights.iter().map(|h| f64::from(*h <= mean)).collect();
+        }
+        pressure.iter_mut().for_each(|p| *p = p.max(0.0));
+        Self {
+            contact: pressure.iter().map(|pressure| *pressure > 0.0).collect(),
+            gap: vec![0.0; n],
+            problem,
+            equations,
+            heights,
+            pressure,
+            depth: 0.0,
+            scale: 0.0,
+            roughness: variance.sqrt(),
+            residual: f64::INFINITY,
+        }
+    }
+
+    fn run(&mut self) -> Result<Solved, BemError> {
+        let (tolerance, max_products) = (self.problem.tolerance, self.problem.max_products);
+        self.balance();
+        self.renew_gaps();
+        let (mut fewest, mut vain) = (usize::MAX, 0);
+        loop {
+            self.equations
+                .take(&self.contact, &self.pressure, &self.gap);
+            let least = match vain {
+                0..=ALL => Some(0.0),
+                ..=LARGER => Some(LARGE),
+                _ => None,
+            };
+            // What cycles with rough solutions may end with better ones.
+            let part = least.map_or(0.0, |_| PART);
+            let rough = ROUGH * FINER.powi(vain.min(FINEST)) * self.roughness;
+            let largest = LAST * tolerance * self.scale;
+            let noise = self.equations.iterate(part, rough, largest);
+            let (violations, is_solved) = self.change(noise, least);
+            if is_solved {
+                return Ok(Solved {
+                    depth: self.depth,
+                    products: self.equations.products,
+                    residual: self.residual,
+                });
+            }
+            if self.equations.products >= max_products {
+                return Err(BemError::ContactNotConverged {
+                    iterations: self.equations.products,
+                    residual: self.residual,
+                    tolerance,
+                });
+            }
+            if violations < fewest {
+                (fewest, vain) = (violations, 0);
+            } else {
+                vain += 1;
+            }
+        }
+    }
+
+    /// Moves the elements that violate the conditions, or the last of them, to the other side; how many there were, and
+    /// whether the problem is solved; `noise` is the root mean square of the residual.
+    fn change(&mut self, noise: f64, least: Least) -> (usize, bool) {
+        let tolerance = self.problem.tolerance;
+        self.equations.give(&mut self.pressure, &mut self.gap);
+        let tension = -self.pressure.iter().map(|p| p.min(0.0)).sum::<f64>();
+        let is_slight = tension <= tolerance * self.total();
+        // Without much tension the gaps far away are hardly changed by what is taken from it.
+        let is_small = tension <= SMALL_TENSION * self.total();
+        let hidden = if is_small { HIDDEN } else { 1.0 };
+        let mut changed = if least.is_some() {
+            let allowed = (NOISE * noise).max(tolerance * self.scale);
+            self.exchange(allowed, least, Some(true))
+        } else {
+            self.renew_gaps();
+            self.exchange(tolerance * self.scale, least, None)
+        };
+        self.release();
+        self.renew_gaps();
+        let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
+        let is_open = !self.gap.iter().zip(&self.contact).any(penetrates);
+        let is_solved = is_slight && is_open && self.residual <= tolerance;
+        if least.is_some() {
+            let allowed = (hidden * self.residual).max(tolerance) * self.scale;
+            changed += self.exchange(allowed, least, Some(false));
+        }
+        (changed, is_solved)
+    }
+
+    /// Exchanges elements that are listed by the equations, or others, or any, and counts those that should be.
+    fn exchange(&mut self, allowed: f64, least: Least, are_near: Option<bool>) -> usize {
+        let own = self.equations.own_displacement;
+        let violation = |element: usize| {
+            let is_near = self.equations.near.contains(element);
+            if are_near.is_some_and(|are_near| are_near != is_near) {
+                return None;
+            }
+            let [pressure, gap] = [self.pressure[element], self.gap[element]];
+            let (size, least) = if self.contact[element] {
+                (-pressure * own, 0.0)
+            } else {
+                (-gap, allowed)
+            };
+            (size >= least).then_some((element, size))
+        };
+        let violations: Vec<_> = (0..self.contact.len()).filter_map(violation).collect();
+        let sizes = violations.iter().map(|(_, size)| *size);
+        let largest = sizes.fold(0.0, larger);
+        for (place, (element, size)) in violations.iter().enumerate() {
+            let is_last = place + 1 == violations.len();
+            self.contact[*element] ^= least.map_or(is_last, |part| *size >= part * largest);
+        }
+        violations.len()
+    }
+
+    /// Sum of the pressures, \[Pa].
+    fn total(&self) -> f64 {
+        self.problem.mean_pressure * self.pressure.len() as f64
+    }
+
+    /// Takes tension away, and as much from the next pressures behind it along the motion. The longest waves along the motion
+    /// may be a thousand times softer than all others: they hardly change so, and those with crests along it not at all,
+    /// where tension that is just set to zero would throw the surfaces apart.
+    fn release(&mut self) {
+        let columns = self.problem.grid.shape()[1];
+        let mut tensions = vec![0.0; columns];
+        for _ in 0..2 {
+            let rows = self.pressure.chunks_mut(columns);
+            for (pressures, contact) in rows.zip(self.contact.chunks(columns)).rev() {
+                let elements = pressures.iter_mut().zip(contact);
+                for ((pressure, inside), tension) in elements.zip(&mut tensions) {
+                    let sum = *pressure + *tension;
+                    *pressure = if *inside { sum.max(0.0) } else { 0.0 };
+                    *tension = sum - *pressure;
+                }
+            }
+        }
+        self.balance();
+    }
+
+    /// Gives the pressure its mean.
+    fn balance(&mut self) {
+        let factor = self.total() / self.pressure.iter().sum::<f64>();
+        self.pressure.iter_mut().for_each(|p| *p *= factor);
+    }
+
+    /// The gaps under the pressure, less their mean in the contact, and the largest residual there.
+    fn renew_gaps(&mut self) {
+        self.equations.displace(&self.pressure, &mut self.gap);
+        let n = self.gap.len() as f64;
+        let mean = self.gap.iter().sum::<f64>() / n;
+        let above = |top: f64, moved: &f64| larger(top, (moved - mean).abs());
+        self.scale = self.gap.iter().fold(0.0, above);
+        for (gap, height) in self.gap.iter_mut().zip(&self.heights) {
+            *gap += height - mean;
+        }
+        let contact = &self.contact;
+        let in_contact = |(gap, inside): (&f64, &bool)| inside.then_some(*gap);
+        let inside = self.gap.iter().zip(contact).filter_map(in_contact);
+        self.depth = inside.clone().sum::<f64>() / inside.count() as f64;
+        self.gap.iter_mut().for_each(|gap| *gap -= self.depth);
+        let inside = self.gap.iter().zip(contact).filter_map(in_contact);
+        self.residual = inside.fold(0.0, |top, gap| larger(top, gap.abs())) / self.scale;
+    }
+}

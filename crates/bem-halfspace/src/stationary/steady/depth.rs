@@ -1,0 +1,69 @@
+//! How deep a body lies that slides for ever.
+
+use crate::BemError;
+use crate::stationary::steady::loading::sunken;
+use crate::stationary::steady::mesh::Mesh;
+use crate::stationary::steady::pivoting::Solution;
+use numerics::{in_range, positive};
+
+/// Depth of the lowest point below the undeformed surface, which never stops to grow where the material flows.
+///
+/// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth once the sliding has
+/// lasted much longer than the retardation times. On a dashpot, after the sliding distance s from first touch, the kernel of the march in time is
+/// `asinh((ξ + s)/|y|) − asinh(ξ/|y|) → ln(2s) − ln(ξ + r)`, so that
+///
+/// ```text
+/// d(s) = d_ref + F_N/(4πηv) ln(s / s_ref)
+/// ```
+///
+/// up to terms of the order of (contact length)/s; other materials with the free flow η differ in `d_ref`. The reference distance is the length of the contact, which carries no
+/// meaning beyond fixing `d_ref`: at s = s_ref the contact is not stationary yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SinkingDepth {
+    /// d_ref, \[m].
+    pub reference_depth: f64,
+    /// s_ref, the length of the contact along x, \[m].
+    pub reference_distance: f64,
+    /// 2 (1 − ν) F_N/(4πηv), by which the depth grows when the distance grows e-fold, \[m]; 0 on a solid.
+    pub depth_per_e_fold: f64,
+}
+
+impl SinkingDepth {
+    pub(super) fn new(mesh: &Mesh, solution: &Solution, contact_length: f64) -> Self {
+        let spacing = mesh.options.spacing;
+        let scale = mesh.loading.depth_scale;
+        // F_N/(4πηv) in units of D.
+        let aspect = spacing[1] / spacing[0];
+        let rate =
+            mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());
+        Self {
+            reference_depth: scale * (solution.depth + rate * sunken(contact_length, spacing[0])),
+            reference_distance: contact_length,
+            depth_per_e_fold: scale * rate,
+        }
+    }
+
+    /// Depth after sliding a distance, or the reference depth without one, \[m].
+    pub(super) fn at(&self, sliding_distance: Option<f64>) -> f64 {
+        match sliding_distance {
+            Some(distance) if self.depth_per_e_fold > 0.0 => {
+                let e_folds = (distance / self.reference_distance).ln();
+                self.reference_depth + self.depth_per_e_fold * e_folds
+            }
+            _ => self.reference_depth,
+        }
+    }
+
+    /// Depth after sliding a distance much longer than the contact, \[m].
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for a distance that is shorter than the contact or not finite.
+    pub fn after(&self, sliding_distance: f64) -> Result<f64, BemError> {
+        positive("sliding_distance", sliding_distance)?;
+        let is_allowed = sliding_distance >= self.reference_distance;
+        let allowed = "at least the length of the contact";
+        in_range("sliding_distance", sliding_distance, is_allowed, allowed)?;
+        Ok(self.at(Some(sliding_distance)))
+    }
+}

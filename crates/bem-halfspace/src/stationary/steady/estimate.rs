@@ -1,0 +1,198 @@
+//! The stationary state with an error bar of every quantity.
+
+use indenters::{Control, SlidingLoad, Surface};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request, Unwatched, Watch};
+use rheology::Material as _;
+
+use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
+use crate::estimate::plan::{GridPlan, SHARP};
+use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::refinement::{Problem, refine};
+use crate::stationary::steady::sliding_creep::SlidingCreep;
+use crate::stationary::steady::solution::SteadyEstimate;
+use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
+use crate::{BemError, Elastomer};
+
+/// Δy/Δx of a grid of a given number of elements.
+const ASPECT: f64 = 0.5;
+/// Order of the error under a smooth body. The front leaves 3/2, and an outline that follows the elements less: with 1.1 the
+/// bars hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90, and with the first order they are wider.
+const ORDER: f64 = 1.1;
+/// Order at the edge of a flat end just inside the contact, under which elements see a punch.
+const ORDER_AT_EDGE: f64 = 0.5;
+/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
+/// lesser of two bars holds less often than either.
+const BETTER: f64 = 0.2;
+/// Of a transform of the elements along x and y, of which finer grids take hardly more.
+const WORK: f64 = 2.0;
+/// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 900.0;
+
+/// Memory that [`steady`] takes at most for a number of elements along the contact, \[bytes]; a relative error is not sought
+/// on grids that take more than 2 GB.
+///
+/// # Errors
+/// As for [`steady`], before anything is solved.
+pub fn steady_memory(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let plan = plan(&surface, elastomer, load)?;
+    let options = grid(&plan, elements);
+    // A mirror halves the unknowns, and saves less of the kernel.
+    let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
+    Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+}
+
+/// The grids of the stationary state, at whichever distance it is seen.
+fn plan(
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+) -> Result<GridPlan, BemError> {
+    let load = SlidingLoad::with(load.control(), load.velocity())?;
+    GridPlan::sliding(surface, elastomer, &load)
+}
+
+fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
+    let dx = plan.length() / elements as f64;
+    SteadyOptions::new([dx, ASPECT * dx], plan.footprint.widened(dx))
+}
+
+/// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth, to a
+/// relative error of the friction coefficient, and of the normal force where that is not given; or with a number of
+/// elements along the contact, about, and whatever error that has.
+///
+/// The state of a load with a sliding distance is stationary too, but for the depth of a material that flows, which is that
+/// after the distance, up to terms of the order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the
+/// motion from first touch.
+///
+/// # Errors
+/// [`BemError::NotReached`] with what was reached on the finest grid allowed;
+/// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
+/// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
+/// friction is infinite, or a surface that is low everywhere; and the errors of [`steady_on_grid`](super::steady_on_grid).
+pub fn steady<'w>(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<SteadyEstimate, BemError> {
+    let request = request.into();
+    match request.accuracy {
+        Accuracy::RelativeError(relative_error) => {
+            let options = RefinementOptions {
+                relative_error,
+                ..RefinementOptions::default()
+            };
+            refined(&surface, elastomer, load, &options, request.watch)
+        }
+        Accuracy::Elements(_) => with_elements(&surface, elastomer, load, request),
+    }
+}
+
+/// Like [`steady`], with elements and a limit of the work of one's own.
+///
+/// # Errors
+/// As for [`steady`].
+pub fn steady_refined(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &RefinementOptions,
+) -> Result<SteadyEstimate, BemError> {
+    refined(&surface, elastomer, load, options, &Unwatched)
+}
+
+fn refined(
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &RefinementOptions,
+    watch: &dyn Watch,
+) -> Result<SteadyEstimate, BemError> {
+    let plan = plan(surface, elastomer, load)?;
+    let problem = Problem {
+        surface,
+        loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
+        plan,
+        has_peak: peak_has_limit(surface, elastomer),
+        watch,
+    };
+    refine(&problem, options, |estimate| {
+        with_meaning(load, elastomer, estimate)
+    })
+}
+
+/// The state on a grid of a given number of elements, compared with grids of fewer.
+fn with_elements(
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    request: Request,
+) -> Result<SteadyEstimate, BemError> {
+    let plan = plan(surface, elastomer, load)?;
+    let has_peak = peak_has_limit(surface, elastomer);
+    let mut resolution = resolution(request, load.control(), ORDER, has_peak);
+    if plan.kinks > SHARP {
+        (resolution.goal.order, resolution.better) = (ORDER_AT_EDGE, f64::INFINITY);
+    } else {
+        resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
+    }
+    let creep = SlidingCreep::new(elastomer, load.velocity())?;
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
+        let options = grid(&plan, elements);
+        let state = steady_on_grid(surface, elastomer, load, &options)?;
+        Ok(state.on_grid((&creep, plan.kinks), options, load.sliding_distance()))
+    };
+    bars::resolve(&resolution, solve, |estimate| {
+        with_meaning(load, elastomer, estimate)
+    })
+}
+
+/// On a given number of elements.
+pub(super) fn resolution(
+    request: Request<'_>,
+    control: Control,
+    order: f64,
+    has_peak: bool,
+) -> Resolution<'_> {
+    Resolution {
+        goal: Goal {
+            request,
+            largest: usize::MAX,
+            order,
+            work: WORK,
+            others: 0.0,
+            selection: 2.0,
+        },
+        control,
+        target: Target::Friction,
+        has_peak,
+        better: BETTER,
+    }
+}
+
+/// The estimate with a depth only where that has a meaning, and without the friction of an elastic material, which is
+/// exactly 0 under any body: what the elements make of it is rounding.
+fn with_meaning(
+    load: &SlidingLoad,
+    elastomer: &(impl Elastomer + ?Sized),
+    mut estimate: SteadyEstimate,
+) -> Result<SteadyEstimate, BemError> {
+    if elastomer.material().creep().is_elastic() {
+        estimate.friction_coefficient = Estimate::exact(0.0);
+        estimate.error_parts = ErrorParts::NONE;
+    }
+    let depth = &estimate.finest.depth;
+    if let (Control::NormalForce(_), true) = (load.control(), depth.depth_per_e_fold > 0.0) {
+        match load.sliding_distance() {
+            None => estimate.indentation_depth = None,
+            // Refuses a distance on which the state is not stationary yet.
+            Some(distance) => drop(depth.after(distance)?),
+        }
+    }
+    Ok(estimate)
+}

@@ -1,0 +1,84 @@
+//! The surface behind and ahead of a load that slides for ever.
+//!
+//! In the frame of the indenter, ξ = x − v t, the viscous half space under a stationary pressure satisfies
+//! `∂u/∂ξ = −w/(ηv)` with the load potential `w = (1/4π) ∬ P/r dA`. A point load therefore moves the surface by
+//!
+//! ```text
+//! u(ξ, y) = −F/(4πηv) ln(ξ + √(ξ² + y²)) + const
+//! ```
+//!
+//! and a uniformly loaded rectangle by the integral of the logarithm over it, which has the closed form
+//!
+//! ```text
+//! ∂²Φ/∂ξ∂y = ln(ξ + r),   Φ = ξ y ln(ξ + r) − ξ y + ½ ξ² asinh(y/|ξ|) − ½ y r
+//! ```
+
+use crate::substrate::rectangle::{FAR, PlaneKernel, integrate, product_asinh};
+
+/// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] leads from its centre to the field point.
+///
+/// Lengths are ratios to some unit; another unit adds a constant times the area, which is the constant in u.
+pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
+    let [x, y] = [offset[0], offset[1].abs()];
+    let [a, b] = edges;
+    if x < -0.5 * a && y < FAR * b {
+        // In the rut behind the load: ln(−s + r) = 2 ln|y| − ln(s + r), singular at y = 0.
+        let rut = 2.0 * a * (logarithm_integral(y + 0.5 * b) - logarithm_integral(y - 0.5 * b));
+        return rut - wake_influence([-x, y], edges);
+    }
+    integrate::<Logarithm>([x, y], edges)
+}
+
+/// ln(x + r).
+struct Logarithm;
+
+impl PlaneKernel for Logarithm {
+    fn value(x: f64, y: f64) -> f64 {
+        logarithm(x, y)
+    }
+
+    fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
+        along_x(x + 0.5 * a, y) - along_x(x - 0.5 * a, y)
+    }
+
+    fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
+        along_y(x, y + 0.5 * b) - along_y(x, y - 0.5 * b)
+    }
+
+    fn corner(x: f64, y: f64) -> f64 {
+        let r = x.hypot(y);
+        // ½ y (|y| − r): with y |y|, which drops out of differences along x, nothing cancels between near corners.
+        let bend = if x == 0.0 { 0.0 } else { x / (y.abs() + r) };
+        x * (product_logarithm(x, y) - y + 0.5 * (product_asinh(x, y) - y * bend))
+    }
+}
+
+/// ln(x + r) without cancellation behind the load.
+fn logarithm(x: f64, y: f64) -> f64 {
+    let r = x.hypot(y);
+    if x >= 0.0 {
+        (x + r).ln()
+    } else {
+        2.0 * y.abs().ln() - (r - x).ln()
+    }
+}
+
+/// ∫ ln|y| dy.
+fn logarithm_integral(y: f64) -> f64 {
+    if y == 0.0 { 0.0 } else { y * y.abs().ln() - y }
+}
+
+/// ∫ ln(x + r) dx.
+fn along_x(x: f64, y: f64) -> f64 {
+    x * logarithm(x, y) - x.hypot(y)
+}
+
+/// ∫ ln(x + r) dy.
+fn along_y(x: f64, y: f64) -> f64 {
+    product_logarithm(x, y) - y + product_asinh(x, y)
+}
+
+/// y ln(x + r), continued by 0 to y = 0.
+fn product_logarithm(x: f64, y: f64) -> f64 {
+    if y == 0.0 { 0.0 } else { y * logarithm(x, y) }
+}

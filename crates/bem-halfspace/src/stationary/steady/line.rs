@@ -1,0 +1,274 @@
+//! Line contact: a profile that is infinite along y slides in plane strain.
+//!
+//! One element along y is so long that its ends are not felt: up to a constant, its potential is that of a line load,
+//!
+//! ```text
+//! V(x) = 2 Δx ln(L/|x|) + O(x²/L²)
+//! ```
+//!
+//! and the constant is absorbed in the depth, which in plane strain has a meaning on a layer only. All forces and areas are per
+//! length along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
+
+use indenters::{SlidingLoad, Surface};
+use numerics::{Accuracy, ErrorParts, Estimate, Request};
+use rheology::Material as _;
+
+use crate::estimate::bars::{self, ContactEstimate};
+use crate::estimate::plan::GridPlan;
+use crate::stationary::steady::contact_scale::scale_of_profile;
+use crate::stationary::steady::estimate::resolution;
+use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::refinement::{Problem, refine};
+use crate::stationary::steady::sliding_creep::SlidingCreep;
+use crate::stationary::steady::{
+    RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
+};
+use crate::{BemError, Elastomer, Footprint};
+
+/// One grid for stationary sliding in plane strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LineOptions {
+    /// Length Δx of an element, \[m].
+    pub spacing: f64,
+    /// Where in its element the lowest point of the profile lies, in elements from its centre, between −1/2 and 1/2.
+    pub phase: f64,
+    /// From rear to front, where contact may occur: `footprint[0] < 0 < footprint[1]`, \[m].
+    pub footprint: [f64; 2],
+    /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale
+    /// D = h(a) = 2 (1 − ν) F' J(a/v)/(2π), with the force F' per length and the mean height h(a) at the distance a from
+    /// the lowest point.
+    pub tolerance: f64,
+    /// Active sets tried before the solver gives up.
+    pub max_iterations: usize,
+}
+
+/// A stationary state in plane strain on one grid.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct LineSliding {
+    /// Friction coefficient μ.
+    pub friction_coefficient: f64,
+    /// Mean of |∂h/∂x| under the load.
+    pub mean_slope: f64,
+    /// Rear and front of the contact relative to the lowest point, \[m].
+    pub contact: [f64; 2],
+    /// Number of unknown pressures.
+    pub unknowns: usize,
+    /// Active sets tried.
+    pub iterations: usize,
+    /// Largest residual |h + u − d| in the contact relative to the depth scale, see [`LineOptions::tolerance`].
+    pub residual: f64,
+    /// Centre of each element from rear to front \[m], and its pressure \[Pa].
+    pub pressure: Vec<[f64; 2]>,
+}
+
+/// A stationary state in plane strain with its error bars.
+pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
+
+/// Elements of the coarsest grids along the half contact of a cylinder on an elastic half space.
+const COARSEST: f64 = 4.0;
+/// Coarsest elements along the contact of a cylinder on an elastic half space.
+const ELEMENTS_OF_CYLINDER: f64 = 8.0;
+/// Rear of the footprint in the same lengths: nothing reaches further back than the elastic contact.
+const REAR: f64 = 2.0;
+/// Front of the footprint, and what a long memory adds: how far ahead the surface still rises grows with its logarithm.
+const FRONT: f64 = 2.5;
+const FRONT_BY_MEMORY: f64 = 0.5;
+
+/// Order of the error of a smooth profile, which has no outline that follows the elements (docs/calibration.md).
+const ORDER: f64 = 1.2;
+
+/// Unknown pressures at most; as many are factorised at once.
+const MOST_UNKNOWNS: usize = 2000;
+
+/// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per
+/// length \[N/m], to a relative error of the friction coefficient; or with a number of elements along the contact of a
+/// cylinder on an elastic half space, and whatever error that has.
+///
+/// Of the profile only the heights at y = 0 matter.
+///
+/// # Errors
+/// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a half space that flows, and
+/// [`BemError::Indenter`] for a depth, which does not exist on a half space in plane strain.
+pub fn steady_line<'w>(
+    profile: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<LineEstimate, BemError> {
+    let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
+    let creep = SlidingCreep::new(elastomer, load.velocity())?;
+    let force = load.require_normal_force()?;
+    let [_, length] = scale_of_profile(profile, &creep, force)?;
+    let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
+    let footprint = [-REAR * length, front * length];
+    let loading = Loading::per_length(profile, elastomer, load, footprint)?;
+    let strip = Strip::new(profile, &loading);
+    let problem = Problem {
+        surface: &strip,
+        loading,
+        plan: GridPlan {
+            footprint: strip.footprint(footprint),
+            coarsest_spacing: length / COARSEST,
+            apex_exponent: 2.0,
+            kinks: 0.0,
+        },
+        has_peak: bars::reacts_at_once(elastomer),
+        watch: request.watch,
+    };
+    let is_elastic = elastomer.material().creep().is_elastic();
+    let has_depth = creep.base().is_layer();
+    let of_line = |known| {
+        let mut found = of_line(known, force);
+        if is_elastic {
+            found.friction_coefficient = Estimate::exact(0.0);
+            found.error_parts = ErrorParts::NONE;
+        }
+        found.indentation_depth = found.indentation_depth.filter(|_| has_depth);
+        Ok(found)
+    };
+    match request.accuracy {
+        Accuracy::RelativeError(relative_error) => {
+            let options = RefinementOptions {
+                relative_error,
+                max_unknowns: MOST_UNKNOWNS,
+                ..RefinementOptions::default()
+            };
+            refine(&problem, &options, of_line)
+        }
+        Accuracy::Elements(_) => of_line(with_elements(&problem, strip.length, request)?),
+    }
+}
+
+/// The estimate of a strip as that of a line that bears a force per length.
+fn of_line(known: SteadyEstimate, force: f64) -> LineEstimate {
+    LineEstimate {
+        friction_coefficient: known.friction_coefficient,
+        error_parts: known.error_parts,
+        normal_force: Estimate::exact(force),
+        indentation_depth: known.indentation_depth,
+        contact_area: known.contact_area,
+        peak_pressure: known.peak_pressure,
+        contact_box_error: bars::of_box(known.options.spacing[0]),
+        refinements: known.refinements,
+        finest: LineSliding::of(&known.finest),
+        options: LineOptions::of(&known.options),
+    }
+}
+
+/// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
+///
+/// # Errors
+/// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a half space that flows.
+pub fn steady_line_on_grid(
+    profile: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &LineOptions,
+) -> Result<LineSliding, BemError> {
+    let profile: &dyn Surface = &profile;
+    let loading = Loading::per_length(profile, elastomer, load, options.footprint)?;
+    let strip = Strip::new(profile, &loading);
+    let footprint = strip.footprint(options.footprint);
+    let grid = SteadyOptions {
+        phase: [options.phase, 0.0],
+        tolerance: options.tolerance,
+        max_iterations: options.max_iterations,
+        ..SteadyOptions::new([options.spacing, strip.length], footprint)
+    };
+    let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
+    Ok(LineSliding::of(&state))
+}
+
+/// On a number of elements along the contact of a cylinder on an elastic half space.
+fn with_elements(
+    problem: &Problem,
+    strip: f64,
+    request: Request,
+) -> Result<SteadyEstimate, BemError> {
+    let (loading, plan) = (&problem.loading, &problem.plan);
+    let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
+    let resolution = resolution(request, loading.control, ORDER, problem.has_peak);
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
+        let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
+        let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
+        Ok(state.on_grid((&loading.creep, 0.0), options, None))
+    };
+    let mut known = bars::resolve(&resolution, solve, Ok)?;
+    let area = known.contact_area;
+    known.contact_area = Estimate::new(area.value / strip, area.error / strip);
+    Ok(known)
+}
+
+impl LineOptions {
+    const fn of(grid: &SteadyOptions) -> Self {
+        Self {
+            spacing: grid.spacing[0],
+            phase: grid.phase[0],
+            footprint: grid.footprint.x,
+            tolerance: grid.tolerance,
+            max_iterations: grid.max_iterations,
+        }
+    }
+}
+
+impl LineSliding {
+    fn of(state: &SteadySliding) -> Self {
+        let field = &state.pressure;
+        let [first, _] = field.origin;
+        let [dx, _] = field.grid.spacing();
+        // One element along y: the rows are all there is.
+        let row = |(row, pressure): (usize, &f64)| [first + row as f64 * dx, *pressure];
+        Self {
+            friction_coefficient: state.friction_coefficient,
+            mean_slope: state.mean_slope,
+            contact: state.contact_x,
+            unknowns: state.unknowns,
+            iterations: state.iterations,
+            residual: state.residual,
+            pressure: field.pressure.iter().enumerate().map(row).collect(),
+        }
+    }
+}
+
+/// A profile that is as long along y as one element.
+struct Strip<'a> {
+    profile: &'a dyn Surface,
+    length: f64,
+}
+
+impl<'a> Strip<'a> {
+    fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
+        Self {
+            profile,
+            length: loading.strip.unwrap_or(f64::INFINITY),
+        }
+    }
+
+    /// With an empty element on either side.
+    fn footprint(&self, x: [f64; 2]) -> Footprint {
+        let y = [-self.length, self.length];
+        Footprint { x, y }
+    }
+}
+
+impl Surface for Strip<'_> {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        if y.abs() > 0.5 * self.length {
+            f64::INFINITY
+        } else {
+            self.profile.height([x, 0.0])
+        }
+    }
+
+    fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
+        self.profile.gradient([x, 0.0])
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        let [along_x, _] = self.profile.mirrors();
+        [along_x, true]
+    }
+}

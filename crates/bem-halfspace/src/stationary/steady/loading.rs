@@ -1,0 +1,194 @@
+//! The load of a stationary problem: a force, or a depth after a sliding distance.
+
+use std::f64::consts::PI;
+
+use indenters::{Control, SlidingLoad, Surface};
+use numerics::{in_range, positive};
+
+use crate::estimate::plan::{SHARP, kinks};
+use crate::stationary::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
+use crate::stationary::steady::sliding_creep::{ElementCreep, SlidingCreep};
+use crate::{BemError, Elastomer, Footprint};
+
+const SINKS: &str =
+    "on a material that flows the body sinks for ever, so that a depth belongs to a distance";
+/// Sliding distance in lengths of the footprint where none is given: on a solid it has no effect.
+const DISTANCE_ON_SOLID: f64 = 100.0;
+
+/// The equation `depth · δ + load · Σ x = right` that controls depth or force in the units of the mesh.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Equation {
+    pub(super) depth: f64,
+    pub(super) load: f64,
+    pub(super) right: f64,
+}
+
+/// Scale and control of a stationary problem on any grid.
+pub(super) struct Loading {
+    pub(super) creep: SlidingCreep,
+    /// Unit of heights D, \[m].
+    pub(super) depth_scale: f64,
+    /// The force of a plane-strain problem is that on its whole strip.
+    pub(super) control: Control,
+    /// \[m]; always where a depth is given.
+    pub(super) sliding_distance: Option<f64>,
+    /// Length along y of a profile that stands for an infinite one, \[m]; none for a body of finite width.
+    pub(super) strip: Option<f64>,
+    /// Whether the slope of the body jumps inside the contact.
+    pub(super) has_edges: bool,
+}
+
+/// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
+/// one.
+const STRIP: f64 = 1e5;
+
+impl Loading {
+    /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
+    pub(super) fn new(
+        surface: &dyn Surface,
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        footprint: &Footprint,
+    ) -> Result<Self, BemError> {
+        let creep = SlidingCreep::new(elastomer, load.velocity())?;
+        let [rear, front] = footprint.x;
+        let (depth_scale, sliding_distance) = match load.control() {
+            Control::NormalForce(force) => {
+                let largest = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
+                let height = |distance| mean_height(surface, distance);
+                let depth = depth_scale(&creep, force, height, [largest, f64::INFINITY])?;
+                (depth, load.sliding_distance())
+            }
+            Control::IndentationDepth(depth) => {
+                let distance = distance_at_depth(&creep, load, front - rear)?;
+                (depth, Some(distance))
+            }
+        };
+        Ok(Self {
+            has_edges: kinks(surface, depth_scale, footprint)? > SHARP,
+            creep,
+            depth_scale,
+            control: load.control(),
+            sliding_distance,
+            strip: None,
+        })
+    }
+
+    /// Under a force per length \[N/m] on a profile in plane strain, where contact is allowed from rear to front; refuses a
+    /// depth, and a material that flows.
+    pub(super) fn per_length(
+        profile: &dyn Surface,
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        [rear, front]: [f64; 2],
+    ) -> Result<Self, BemError> {
+        let creep = SlidingCreep::new(elastomer, load.velocity())?;
+        let force = load.require_normal_force()?;
+        let [depth_scale, _] = scale_of_profile(profile, &creep, force)?;
+        let strip = STRIP * (front - rear + creep.memory());
+        let strip = positive("length of a strip", strip)?;
+        let force = positive("force on a strip", force * strip)?;
+        Ok(Self {
+            creep,
+            depth_scale,
+            control: Control::NormalForce(force),
+            sliding_distance: None,
+            strip: Some(strip),
+            has_edges: false,
+        })
+    }
+
+    /// Edges of an element that is `factor` times as long; one that is a whole strip stays as wide.
+    pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
+        let scaled = [factor * dx, factor * dy];
+        self.strip.map_or(scaled, |_| [factor * dx, dy])
+    }
+
+    /// The problem on a grid.
+    pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
+        let creep = self.creep.over(spacing[0])?;
+        let compliance = self.creep.compliance(spacing[0])?;
+        let force_scale = 4.0 * self.depth_scale / compliance * spacing[0];
+        let force_scale = positive("4 D Δx / (2 (1 - ν) J(Δx/v))", force_scale)?;
+        let aspect = spacing[1] / spacing[0];
+        let control = match self.control {
+            Control::NormalForce(force) => Equation {
+                depth: 0.0,
+                load: 1.0,
+                right: force / force_scale / (PI * aspect),
+            },
+            Control::IndentationDepth(_) => {
+                let sunken = |distance| sunken(distance, spacing[0]);
+                Equation {
+                    depth: 1.0,
+                    load: creep.flow * aspect * self.sliding_distance.map_or(0.0, sunken),
+                    right: 1.0,
+                }
+            }
+        };
+        Ok(GridLoading {
+            creep,
+            control,
+            depth_scale: self.depth_scale,
+            force_scale,
+            spacing,
+            is_strip: self.strip.is_some(),
+            has_edges: self.has_edges,
+        })
+    }
+}
+
+/// The sliding distance to which a depth belongs, \[m].
+fn distance_at_depth(
+    creep: &SlidingCreep,
+    load: &SlidingLoad,
+    footprint_length: f64,
+) -> Result<f64, BemError> {
+    let Some(distance) = load.sliding_distance() else {
+        if creep.fluidity() > 0.0 {
+            return Err(BemError::SlidingDistanceMissing { why: SINKS });
+        }
+        return Ok(DISTANCE_ON_SOLID * footprint_length);
+    };
+    let is_allowed = distance >= footprint_length;
+    let allowed = "longer than the footprint, because the depth is known only after the contact has become stationary";
+    Ok(in_range("sliding_distance", distance, is_allowed, allowed)?)
+}
+
+/// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).
+pub(super) struct GridLoading {
+    pub(super) creep: ElementCreep,
+    /// Force or depth that is asked for.
+    pub(super) control: Equation,
+    /// Unit of heights D, \[m].
+    pub(super) depth_scale: f64,
+    /// 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
+    force_scale: f64,
+    spacing: [f64; 2],
+    /// Whether one element along y stands for infinitely many.
+    pub(super) is_strip: bool,
+    pub(super) has_edges: bool,
+}
+
+impl GridLoading {
+    /// Whether the friction of a body with edges follows from the displacements beside an element. They are those at the points
+    /// where gaps are evaluated: near its centre, unless the material is more of a fluid for the shortest wave.
+    pub(super) fn is_solid_for_elements(&self) -> bool {
+        self.creep.shift > -0.25
+    }
+
+    /// Normal force of the loads, \[N].
+    pub(super) fn force_of(&self, total_load: f64) -> f64 {
+        self.force_scale * (PI * (self.spacing[1] / self.spacing[0]) * total_load)
+    }
+
+    /// Pressure of the unit load, \[Pa].
+    pub(super) fn pressure_unit(&self) -> f64 {
+        PI * (self.force_scale / self.spacing[0] / self.spacing[0])
+    }
+}
+
+/// ln(2s/L): how far a load has sunk after the distance s, in units of F_N/(4πηv), when its kernel measures lengths in L.
+pub(super) fn sunken(sliding_distance: f64, unit_length: f64) -> f64 {
+    (2.0 * (sliding_distance / unit_length)).ln()
+}

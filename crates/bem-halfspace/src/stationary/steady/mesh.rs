@@ -1,0 +1,352 @@
+//! The stationary problem on a grid: the elements that may touch, their heights, kernel and symmetry.
+//!
+//! On a dashpot the gap changes by ∫w/(ηv) minus the rise of the body between the rear edges of two neighbouring elements.
+//! Where the body does not rise, the gap is therefore larger at the rear than at the front, and no element can touch: only
+//! elements over which the body rises are unknowns. On any other material all elements that the body covers are.
+
+use std::collections::BTreeSet;
+use std::ops::{Range, RangeInclusive};
+use std::sync::Arc;
+
+use indenters::Surface;
+use numerics::{in_range, positive, whole_part};
+
+use crate::elements::bounds::Bounds;
+use crate::elements::mirror::Mirror;
+use crate::stationary::steady::SteadyOptions;
+use crate::stationary::steady::loading::{GridLoading, Loading};
+use crate::stationary::steady::plans::Plans;
+use crate::stationary::steady::region::Region;
+use crate::stationary::steady::wake_table::WakeTable;
+use crate::{BemError, Grid};
+
+/// Height of the foot of a steep flank, in units of the depth scale.
+const FOOT: f64 = 0.1;
+/// Elements below this height are guessed to be in contact, in the same units: about as high as the sides of the contact
+/// of a paraboloid.
+const GUESSED_HEIGHT: f64 = 0.5;
+
+/// An element that may touch.
+struct Element {
+    row: usize,
+    column: usize,
+    /// Height where the gap is evaluated, in units of the depth scale.
+    height: f64,
+    /// Mean of ∂h/∂x.
+    slope: f64,
+    /// The slope that dissipates.
+    chord: f64,
+}
+
+/// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
+/// 2 (1 − ν) J(Δx/v) P Δx/(4πD) of an element, which is P Δx²/(4πηvD) for the dashpot.
+pub(super) struct Mesh {
+    pub(super) options: SteadyOptions,
+    pub(super) loading: GridLoading,
+    /// Whether only elements over which the body rises may touch.
+    only_rising: bool,
+    /// Number of rows and columns of the footprint.
+    shape: [usize; 2],
+    /// Position of the row and the column 0 in elements from the lowest point.
+    origin: [f64; 2],
+    /// Of grid and body in y.
+    mirror: Mirror,
+    elements: Vec<Element>,
+    /// Whether an element ends in a vertical wall, by row and column.
+    walls: Vec<bool>,
+    /// First and last row and column between which the contact must lie.
+    limits: [[usize; 2]; 2],
+    table: Arc<WakeTable>,
+}
+
+impl Mesh {
+    pub(super) fn new(
+        surface: &dyn Surface,
+        loading: &Loading,
+        options: &SteadyOptions,
+        plans: &mut Plans,
+    ) -> Result<Self, BemError> {
+        positive("spacing along x", options.spacing[0])?;
+        positive("spacing along y", options.spacing[1])?;
+        for value in options.phase {
+            let is_allowed = (-0.5..=0.5).contains(&value);
+            in_range("phase", value, is_allowed, "between -1/2 and 1/2")?;
+        }
+        let [x, y] = options.phase;
+        let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
+        let mut mesh = Self {
+            options: *options,
+            loading: loading.on_grid(options.spacing)?,
+            only_rising: loading.creep.only_flows(),
+            shape: [behind + ahead + 1, right + left + 1],
+            origin: [x - behind as f64, y - right as f64],
+            mirror: Mirror::None,
+            elements: Vec::new(),
+            walls: Vec::new(),
+            limits: [[0, behind + ahead], [0, right + left]],
+            table: Arc::default(),
+        };
+        // Refuses what is too large before it is sampled.
+        Grid::new(mesh.shape, options.spacing)?;
+        mesh.sample(surface)?;
+        if surface.mirrors()[1] {
+            mesh.keep_front();
+        }
+        // Without such an element nothing can carry load.
+        let parameter = "number of elements of the footprint that may touch";
+        positive(parameter, mesh.n_elements() as f64)?;
+        let all = mesh.region(0..mesh.n_elements());
+        mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
+        Ok(mesh)
+    }
+
+    pub(super) const fn n_elements(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Some elements in the box around them.
+    pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
+        Region::around(elements.map(|element| self.places(element)))
+    }
+
+    /// Centre of a row (axis 0) or column (axis 1) relative to the lowest point, \[m].
+    pub(super) fn centre(&self, axis: usize, index: usize) -> f64 {
+        (self.origin[axis] + index as f64) * self.options.spacing[axis]
+    }
+
+    /// Centre of an element relative to the lowest point, \[m].
+    pub(super) fn position(&self, element: usize) -> [f64; 2] {
+        let Element { row, column, .. } = self.elements[element];
+        [self.centre(0, row), self.centre(1, column)]
+    }
+
+    fn sample(&mut self, surface: &dyn Surface) -> Result<(), BemError> {
+        let dx = self.options.spacing[0];
+        for row in 0..self.shape[0] {
+            for column in 0..self.shape[1] {
+                let [x, y] = [self.centre(0, row), self.centre(1, column)];
+                let positions = [-0.5, self.loading.creep.shift, 0.5];
+                let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
+                let [rear, height, front] = heights;
+                let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
+                if let Some(value) = heights.into_iter().find(invalid) {
+                    return Err(BemError::InvalidHeight { row, column, value });
+                }
+                self.walls
+                    .push(front.is_infinite() || !self.only_rising && rear.is_infinite());
+                let covered = heights.iter().all(|height| height.is_finite());
+                if covered && (front > rear || !self.only_rising) {
+                    let [height, slope] = [height / self.loading.depth_scale, (front - rear) / dx];
+                    let chord = self.chord(surface, [x, y]).unwrap_or(slope);
+                    self.elements.push(Element {
+                        row,
+                        column,
+                        height,
+                        slope,
+                        chord,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps the elements at y ≥ 0 of a surface that mirrors them, where the grid does too.
+    fn keep_front(&mut self) {
+        self.mirror = match self.options.phase[1].abs() {
+            0.0 => Mirror::Centre,
+            0.5 => Mirror::Edge,
+            _ => return,
+        };
+        // An element needs its image inside the footprint: the shorter side limits both.
+        let origin = self.origin[1];
+        let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;
+        self.elements
+            .retain(|element| origin + element.column as f64 >= 0.0 && has_image(element.column));
+        let mut columns = (0..self.shape[1]).rev();
+        let last = columns.find(|&column| has_image(column)).unwrap_or(0);
+        self.limits[1] = [self.image(last), last];
+    }
+
+    /// Column that mirrors `column`.
+    fn image(&self, column: usize) -> usize {
+        // The whole distance between the two is an integer, because the phase is 0 or 1/2.
+        let distance = 2.0 * (self.origin[1] + column as f64);
+        column - whole_part(distance.round())
+    }
+
+    fn has_image(&self, element: &Element) -> bool {
+        match self.mirror {
+            Mirror::None => false,
+            Mirror::Centre => self.image(element.column) != element.column,
+            Mirror::Edge => true,
+        }
+    }
+
+    /// Displacement of one element by the unit load of another and of its mirror image.
+    pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
+        let [to, from] = [&self.elements[to], &self.elements[from]];
+        let rows = to.row.cast_signed() - from.row.cast_signed();
+        let direct = self.table.at(rows, to.column.abs_diff(from.column));
+        if !self.has_image(from) {
+            return direct;
+        }
+        direct + self.table.at(rows, to.column - self.image(from.column))
+    }
+
+    /// Row and column of an element and of its mirror image; itself where it has none.
+    pub(super) fn places(&self, element: usize) -> [[usize; 2]; 2] {
+        let Element { row, column, .. } = self.elements[element];
+        let has_image = self.has_image(&self.elements[element]);
+        let image = has_image.then(|| self.image(column));
+        [[row, column], [row, image.unwrap_or(column)]]
+    }
+
+    /// The elements at most `reach` rows and columns away from one of `centres`, unless they are more than `most`.
+    pub(super) fn near(&self, centres: &[usize], reach: usize, most: usize) -> Option<Vec<usize>> {
+        let mut near = BTreeSet::new();
+        for &centre in centres {
+            let Element { row, column, .. } = self.elements[centre];
+            for row in row.saturating_sub(reach)..=row + reach {
+                near.extend(self.in_row(row, column.saturating_sub(reach)..=column + reach));
+            }
+            if near.len() > most {
+                return None;
+            }
+        }
+        Some(near.into_iter().collect())
+    }
+
+    /// The elements of a row within a range of columns; they are numbered row by row.
+    fn in_row(&self, row: usize, columns: RangeInclusive<usize>) -> Range<usize> {
+        let [first, last] = [*columns.start(), columns.end() + 1].map(|column| {
+            self.elements
+                .partition_point(|element| (element.row, element.column) < (row, column))
+        });
+        first..last
+    }
+
+    fn aspect(&self) -> f64 {
+        self.options.spacing[1] / self.options.spacing[0]
+    }
+
+    /// 2 for an element with a mirror image, which it represents, otherwise 1.
+    pub(super) fn weight(&self, element: usize) -> f64 {
+        let has_image = self.has_image(&self.elements[element]);
+        if has_image { 2.0 } else { 1.0 }
+    }
+
+    /// Height of an element where its gap is evaluated.
+    pub(super) fn height(&self, element: usize) -> f64 {
+        self.elements[element].height
+    }
+
+    /// Whether elements `coarser` times as long still resolve the flanks of the body up to the depth scale.
+    pub(super) fn resolves_body(&self, coarser: f64) -> bool {
+        let dx = coarser * self.options.spacing[0];
+        let passes = |element: &Element| {
+            let rise = element.slope * dx / self.loading.depth_scale;
+            element.height < FOOT && element.height + rise > 1.0
+        };
+        !self.elements.iter().any(passes)
+    }
+
+    /// The low elements, without loads.
+    pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
+        let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
+        let low = (0..self.n_elements()).filter(is_low);
+        low.map(|element| (element, 0.0)).collect()
+    }
+
+    /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
+    pub(super) fn balance(&self, loads: &mut [f64]) {
+        let control = self.loading.control;
+        if control.depth == 0.0 {
+            let total = self.total_load(loads.iter().copied().enumerate());
+            let scale = control.right / (control.load * total);
+            loads.iter_mut().for_each(|load| *load *= scale);
+        }
+    }
+
+    /// Sum of the loads of the whole.
+    pub(super) fn total_load(&self, loads: impl IntoIterator<Item = (usize, f64)>) -> f64 {
+        let weighted = |(element, load)| self.weight(element) * load;
+        loads.into_iter().map(weighted).sum()
+    }
+
+    /// Means weighted with the load, of ∂h/∂x, its modulus and the slope that dissipates.
+    pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> [f64; 3] {
+        let (mut sums, mut normal) = ([0.0; 3], 0.0);
+        for &(element, load) in loads {
+            let Element { slope, chord, .. } = self.elements[element];
+            for (sum, slope) in sums.iter_mut().zip([slope, slope.abs(), chord]) {
+                *sum += self.weight(element) * load * slope;
+            }
+            normal += self.weight(element) * load;
+        }
+        sums.map(|sum| sum / normal)
+    }
+
+    /// Of a body with edges the slope between the points of the two neighbours where gaps are evaluated: that of the element
+    /// alone does not dissipate as much, by the root of an element where the contact ends near the edge.
+    fn chord(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
+        if !self.loading.has_edges {
+            return None;
+        }
+        let dx = self.options.spacing[0];
+        let height = |shift| surface.height([x + (self.loading.creep.shift + shift) * dx, y]);
+        let chord = (height(1.0) - height(-1.0)) / (2.0 * dx);
+        chord.is_finite().then_some(chord)
+    }
+
+    /// Mean of half the difference of the gaps ahead and behind, weighted with the load.
+    pub(super) fn opening(&self, loads: &[f64], gaps: &[f64]) -> f64 {
+        let gap = |row: usize, column: usize| {
+            let beside = self.in_row(row, column..=column).next();
+            let open = beside.filter(|one| loads[*one] <= 0.0);
+            open.map_or(0.0, |one| gaps[one])
+        };
+        let (mut sum, mut normal) = (0.0, 0.0);
+        for (index, load) in loads.iter().enumerate().filter(|(_, load)| **load > 0.0) {
+            let Element { row, column, .. } = self.elements[index];
+            let weighted = self.weight(index) * load;
+            sum += 0.5 * weighted * (gap(row + 1, column) - gap(row.wrapping_sub(1), column));
+            normal += weighted;
+        }
+        sum / normal
+    }
+
+    /// Row, column and load of every loaded element of the whole.
+    pub(super) fn loaded(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
+        let with_image = |&(element, load): &(usize, f64)| {
+            let [place, image] = self.places(element);
+            let places = std::iter::once(place).chain((image != place).then_some(image));
+            places.map(move |place| (place, load))
+        };
+        loads.iter().flat_map(with_image).collect()
+    }
+
+    /// Whether a box lies inside the footprint, away from its boundary.
+    pub(super) fn holds(&self, bounds: &Bounds) -> bool {
+        (0..2).all(|axis| {
+            let [first, last] = self.limits[axis];
+            bounds.lower[axis] > first && bounds.upper[axis] <= last
+        })
+    }
+
+    /// Whether the element ahead of a loaded one ends in a vertical wall, or the one behind it where that may touch.
+    pub(super) fn faces_wall(&self, [row, column]: [usize; 2]) -> bool {
+        let is_wall = |row: usize| {
+            let wall = self.walls.get(row * self.shape[1] + column);
+            wall.is_some_and(|wall| *wall)
+        };
+        is_wall(row + 1) || !self.only_rising && row.checked_sub(1).is_some_and(is_wall)
+    }
+
+    /// Largest rise of the body over a loaded element, in units of the depth scale.
+    pub(super) fn largest_rise(&self, loads: &[(usize, f64)]) -> f64 {
+        let (dx, unit) = (self.options.spacing[0], self.loading.depth_scale);
+        let rise = |&(element, _): &(usize, f64)| (self.elements[element].slope * dx / unit).abs();
+        loads.iter().map(rise).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,168 @@
+//! Stationary sliding, solved directly: no time, no free surface, no window.
+//!
+//! In the frame of the indenter the stationary state is one complementarity problem
+//!
+//! ```text
+//! gap = h + u − d ≥ 0,  P ≥ 0,  P · gap = 0,  Σ P ΔA = F_N,      u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
+//! ```
+//!
+//! with the load potential w = (1/4π) ∬ P/r dA, whose kernel is translation-invariant and not symmetric. For a dashpot
+//! it is [`wake_influence`]; each retardation element adds an exponential sweep of the potential from ahead. Where the
+//! material flows, the surface sinks like ln t, for ever; this constant is absorbed in d, which then has no meaning of
+//! its own; friction and contact do not depend on it.
+//!
+//! Friction is summed with the mean slope of each element. The gap is evaluated between the rear edge, where a dashpot
+//! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
+//! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
+
+mod contact_equations;
+mod contact_scale;
+mod depth;
+mod estimate;
+mod exponential_rule;
+mod extrapolation;
+mod filter;
+mod kernel;
+mod line;
+mod loading;
+mod mesh;
+mod neighbourhood;
+mod pivoting;
+mod plans;
+mod refinement;
+mod region;
+mod retarded_potential;
+mod sliding_creep;
+mod solution;
+mod wake_table;
+mod wiener_hopf;
+
+use indenters::{SlidingLoad, Surface};
+use numerics::{between_zero_and_one, positive};
+
+pub use crate::estimate::averages::{Average, Refinement};
+use crate::parallel::chunks::in_pool;
+use crate::{BemError, Elastomer, Footprint};
+pub(crate) use contact_scale::depth_scale_of_surface;
+pub use depth::SinkingDepth;
+pub use estimate::{steady, steady_memory, steady_refined};
+pub use kernel::wake_influence;
+pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_on_grid};
+use loading::Loading;
+use mesh::Mesh;
+use plans::Plans;
+pub use refinement::RefinementOptions;
+pub use solution::{SteadyEstimate, SteadySliding};
+
+/// Meshes of more elements than this start from the solution on a coarser one.
+const NESTED: usize = 500;
+/// Spacing of the grid to start from.
+const COARSER: f64 = 2.0;
+/// Tolerance of a solution that is only a start.
+const COARSE_TOLERANCE: f64 = 1e-6;
+
+/// One grid for a stationary solution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SteadyOptions {
+    /// Edges of an element (Δx, Δy), \[m].
+    pub spacing: [f64; 2],
+    /// Where in its element the lowest point of the indenter lies, in elements from its centre along x and y, between
+    /// −1/2 and 1/2. A body that is mirror symmetric in y shares its symmetry with the grid for 0 and ±1/2 along y;
+    /// then half of it is solved.
+    pub phase: [f64; 2],
+    /// Where contact may occur.
+    pub footprint: Footprint,
+    /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale D.
+    /// That is F_N/(4ηv) on a dashpot, the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
+    /// height h(a) at the distance a from the lowest point, and the depth where that is given.
+    pub tolerance: f64,
+    /// Active sets tried before the solver gives up.
+    pub max_iterations: usize,
+}
+
+impl SteadyOptions {
+    /// A grid with the lowest point over the centre of an element, solved to a tolerance of 1e-9 with at most 500 active
+    /// sets.
+    pub const fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
+        Self {
+            spacing,
+            phase: [0.0; 2],
+            footprint,
+            tolerance: 1e-9,
+            max_iterations: 500,
+        }
+    }
+}
+
+/// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth;
+/// the sliding distance of the load matters for a depth on a material that flows only.
+///
+/// The active set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587); single pivots
+/// end what would cycle. Small contacts are factorised; large ones are solved by minimal residuals with transforms, with
+/// the Wiener–Hopf factors of the kernel as preconditioner, and start from the contact of a coarser grid.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
+/// [`BemError::SlidingDistanceMissing`]; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`];
+/// [`BemError::SlopeNotResolved`]; [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`];
+/// [`BemError::InvalidHeight`]; [`BemError::Material`].
+pub fn steady_on_grid(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &SteadyOptions,
+) -> Result<SteadySliding, BemError> {
+    let loading = Loading::new(&surface, elastomer, load, &options.footprint)?;
+    solve(&surface, &loading, options, &mut Reuse::default())
+}
+
+/// What one solution passes on to the next.
+#[derive(Debug, Default)]
+struct Reuse {
+    /// Its contact is the first guess.
+    solution: Option<SteadySliding>,
+    plans: Plans,
+}
+
+fn solve(
+    surface: &dyn Surface,
+    loading: &Loading,
+    options: &SteadyOptions,
+    reuse: &mut Reuse,
+) -> Result<SteadySliding, BemError> {
+    positive("max_iterations", options.max_iterations as f64)?;
+    between_zero_and_one("tolerance", options.tolerance)?;
+    let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
+    if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
+        let coarse = SteadyOptions {
+            spacing: loading.scaled(options.spacing, COARSER),
+            tolerance: options.tolerance.max(COARSE_TOLERANCE),
+            ..*options
+        };
+        // Only the kernel of a dashpot is the same on both grids.
+        let mut other = Reuse::default();
+        let coarse_reuse = if loading.creep.only_flows() {
+            &mut *reuse
+        } else {
+            &mut other
+        };
+        // Without a solution on the coarse grid the fine one starts from its own guess.
+        reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
+    }
+    let guess = match &reuse.solution {
+        Some(other) => loads_of(other, &mesh),
+        None => mesh.first_guess(),
+    };
+    let plans = &mut reuse.plans;
+    let solution = in_pool(mesh.n_elements(), || pivoting::solve(&mesh, plans, guess))?;
+    SteadySliding::new(&mesh, &solution)
+}
+
+/// The loaded elements of another solution, seen on this mesh.
+fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
+    let unit = mesh.loading.pressure_unit();
+    let load = |element| (element, other.pressure.at(mesh.position(element)) / unit);
+    let loads = (0..mesh.n_elements()).map(load);
+    loads.filter(|(_, load)| *load > 0.0).collect()
+}

@@ -1,0 +1,83 @@
+//! Transforms and spectra, which depend on sizes only: made once, and shared by the contacts, grids and shifts of a
+//! problem.
+
+use std::sync::Arc;
+
+use crate::stationary::steady::filter::{Filters, Spectrum, signed_offset};
+use crate::stationary::steady::sliding_creep::ElementCreep;
+use crate::stationary::steady::wake_table::WakeTable;
+use crate::stationary::steady::wiener_hopf;
+use crate::transform::fast_length::fast_length;
+use crate::transform::plane_transform::PlaneTransform;
+
+/// Periods that are kept: the boxes of successive contacts have about the same size.
+const KEPT: usize = 4;
+
+/// What depends on the creep over an element, on the aspect ratio of the elements and on the size of a box only.
+#[derive(Debug, Default)]
+pub(super) struct Plans {
+    table: Arc<WakeTable>,
+    kernels: Vec<Arc<Filters<1>>>,
+    factors: Vec<Arc<Filters<2>>>,
+}
+
+impl Plans {
+    /// Makes ready for boxes of up to `shape` elements and returns the table of the kernel.
+    pub(super) fn cover(
+        &mut self,
+        creep: &ElementCreep,
+        aspect: f64,
+        shape: [usize; 2],
+    ) -> Arc<WakeTable> {
+        let is_other = self.table.aspect.total_cmp(&aspect).is_ne();
+        if is_other || self.table.creep != *creep {
+            *self = Self::default();
+        }
+        let filtered = wiener_hopf::period(shape);
+        let reach = [0, 1].map(|axis| free_period(shape[axis]).max(filtered[axis]) / 2);
+        WakeTable::cover(&mut self.table, creep, aspect, reach);
+        Arc::clone(&self.table)
+    }
+
+    /// The kernel for loads and displacements within a box of `shape` elements.
+    pub(super) fn kernel(&mut self, shape: [usize; 2]) -> Arc<Filters<1>> {
+        let (padded, table) = (shape.map(free_period), &self.table);
+        recent(&mut self.kernels, padded, |transform| {
+            let value = |row, column| table.at(signed_offset(row, padded[0]), column);
+            [transform.spectrum(value, |_, _| {})]
+        })
+    }
+
+    /// The inverse Wiener–Hopf factors for a box of `shape` elements.
+    pub(super) fn inverse_factors(&mut self, shape: [usize; 2]) -> Arc<Filters<2>> {
+        let (padded, table) = (wiener_hopf::period(shape), &self.table);
+        recent(&mut self.factors, padded, |transform| {
+            wiener_hopf::inverse_factors(table, transform)
+        })
+    }
+}
+
+/// The kept filters of a period, or new ones in the place of the oldest.
+fn recent<const N: usize>(
+    kept: &mut Vec<Arc<Filters<N>>>,
+    padded: [usize; 2],
+    spectra: impl FnOnce(&PlaneTransform) -> [Spectrum; N],
+) -> Arc<Filters<N>> {
+    let same_period = |filters: &&Arc<Filters<N>>| filters.transform.padded == padded;
+    if let Some(filters) = kept.iter().find(same_period) {
+        return Arc::clone(filters);
+    }
+    if kept.len() == KEPT {
+        kept.remove(0);
+    }
+    let transform = PlaneTransform::new(padded);
+    let spectra = spectra(&transform);
+    let filters = Arc::new(Filters { transform, spectra });
+    kept.push(Arc::clone(&filters));
+    filters
+}
+
+/// A period that is fast to transform and keeps `n` elements free of their images.
+fn free_period(n: usize) -> usize {
+    fast_length(2 * n - 1)
+}

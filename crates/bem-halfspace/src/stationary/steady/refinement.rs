@@ -1,0 +1,448 @@
+//! Refinement to a requested error.
+//!
+//! The outline of the contact follows the elements. On one grid that scatters the friction around its trend, so each
+//! refinement averages over four grids that are shifted by half an element along x and y, in plane strain by quarters
+//! along x. The averages converge with the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p
+//! is slower, and are extrapolated. On materials that recover the outline is closed behind, and what is left of the
+//! scatter decides: it widens the error bar.
+
+use std::ops::Range;
+
+use indenters::Surface;
+use numerics::{ErrorParts, Estimate, Progress, Watch, between_zero_and_one, in_range, positive};
+
+use crate::BemError;
+use crate::Reached;
+use crate::estimate::averages::{Average, Refinement};
+use crate::estimate::bars::{self, DEPTH, FORCE, FRICTION, NAMES};
+use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
+use crate::stationary::steady::extrapolation::{
+    HIDDEN_EDGE, OBSERVED, by_observed_order, extrapolate,
+};
+use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
+use crate::stationary::steady::{Reuse, SteadyOptions, solve};
+
+/// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
+const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
+/// Shifts in plane strain. The means over the first two and over the last two differ by the second harmonic of how the
+/// friction varies with the shift, which all four average out.
+const PHASES_OF_STRIP: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
+/// Refinements in plane strain of which the largest scatter counts: on one of them it may be small by chance, and the
+/// extrapolated limit contains the scatter of all that it eliminates.
+const SCATTERING: usize = 4;
+/// Order of the error that the singular front leaves.
+const FRONT_ORDER: f64 = 1.5;
+/// Order in which the area of the elements in contact approaches that of the contact.
+const AREA_ORDER: f64 = 1.0;
+/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
+/// lesser of two bars holds less often than either.
+const BETTER: f64 = 0.5;
+/// Weight of the error on materials that recover, where all outlines scatter and the refinement that ends is one that does so
+/// little by chance: without it 95.8 of 100 bars hold on random solids and cylinders, with it 98.6 (docs/calibration.md).
+const RECOVERING: f64 = 1.5;
+/// Refinements of which an error bar can come, at least.
+const FEWEST: i32 = 5;
+/// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
+const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
+/// Elements that hardly cost anything.
+const ALWAYS_ALLOWED: f64 = 1e5;
+/// Active sets tried on one grid.
+const MAX_ITERATIONS: usize = 100;
+/// At the edge of a contact elements may change sides for ever; then the grid is this much finer, and its own spacing is
+/// the one that is reported.
+const FINER: [f64; 2] = [0.99, 0.98];
+/// Residual left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
+const RESIDUAL_SHARE: f64 = 1e-4;
+const SMALLEST_RESIDUAL: f64 = 1e-12;
+/// The same part under a strip: the potential of its whole length, which is absorbed in the depth, leaves more rounding.
+const RESIDUAL_SHARE_OF_STRIP: f64 = 1e-2;
+/// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
+const FIRST_PART: f64 = 1e-3;
+/// Friction that is known to this part of the mean slope counts as known: what is left of an elastic body is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// How far a friction coefficient is refined.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RefinementOptions {
+    /// Relative error asked for, of the friction coefficient, and of the normal force where the depth is given.
+    pub relative_error: f64,
+    /// Δy/Δx. The outline of the contact is steeper across the sliding direction than along it.
+    pub aspect: f64,
+    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it, or
+    /// whose footprint has more than 50 times as many elements, and more than 1e5.
+    pub max_unknowns: usize,
+}
+
+impl Default for RefinementOptions {
+    /// A relative error of 1e-3, elements half as wide as long, and at most 40 000 unknowns, which take some seconds.
+    fn default() -> Self {
+        Self {
+            relative_error: 1e-3,
+            aspect: 0.5,
+            max_unknowns: 40_000,
+        }
+    }
+}
+
+/// A surface that slides, and the grids for it.
+pub(super) struct Problem<'a> {
+    pub(super) surface: &'a dyn Surface,
+    pub(super) loading: Loading,
+    pub(super) plan: GridPlan,
+    /// Whether the largest pressure is known to have a limit.
+    pub(super) has_peak: bool,
+    pub(super) watch: &'a dyn Watch,
+}
+
+/// Refines until friction and force have the error asked for; `finish` makes of the estimate what is returned, also where
+/// that error was not reached.
+pub(super) fn refine<E: Into<Reached>>(
+    problem: &Problem,
+    options: &RefinementOptions,
+    finish: impl FnOnce(SteadyEstimate) -> Result<E, BemError>,
+) -> Result<E, BemError> {
+    let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
+    positive("aspect", options.aspect)?;
+    let mut grids = Grids {
+        problem,
+        options,
+        order: order_of_friction(problem.plan.apex_exponent)?,
+        reuse: Reuse::default(),
+        progress: Progress::new(problem.watch, work_of(0..FEWEST)),
+    };
+    let (mut index, mut finest) = grids.coarsest()?;
+    let mut refinements = vec![finest.averages];
+    loop {
+        let friction = grids.friction(&refinements);
+        let force = grids.force(&refinements);
+        let rounding = ROUNDING * finest.state.mean_slope;
+        // Without friction the contact is known as well as its depth.
+        let (name, driving) = match grids.depth(&refinements) {
+            Some(depth) if friction.error <= rounding => (NAMES[DEPTH], depth),
+            None if friction.error <= rounding => (NAMES[FORCE], force),
+            _ => (NAMES[FRICTION], friction),
+        };
+        let is_enough = driving.is_within(relative_error) && force.is_within(relative_error);
+        if is_enough || !grids.allows(index + 1, &finest.averages) {
+            let found = finish(grids.estimate(friction, force, refinements, finest))?;
+            return if is_enough {
+                Ok(found)
+            } else {
+                Err(not_reached(
+                    (name, driving),
+                    force,
+                    relative_error,
+                    found.into(),
+                ))
+            };
+        }
+        let excess = [driving, force].map(|known| known.error / known.value.abs());
+        let excess = excess[0].max(excess[1]) / relative_error;
+        grids.expect(index, excess, &finest.averages);
+        index += 1;
+        finest = grids.refine(index)?;
+        refinements.push(finest.averages);
+    }
+}
+
+/// Order of the error of the averages.
+fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
+    let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
+    // The friction of a sharper apex alone is infinite, as in the one-dimensional model.
+    in_range("apex exponent", apex_exponent, order > 0.0, "above 1/2")?;
+    Ok(order)
+}
+
+fn not_reached(
+    driving: (&'static str, Estimate),
+    force: Estimate,
+    relative_error: f64,
+    reached: Reached,
+) -> BemError {
+    let (quantity, known) = if force.is_within(relative_error) {
+        driving
+    } else {
+        (NAMES[FORCE], force)
+    };
+    BemError::NotReached {
+        quantity,
+        value: known.value,
+        error: known.error,
+        relative_error,
+        reached: Box::new(reached),
+    }
+}
+
+/// One refinement, and the last solution of it with its grid.
+struct Solved {
+    averages: Refinement,
+    state: SteadySliding,
+    options: SteadyOptions,
+}
+
+/// A problem on finer and finer grids.
+struct Grids<'a> {
+    problem: &'a Problem<'a>,
+    options: &'a RefinementOptions,
+    /// Order of the error of the averages.
+    order: f64,
+    reuse: Reuse,
+    progress: Progress<'a>,
+}
+
+/// Each refinement has twice as many elements as the one before.
+fn work_of(refinements: Range<i32>) -> f64 {
+    refinements.map(|index| f64::from(index).exp2()).sum()
+}
+
+impl Grids<'_> {
+    /// Expects the refinements that are left until the error is smaller by the excess, if it falls with the order.
+    fn expect(&mut self, index: i32, excess: f64, last: &Refinement) {
+        let most = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
+        let needed = 2.0 * excess.log2() / self.order;
+        let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(most)));
+        let ahead = ahead.unwrap_or(1).max(FEWEST - 1 - index);
+        self.progress.expect(work_of(index + 1..index + 1 + ahead));
+    }
+
+    /// The limit of averages with what is left of their scatter, and under a body with edges with what it would be if the order
+    /// were the observed one.
+    fn limit(
+        &self,
+        refinements: &[Refinement],
+        order: f64,
+        quantity: impl Fn(&Refinement) -> Average,
+    ) -> Estimate {
+        let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
+        let scatter = refinements
+            .last()
+            .map_or(0.0, |last| quantity(last).scatter);
+        let limit = extrapolate(&values, order).widened(scatter);
+        if self.problem.loading.has_edges {
+            let hides_edge = refinements.last().is_some_and(|last| last.hides_edge);
+            let powers = if hides_edge { HIDDEN_EDGE } else { OBSERVED };
+            return limit.widened(by_observed_order(&values, order, powers));
+        }
+        limit
+    }
+
+    /// Of the pressure under the slopes, or of the dissipated power where that is known much better, with what no grid shows.
+    fn friction(&self, refinements: &[Refinement]) -> Estimate {
+        let mut friction = self.friction_of_slopes(refinements);
+        if !self.problem.loading.creep.only_flows() {
+            let dissipated = self.limit(refinements, self.order, |r| r.friction_from_dissipation);
+            let has_edges = self.problem.loading.has_edges;
+            if has_edges || dissipated.error < BETTER * friction.error {
+                friction = dissipated;
+            }
+            friction = Estimate::new(friction.value, RECOVERING * friction.error);
+        }
+        let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
+        friction.widened(unresolved * friction.value.abs())
+    }
+
+    /// On a dashpot the scatter falls as fast as the rest of the error.
+    fn friction_of_slopes(&self, refinements: &[Refinement]) -> Estimate {
+        let Loading { creep, strip, .. } = &self.problem.loading;
+        let counted = match strip {
+            _ if creep.only_flows() => 0,
+            Some(_) => SCATTERING,
+            None => 1,
+        };
+        let value = |refinement: &Refinement| Average {
+            scatter: 0.0,
+            ..refinement.friction_coefficient
+        };
+        let friction = self.limit(refinements, self.order, value);
+        let last = refinements.iter().rev().take(counted);
+        let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
+        friction.widened(scatter.fold(0.0, f64::max))
+    }
+
+    /// The normal force that is given, or the limit of those at the depth.
+    fn force(&self, refinements: &[Refinement]) -> Estimate {
+        let [given, _] = bars::given(self.problem.loading.control);
+        given.unwrap_or_else(|| self.limit(refinements, self.order, |r| r.normal_force))
+    }
+
+    /// The depth that is given, or the limit of those under the force; none where it has no meaning, in plane strain on a half
+    /// space.
+    fn depth(&self, refinements: &[Refinement]) -> Option<Estimate> {
+        let Loading { creep, strip, .. } = &self.problem.loading;
+        let [_, given] = bars::given(self.problem.loading.control);
+        let has_depth = strip.is_none() || creep.base().is_layer();
+        given.or_else(|| {
+            has_depth.then(|| self.limit(refinements, self.order, |r| r.indentation_depth))
+        })
+    }
+
+    fn estimate(
+        &self,
+        friction: Estimate,
+        normal_force: Estimate,
+        refinements: Vec<Refinement>,
+        finest: Solved,
+    ) -> SteadyEstimate {
+        let iteration = finest.state.iteration_error();
+        let known = |of: fn(&Refinement) -> Average| self.limit(&refinements, self.order, of);
+        let [dx, dy] = finest.options.spacing;
+        SteadyEstimate {
+            friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
+            error_parts: ErrorParts {
+                iteration: Some(iteration),
+                ..ErrorParts::of_elements(friction.error)
+            },
+            normal_force,
+            indentation_depth: self.depth(&refinements),
+            contact_area: self.limit(&refinements, AREA_ORDER, |r| r.contact_area),
+            peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
+            contact_box_error: bars::of_box(dx.max(dy)),
+            refinements,
+            finest: finest.state,
+            options: finest.options,
+        }
+    }
+
+    /// The coarsest refinement on which the body is resolved, if enough of those that follow are within the limits.
+    fn coarsest(&mut self) -> Result<(i32, Solved), BemError> {
+        let mut index = 0;
+        loop {
+            let elements = self.n_elements(index + FEWEST - 1);
+            if elements > self.most_elements() {
+                return Err(BemError::GridTooLarge {
+                    elements,
+                    limit: self.most_elements(),
+                });
+            }
+            match self.refine(index) {
+                Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. }) => {
+                    index += 1;
+                }
+                refinement => return Ok((index, refinement?)),
+            }
+        }
+    }
+
+    /// Whether a refinement is within the limits; it has twice as many unknowns as the one before.
+    fn allows(&self, refinement: i32, before: &Refinement) -> bool {
+        let Problem { plan, watch, .. } = self.problem;
+        refinement < MAX_REFINEMENTS
+            && self.n_elements(refinement) <= self.most_elements()
+            && 2 * before.unknowns <= self.options.max_unknowns
+            && watch.allows(plan.elements(refinement))
+    }
+
+    /// Elements of the footprint.
+    fn n_elements(&self, refinement: i32) -> f64 {
+        let footprint = &self.problem.plan.footprint;
+        footprint.n_elements(self.edges(refinement))
+    }
+
+    /// Edges of an element.
+    fn edges(&self, refinement: i32) -> [f64; 2] {
+        let dx = self.problem.plan.spacing(refinement);
+        let strip = self.problem.loading.strip;
+        [dx, strip.unwrap_or(self.options.aspect * dx)]
+    }
+
+    fn phases(&self) -> &'static [[f64; 2]] {
+        match self.problem.loading.strip {
+            Some(_) => &PHASES_OF_STRIP,
+            None => &PHASES,
+        }
+    }
+
+    fn most_elements(&self) -> f64 {
+        (ELEMENTS_PER_UNKNOWN * self.options.max_unknowns as f64).max(ALWAYS_ALLOWED)
+    }
+
+    /// The averages over the shifts, each started from the contact of the one before.
+    fn refine(&mut self, index: i32) -> Result<Solved, BemError> {
+        let (spacing, work) = (self.edges(index), work_of(index..index + 1));
+        let mut options = SteadyOptions {
+            max_iterations: MAX_ITERATIONS,
+            ..SteadyOptions::new(spacing, self.problem.plan.footprint.widened(spacing[0]))
+        };
+        let mut states = Vec::new();
+        for &phase in self.phases() {
+            options.phase = phase;
+            options.tolerance = self.tolerance();
+            let state = self.solve_near(&options)?;
+            self.progress.add(work / self.phases().len() as f64);
+            states.push(state.clone());
+            self.reuse.solution = Some(state);
+        }
+        let distance = self.problem.loading.sliding_distance;
+        let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
+        let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
+        let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
+        let creep = &self.problem.loading.creep;
+        let unresolved = states
+            .iter()
+            .map(|state| state.unresolved(creep, self.problem.plan.kinks));
+        let edges = self.edges_of_body();
+        let averages = Refinement {
+            hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
+            spacing: spacings.sum::<f64>() / states.len() as f64,
+            friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),
+            friction_from_dissipation: Average::of_halves(&states, |state| {
+                state.friction_from_dissipation
+            }),
+            unresolved: unresolved.fold(0.0, f64::max),
+            normal_force: average(&|state| state.normal_force).times(per_length),
+            indentation_depth: average(&|state| state.depth.at(distance)),
+            contact_area: average(&|state| state.contact_area).times(per_length),
+            peak_pressure: average(&|state| state.pressure.largest()),
+            unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
+        };
+        let state = states.swap_remove(states.len() - 1);
+        options.spacing = state.pressure.grid.spacing();
+        Ok(Solved {
+            averages,
+            state,
+            options,
+        })
+    }
+
+    /// Radii at which the slope of the body jumps, \[m].
+    fn edges_of_body(&self) -> Vec<f64> {
+        let body = self.problem.surface.as_axisymmetric();
+        let kinks = body.map_or_else(Vec::new, |body| body.kinks());
+        kinks.into_iter().map(|kink| kink.radius).collect()
+    }
+
+    /// The solution on a grid, or on a slightly finer one where pivoting cycles.
+    fn solve_near(&mut self, options: &SteadyOptions) -> Result<SteadySliding, BemError> {
+        let (surface, loading) = (self.problem.surface, &self.problem.loading);
+        let mut solve_on = |spacing| {
+            let options = SteadyOptions {
+                spacing,
+                ..*options
+            };
+            solve(surface, loading, &options, &mut self.reuse)
+        };
+        let mut solution = solve_on(options.spacing);
+        for finer in FINER {
+            if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
+                break;
+            }
+            solution = solve_on(loading.scaled(options.spacing, finer));
+        }
+        solution
+    }
+
+    /// A residual that disturbs the friction less than is asked: smaller where it is a small difference of large slopes.
+    fn tolerance(&self) -> f64 {
+        let part = match &self.reuse.solution {
+            Some(last) => last.friction_coefficient.abs() / last.mean_slope,
+            None if self.problem.loading.creep.only_flows() => 1.0,
+            None => FIRST_PART,
+        };
+        let share = match self.problem.loading.strip {
+            Some(_) => RESIDUAL_SHARE_OF_STRIP,
+            None => RESIDUAL_SHARE,
+        };
+        (share * self.options.relative_error * part).max(SMALLEST_RESIDUAL)
+    }
+}

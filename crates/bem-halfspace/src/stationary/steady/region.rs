@@ -1,0 +1,64 @@
+//! The bounding box of a set of elements, and how a vector over the set becomes a field over the box.
+
+use crate::elements::bounds::Bounds;
+
+/// Elements of a mesh in their bounding box, images by mirror symmetry included.
+pub(super) struct Region {
+    /// Rows and columns of the box.
+    pub(super) shape: [usize; 2],
+    /// Place of each element in the box, row-major, and of its image; an element without one is its own.
+    places: Vec<[usize; 2]>,
+}
+
+impl Region {
+    /// Elements at some places, each with its image.
+    pub(super) fn around(elements: impl Iterator<Item = [[usize; 2]; 2]> + Clone) -> Self {
+        let bounds = Bounds::of(elements.clone().flatten()).unwrap_or(Bounds::EMPTY);
+        let place = |place| bounds.place(place);
+        Self {
+            shape: bounds.shape(),
+            places: elements.map(|places| places.map(place)).collect(),
+        }
+    }
+
+    pub(super) fn n_places(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// Writes a vector over the set into a field over the box, 0 elsewhere.
+    pub(super) fn spread(&self, vector: &[f64], field: &mut [f64]) {
+        field.fill(0.0);
+        for (places, value) in self.places.iter().zip(vector) {
+            for place in places {
+                field[*place] = *value;
+            }
+        }
+    }
+
+    /// Reads a vector over the set from a field over the box.
+    pub(super) fn gather(&self, field: &[f64]) -> Vec<f64> {
+        self.places.iter().map(|[place, _]| field[*place]).collect()
+    }
+
+    /// For each element, how far it lies from the rear (0) to the front (1) of its run of elements along x.
+    pub(super) fn fractions_from_rear(&self) -> Vec<f64> {
+        let [rows, columns] = self.shape;
+        let mut inside = vec![false; self.n_places()];
+        for place in self.places.as_flattened() {
+            inside[*place] = true;
+        }
+        let mut fractions = vec![0.0; self.n_places()];
+        for column in 0..columns {
+            let mut row = 0;
+            while row < rows {
+                let outside = |row: &usize| !inside[row * columns + column];
+                let run = row..(row..rows).find(outside).unwrap_or(rows);
+                for (step, row) in run.clone().enumerate() {
+                    fractions[row * columns + column] = (step as f64 + 0.5) / run.len() as f64;
+                }
+                row = run.end + 1;
+            }
+        }
+        self.gather(&fractions)
+    }
+}

@@ -1,0 +1,384 @@
+//! The load potential of an element as retardation elements see it, row by row from ahead.
+//!
+//! The potential is replaced by polynomials on panels that are at most as long as their distance from the edges of the
+//! loaded element, where it is singular; the exponentials are integrated exactly. The panels of a polynomial of n points
+//! leave an error of the order ρ⁻ⁿ of the potential, ρ the sum of the half axes of the ellipse around the panel that
+//! reaches the singularity (Bernstein): 6 for a panel next to it, 4 distance/length far away. Where the potential is
+//! smooth over several rows, the polynomial goes through its values at the rows, of which each is computed once. What a
+//! layer adds is singular beside the edges, not nearer than they are.
+
+use std::collections::VecDeque;
+
+use crate::parallel::reductions::dot;
+use crate::stationary::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
+use crate::stationary::steady::sliding_creep::ElementCreep;
+use crate::substrate::layer::Base;
+
+/// Distance from the edges of the loaded element, in panel lengths, from which a rule of so many points gives eleven
+/// digits.
+const POINTS: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
+/// Distance in rows from which the polynomial through the values at so many rows gives eleven digits: its error is
+/// (1/2 · 3/2 · …)² over the power of the distance to the nearest of them.
+const ROWS: [(f64, usize); 3] = [(86.0, 6), (41.0, 8), (29.0, 10)];
+/// Rows kept on either side of a panel.
+const KEPT: usize = 5;
+/// Panels next to a singularity on their own line are not divided below this length.
+const SHORTEST: f64 = 1.0 / (1_u64 << 26) as f64;
+/// The recursion along rows starts at least that far ahead of the load; further ahead, each panel ends this many times as far
+/// away as it begins.
+const FIRST_ROW: f64 = 16.0;
+const GROWTH: f64 = 1.9;
+/// Terms e^(−x) with a larger x are below rounding and left out.
+const LARGEST_EXPONENT: f64 = 40.0;
+
+/// A part of the line ahead of a point.
+#[derive(Debug, Clone, Copy)]
+struct Panel {
+    start: f64,
+    length: f64,
+    /// Index of its rule in [`POINTS`].
+    rule: usize,
+}
+
+/// A retardation element over the length of one element of the grid.
+struct Retardation {
+    rate: f64,
+    compliance: f64,
+    decay: f64,
+    /// Weights of each rule, in parts of the compliance.
+    weights: [[f64; MAX_POINTS]; POINTS.len()],
+    row_weights: [[f64; MAX_POINTS]; ROWS.len()],
+}
+
+/// Displacements by all retardation elements along a row of the table.
+pub(super) struct RetardedPotential {
+    delays: Vec<Retardation>,
+    rules: [ExponentialRule; POINTS.len()],
+    base: Base,
+    aspect: f64,
+    n_columns: usize,
+    /// Position of the present row.
+    position: f64,
+    /// By delay and column, in parts of the compliance.
+    values: Vec<f64>,
+    increments: Vec<f64>,
+    /// V by row and column, for the rows around the element ahead of the present row.
+    rows: VecDeque<Vec<f64>>,
+}
+
+impl RetardedPotential {
+    /// Starts at the row one element ahead of `first`.
+    pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
+        let rules = POINTS.map(|(_, n_points)| ExponentialRule::new(n_points));
+        let row_rules = ROWS.map(|(_, n_points)| ExponentialRule::on_lattice(n_points));
+        let delays = creep.delays.iter().map(|delay| {
+            let weights = |rule: &ExponentialRule| {
+                rule.weights(delay.rate)
+                    .map(|weight| delay.compliance() * weight)
+            };
+            Retardation {
+                rate: delay.rate,
+                compliance: delay.compliance(),
+                decay: delay.decay(),
+                weights: rules.each_ref().map(weights),
+                row_weights: row_rules.each_ref().map(weights),
+            }
+        });
+        let position = first + 1.0 + (FIRST_ROW - first).max(0.0).ceil();
+        let mut start = Self {
+            delays: delays.collect(),
+            rules,
+            base: creep.base.clone(),
+            aspect,
+            n_columns,
+            position,
+            values: vec![0.0; creep.delays.len() * n_columns],
+            increments: vec![0.0; creep.delays.len() * n_columns],
+            rows: VecDeque::with_capacity(2 * KEPT),
+        };
+        start.integrate_from_infinity();
+        for row in (1..=2 * KEPT).rev() {
+            start.push_row(position - KEPT as f64 + row as f64);
+        }
+        while start.position > first + 1.5 {
+            start.step(start.position - 1.0);
+        }
+        start
+    }
+
+    /// Potential V of the loaded element.
+    fn potential(&self, x: f64, column: usize) -> f64 {
+        let offset = [x, column as f64 * self.aspect];
+        self.base.influence(offset, [1.0, self.aspect])
+    }
+
+    /// Adds the potentials of the next row behind, and drops those of the row furthest ahead.
+    fn push_row(&mut self, x: f64) {
+        self.rows.truncate(2 * KEPT - 1);
+        let row = (0..self.n_columns).map(|column| self.potential(x, column));
+        self.rows.push_front(row.collect());
+    }
+
+    /// The values at the first row: the integral over everything ahead of it.
+    fn integrate_from_infinity(&mut self) {
+        let rates = self.delays.iter().map(|delay| delay.rate);
+        let slowest = rates.fold(f64::MAX, f64::min);
+        let mut ends = vec![self.position];
+        let mut end = self.position;
+        let felt = 1.0 + self.base.reach();
+        while slowest * (end - self.position) < LARGEST_EXPONENT && end < felt.min(1e150) {
+            end *= GROWTH;
+            ends.push(end);
+        }
+        let rule = POINTS.len() - 1;
+        for pair in ends.windows(2).rev() {
+            let panel = Panel {
+                start: pair[0],
+                length: pair[1] - pair[0],
+                rule,
+            };
+            let steps = self.delays.iter();
+            let steps: Vec<_> = steps.map(|delay| self.over_panel(delay, &panel)).collect();
+            for column in 0..self.n_columns {
+                let potentials = self.at_nodes(&panel, column);
+                for (index, (decay, weights)) in steps.iter().enumerate() {
+                    let value = &mut self.values[index * self.n_columns + column];
+                    *value = decay * *value + dot(weights, &potentials);
+                }
+            }
+        }
+    }
+
+    /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
+    fn over_panel(&self, delay: &Retardation, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
+        let rate = delay.rate * panel.length;
+        let weights = self.rules[panel.rule].weights(rate);
+        let weights = weights.map(|weight| delay.compliance * weight);
+        ((-rate).exp(), weights)
+    }
+
+    fn at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {
+        let mut potentials = [0.0; MAX_POINTS];
+        for (potential, node) in potentials.iter_mut().zip(&self.rules[panel.rule].nodes) {
+            *potential = self.potential(panel.start + panel.length * node, column);
+        }
+        potentials
+    }
+
+    /// Goes back to the row at `x`, one element behind the last.
+    pub(super) fn step(&mut self, x: f64) {
+        self.push_row(x + 1.0 - KEPT as f64);
+        for column in 0..self.n_columns {
+            let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
+            let distance = distance_from_edges([x, x + 1.0], clearance);
+            if let Some(rule) = shortest(&ROWS, distance) {
+                self.through_rows(column, rule);
+            } else if let Some(rule) = shortest(&POINTS, distance) {
+                self.whole(x, column, rule);
+            } else {
+                self.graded(x, column, clearance);
+            }
+            for (index, delay) in self.delays.iter().enumerate() {
+                let place = index * self.n_columns + column;
+                self.values[place] = delay.decay * self.values[place] + self.increments[place];
+            }
+        }
+        self.position = x;
+    }
+
+    /// The integral over an element from the values at the rows around it.
+    fn through_rows(&mut self, column: usize, rule: usize) {
+        let n_points = ROWS[rule].1;
+        let mut potentials = [0.0; MAX_POINTS];
+        let rows = self.rows.iter().skip(KEPT - n_points / 2);
+        for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
+            *potential = row[column];
+        }
+        self.integrate(column, &potentials[..n_points], |delay| {
+            &delay.row_weights[rule]
+        });
+    }
+
+    /// The integral over an element in one panel, whose ends are rows that are kept.
+    fn whole(&mut self, x: f64, column: usize, rule: usize) {
+        let last = POINTS[rule].1 - 1;
+        let mut potentials = [0.0; MAX_POINTS];
+        for (index, node) in self.rules[rule].nodes.iter().enumerate() {
+            potentials[index] = match index {
+                0 => self.rows[KEPT - 1][column],
+                _ if index == last => self.rows[KEPT][column],
+                _ => self.potential(x + node, column),
+            };
+        }
+        self.integrate(column, &potentials[..=last], |delay| &delay.weights[rule]);
+    }
+
+    /// Sets the increments of a column from the potentials at the nodes of a rule.
+    fn integrate(
+        &mut self,
+        column: usize,
+        potentials: &[f64],
+        weights: impl Fn(&Retardation) -> &[f64; MAX_POINTS],
+    ) {
+        for (index, delay) in self.delays.iter().enumerate() {
+            self.increments[index * self.n_columns + column] = dot(weights(delay), potentials);
+        }
+    }
+
+    /// The integral over an element near the edges of the loaded one.
+    fn graded(&mut self, x: f64, column: usize, clearance: f64) {
+        for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
+            *increment = 0.0;
+        }
+        for panel in panels(x, clearance).iter().rev() {
+            let potentials = self.at_nodes(panel, column);
+            for (index, delay) in self.delays.iter().enumerate() {
+                let (decay, weights) = self.over_panel(delay, panel);
+                let increment = &mut self.increments[index * self.n_columns + column];
+                *increment = decay * *increment + dot(&weights, &potentials);
+            }
+        }
+    }
+
+    /// Potential of the loaded element at the present row.
+    pub(super) fn here(&self, column: usize) -> f64 {
+        self.rows[KEPT - 1][column]
+    }
+
+    /// Displacement by all retardation elements at the present row.
+    pub(super) fn value(&self, column: usize) -> f64 {
+        self.values[column..].iter().step_by(self.n_columns).sum()
+    }
+
+    /// The part of it that comes from the last element passed.
+    pub(super) fn increment(&self, column: usize) -> f64 {
+        let increments = self.increments[column..].iter();
+        increments.step_by(self.n_columns).sum()
+    }
+}
+
+/// Distance of an interval from the points ±1/2, where the loaded element ends; `clearance` is that across.
+fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
+    let distance = |edge: f64| (start - edge).max(edge - end).max(0.0).hypot(clearance);
+    distance(-0.5).min(distance(0.5))
+}
+
+/// The shortest of some rules for a panel at this distance in its own length; none that is too near.
+fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
+    rules.iter().position(|(far, _)| distance >= *far)
+}
+
+/// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
+/// one of the rules. The clearance is that of the edges across.
+fn panels(x: f64, clearance: f64) -> Vec<Panel> {
+    let mut ends = vec![x, -0.5, 0.5, x + 1.0];
+    ends.retain(|end| (x..=x + 1.0).contains(end));
+    ends.dedup();
+    let mut panels = Vec::new();
+    for pair in ends.windows(2) {
+        divide([pair[0], pair[1]], clearance, &mut panels);
+    }
+    panels
+}
+
+fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
+    let length = end - start;
+    let distance = distance_from_edges([start, end], clearance);
+    let rule =
+        shortest(&POINTS, distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
+    if let Some(rule) = rule {
+        panels.push(Panel {
+            start,
+            length,
+            rule,
+        });
+        return;
+    }
+    let middle = 0.5 * (start + end);
+    divide([start, middle], clearance, panels);
+    divide([middle, end], clearance, panels);
+}
+
+#[cfg(test)]
+mod tests {
+    use numerics::integrate;
+    use rheology::Elastic;
+
+    use super::*;
+    use crate::Layer;
+    use crate::stationary::steady::sliding_creep::Delay;
+
+    /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
+    fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2], base: &Base) -> f64 {
+        let end = 60.0 / rate;
+        let decays = (-3..=5).map(|power| 2.0_f64.powi(power) / rate);
+        let distances = (-3..60).map(|power| 0.5 + 2.0_f64.powi(power) - x);
+        let singular = [0.0, -0.5 - x, 0.5 - x, end];
+        let mut ends: Vec<f64> = decays.chain(distances).chain(singular).collect();
+        ends.retain(|distance| (0.0..=end).contains(distance));
+        ends.sort_by(f64::total_cmp);
+        let integrand = |s: f64| rate * (-rate * s).exp() * base.influence([x + s, y], edges);
+        let parts = ends.windows(2).filter(|pair| pair[0] < pair[1]);
+        parts
+            .map(|pair| integrate(integrand, [pair[0], pair[1]], 1e-13).value)
+            .sum()
+    }
+
+    #[test]
+    fn the_recursion_agrees_with_quadrature_for_any_rate() {
+        let elements = [
+            (-0.5, 0.5),
+            (-0.37, 0.5),
+            (0.0, 1.0),
+            (-0.1, 1e-3),
+            (-0.2, 1e4),
+        ];
+        for (shift, aspect) in elements {
+            for decade in (-12..=12).step_by(3) {
+                check(10.0_f64.powi(decade), [shift, aspect], f64::INFINITY);
+            }
+        }
+        for thickness in [0.04, 0.5, 8.0] {
+            check(0.1, [-0.37, 0.5], thickness);
+        }
+    }
+
+    fn check(rate: f64, [shift, aspect]: [f64; 2], thickness: f64) {
+        let material = Elastic::new(1.0).expect("a modulus");
+        let layer = Layer::new(&material, thickness).expect("a thickness");
+        let delay = Delay {
+            rate,
+            share: -(-rate).exp_m1(),
+        };
+        let creep = ElementCreep {
+            shift,
+            delays: vec![delay],
+            base: Base::of(&layer),
+            ..ElementCreep::default()
+        };
+        let first = 130.0 + shift;
+        let mut retarded = RetardedPotential::new(&creep, [first, aspect], 4);
+        for row in 0..=230 {
+            let x = first - f64::from(row);
+            retarded.step(x);
+            if ![30, 80, 98, 120, 129, 130, 131, 160, 230].contains(&row) {
+                continue;
+            }
+            for column in [0, 1, 3] {
+                let y = f64::from(column) * aspect;
+                let by = |base| reference(rate, [x, y], [1.0, aspect], &base);
+                let expected = by(Base::of(&layer));
+                // A layer leaves little of it far away.
+                let of_half_space = if thickness.is_finite() {
+                    by(Base::default())
+                } else {
+                    expected
+                };
+                let actual = retarded.value(column as usize);
+                let error = (actual - expected).abs() / of_half_space;
+                let scene = (rate, shift, aspect, [x, y], thickness);
+                assert!(error < 1e-10, "{error:e} at {scene:?}");
+            }
+        }
+    }
+}

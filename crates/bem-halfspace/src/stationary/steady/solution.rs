@@ -1,0 +1,180 @@
+//! What the stationary solver returns.
+
+use numerics::ErrorParts;
+
+use crate::BemError;
+use crate::elements::bounds::Bounds;
+use crate::elements::pressure_field::PressureField;
+use crate::error::check_contact_elements;
+use crate::estimate::bars::{ContactEstimate, OnGrid};
+use crate::stationary::steady::SteadyOptions;
+use crate::stationary::steady::depth::SinkingDepth;
+use crate::stationary::steady::mesh::Mesh;
+use crate::stationary::steady::pivoting::Solution;
+use crate::stationary::steady::sliding_creep::SlidingCreep;
+
+/// Elements between an edge of the body and the end of the contact with which the two are told apart.
+const BEYOND_EDGE: f64 = 4.0;
+
+/// A stationary state with its error bars.
+pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
+
+/// A stationary solution on one grid.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct SteadySliding {
+    /// Friction coefficient μ = F_h/F_N.
+    pub friction_coefficient: f64,
+    /// The friction coefficient from the displacements beside the contact too, as the dissipated power has it; the same one
+    /// where a body with edges slides over what is more of a fluid at the length of an element.
+    pub friction_from_dissipation: f64,
+    /// Mean of |∂h/∂x| under the load: what the friction coefficient is the difference of, and its upper bound.
+    pub mean_slope: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Depth of the lowest point, which depends on the distance slid where the material flows.
+    pub depth: SinkingDepth,
+    /// Area of the elements in contact, \[m²].
+    pub contact_area: f64,
+    /// Rear and front of the contact relative to the lowest point, \[m].
+    pub contact_x: [f64; 2],
+    /// Sides of the contact relative to the lowest point, \[m].
+    pub contact_y: [f64; 2],
+    /// Number of unknown pressures: elements in contact, of one half where the problem is mirror symmetric.
+    pub unknowns: usize,
+    /// Active sets tried.
+    pub iterations: usize,
+    /// Largest residual |h + u − d| in the contact relative to the depth scale, see
+    /// [`SteadyOptions::tolerance`].
+    pub residual: f64,
+    /// Pressure over the contact.
+    pub pressure: PressureField,
+    factorised: bool,
+}
+
+impl SteadySliding {
+    /// Whether the equations of this contact were factorised; if not, they were solved by iteration with transforms.
+    pub const fn is_factorised(&self) -> bool {
+        self.factorised
+    }
+
+    /// How much the residual that is left may change the friction coefficient.
+    pub fn iteration_error(&self) -> f64 {
+        self.residual * self.mean_slope
+    }
+
+    pub(super) fn on_grid(
+        self,
+        (creep, kinks): (&SlidingCreep, f64),
+        options: SteadyOptions,
+        sliding_distance: Option<f64>,
+    ) -> OnGrid<Self, SteadyOptions> {
+        let unresolved = self.unresolved(creep, kinks) * self.friction_coefficient.abs();
+        OnGrid {
+            quantities: [
+                self.friction_coefficient,
+                self.normal_force,
+                self.depth.at(sliding_distance),
+                self.contact_area,
+                self.pressure.largest(),
+            ],
+            dissipated: Some(self.friction_from_dissipation),
+            other_error: ErrorParts {
+                iteration: Some(self.iteration_error()),
+                ..ErrorParts::of_elements(unresolved)
+            },
+            least: 0.0,
+            spacing: options.spacing[0],
+            state: self,
+            options,
+        }
+    }
+
+    /// Part of the friction that the elements may miss because the surface forgets within them.
+    pub(super) fn unresolved(&self, creep: &SlidingCreep, kinks: f64) -> f64 {
+        let [rear, front] = self.contact_x;
+        let half_length = 0.5 * (front - rear);
+        creep.unresolved(self.pressure.grid.spacing()[0], half_length, kinks)
+    }
+
+    /// Whether the front is closer to an edge of the body than [`BEYOND_EDGE`] elements.
+    pub(super) fn hides_edge(&self, radii: &[f64]) -> bool {
+        let close = BEYOND_EDGE * self.pressure.grid.spacing()[0];
+        let [_, front] = self.contact_x;
+        radii.iter().any(|radius| (front - radius).abs() < close)
+    }
+
+    /// Turns a solution in the units of the mesh into one in SI.
+    pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
+        let loaded = mesh.loaded(&solution.loads);
+        let bounds = checked_bounds(mesh, &loaded)?;
+        let mut places = loaded.iter().map(|(element, _)| element);
+        if let Some([row, column]) = places.find(|place| mesh.faces_wall(**place)) {
+            return Err(BemError::VerticalWall {
+                x: mesh.centre(0, *row),
+                y: mesh.centre(1, *column),
+            });
+        }
+        check_slopes(mesh, &solution.loads)?;
+        let spacing = mesh.options.spacing;
+        let edges = [0, 1].map(|axis| {
+            let half = 0.5 * spacing[axis];
+            [
+                mesh.centre(axis, bounds.lower[axis]) - half,
+                mesh.centre(axis, bounds.upper[axis] - 1) + half,
+            ]
+        });
+        let origin = [0, 1].map(|axis| mesh.centre(axis, bounds.lower[axis]));
+        let unit = mesh.loading.pressure_unit();
+        let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
+        let pressure = PressureField::over(&bounds, (spacing, origin), pressures)?;
+        let [friction_coefficient, mean_slope, dissipating_slope] =
+            mesh.mean_slopes(&solution.loads);
+        let total_load = mesh.total_load(solution.loads.iter().copied());
+        Ok(Self {
+            friction_coefficient,
+            friction_from_dissipation: if mesh.loading.is_solid_for_elements()
+                || !mesh.loading.has_edges
+            {
+                dissipating_slope - solution.opening * mesh.loading.depth_scale / spacing[0]
+            } else {
+                friction_coefficient
+            },
+            mean_slope,
+            normal_force: mesh.loading.force_of(total_load),
+            depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
+            contact_area: loaded.len() as f64 * pressure.grid.element_area(),
+            contact_x: edges[0],
+            contact_y: edges[1],
+            unknowns: solution.loads.len(),
+            iterations: solution.iterations,
+            residual: solution.residual,
+            pressure,
+            factorised: solution.factorised,
+        })
+    }
+}
+
+/// Refuses a surface that rises by more than the depth over one element in contact.
+fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
+    let depth_scale = mesh.loading.depth_scale;
+    let rise = mesh.largest_rise(loads) * depth_scale;
+    if rise > depth_scale {
+        return Err(BemError::SlopeNotResolved { rise, depth_scale });
+    }
+    Ok(())
+}
+
+/// The box around the loaded elements, if that is inside the footprint and covers enough elements.
+fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, BemError> {
+    let bounds = Bounds::of(loaded.iter().map(|(element, _)| *element));
+    let bounds = bounds.unwrap_or(Bounds::EMPTY);
+    if bounds != Bounds::EMPTY && !mesh.holds(&bounds) {
+        return Err(mesh.options.footprint.boundary_reached(0.0));
+    }
+    let [rows, columns] = bounds.shape();
+    let is_strip = mesh.loading.is_strip;
+    check_contact_elements(if is_strip { rows } else { rows.min(columns) })?;
+    Ok(bounds)
+}

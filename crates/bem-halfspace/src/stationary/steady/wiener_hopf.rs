@@ -1,0 +1,125 @@
+//! The preconditioner of the stationary problem: Wiener–Hopf factors of the kernel.
+//!
+//! Along x the kernel is a creep filter over the load potential, which is symmetric and positive: a running sum for the
+//! dashpot, the identity for a spring, a sum of exponentials for the rest. For every wave number along y the potential
+//! factors into a filter that looks ahead only and its mirror image that looks back only (by the cepstrum of its
+//! spectrum, Kolmogorov 1939), so that the kernel is the product of a forward factor, which contains the creep filter,
+//! and a backward factor. On a contact that extended without end behind a straight front, the inverses of the
+//! factors, applied in the order backward, forward with the contact cut out in between, are the exact inverse
+//! (Wiener & Hopf 1931); without end ahead of a straight rear, in the other order. The preconditioner goes from the one
+//! to the other along x in proportion to the distance from the two ends.
+
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex;
+
+use crate::stationary::steady::filter::{Filters, RegionFilter, Spectrum, signed_offset};
+use crate::stationary::steady::region::Region;
+use crate::stationary::steady::sliding_creep::{Delay, ElementCreep};
+use crate::stationary::steady::wake_table::WakeTable;
+use crate::transform::fast_length::fast_length;
+use crate::transform::plane_transform::PlaneTransform;
+
+/// Elements beyond the box before the period of the filters repeats it. They need no more: the inverse factors decay
+/// fast.
+const MARGIN: usize = 4;
+
+/// Places of the two factors.
+const SWEEP: usize = 0;
+const COUNTER_SWEEP: usize = 1;
+
+/// Period of the filters for a box of `shape` elements.
+pub(super) fn period(shape: [usize; 2]) -> [usize; 2] {
+    shape.map(|n| fast_length(n + MARGIN))
+}
+
+/// The inverses of the two factors in Fourier space: of that which contains the creep filter, and of the other one.
+pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> [Spectrum; 2] {
+    let [length, _] = transform.padded;
+    let potential = |row: usize, column: usize| table.potential(signed_offset(row, length), column);
+    let counter_sweep = transform.spectrum(potential, invert_causal_factor);
+    let sweep = with_inverse_creep(&counter_sweep, &table.creep, length);
+    [sweep, counter_sweep]
+}
+
+/// An approximate inverse of the product with the stationary kernel on a region.
+pub(super) struct WienerHopf {
+    inverses: RegionFilter<2>,
+    /// Weight of the order that is exact at the front.
+    front: Vec<f64>,
+}
+
+impl WienerHopf {
+    /// From the [`inverse_factors`] for the shape of a region.
+    pub(super) fn new(inverses: Arc<Filters<2>>, region: &Region) -> Self {
+        Self {
+            inverses: RegionFilter::new(inverses, region),
+            front: region.fractions_from_rear(),
+        }
+    }
+
+    /// Approximate loads that cause the given displacements.
+    pub(super) fn loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
+        let [at_front, at_rear] =
+            [[COUNTER_SWEEP, SWEEP], [SWEEP, COUNTER_SWEEP]].map(|[first, second]| {
+                let between = self.inverses.apply(first, displacements, region);
+                self.inverses.apply(second, &between, region)
+            });
+        let both = at_front.iter().zip(at_rear).zip(&self.front);
+        both.map(|((front, rear), weight)| weight * front + (1.0 - weight) * rear)
+            .collect()
+    }
+}
+
+/// Replaces a real and positive transform along x by the inverse of its factor that looks towards smaller x only.
+fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>]) {
+    let length = column.len();
+    // A periodic kernel that is cut off may graze zero where it should not.
+    let floor = f64::EPSILON * column.iter().map(|value| value.re).fold(0.0, f64::max);
+    for value in column.iter_mut() {
+        *value = Complex::new(value.re.max(floor).ln(), 0.0);
+    }
+    transform.column_back(column);
+    let half = length / 2;
+    for (index, value) in column.iter_mut().enumerate() {
+        let share = match index {
+            0 => 0.5,
+            _ if index == half => 0.5,
+            _ if index < half => 1.0,
+            _ => 0.0,
+        };
+        *value *= -share / length as f64;
+    }
+    transform.column_forward(column);
+    for value in column {
+        *value = value.exp();
+    }
+}
+
+/// The mirror image of each factor, together with the inverse of the creep filter
+/// `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})` over the elements ahead.
+fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -> Spectrum {
+    let inverse = |index: usize| {
+        let angle = std::f64::consts::TAU * index as f64 / length as f64;
+        // 1 − e^{iα} without cancellation.
+        let half_sine = (0.5 * angle).sin();
+        let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
+        let delayed = |delay: &Delay| {
+            let kept = delay.decay();
+            difference * kept + -(-delay.rate).exp_m1()
+        };
+        let delays = creep.delays.iter();
+        // Of a memory longer than 1e154 elements the square of what is forgotten within one is no number.
+        let shares = delays.map(|delay| delayed(delay).finv() * delay.share);
+        let recovered = shares.sum::<Complex<f64>>() + creep.instant;
+        if creep.flow > 0.0 {
+            difference / (difference * recovered + creep.flow)
+        } else {
+            recovered.inv()
+        }
+    };
+    let inverses: Vec<Complex<f64>> = (0..length).map(inverse).collect();
+    let pairs = inverses.iter().cycle().zip(factors);
+    let products = pairs.map(|(inverse, factor)| inverse * factor.conj());
+    products.collect()
+}

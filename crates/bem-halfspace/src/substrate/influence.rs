@@ -1,0 +1,95 @@
+//! The potential of a uniformly loaded rectangle.
+//!
+//! ```text
+//! K(x, y) = ∬ dA' / |r − r'|   over the rectangle around the origin        (Love 1929)
+//! ```
+
+use crate::substrate::rectangle::{PlaneKernel, integrate, product_asinh};
+
+/// Distance in units of the longer edge from which the first multipoles are exact to rounding: the next one is below
+/// 0.02 r⁻⁶ of the whole.
+const MULTIPOLES_FROM: f64 = 256.0;
+
+/// Integral of 1/r over a rectangle, \[m].
+///
+/// `offset` is the position of the field point relative to the centre of the rectangle and `edges` its edges, both
+/// along x and y in \[m]. The surface of an elastic half space under the uniform pressure P moves by `P K / (4 π G)`,
+/// the surface of a viscous one at the rate `P K / (4 π η)`.
+pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
+    // Lengths in units of the longer edge neither overflow nor underflow when they are squared.
+    let unit = edges[0].max(edges[1]);
+    let [offset, edges] = [offset, edges].map(|lengths| lengths.map(|length| length.abs() / unit));
+    let [x, y] = offset;
+    if x * x + y * y >= MULTIPOLES_FROM * MULTIPOLES_FROM {
+        return unit * multipoles(offset, edges);
+    }
+    unit * integrate::<Reciprocal>(offset, edges)
+}
+
+/// Monopole of a uniformly loaded rectangle, and its multipoles of the orders 2 and 4: the mean of the Legendre
+/// polynomials of the angle between the field point and the points of the rectangle.
+fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
+    let square = x * x + y * y;
+    // Squares of the direction cosines, and moments of the orders 2 and 4.
+    let [p, q] = [x * x / square, y * y / square];
+    let [x2, y2] = [a * a / 12.0, b * b / 12.0];
+    let [x4, x2y2, y4] = [1.8 * x2 * x2, x2 * y2, 1.8 * y2 * y2];
+    let second = 3.0 * (p * x2 + q * y2) - (x2 + y2);
+    let fourth = 35.0 * (p * p * x4 + 6.0 * p * q * x2y2 + q * q * y4)
+        - 30.0 * (p * (x4 + x2y2) + q * (x2y2 + y4))
+        + 3.0 * (x4 + 2.0 * x2y2 + y4);
+    let correction = (second / 2.0 + fourth / 8.0 / square) / square;
+    a * b / square.sqrt() * (1.0 + correction)
+}
+
+/// 1/r.
+struct Reciprocal;
+
+impl PlaneKernel for Reciprocal {
+    fn value(x: f64, y: f64) -> f64 {
+        1.0 / (x * x + y * y).sqrt()
+    }
+
+    fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
+        strip(x, a, y)
+    }
+
+    fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
+        strip(y, b, x)
+    }
+
+    fn corner(x: f64, y: f64) -> f64 {
+        product_asinh(x, y) + product_asinh(y, x)
+    }
+}
+
+/// ∫ dx' / √(x'² + height²) over the edge around `x` ≥ 0.
+fn strip(x: f64, edge: f64, height: f64) -> f64 {
+    let (lower, upper) = (x - 0.5 * edge, x + 0.5 * edge);
+    if lower > 0.0 {
+        // Also right where the height vanishes.
+        return ((upper + upper.hypot(height)) / (lower + lower.hypot(height))).ln();
+    }
+    (upper / height.abs()).asinh() - (lower / height.abs()).asinh()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multipoles_continue_the_integral() {
+        for edges in [[1.0, 1.0], [1.0, 0.5], [1.0, 1e-6], [0.3, 1.0]] {
+            for distance in [MULTIPOLES_FROM, 3e3, 1e6] {
+                for degrees in [0.0, 17.0, 45.0, 80.0, 90.0] {
+                    let (sine, cosine) = f64::to_radians(degrees).sin_cos();
+                    let offset = [distance * cosine, distance * sine];
+                    let expected = integrate::<Reciprocal>(offset, edges);
+                    let actual = multipoles(offset, edges);
+                    let error = (actual / expected - 1.0).abs();
+                    assert!(error < 4.0 * f64::EPSILON, "at {offset:?}, {edges:?}");
+                }
+            }
+        }
+    }
+}

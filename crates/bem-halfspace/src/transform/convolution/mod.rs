@@ -1,0 +1,284 @@
+//! Fast convolution of a pressure field with the influence of the elements.
+//!
+//! ```text
+//! (K P)_ij = Σ K(x_i − x_k, y_j − y_l) P_kl
+//! ```
+//!
+//! The kernel is even along both axes, so its spectrum is real and one quarter of it is stored.
+
+mod spectrum;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::elements::mirror::{Mirror, NO_MIRRORS};
+use crate::substrate::layer::Base;
+use crate::transform::fast_length::fast_length;
+use crate::transform::plane_transform::{PlaneTransform, Workspace};
+use crate::{Elastomer, Grid};
+
+/// What surrounds the elements of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Surroundings {
+    /// A half space without load.
+    Free,
+    /// Copies of the grid without end.
+    Periodic,
+}
+
+/// The convolution on one grid: its spectrum and plans, which no pressure changes; may be shared between threads.
+#[derive(Debug, Clone)]
+pub struct Convolution {
+    /// Of the elements, or of those in front of the mirrors.
+    grid: Grid,
+    /// About which pressure and result are their own images along x and y, at the rear of the grid.
+    pub(crate) mirrors: [Mirror; 2],
+    pub(crate) surroundings: Surroundings,
+    /// What the elements lie on.
+    pub(crate) base: Base,
+    transform: PlaneTransform,
+    /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
+    /// in; not a slice, into which it would have to be copied.
+    spectrum: Arc<Vec<f64>>,
+    /// Displacement of an element under its own unit load, [m].
+    pub(crate) self_influence: f64,
+}
+
+/// Buffers that a convolution overwrites; one per caller, made by [`Convolution::workspace`].
+#[derive(Debug, Clone)]
+pub struct ConvolutionWorkspace(Workspace);
+
+impl Convolution {
+    /// Influence on a half space that is free of load outside the grid.
+    ///
+    /// Zero padding to at least 2n − 1 makes the circular convolution of the Fourier transform the free one.
+    pub fn new(grid: &Grid) -> Self {
+        Self::free(grid, Base::default())
+    }
+
+    /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
+    /// grid.
+    pub fn on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
+        Self::free(grid, Base::of(elastomer))
+    }
+
+    pub(crate) fn free(grid: &Grid, base: Base) -> Self {
+        let padded = grid.shape().map(|n| fast_length(2 * n - 1));
+        let mut convolution = Self::planned(grid, (Surroundings::Free, base), padded);
+        convolution.spectrum = Arc::new(convolution.free_spectrum());
+        convolution.self_influence = convolution.base.influence([0.0, 0.0], grid.spacing());
+        convolution
+    }
+
+    /// Influence on a half space whose load repeats itself with the edges of the grid as periods.
+    ///
+    /// A wave of pressure with the wave vector q moves the surface by the same wave times `2π/|q|`
+    /// (Johnson 1985, eq. 13.7). The mean pressure moves an infinite half space by an infinite amount; displacements
+    /// are measured from their own mean instead.
+    pub fn periodic(grid: &Grid) -> Self {
+        Self::repeated(grid, Base::default())
+    }
+
+    /// The same on what is given, see [`on`](Self::on). A layer gives way to the mean pressure too, and its displacements are
+    /// those from the surface at rest.
+    pub fn periodic_on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
+        Self::repeated(grid, Base::of(elastomer))
+    }
+
+    fn repeated(grid: &Grid, base: Base) -> Self {
+        let mut convolution = Self::planned(grid, (Surroundings::Periodic, base), grid.shape());
+        convolution.spectrum = Arc::new(convolution.periodic_spectrum());
+        convolution.self_influence = convolution.sum_of_spectrum();
+        convolution
+    }
+
+    /// A convolution on the blocks of two by two elements that multiplies a wave by the `symbol` of its wave vector
+    /// \[rad/m], and the mean and all waves with a symbol below zero like the longest wave or not at all.
+    pub(crate) fn on_blocks(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Self {
+        let mirrors = self.mirrors.map(Mirror::of_blocks);
+        let blocks = self.grid.blocks().unfolded(mirrors);
+        let padded = blocks.shape().map(fast_length);
+        let around = (Surroundings::Periodic, self.base.clone());
+        let mut convolution = Self::planned(&blocks, around, padded);
+        convolution.spectrum = Arc::new(convolution.positive_spectrum(symbol));
+        convolution.folded(mirrors)
+    }
+
+    /// The same influence between elements of another grid, which ends at the same mirrors.
+    pub(crate) fn on_grid(&self, grid: &Grid) -> Self {
+        self.in_front_of(self.mirrors, grid)
+    }
+
+    /// The same influence between blocks of two by two elements, which begin at the mirrors.
+    pub(crate) fn between_blocks(&self) -> Self {
+        self.in_front_of(self.mirrors.map(Mirror::of_blocks), &self.grid.blocks())
+    }
+
+    fn in_front_of(&self, mirrors: [Mirror; 2], grid: &Grid) -> Self {
+        let whole = grid.unfolded(mirrors);
+        let convolution = match self.surroundings {
+            Surroundings::Free => Self::free(&whole, self.base.clone()),
+            Surroundings::Periodic => Self::repeated(&whole, self.base.clone()),
+        };
+        convolution.folded(mirrors)
+    }
+
+    /// The same influence between pressures that are their own images about `mirrors` in the middle of the grid; the
+    /// fields are those of its part in front of them, with half the pressure of a row or column through whose centre a
+    /// mirror passes. Only of a whole grid.
+    pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
+        debug_assert_eq!(self.mirrors, NO_MIRRORS, "a whole grid");
+        if mirrors == NO_MIRRORS {
+            return self.clone();
+        }
+        Self {
+            grid: self.grid.folded(mirrors),
+            mirrors,
+            transform: PlaneTransform::folded(self.transform.padded, mirrors),
+            spectrum: Arc::clone(&self.spectrum),
+            base: self.base.clone(),
+            ..*self
+        }
+    }
+
+    fn planned(
+        grid: &Grid,
+        (surroundings, base): (Surroundings, Base),
+        padded: [usize; 2],
+    ) -> Self {
+        Self {
+            base,
+            grid: *grid,
+            mirrors: NO_MIRRORS,
+            surroundings,
+            transform: PlaneTransform::new(padded),
+            spectrum: Arc::new(Vec::new()),
+            self_influence: 0.0,
+        }
+    }
+
+    /// The grid of the pressure and of the result.
+    pub const fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Buffers for [`apply`](Self::apply). With the feature `rayon`, for the threads of the current pool.
+    pub fn workspace(&self) -> ConvolutionWorkspace {
+        ConvolutionWorkspace(Workspace::new(&self.transform, self.grid.shape()))
+    }
+
+    /// Computes `K P` on the whole grid.
+    pub(crate) fn apply_to_all(
+        &self,
+        workspace: &mut ConvolutionWorkspace,
+        pressure: &[f64],
+        result: &mut [f64],
+    ) {
+        let rows = self.grid.shape()[0];
+        self.apply(workspace, (pressure, 0..rows), (result, 0..rows));
+    }
+
+    /// Computes `K P` in the rows `wanted` of `result` from the rows `loaded` of `pressure`; the pressure outside
+    /// these rows is taken as zero and the other rows of the result are left as they are.
+    ///
+    /// Both fields have one value per element of the grid, row-major; the result has the unit of the pressure times
+    /// metre. Does not allocate.
+    ///
+    /// # Panics
+    /// When a field or the workspace does not belong to this grid.
+    pub fn apply(
+        &self,
+        workspace: &mut ConvolutionWorkspace,
+        (pressure, loaded): (&[f64], Range<usize>),
+        (result, wanted): (&mut [f64], Range<usize>),
+    ) {
+        let elements = self.grid.n_elements();
+        assert_eq!(pressure.len(), elements, "one pressure per element");
+        assert_eq!(result.len(), elements, "one displacement per element");
+        let (transform, workspace) = (&self.transform, &mut workspace.0);
+        transform.load(workspace, pressure, &loaded);
+        transform.pass(workspace, (&loaded, &wanted), |column, values| {
+            transform.multiply_even(&self.spectrum, column, values);
+        });
+        transform.read(workspace, result, &wanted);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BemError;
+
+    /// A field that is its own image about mirrors in the middle, and otherwise without symmetry.
+    fn mirrored([rows, columns]: [usize; 2], mirrors: [Mirror; 2]) -> Vec<f64> {
+        let fold = |index: usize, length: usize, mirror: Mirror| match mirror {
+            Mirror::None => index,
+            Mirror::Centre | Mirror::Edge => index.max(length - 1 - index),
+        };
+        let value = |index: usize| {
+            let row = fold(index / columns, rows, mirrors[0]);
+            let column = fold(index % columns, columns, mirrors[1]);
+            (1.7 * row as f64).cos() + (0.3 * (row * column) as f64).sin() + 0.1 * column as f64
+        };
+        (0..rows * columns).map(value).collect()
+    }
+
+    /// The last rows and columns of a field, with half the values where mirrors pass through elements if these are loads.
+    fn in_front(field: &[f64], folded: &Convolution, columns: usize, are_loads: bool) -> Vec<f64> {
+        let [part_rows, part_columns] = folded.grid().shape();
+        let [row, column] = [field.len() / columns - part_rows, columns - part_columns];
+        let value = |index: usize| {
+            let element = [index / part_columns, index % part_columns];
+            let is_halved =
+                |axis: usize| element[axis] == 0 && folded.mirrors[axis] == Mirror::Centre;
+            let halved = (0..2).filter(|&axis| are_loads && is_halved(axis)).count();
+            field[(row + element[0]) * columns + column + element[1]] / (1 << halved) as f64
+        };
+        (0..part_rows * part_columns).map(value).collect()
+    }
+
+    fn displacement(convolution: &Convolution, pressure: &[f64]) -> Vec<f64> {
+        let mut result = vec![0.0; pressure.len()];
+        convolution.apply_to_all(&mut convolution.workspace(), pressure, &mut result);
+        result
+    }
+
+    /// Compares the displacement in front of mirrors in the middle of a grid with that of all of it.
+    fn check(whole: &Convolution, has_mirror: [bool; 2]) {
+        let shape = whole.grid().shape();
+        let mirrors = [0, 1].map(|axis| match shape[axis] % 2 {
+            _ if !has_mirror[axis] => Mirror::None,
+            0 => Mirror::Edge,
+            _ => Mirror::Centre,
+        });
+        let folded = whole.folded(mirrors);
+        let pressure = mirrored(shape, mirrors);
+        let expected = displacement(whole, &pressure);
+        let actual = displacement(&folded, &in_front(&pressure, &folded, shape[1], true));
+        let largest = expected.iter().fold(0.0, |top: f64, u| top.max(u.abs()));
+        let expected = in_front(&expected, &folded, shape[1], false);
+        for (actual, expected) in actual.iter().zip(expected) {
+            let error = (actual - expected).abs() / largest;
+            // Rounding of transforms of a few hundred values.
+            assert!(error < 1e-14, "{shape:?}, {mirrors:?}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn half_and_quarter_of_a_mirrored_field_convolve_like_all_of_it() -> Result<(), BemError> {
+        let shapes = [[2, 6], [6, 10], [12, 14], [30, 18]];
+        let odd = [[1, 1], [3, 2], [4, 5], [9, 7], [29, 17], [18, 31]];
+        // On both sides of the length up to which half a period about a centre is transformed as half.
+        let long = [[3, 45], [1, 375], [3, 511], [2, 1125], [1, 4095]];
+        for shape in shapes.into_iter().chain(odd).chain(long) {
+            let grid = Grid::new(shape, [1.0, 0.6])?;
+            for has_mirror in [[true, false], [false, true], [true, true]] {
+                check(&Convolution::new(&grid), has_mirror);
+                if shape.iter().all(|n| n.is_multiple_of(2)) {
+                    check(&Convolution::periodic(&grid), has_mirror);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,143 @@
+//! Spectra of the kernels.
+
+use std::f64::consts::PI;
+
+use rustfft::num_complex::Complex;
+
+use crate::Convolution;
+use crate::parallel::bands::{copies, for_each_row};
+use crate::transform::plane_transform::ZERO;
+
+impl Convolution {
+    fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
+        let [unit_x, unit_y] = self.wave_numbers();
+        let normalisation = self.transform.normalisation();
+        let length = self.transform.padded[0] / 2 + 1;
+        let mut spectrum = copies(0.0, self.transform.n_columns() * length);
+        for_each_row(&mut spectrum, length, |column, values| {
+            let q_y = column as f64 * unit_y;
+            for (row, value) in values.iter_mut().enumerate() {
+                *value = symbol([row as f64 * unit_x, q_y]) * normalisation;
+            }
+        });
+        spectrum
+    }
+
+    /// Wave numbers of the longest waves along x and y, \[rad/m].
+    fn wave_numbers(&self) -> [f64; 2] {
+        [0, 1]
+            .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
+    }
+
+    /// Spectrum of waves, on a half space without their mean.
+    pub(super) fn periodic_spectrum(&self) -> Vec<f64> {
+        self.spectrum_of(|[q_x, q_y]| {
+            let q = q_x.hypot(q_y);
+            2.0 * PI
+                * if q > 0.0 {
+                    self.base.stiffness(q).recip()
+                } else {
+                    self.base.mean()
+                }
+        })
+    }
+
+    /// Spectrum of a symbol where that is positive, for the mean that of the longest wave.
+    pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
+        let [unit_x, unit_y] = self.wave_numbers();
+        let longest = if unit_x < unit_y {
+            [unit_x, 0.0]
+        } else {
+            [0.0, unit_y]
+        };
+        self.spectrum_of(|q| {
+            let q = if q == [0.0, 0.0] { longest } else { q };
+            symbol(q).max(0.0)
+        })
+    }
+
+    /// Value of the kernel at the origin.
+    pub(super) fn sum_of_spectrum(&self) -> f64 {
+        let length = self.transform.padded[0] / 2 + 1;
+        let [twice_x, twice_y] = self.transform.padded.map(|n| n.div_ceil(2));
+        let weight = |index: usize, twice: usize| {
+            let is_twice = (1..twice).contains(&index);
+            if is_twice { 2.0 } else { 1.0 }
+        };
+        let column = |(column, values): (usize, &[f64])| {
+            let values = values.iter().enumerate();
+            weight(column, twice_y)
+                * values
+                    .map(|(row, value)| weight(row, twice_x) * value)
+                    .sum::<f64>()
+        };
+        self.spectrum.chunks(length).enumerate().map(column).sum()
+    }
+
+    /// Spectrum of the influence coefficients.
+    ///
+    /// The kernel is even and its transform real, so that two columns pass as the real and the imaginary part of one.
+    pub(super) fn free_spectrum(&self) -> Vec<f64> {
+        let rows = self.transformed_kernel_rows();
+        let length = self.transform.padded[0] / 2 + 1;
+        let mut spectrum = copies(0.0, self.transform.n_columns() * length);
+        for_each_row(&mut spectrum, 2 * length, |pair, spectrum| {
+            let mut values = self.kernel_columns(&rows, 2 * pair);
+            self.transform.column_forward(&mut values);
+            self.separate(&values, spectrum);
+        });
+        spectrum
+    }
+
+    /// A column of the transformed kernel as real parts and the next, if there is one, as imaginary parts.
+    fn kernel_columns(&self, rows: &[f64], column: usize) -> Vec<Complex<f64>> {
+        let period = self.transform.padded[0];
+        let mut values = vec![ZERO; period];
+        for (row, transformed) in rows.chunks_exact(self.transform.n_columns()).enumerate() {
+            let second = transformed.get(column + 1).copied();
+            let value = Complex::new(transformed[column], second.map_or(0.0, |value| value));
+            values[row] = value;
+            values[(period - row) % period] = value;
+        }
+        values
+    }
+
+    fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
+        let normalisation = self.transform.normalisation();
+        let (first, second) = spectrum.split_at_mut(self.transform.padded[0] / 2 + 1);
+        for (spectrum, value) in first.iter_mut().zip(values) {
+            *spectrum = value.re * normalisation;
+        }
+        for (spectrum, value) in second.iter_mut().zip(values) {
+            *spectrum = value.im * normalisation;
+        }
+    }
+
+    /// Transforms of the kernel along y, [offset along x][column]; the kernel is even, so they are real.
+    fn transformed_kernel_rows(&self) -> Vec<f64> {
+        let n_columns = self.transform.n_columns();
+        let mut rows = copies(0.0, self.grid.shape()[0] * n_columns);
+        for_each_row(&mut rows, n_columns, |row, result| {
+            let mut transformed = vec![ZERO; n_columns];
+            self.transform
+                .transform_row(&mut self.kernel_row(row), &mut transformed);
+            for (result, value) in result.iter_mut().zip(&transformed) {
+                *result = value.re;
+            }
+        });
+        rows
+    }
+
+    fn kernel_row(&self, row: usize) -> Vec<f64> {
+        let [dx, dy] = self.grid.spacing();
+        let period = self.transform.padded[1];
+        let mut values = vec![0.0; period];
+        for column in 0..self.grid.shape()[1] {
+            let offset = [row as f64 * dx, column as f64 * dy];
+            let coefficient = self.base.influence(offset, [dx, dy]);
+            values[column] = coefficient;
+            values[(period - column) % period] = coefficient;
+        }
+        values
+    }
+}

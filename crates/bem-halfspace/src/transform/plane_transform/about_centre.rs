@@ -1,0 +1,130 @@
+//! Transforms of one half of a row or column that is its own mirror image about the centre of its first element.
+//!
+//! With x_n at a distance of n elements from the mirror, x_0 for the half of the element in front of it, the Fourier
+//! transform of the period of 2 L elements and the inverse, for the numbers u_n, are
+//!
+//! ```text
+//! U_k = 2 x_0 + 2 Σ x_n cos(π n k / L),        n, k = 0 … L,
+//! u_n = U_0 + (−1)^n U_L + 2 Σ U_k cos(π n k / L),        0 < k < L.
+//! ```
+//!
+//! Both are sums F_k = f_0 + (−1)^k f_L + 2 Σ f_n cos(πnk/L), which the Fourier transform of the period has as its real
+//! coefficients. A transform Y of L numbers is enough, with
+//!
+//! ```text
+//! y_n = f_n + f_(L−n) − 2 sin(πn/L) (f_n − f_(L−n)),
+//! F_2k = Re Y_k,    F_(2k+1) = F_(2k−1) − Im Y_k,    mean of F_1, F_3 … F_(2L−1) = f_0 − f_L
+//! ```
+//!
+//! (Cooley, Lewis & Welch 1970, DOI 10.1016/0022-460X(70)90075-1, but for the mean). What y_n keeps of the small sines
+//! rounds like L times as much as the transform: up to 1e-14 of the largest number for [`SHORT`] ones, so that longer
+//! periods are transformed as a whole.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use realfft::{RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
+
+use crate::transform::plane_transform::real_rows::forward_real;
+use crate::transform::plane_transform::workspace::Buffers;
+
+/// Largest L for which L numbers are transformed instead of the period.
+const SHORT: usize = 512;
+
+/// The sums F of real numbers.
+#[derive(Clone)]
+pub(super) struct Cosines {
+    plan: Arc<dyn RealToComplex<f64>>,
+    /// sin(πn/L) for n = 0 … L/2; none where the period is transformed.
+    sines: Option<Vec<f64>>,
+}
+
+impl Cosines {
+    pub(super) fn new(planner: &mut RealFftPlanner<f64>, length: usize) -> Self {
+        let sine = |n| (PI * n as f64 / length as f64).sin();
+        if length > SHORT {
+            return Self {
+                plan: planner.plan_fft_forward(2 * length),
+                sines: None,
+            };
+        }
+        Self {
+            plan: planner.plan_fft_forward(length),
+            sines: Some((0..=length / 2).map(sine).collect()),
+        }
+    }
+
+    /// Number of numbers, L + 1.
+    pub(super) fn len(&self) -> usize {
+        let transformed = self.plan.len();
+        1 + self.sines.as_ref().map_or(transformed / 2, |_| transformed)
+    }
+
+    /// The transform that finds them.
+    pub(super) fn plan(&self) -> &dyn RealToComplex<f64> {
+        &*self.plan
+    }
+
+    /// Replaces f_0 … f_L by F_0 … F_L in the row of the buffers.
+    pub(super) fn apply(&self, buffers: &mut Buffers) {
+        let (numbers, reals) = (&mut buffers.row, &mut buffers.folded);
+        let (coefficients, scratch) = (&mut buffers.half_row, &mut buffers.scratch);
+        if let Some(sines) = &self.sines {
+            let mean = numbers[0] - numbers[reals.len()];
+            fold(sines, numbers, reals);
+            forward_real(&*self.plan, (reals, coefficients), scratch);
+            separate(coefficients, mean, numbers);
+        } else {
+            unfold(numbers, reals);
+            forward_real(&*self.plan, (reals, coefficients), scratch);
+            for (number, coefficient) in numbers.iter_mut().zip(coefficients) {
+                *number = coefficient.re;
+            }
+        }
+    }
+}
+
+/// Writes y_0 … y_(L−1) for f_0 … f_L.
+fn fold(sines: &[f64], numbers: &[f64], folded: &mut [f64]) {
+    let length = folded.len();
+    for (n, sine) in sines.iter().enumerate() {
+        let [near, far] = [numbers[n], numbers[length - n]];
+        let (sum, difference) = (near + far, 2.0 * sine * (near - far));
+        if n > 0 {
+            folded[length - n] = sum + difference;
+        }
+        folded[n] = sum - difference;
+    }
+}
+
+/// Writes F_0 … F_L from Y_0 … Y_(L/2) and the mean of those with odd k.
+fn separate(coefficients: &[Complex<f64>], mean: f64, numbers: &mut [f64]) {
+    let (mut odd, mut total) = (0.0, 0.0);
+    for (pair, coefficient) in numbers.chunks_mut(2).zip(coefficients) {
+        odd -= coefficient.im;
+        pair[0] = coefficient.re;
+        if let Some(number) = pair.get_mut(1) {
+            *number = odd;
+            total += odd;
+        }
+    }
+    let length = numbers.len() - 1;
+    if !length.is_multiple_of(2) {
+        // The last stands alone in the period, the others twice.
+        total -= 0.5 * odd;
+    }
+    let shift = mean - total * 2.0 / length as f64;
+    for number in numbers.iter_mut().skip(1).step_by(2) {
+        *number += shift;
+    }
+}
+
+/// Writes the period of which f_0 … f_L are the part in front of the mirror.
+pub(super) fn unfold<T: Copy>(numbers: &[T], period: &mut [T]) {
+    period[..numbers.len()].copy_from_slice(numbers);
+    let images = numbers[1..].iter().rev().skip(1);
+    for (place, image) in period[numbers.len()..].iter_mut().zip(images) {
+        *place = *image;
+    }
+}

@@ -1,0 +1,86 @@
+//! Complex transforms along x.
+
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+use crate::elements::mirror::Mirror;
+use crate::transform::plane_transform::{about_centre, about_edge};
+
+/// The transforms of a column, or of the part of it in front of a mirror.
+#[derive(Clone)]
+pub(super) struct ColumnTransform {
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+    pub(super) mirror: Mirror,
+    /// Of [`about_edge`]; empty without a mirror there.
+    pub(super) turns: Vec<Complex<f64>>,
+}
+
+impl ColumnTransform {
+    /// For a period of so many elements.
+    pub(super) fn new(period: usize, mirror: Mirror) -> Self {
+        let (length, turns) = match mirror {
+            Mirror::None | Mirror::Centre => (period, Vec::new()),
+            Mirror::Edge => (period / 2, about_edge::turns(period / 2)),
+        };
+        let mut planner = FftPlanner::new();
+        Self {
+            forward: planner.plan_fft_forward(length),
+            inverse: planner.plan_fft_inverse(length),
+            mirror,
+            turns,
+        }
+    }
+
+    /// Number of elements that are transformed.
+    pub(super) fn len(&self) -> usize {
+        match self.mirror {
+            Mirror::None | Mirror::Edge => self.forward.len(),
+            Mirror::Centre => self.forward.len() / 2 + 1,
+        }
+    }
+
+    pub(super) fn scratch_len(&self) -> usize {
+        let plans = [&self.forward, &self.inverse];
+        let [forward, inverse] = plans.map(|plan| plan.get_inplace_scratch_len());
+        let of_period = match self.mirror {
+            Mirror::Centre => self.forward.len(),
+            Mirror::None | Mirror::Edge => 0,
+        };
+        of_period + forward.max(inverse)
+    }
+
+    /// Where the element of a row stands in a column.
+    pub(super) fn place(&self, row: usize) -> usize {
+        match self.mirror {
+            Mirror::None | Mirror::Centre => row,
+            Mirror::Edge => about_edge::place(row, self.len()),
+        }
+    }
+
+    pub(super) fn forward(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+        if self.mirror == Mirror::Centre {
+            column[0] *= 2.0;
+            return self.sum_of_period(scratch, column);
+        }
+        self.forward.process_with_scratch(column, scratch);
+    }
+
+    pub(super) fn inverse(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+        if self.mirror == Mirror::Centre {
+            return self.sum_of_period(scratch, column);
+        }
+        self.inverse.process_with_scratch(column, scratch);
+    }
+
+    /// The sums F of [`about_centre`], in both directions, as the Fourier transform of the period: here a mirror halves
+    /// the rows only.
+    fn sum_of_period(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+        let (period, scratch) = scratch.split_at_mut(self.forward.len());
+        about_centre::unfold(column, period);
+        self.forward.process_with_scratch(period, scratch);
+        column.copy_from_slice(&period[..column.len()]);
+    }
+}

@@ -1,0 +1,91 @@
+//! Products with the transform of a kernel that is even along both axes, which is real.
+
+use rustfft::num_complex::Complex;
+
+use crate::elements::mirror::Mirror;
+use crate::transform::plane_transform::PlaneTransform;
+
+impl PlaneTransform {
+    /// Multiplies a column of a transformed field with its part of the `spectrum` of the kernel over the whole period,
+    /// [column][0..=padded_x / 2].
+    pub(crate) fn multiply_even(
+        &self,
+        spectrum: &[f64],
+        column: usize,
+        values: &mut [Complex<f64>],
+    ) {
+        let length = self.padded[0] / 2 + 1;
+        let factors = |column: usize| &spectrum[column * length..][..length];
+        let of_pair = || {
+            // Beside the last of an odd number of real coefficients stands none.
+            let last = self.padded[1] / 2;
+            [2 * column, 2 * column + 1].map(|column| factors(column.min(last)))
+        };
+        let pairs = self.rows.has_mirror();
+        let both = if pairs {
+            of_pair()
+        } else {
+            [factors(column); 2]
+        };
+        match self.columns.mirror {
+            Mirror::None if pairs => multiply_pair(both, values),
+            Mirror::None => multiply_whole(both[0], values),
+            Mirror::Centre => multiply_parts(both, values),
+            Mirror::Edge => multiply_turned(both, &self.columns.turns, values),
+        }
+    }
+}
+
+fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
+    let (lower, upper) = values.split_at_mut(factors.len());
+    for (value, factor) in lower.iter_mut().zip(factors) {
+        *value *= factor;
+    }
+    for (value, factor) in upper.iter_mut().rev().zip(&factors[1..]) {
+        *value *= factor;
+    }
+}
+
+/// Of a column that is the sum of one that is real and one that is imaginary before the transform, with factors each.
+fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
+    let length = values.len();
+    for (k, (first, second)) in first.iter().zip(second).enumerate() {
+        let opposite = (length - k) % length;
+        let (mean, half_difference) = (0.5 * (first + second), 0.5 * (first - second));
+        let [here, there] = [values[k], values[opposite]];
+        values[k] = mean * here + half_difference * there.conj();
+        values[opposite] = mean * there + half_difference * here.conj();
+    }
+}
+
+/// One factor for real parts and one for imaginary ones.
+fn multiply_parts([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
+    for (value, (real, imaginary)) in values.iter_mut().zip(real.iter().zip(imaginary)) {
+        *value = Complex::new(value.re * real, value.im * imaginary);
+    }
+}
+
+/// Of a column beside a mirror, in the notation of [`about_edge`](super::about_edge): one factor for the real part of U_k
+/// and one for its imaginary part.
+fn multiply_turned(
+    [real, imaginary]: [&[f64]; 2],
+    turns: &[Complex<f64>],
+    values: &mut [Complex<f64>],
+) {
+    let length = values.len();
+    let product =
+        |value: Complex<f64>, k: usize| Complex::new(value.re * real[k], value.im * imaginary[k]);
+    values[0] = product(2.0 * values[0], 0);
+    for (k, turn) in turns.iter().enumerate().skip(1) {
+        let [here, there] = [turn * values[k], turn.conj() * values[length - k]];
+        let sum = product(here + there, k);
+        // U_(L−k) is i times the difference, and is transformed back with −i.
+        let difference = product(times_i(here - there), length - k);
+        values[k] = turn.conj() * (sum - times_i(difference));
+        values[length - k] = turn * (sum + times_i(difference));
+    }
+}
+
+fn times_i(value: Complex<f64>) -> Complex<f64> {
+    Complex::new(-value.im, value.re)
+}

@@ -1,0 +1,226 @@
+//! Filtering of a real field on a rectangle of elements by a product in Fourier space.
+//!
+//! Rows are transformed only where they carry something and back only where the result is wanted, and each column
+//! passes through forward transform, product and inverse transform while it is in the cache, so that the padded field
+//! never exists as a whole.
+//!
+//! Of a field that is its own mirror image, only the part in front of the mirror is stored and transformed; see
+//! [`about_centre`] and [`about_edge`].
+
+mod about_centre;
+mod about_edge;
+mod columns;
+mod even_product;
+mod real_rows;
+mod rows;
+mod workspace;
+
+use std::fmt;
+use std::ops::Range;
+
+use rustfft::num_complex::Complex;
+
+use crate::elements::mirror::{Mirror, NO_MIRRORS};
+use crate::parallel::chunks::join;
+use columns::ColumnTransform;
+use rows::RowTransform;
+pub(crate) use workspace::Workspace;
+use workspace::{Buffers, for_each_chunk};
+
+/// Columns that pass together: eight complex numbers fill two cache lines.
+const TILE: usize = 8;
+/// Rows of which the pieces of a tile lie one after the other, so that columns are gathered from few places of memory.
+const STRIP: usize = 8;
+pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+
+/// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
+#[derive(Clone)]
+pub(crate) struct PlaneTransform {
+    pub(crate) padded: [usize; 2],
+    rows: RowTransform,
+    columns: ColumnTransform,
+}
+
+impl fmt::Debug for PlaneTransform {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("PlaneTransform")
+            .field("padded", &self.padded)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PlaneTransform {
+    /// Plans the transforms of whole fields.
+    pub(crate) fn new(padded: [usize; 2]) -> Self {
+        Self::folded(padded, NO_MIRRORS)
+    }
+
+    /// Plans the transforms of the parts of fields that are their own mirror images along the axes of `mirrors`; the
+    /// period is even there.
+    pub(crate) fn folded(padded: [usize; 2], mirrors: [Mirror; 2]) -> Self {
+        let (columns, rows) = join(
+            || ColumnTransform::new(padded[0], mirrors[0]),
+            || RowTransform::new(padded[1], mirrors[1]),
+        );
+        Self {
+            padded,
+            rows,
+            columns,
+        }
+    }
+
+    /// Reciprocal of the factor by which forward and inverse transform together multiply a field.
+    pub(crate) const fn normalisation(&self) -> f64 {
+        1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
+    }
+
+    /// Number of columns of a transformed field; the rest of the period follows from them.
+    pub(crate) fn n_columns(&self) -> usize {
+        self.rows.n_coefficients()
+    }
+
+    fn n_tiles(&self) -> usize {
+        self.n_columns().div_ceil(TILE)
+    }
+
+    /// Columns one beside the other at a distance of a power of two would compete for the same lines of the cache.
+    fn column_stride(&self) -> usize {
+        self.columns.len() + TILE
+    }
+
+    /// Transforms a real row of the whole period; its values are overwritten.
+    pub(crate) fn transform_row(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
+        self.rows.forward_whole(row, transformed);
+    }
+
+    /// Transforms columns of the whole period, without normalisation.
+    pub(crate) fn column_forward(&self, columns: &mut [Complex<f64>]) {
+        let mut scratch = vec![ZERO; self.columns.scratch_len()];
+        self.columns.forward(&mut scratch, columns);
+    }
+
+    /// The inverse of [`column_forward`](Self::column_forward).
+    pub(crate) fn column_back(&self, columns: &mut [Complex<f64>]) {
+        let mut scratch = vec![ZERO; self.columns.scratch_len()];
+        self.columns.inverse(&mut scratch, columns);
+    }
+
+    /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
+    pub(crate) fn load(&self, workspace: &mut Workspace, field: &[f64], loaded: &Range<usize>) {
+        let width = workspace.shape[1];
+        let (strips, buffers) = (&mut workspace.strips, &mut workspace.buffers);
+        let unit = self.n_tiles() * STRIP;
+        let used = loaded.start / STRIP..loaded.end.div_ceil(STRIP);
+        let strips = &mut strips[used.start * unit..used.end * unit];
+        for_each_chunk(buffers, (strips, unit), |first, buffers, strips| {
+            for (strip, pieces) in (used.start + first..).zip(strips.chunks_exact_mut(unit)) {
+                for row in rows_of_strip(strip, loaded) {
+                    self.rows
+                        .forward(buffers, &field[row * width..(row + 1) * width]);
+                    let coefficients = &buffers.half_row[..self.n_columns()];
+                    let mut pieces = pieces[row % STRIP..].iter_mut().step_by(STRIP);
+                    let (whole, rest) = coefficients.as_chunks::<TILE>();
+                    for (values, piece) in whole.iter().zip(&mut pieces) {
+                        *piece = *values;
+                    }
+                    for (value, place) in rest.iter().zip(pieces.flatten()) {
+                        *place = *value;
+                    }
+                }
+            }
+        });
+    }
+
+    /// Applies `multiply` to every column of the transform of the rows `loaded`, and keeps the rows `wanted`.
+    pub(crate) fn pass(
+        &self,
+        workspace: &mut Workspace,
+        (loaded, wanted): (&Range<usize>, &Range<usize>),
+        multiply: impl Fn(usize, &mut [Complex<f64>]) + Sync,
+    ) {
+        let stride = workspace.tile_stride();
+        let (strips, tiles) = (&workspace.strips, &mut workspace.tiles[..]);
+        let buffers = &mut workspace.buffers;
+        for_each_chunk(buffers, (tiles, stride), |first, buffers, tiles| {
+            for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(stride)) {
+                let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
+                self.gather_columns(buffers, strips, (tile, loaded));
+                self.multiply_columns(buffers, &columns, &multiply);
+                for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
+                    let place = self.columns.place(row);
+                    let columns = buffers.columns.chunks_exact(self.column_stride());
+                    for (value, column) in piece.iter_mut().zip(columns) {
+                        *value = column[place];
+                    }
+                }
+            }
+        });
+    }
+
+    fn gather_columns(
+        &self,
+        buffers: &mut Buffers,
+        strips: &[[Complex<f64>; TILE]],
+        (tile, loaded): (usize, &Range<usize>),
+    ) {
+        let stride = self.column_stride();
+        buffers.columns.fill(ZERO);
+        for strip in loaded.start / STRIP..loaded.end.div_ceil(STRIP) {
+            let pieces = &strips[(strip * self.n_tiles() + tile) * STRIP..][..STRIP];
+            for row in rows_of_strip(strip, loaded) {
+                let place = self.columns.place(row);
+                let columns = buffers.columns.chunks_exact_mut(stride);
+                for (column, value) in columns.zip(&pieces[row % STRIP]) {
+                    column[place] = *value;
+                }
+            }
+        }
+    }
+
+    fn multiply_columns(
+        &self,
+        buffers: &mut Buffers,
+        columns: &Range<usize>,
+        multiply: impl Fn(usize, &mut [Complex<f64>]),
+    ) {
+        let stored = buffers.columns.chunks_exact_mut(self.column_stride());
+        for (column, values) in columns.clone().zip(stored) {
+            let values = &mut values[..self.columns.len()];
+            self.columns.forward(&mut buffers.scratch, values);
+            multiply(column, values);
+            self.columns.inverse(&mut buffers.scratch, values);
+        }
+    }
+
+    /// Writes the rows `wanted` of the result; the other rows are left as they are.
+    pub(crate) fn read(
+        &self,
+        workspace: &mut Workspace,
+        result: &mut [f64],
+        wanted: &Range<usize>,
+    ) {
+        let (stride, width) = (workspace.tile_stride(), workspace.shape[1]);
+        let Workspace { tiles, buffers, .. } = workspace;
+        let result = &mut result[wanted.start * width..wanted.end * width];
+        for_each_chunk(buffers, (result, width), |first, buffers, result| {
+            for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
+                let mut pieces = tiles[row..].iter().step_by(stride);
+                let coefficients = &mut buffers.half_row[..self.n_columns()];
+                let (whole, rest) = coefficients.as_chunks_mut::<TILE>();
+                for (values, piece) in whole.iter_mut().zip(&mut pieces) {
+                    *values = *piece;
+                }
+                for (value, found) in rest.iter_mut().zip(pieces.flatten()) {
+                    *value = *found;
+                }
+                self.rows.inverse(buffers, values);
+            }
+        });
+    }
+}
+
+/// Those of the rows that lie in a strip.
+fn rows_of_strip(strip: usize, rows: &Range<usize>) -> Range<usize> {
+    rows.start.max(strip * STRIP)..rows.end.min((strip + 1) * STRIP)
+}

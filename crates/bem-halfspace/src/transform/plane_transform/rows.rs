@@ -1,0 +1,164 @@
+//! Real transforms along y.
+
+use std::sync::Arc;
+
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
+
+use crate::elements::mirror::Mirror;
+use crate::transform::plane_transform::about_centre::Cosines;
+use crate::transform::plane_transform::about_edge;
+use crate::transform::plane_transform::real_rows::{forward_real, inverse_real};
+use crate::transform::plane_transform::workspace::Buffers;
+
+/// The transforms of a row, or of the part of it in front of a mirror.
+///
+/// The coefficients of a whole row are complex, and those of the other half of the period their conjugates; those beside
+/// a mirror are real, and two of them side by side are stored as one complex number.
+#[derive(Clone)]
+pub(super) enum RowTransform {
+    Fourier {
+        forward: Arc<dyn RealToComplex<f64>>,
+        inverse: Arc<dyn ComplexToReal<f64>>,
+        /// Of [`about_edge`]; none without a mirror there.
+        turns: Option<Vec<Complex<f64>>>,
+    },
+    AboutCentre(Cosines),
+}
+
+impl RowTransform {
+    /// For a period of so many elements.
+    pub(super) fn new(period: usize, mirror: Mirror) -> Self {
+        let mut planner = RealFftPlanner::new();
+        let half = period / 2;
+        let (length, turns) = match mirror {
+            Mirror::None => (period, None),
+            Mirror::Centre => return Self::AboutCentre(Cosines::new(&mut planner, half)),
+            Mirror::Edge => (half, Some(about_edge::turns(half))),
+        };
+        Self::Fourier {
+            forward: planner.plan_fft_forward(length),
+            inverse: planner.plan_fft_inverse(length),
+            turns,
+        }
+    }
+
+    /// Number of elements that are transformed.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Fourier { forward, .. } => forward.len(),
+            Self::AboutCentre(cosines) => cosines.len(),
+        }
+    }
+
+    pub(super) const fn has_mirror(&self) -> bool {
+        !matches!(self, Self::Fourier { turns: None, .. })
+    }
+
+    /// Number of complex numbers that hold the coefficients.
+    pub(super) fn n_coefficients(&self) -> usize {
+        if self.has_mirror() {
+            self.len().div_ceil(2)
+        } else {
+            self.len() / 2 + 1
+        }
+    }
+
+    pub(super) fn scratch_len(&self) -> usize {
+        match self {
+            Self::Fourier {
+                forward, inverse, ..
+            } => forward.get_scratch_len().max(inverse.get_scratch_len()),
+            Self::AboutCentre(cosines) => cosines.plan().get_scratch_len(),
+        }
+    }
+
+    /// Number of reals that are transformed.
+    pub(super) fn n_reals(&self) -> usize {
+        match self {
+            Self::Fourier { forward, .. } => forward.len(),
+            Self::AboutCentre(cosines) => cosines.plan().len(),
+        }
+    }
+
+    /// Transforms all elements of a row without a mirror; they are overwritten.
+    pub(super) fn forward_whole(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
+        debug_assert!(!self.has_mirror(), "a whole row");
+        if let Self::Fourier { forward, .. } = self {
+            let mut scratch = forward.make_scratch_vec();
+            forward_real(&**forward, (row, transformed), &mut scratch);
+        }
+    }
+
+    /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
+    /// the buffers.
+    pub(super) fn forward(&self, buffers: &mut Buffers, values: &[f64]) {
+        match self {
+            Self::Fourier { forward, turns, .. } => {
+                match turns {
+                    Some(_) => about_edge::order(values, &mut buffers.row),
+                    None => fill(&mut buffers.row, values),
+                }
+                let fields = (&mut buffers.row[..], &mut buffers.half_row[..]);
+                forward_real(&**forward, fields, &mut buffers.scratch);
+                if let Some(turns) = turns {
+                    about_edge::turn(turns, &buffers.half_row, &mut buffers.row);
+                    pair(&buffers.row, &mut buffers.half_row);
+                }
+            }
+            Self::AboutCentre(cosines) => {
+                fill(&mut buffers.row, values);
+                buffers.row[0] *= 2.0;
+                cosines.apply(buffers);
+                pair(&buffers.row, &mut buffers.half_row);
+            }
+        }
+    }
+
+    /// Transforms back, without normalisation, the coefficients in the half row of the buffers.
+    pub(super) fn inverse(&self, buffers: &mut Buffers, values: &mut [f64]) {
+        match self {
+            Self::Fourier { inverse, turns, .. } => {
+                if let Some(turns) = turns {
+                    unpair(&buffers.half_row, &mut buffers.row);
+                    about_edge::turn_back(turns, &buffers.row, &mut buffers.half_row);
+                }
+                let fields = (&mut buffers.half_row[..], &mut buffers.row[..]);
+                inverse_real(&**inverse, fields, &mut buffers.scratch);
+                if turns.is_some() {
+                    return about_edge::order_back(&buffers.row, values);
+                }
+            }
+            Self::AboutCentre(cosines) => {
+                unpair(&buffers.half_row, &mut buffers.row);
+                cosines.apply(buffers);
+            }
+        }
+        values.copy_from_slice(&buffers.row[..values.len()]);
+    }
+}
+
+/// Values, and zeros behind them.
+fn fill(row: &mut [f64], values: &[f64]) {
+    row[..values.len()].copy_from_slice(values);
+    row[values.len()..].fill(0.0);
+}
+
+/// Stores two real numbers each as one complex number.
+fn pair(reals: &[f64], pairs: &mut [Complex<f64>]) {
+    let (whole, rest) = reals.as_chunks::<2>();
+    let alone = rest.iter().map(|&real| Complex::new(real, 0.0));
+    let whole = whole.iter().map(|&[re, im]| Complex::new(re, im));
+    for (place, pair) in pairs.iter_mut().zip(whole.chain(alone)) {
+        *place = pair;
+    }
+}
+
+/// The inverse of [`pair`].
+fn unpair(pairs: &[Complex<f64>], reals: &mut [f64]) {
+    for (reals, pair) in reals.chunks_mut(2).zip(pairs) {
+        for (real, value) in reals.iter_mut().zip([pair.re, pair.im]) {
+            *real = value;
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! At which frequencies a stationary pressure strains the material.
+//!
+//! The wave q of the pressure oscillates at ω = |q_x| v in the material, so that the power that it dissipates is
+//!
+//! ```text
+//! F_h v = Σ_q |p̂(q)|² M(|q|t)/|q| · ω J''(ω),        M = 1 on a half space
+//! ```
+
+use rheology::{Material as _, StressBand};
+use rustfft::num_complex::Complex;
+
+use crate::transform::fast_length::fast_length;
+use crate::transform::plane_transform::{PlaneTransform, ZERO};
+use crate::{Elastomer, PressureField, layer_factor};
+
+/// The period that stands for an unbounded surface, over the contact: twice its lengths would do for the square of the
+/// transform, and along x the bands are an eighth of the contact's own wave wide.
+const PERIOD: [usize; 2] = [8, 4];
+
+/// The frequencies of the `pressure` along a line contact, at increasing positions \[m], that slides at a `velocity` \[m/s].
+///
+/// The compliance 1/|q| gives every octave of long waves the same part, down to those at which the material is elastic.
+pub fn line_spectrum(
+    pressure: &[[f64; 2]],
+    elastomer: &(impl Elastomer + ?Sized),
+    velocity: f64,
+) -> Vec<StressBand> {
+    let material = elastomer.material();
+    let thickness = elastomer.thickness();
+    material.creep().bands_along(pressure, velocity, |wave| {
+        layer_factor(wave * thickness, material.poisson_ratio()) / wave
+    })
+}
+
+impl PressureField {
+    /// The frequencies of a contact that slides along x at a `velocity` \[m/s].
+    pub fn spectrum(
+        &self,
+        elastomer: &(impl Elastomer + ?Sized),
+        velocity: f64,
+    ) -> Vec<StressBand> {
+        let shape = self.grid.shape();
+        let period = [0, 1].map(|axis| fast_length(PERIOD[axis] * shape[axis]));
+        let step = self.wave_steps(period)[0];
+        // Between the waves of the period lie those of all others. The half of a band at zero has half the waves too.
+        let band = |nth: f64| [(nth - 0.5).max(0.0), nth + 0.5];
+        let lines = self.squares(period, elastomer);
+        let bands = lines.into_iter().enumerate();
+        let bands = bands.map(|(nth, weight)| StressBand {
+            band: band(nth as f64).map(|wave| wave * step * velocity),
+            weight,
+        });
+        bands.collect()
+    }
+
+    /// The frequencies of the pressure on one period of a surface that slides along x at a `velocity` \[m/s].
+    pub fn periodic_spectrum(
+        &self,
+        elastomer: &(impl Elastomer + ?Sized),
+        velocity: f64,
+    ) -> Vec<StressBand> {
+        let period = self.grid.shape();
+        let step = self.wave_steps(period)[0];
+        let lines = self.squares(period, elastomer);
+        // What does not change along x is not strained in sliding.
+        let moving = lines.into_iter().enumerate().skip(1);
+        let line = |(nth, weight)| StressBand {
+            band: [nth as f64 * step * velocity; 2],
+            weight,
+        };
+        moving.map(line).collect()
+    }
+
+    /// Wave numbers of the longest waves of a period, \[1/m].
+    fn wave_steps(&self, period: [usize; 2]) -> [f64; 2] {
+        let spacing = self.grid.spacing();
+        [0, 1].map(|axis| std::f64::consts::TAU / (period[axis] as f64 * spacing[axis]))
+    }
+
+    /// Sum over all waves along y of the squared pressure times M/|q|, for the waves 0, 1, 2, … along x.
+    fn squares(&self, period: [usize; 2], elastomer: &(impl Elastomer + ?Sized)) -> Vec<f64> {
+        let [rows, columns] = self.grid.shape();
+        let plan = PlaneTransform::new(period);
+        let n_waves = plan.n_columns();
+        let mut transformed = vec![ZERO; rows * n_waves];
+        let mut row = vec![0.0; period[1]];
+        for (pressures, waves) in
+            (self.pressure.chunks_exact(columns)).zip(transformed.chunks_exact_mut(n_waves))
+        {
+            row.fill(0.0);
+            row[..columns].copy_from_slice(pressures);
+            plan.transform_row(&mut row, waves);
+        }
+        let compliance = self.compliance(period, elastomer);
+        let mut squares = vec![0.0; period[0] / 2 + 1];
+        let mut column = vec![ZERO; period[0]];
+        for wave in 0..n_waves {
+            column.fill(ZERO);
+            let values = transformed[wave..].iter().step_by(n_waves);
+            column
+                .iter_mut()
+                .zip(values)
+                .for_each(|(to, from)| *to = *from);
+            plan.column_forward(&mut column);
+            // The other half of the waves along y are those of the opposite waves along x.
+            let is_alone = wave == 0 || 2 * wave == period[1];
+            let twice = if is_alone { 1.0 } else { 2.0 };
+            for (place, value) in column.iter().map(Complex::norm_sqr).enumerate() {
+                let along = place.min(period[0] - place);
+                squares[along] += twice * value * compliance([along, wave]);
+            }
+        }
+        squares
+    }
+
+    /// M/|q| of a wave; of the longest one the mean of 1/|q| over the waves that it stands for.
+    fn compliance(
+        &self,
+        period: [usize; 2],
+        elastomer: &(impl Elastomer + ?Sized),
+    ) -> impl Fn([usize; 2]) -> f64 {
+        let [a, b] = self.wave_steps(period);
+        let thickness = elastomer.thickness();
+        let ratio = elastomer.material().poisson_ratio();
+        let inverse_of_longest = 2.0 * (a * (b / a).asinh() + b * (a / b).asinh()) / (a * b);
+        move |[along, across]| {
+            let length = (along as f64 * a).hypot(across as f64 * b);
+            let inverse = if length > 0.0 {
+                length.recip()
+            } else {
+                inverse_of_longest
+            };
+            layer_factor(thickness / inverse, ratio) * inverse
+        }
+    }
+}
