@@ -8,9 +8,8 @@
 
 use std::time::Instant;
 
-use bem_halfspace::{
-    Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_periodic_on_grid,
-};
+use bem_halfspace::periodic::steady_on_grid;
+use bem_halfspace::{Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding};
 use benches::{ContactScene, Failure, report_each, rough_heights, with_memory};
 use casebook::{deviation, prony};
 
@@ -55,7 +54,7 @@ fn report(n: usize) -> Result<(), Failure> {
                 ..PeriodicOptions::default()
             };
             let start = Instant::now();
-            let solved = steady_periodic_on_grid(&grid, &heights, &material, &load, &options)?;
+            let solved = steady_on_grid(&grid, &heights, &material, &load, &options)?;
             Ok((solved, start.elapsed().as_secs_f64()))
         };
         let ((solved, time), bytes) = with_memory(|| solve(velocity, TOLERANCE))?;

@@ -132,7 +132,7 @@ def test_branches_have_names_and_exchanged_pairs_are_refused() -> None:
         vf.Prony(1e6, exchanged)
     with pytest.raises(ValueError, match="give the transpose"):
         vf.Prony(1e6, np.array(pairs[:2]).T)
-    # Who names them means them.
+    # Names say what is meant.
     assert vf.Prony(1e6, moduli=times[:2], relaxation_times=moduli[:2]).branches == tuple(exchanged)
     for given in (
         {},

@@ -187,7 +187,7 @@ class TruncatedParaboloid(Body):
 
 @dataclass(frozen=True)
 class SelfAffine(Body):
-    """A random self-affine surface that repeats itself for ever, all lengths in metres; it takes a mean pressure.
+    """A random self-affine surface that repeats itself without end, all lengths in metres; it takes a mean pressure.
 
     Waves from the longest to the shortest wavelength, with a constant spectrum above the roll-off wavelength if there is one;
     0 < hurst_exponent < 1; rms_slope > 0 is that of this surface; another seed draws another one.

@@ -51,6 +51,17 @@ pub enum BemError {
         /// The smallest number allowed.
         needed: usize,
     },
+    /// The period has too few elements for its shortest waves.
+    #[error(
+        "the period has {elements} elements along the edge that has more of them, but at least {needed} are needed, four for \
+         each shortest wave on the coarsest of three grids"
+    )]
+    PeriodTooCoarse {
+        /// Number of elements asked for.
+        elements: usize,
+        /// The smallest number allowed.
+        needed: usize,
+    },
     /// The contact reaches the boundary of the footprint in which it was allowed.
     #[error(
         "after sliding {sliding_distance} m the contact reaches the boundary of the footprint x {}..{}, y {}..{} m",
@@ -148,6 +159,9 @@ pub enum BemError {
         /// The reason.
         why: &'static str,
     },
+    /// A periodic surface is followed from rest under a mean pressure only.
+    #[error("from rest a periodic surface slides under a mean pressure, not at a depth")]
+    DepthFromRest,
     /// A march would take too long.
     #[error("the march would have {steps:e} steps, but at most {limit:e} are allowed")]
     TooManySteps {
@@ -174,7 +188,7 @@ pub enum BemError {
         "a material that flows never comes to rest under a load: press it for a duration with `indent`"
     )]
     NoEquilibrium,
-    /// A material that flows creeps under a periodic surface for ever.
+    /// A material that flows creeps under a periodic surface without limit.
     #[error(
         "a material that flows never reaches a stationary state under a periodic surface: waves with crests along the motion \
          sink until the contact is full; give the material an equilibrium modulus"

@@ -14,9 +14,9 @@
 //! contacts on given heights in [`contact`].
 //!
 //! ```
+//! use bem_halfspace::indenters::{PowerProfile, SlidingLoad};
+//! use bem_halfspace::rheology::Viscous;
 //! use bem_halfspace::steady;
-//! use indenters::{PowerProfile, SlidingLoad};
-//! use rheology::Viscous;
 //!
 //! let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1.0e4)?);
 //! let friction = steady(&cone, &fluid, &SlidingLoad::new(1.0, 0.01)?, 1e-3)?.friction_coefficient;
@@ -38,6 +38,8 @@ mod stepping;
 mod substrate;
 mod transform;
 
+/// The crates whose types are arguments and results, so that no other dependency is needed.
+pub use ::{indenters, numerics, rheology};
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
 pub use elements::footprint::Footprint;
 pub use elements::grid::Grid;
@@ -45,20 +47,16 @@ pub use elements::resolution::GridOptions;
 pub use error::BemError;
 pub use estimate::bars::ContactEstimate;
 pub use estimate::reached::Reached;
-pub use indent::{indent_on_grid, press, press_on_grid};
+pub use indent::{indent_along, indent_on_grid, press, press_on_grid};
 pub use indenters::{Control, HistoryPoint, PressingLoad, SlidingLoad};
 pub use motions::{indent, slide};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
+pub use periodic::PeriodicEstimate;
 pub use periodic::{
-    PeriodicEstimate, elements_for_bars, press_periodic, slide_periodic, steady_periodic,
-    steady_periodic_at_depth,
+    PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
 };
-pub use periodic::{
-    PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
-    slide_periodic_on_grid, steady_periodic_on_grid,
-};
-pub use slide::{PressureField, slide_on_grid};
+pub use slide::{PressureField, slide_along, slide_on_grid};
 pub use stationary::{periodic, steady};
 pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
 pub use substrate::influence::influence;

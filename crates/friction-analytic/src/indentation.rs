@@ -65,7 +65,7 @@ pub fn power_indentation_after_impulse(
 /// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::Indenter`] when
 /// the line of the body turns downwards or ends inside the contact; [`FrictionError::BeyondEdge`] when the contact would
 /// reach a vertical edge, as the equator of a sphere; [`FrictionError::OutOfRange`] when no contact takes as much, because
-/// the line falls for ever; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
+/// the line falls without limit; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
 pub fn indentation_after_impulse(
     body: &(impl Axisymmetric + ?Sized),
     material: &Viscous,

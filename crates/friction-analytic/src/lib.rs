@@ -64,6 +64,8 @@ mod transient;
 mod viscoelastic;
 mod wavy;
 
+/// The crates whose types are arguments and results, so that no other dependency is needed.
+pub use ::{indenters, numerics, rheology};
 pub use axisymmetric::axisymmetric_sliding;
 pub use cylinder::{CylinderSliding, LineContact, cylinder_sliding};
 pub use elastic_limit::{

@@ -54,11 +54,11 @@ pub fn kelvin_voigt_sliding(
     material: &KelvinVoigt,
     contact: SlidingContact,
 ) -> Result<ViscoelasticSliding, FrictionError> {
-    let problem = Problem::new(profile, contact)?;
+    let problem = SlidingProfile::new(profile, contact)?;
     let modulus = material.shear_modulus();
     let shift = material.viscosity() / modulus * contact.velocity;
     let length = positive("distance of retardation", shift)?;
-    let Problem { front, shape, .. } = problem;
+    let SlidingProfile { front, shape, .. } = problem;
     let ratio = length / front;
     let [rear, load, friction] = match shape {
         Shape::Cone => {
@@ -89,7 +89,7 @@ pub fn maxwell_sliding(
     material: &Maxwell,
     contact: SlidingContact,
 ) -> Result<ViscoelasticSliding, FrictionError> {
-    let problem = Problem::new(profile, contact)?;
+    let problem = SlidingProfile::new(profile, contact)?;
     let modulus = material.shear_modulus();
     let length = material.viscosity() / modulus * contact.velocity;
     let ratio = positive("ratio of front and distance", problem.front / length)?;
@@ -167,13 +167,13 @@ fn phi(z: f64) -> [f64; 3] {
     [one, (1.0 - one) / z, rest]
 }
 
-struct Problem {
+struct SlidingProfile {
     shape: Shape,
     front: f64,
     depth: f64,
 }
 
-impl Problem {
+impl SlidingProfile {
     fn new(profile: &PowerProfile, contact: SlidingContact) -> Result<Self, FrictionError> {
         let front = positive("front", contact.front)?;
         positive("velocity", contact.velocity)?;

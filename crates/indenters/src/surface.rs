@@ -28,7 +28,7 @@ pub trait Surface: Send + Sync {
     }
 
     /// The rectangle `[[x_min, x_max], [y_min, y_max]]` \[m] that holds every point lower than `height` \[m]; infinite where
-    /// the surface stays low for ever.
+    /// the surface stays low without end.
     ///
     /// Unless a surface knows it, it is searched on grids from the origin outwards: parts narrower than a thirtieth of their
     /// distance from it, or a thousand times as far away as the others, are not seen. The rectangle holds the origin too, and

@@ -12,7 +12,7 @@ use crate::MdrError;
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
 /// On an infinite domain the line is looked at this many times farther out than where it was last seen below the
 /// ceiling.
-const OUTLOOK: usize = 1024;
+const RATIO_OF_DISTANCES: usize = 1024;
 /// Beyond this many elements the look-out strides by one part in as many of the distance.
 const LOOKOUT_STRIDE: usize = 64;
 /// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
@@ -201,7 +201,7 @@ impl<L: RigidLine + ?Sized> Ray<'_, L> {
             if n_needed > MAX_ELEMENTS {
                 return Ok(None);
             }
-            if next == usize::MAX || !bounded && element > OUTLOOK * (last_below + 1) {
+            if next == usize::MAX || !bounded && element > RATIO_OF_DISTANCES * (last_below + 1) {
                 break;
             }
             element = next;

@@ -10,9 +10,9 @@
 //! The cone of Fig. 7 has the friction coefficient μ = (π/2) c₁, (21), at every speed:
 //!
 //! ```
-//! use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
+//! use mdr_core::indenters::{EquivalentLine, PowerProfile, SlidingLoad};
+//! use mdr_core::rheology::Viscous;
 //! use mdr_core::steady;
-//! use rheology::Viscous;
 //!
 //! let cone = PowerProfile::cone(0.1)?;
 //! let material = Viscous::new(1e4)?;
@@ -37,6 +37,8 @@ mod press;
 mod slide;
 mod steady;
 
+/// The crates whose types are arguments and results, so that no other dependency is needed.
+pub use ::{indenters, numerics, rheology};
 pub use error::MdrError;
 pub use history::{
     CurvePoint, Follow, ForceDerivatives, force_derivatives, indent_along, work_along,

@@ -12,7 +12,7 @@ use numerics::{Estimate, between_zero_and_one};
 use rheology::{Elastic, Material};
 
 use crate::MdrError;
-use crate::steady::{Problem, SteadySliding};
+use crate::steady::{LineProblem, SteadySliding};
 
 /// A contact without sliding; its friction coefficient is 0.
 pub type Pressed = SteadySliding;
@@ -21,6 +21,18 @@ pub type Pressed = SteadySliding;
 /// equilibrium modulus.
 ///
 /// Force and depth are known to `relative_error`, above 0 and below 1.
+///
+/// ```
+/// use mdr_core::indenters::{Control, EquivalentLine, PowerProfile};
+/// use mdr_core::{press, rheology::Elastic};
+///
+/// // Hertz (1882), with the modulus 4 G of an incompressible half space.
+/// let (ball, rubber) = (PowerProfile::paraboloid(50.0)?, Elastic::new(1e6)?);
+/// let pressed = press(&EquivalentLine(&ball), &rubber, Control::IndentationDepth(1e-4), 1e-6)?;
+/// let hertz = 4.0 / 3.0 * 4e6 * 0.01_f64.sqrt() * 1e-4_f64.powf(1.5);
+/// assert!((pressed.normal_force.value - hertz).abs() <= pressed.normal_force.error);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`MdrError::NoEquilibrium`] for a material that flows; otherwise like [`steady`](crate::steady()).
@@ -73,7 +85,7 @@ fn on_springs(
 ) -> Result<Pressed, MdrError> {
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let spring = Elastic::new(modulus)?;
-    let problem = Problem::new(line, &spring, 1.0)?;
+    let problem = LineProblem::new(line, &spring, 1.0)?;
     let sought = match control {
         Control::NormalForce(_) => |state: &SteadySliding| state.indentation_depth,
         Control::IndentationDepth(_) => |state: &SteadySliding| state.normal_force,

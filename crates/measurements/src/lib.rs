@@ -35,4 +35,6 @@ pub mod indentation;
 pub mod moduli;
 mod table;
 
+/// The crates whose types are arguments and results, so that no other dependency is needed.
+pub use ::{indenters, rheology};
 pub use error::MeasurementError;

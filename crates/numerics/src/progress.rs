@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Who follows a computation, and may end it.
+/// Follows a computation, and may end it.
 pub trait Watch: fmt::Debug + Sync {
     /// Whether a resolution with so many elements may be begun because those before it do not have the error asked for.
     fn allows(&self, elements: usize) -> bool;
@@ -18,6 +18,18 @@ pub struct Unwatched;
 impl Watch for Unwatched {
     fn allows(&self, _: usize) -> bool {
         true
+    }
+
+    fn done(&self, _: f64) {}
+}
+
+/// Nobody follows, and resolutions with more elements than this are not begun.
+#[derive(Debug, Clone, Copy)]
+pub struct AtMost(pub usize);
+
+impl Watch for AtMost {
+    fn allows(&self, elements: usize) -> bool {
+        elements <= self.0
     }
 
     fn done(&self, _: f64) {}

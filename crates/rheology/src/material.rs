@@ -8,7 +8,7 @@ use crate::{ComplexCompliance, ComplexModulus, CreepSpectrum, RelaxationSpectrum
 
 /// A linear viscoelastic material with a constant Poisson ratio.
 ///
-/// Both spectra describe the same shear: s Ĝ(s) · s Ĵ(s) = 1. Who asks for many values asks for the spectrum once.
+/// Both spectra describe the same shear: s Ĝ(s) · s Ĵ(s) = 1. Ask for the spectrum once if you need many values.
 #[auto_impl(&, Box, Arc)]
 pub trait Material: Debug + Send + Sync {
     /// How stress relaxes at constant strain.

@@ -48,8 +48,8 @@ impl Shift {
         }
         let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
         match self.law {
-            ShiftLaw::Wlf(constants) => {
-                WlfShift::new(constants, self.temperature)?.log10_factor(temperature)
+            ShiftLaw::Wlf([c1, c2]) => {
+                WlfShift::new(c1, c2, self.temperature)?.log10_factor(temperature)
             }
             ShiftLaw::Arrhenius(energy) => ArrheniusShift::new(energy, kelvin(self.temperature))?
                 .log10_factor(kelvin(temperature)),
@@ -63,8 +63,8 @@ impl Shift {
     pub fn about(&self, temperature: f64) -> Result<Self, RheologyError> {
         self.log10_factor(temperature)?;
         let law = match self.law {
-            ShiftLaw::Wlf(constants) => {
-                let law = WlfShift::new(constants, self.temperature)?.about(temperature)?;
+            ShiftLaw::Wlf([c1, c2]) => {
+                let law = WlfShift::new(c1, c2, self.temperature)?.about(temperature)?;
                 ShiftLaw::Wlf(law.constants())
             }
             ShiftLaw::Arrhenius(_) => self.law,

@@ -30,11 +30,11 @@ pub struct ArrheniusShift {
 }
 
 impl WlfShift {
-    /// The law with `constants` C₁ > 0 and C₂ > 0 \[K] about a reference temperature.
+    /// The law with the constants C₁ > 0 and C₂ > 0 \[K] about a reference temperature.
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when a number is not finite or a constant not greater than zero.
-    pub fn new([c1, c2]: [f64; 2], reference_temperature: f64) -> Result<Self, RheologyError> {
+    pub fn new(c1: f64, c2: f64, reference_temperature: f64) -> Result<Self, RheologyError> {
         Ok(Self {
             c1: positive("c1", c1)?,
             c2: positive("c2", c2)?,
@@ -69,7 +69,7 @@ impl WlfShift {
     pub fn about(&self, reference_temperature: f64) -> Result<Self, RheologyError> {
         self.log10_factor(reference_temperature)?;
         let c2 = self.c2 + (reference_temperature - self.reference_temperature);
-        Self::new([self.c1 * self.c2 / c2, c2], reference_temperature)
+        Self::new(self.c1 * self.c2 / c2, c2, reference_temperature)
     }
 
     /// The law that comes closest to measured pairs of temperature and log₁₀ a_T.
@@ -95,7 +95,8 @@ impl WlfShift {
             let [_, c2] = constants;
             constants = linear_constants(&pairs, |difference| (c2 + difference).powi(-2));
         }
-        Self::new(constants, reference_temperature)
+        let [c1, c2] = constants;
+        Self::new(c1, c2, reference_temperature)
     }
 }
 

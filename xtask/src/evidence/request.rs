@@ -83,7 +83,7 @@ impl Request {
 
     /// The result as a reference; `rounding` is the smallest relative error of a closed form.
     pub(super) fn reference(&self, scene: &Scene, rounding: f64) -> Result<Reference> {
-        let known = self.solve(scene)?.asked();
+        let known = self.solve(scene)?.requested_quantity();
         let source = match self.method {
             Method::Analytic => "closed form".to_owned(),
             method => format!("{} to {:.1e}", method.name(), self.number()),

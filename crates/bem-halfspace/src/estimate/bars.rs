@@ -7,7 +7,10 @@ use crate::{BemError, Elastomer, Reached};
 use rheology::Material as _;
 
 use crate::estimate::averages::Refinement;
+use crate::estimate::quantities::{Name, Quantities};
 
+/// The place of the friction from the dissipated power in lists of quantities, after those that have names.
+const DISSIPATED: usize = Name::ALL.len();
 /// Slowest order in which friction is assumed to converge, below which nothing does.
 const SLOWEST: f64 = 0.1;
 /// Error of the ends of a contact in elements. Its outline follows the elements, and in the outermost of them the pressure
@@ -29,7 +32,7 @@ pub struct ContactEstimate<S, O> {
     /// Normal force F_N, \[N].
     pub normal_force: Estimate,
     /// Depth of the lowest point below the undeformed surface, \[m]; none on a half space in plane strain, and where it flows
-    /// and the load has no sliding distance, because the body sinks for ever.
+    /// and the load has no sliding distance, because the body sinks without limit.
     pub indentation_depth: Option<Estimate>,
     /// Contact area, \[m²].
     pub contact_area: Estimate,
@@ -50,8 +53,7 @@ pub struct ContactEstimate<S, O> {
 
 /// A contact on one grid.
 pub(crate) struct OnGrid<S, O> {
-    /// Friction coefficient, normal force, depth, contact area and largest pressure.
-    pub(crate) quantities: [f64; 5],
+    pub(crate) quantities: Quantities<f64>,
     /// Friction coefficient from the dissipated power, of stationary states.
     pub(crate) dissipated: Option<f64>,
     /// Parts of the error of the target that all grids have in common, and hence do not show.
@@ -63,19 +65,6 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) state: S,
     pub(crate) options: O,
 }
-
-/// Places of some quantities in an array of them.
-pub(crate) const FRICTION: usize = 0;
-pub(crate) const FORCE: usize = 1;
-pub(crate) const DEPTH: usize = 2;
-/// After those of every contact.
-const DISSIPATED: usize = 5;
-/// Their names, in errors.
-pub(crate) const NAMES: [&str; 3] = [
-    "friction coefficient",
-    "normal force [N]",
-    "indentation depth [m]",
-];
 
 /// The quantity that a refinement drives to the error asked for, beside the normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,12 +86,12 @@ pub(crate) struct Resolution<'w> {
 }
 
 impl Resolution<'_> {
-    /// The place of the target.
-    const fn place(&self) -> usize {
+    /// The quantity that is driven.
+    const fn driven(&self) -> Name {
         match (self.target, self.control) {
-            (Target::Friction, _) => FRICTION,
-            (Target::Depth, Control::NormalForce(_)) => DEPTH,
-            (Target::Depth, Control::IndentationDepth(_)) => FORCE,
+            (Target::Friction, _) => Name::Friction,
+            (Target::Depth, Control::NormalForce(_)) => Name::Depth,
+            (Target::Depth, Control::IndentationDepth(_)) => Name::Force,
         }
     }
 }
@@ -139,33 +128,38 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<OnGrid<S, O>, BemError>,
     finish: impl FnOnce(ContactEstimate<S, O>) -> Result<E, BemError>,
 ) -> Result<E, BemError> {
-    let (control, target) = (resolution.control, resolution.place());
+    let (control, driven) = (resolution.control, resolution.driven());
     let quantities = |contact: &OnGrid<S, O>| {
-        let quantities = contact.quantities.iter().chain(&contact.dissipated);
-        let driving = |(index, value): (usize, &f64)| Quantity {
-            drives: index == target || index == FORCE,
-            least: if index == target {
+        let driving = |(name, value): (Name, f64)| Quantity {
+            drives: name == driven || name == Name::Force,
+            least: if name == driven {
                 contact.least * value.abs()
             } else {
                 0.0
             },
-            ..Quantity::from(*value)
+            ..Quantity::from(value)
         };
-        quantities.enumerate().map(driving).collect()
+        let dissipated = contact.dissipated.map(|value| Quantity {
+            drives: false,
+            ..Quantity::from(value)
+        });
+        let list = contact.quantities.list().map(driving);
+        list.chain(dissipated).collect()
     };
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
         let mut others = vec![ErrorParts::NONE; DISSIPATED + 1];
-        others[target] = contact.other_error;
+        others[driven.place()] = contact.other_error;
         others[DISSIPATED] = contact.other_error;
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
-    let [mut friction, force, depth, area, peak] = std::array::from_fn(|index| {
-        Estimate::new(refined.value.quantities[index], refined.error[index])
-    });
-    let mut error_parts = refined.parts[target];
+    let errors = &refined.error;
+    let known = |name: Name, value| Estimate::new(value, errors[name.place()]);
+    let known = refined.value.quantities.map(known);
+    let mut friction = known.friction_coefficient;
+    let mut error_parts = refined.parts[driven.place()];
     if let Some(dissipated) = refined.value.dissipated {
-        let error = refined.error[DISSIPATED];
+        let error = errors[DISSIPATED];
         if error < resolution.better * friction.error {
             friction = Estimate::new(dissipated, error);
             error_parts = refined.parts[DISSIPATED];
@@ -175,10 +169,10 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let estimate = finish(ContactEstimate {
         friction_coefficient: friction,
         error_parts,
-        normal_force: given_force.unwrap_or(force),
-        indentation_depth: Some(given_depth.unwrap_or(depth)),
-        contact_area: area,
-        peak_pressure: resolution.has_peak.then_some(peak),
+        normal_force: given_force.unwrap_or(known.normal_force),
+        indentation_depth: Some(given_depth.unwrap_or(known.indentation_depth)),
+        contact_area: known.contact_area,
+        peak_pressure: resolution.has_peak.then_some(known.peak_pressure),
         contact_box_error: of_box(refined.value.spacing),
         refinements: Vec::new(),
         finest: refined.value.state,
@@ -197,7 +191,7 @@ pub(crate) fn refused<E: Into<Reached>>(
     };
     Err(BemError::NotReached {
         // Of a history the quantities of each row come one after the other.
-        quantity: NAMES[missed.quantity % NAMES.len()],
+        quantity: Name::ALL[missed.quantity % Name::ALL.len()].in_words(),
         value: missed.value,
         error: missed.error,
         relative_error: missed.asked,

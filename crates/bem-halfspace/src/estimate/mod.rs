@@ -3,4 +3,5 @@
 pub(crate) mod averages;
 pub(crate) mod bars;
 pub(crate) mod plan;
+pub(crate) mod quantities;
 pub(crate) mod reached;

@@ -17,13 +17,13 @@ pub enum Reached {
     Slide(SlideEstimate),
     /// Of [`press`](crate::press) and [`indent`](crate::indent()).
     Press(PressEstimate),
-    /// Of [`follow`](crate::motions::indent::follow).
+    /// Of [`indent_along`](crate::indent_along).
     Curve(IndentCurve),
     #[cfg(feature = "rough")]
-    /// Of [`steady_periodic`](crate::steady_periodic) and [`press_periodic`](crate::press_periodic).
+    /// Of [`periodic::steady`](crate::periodic::steady) and [`periodic::indent`](crate::periodic::indent).
     Periodic(PeriodicEstimate<PeriodicSliding>),
     #[cfg(feature = "rough")]
-    /// Of [`slide_periodic`](crate::slide_periodic).
+    /// Of [`periodic::slide`](crate::periodic::slide).
     PeriodicTransient(PeriodicEstimate<PeriodicTransient>),
 }
 

@@ -9,7 +9,7 @@ use crate::parallel::bands::Bands;
 use crate::parallel::reductions::{add, sum};
 
 /// Part of the sum of squares of the residual below which what a step takes off counts as nothing; up to 0.05 it hardly matters.
-const NOTHING: f64 = 0.01;
+const LEAST_REDUCTION: f64 = 0.01;
 /// Part of what a direction adds to the residual below which what is left of it beside earlier ones is their rounding.
 const ROUNDING: f64 = 1e-7;
 
@@ -45,7 +45,7 @@ pub(crate) fn minimise<S: Copy + Into<f64> + Send + Sync + 'static>(
             return;
         }
         let step = -product(weights, &image, residual) / length.powi(2);
-        let least = NOTHING * product(weights, residual, residual);
+        let least = LEAST_REDUCTION * product(weights, residual, residual);
         added = ((step * length).powi(2) < least).then(|| image.clone());
         add_all(solution, step, &direction);
         add_all(residual, step, &image);

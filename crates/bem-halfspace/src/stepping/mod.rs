@@ -41,7 +41,7 @@ pub struct March<'a> {
     options: GridOptions,
     layout: Layout,
     creep: CreepSpectrum,
-    /// Whether the body sinks for ever, as it does not into a layer.
+    /// Whether the body sinks without limit, as it does not into a layer.
     pub(crate) sinks: bool,
     /// 2 (1 − ν).
     half_space_factor: f64,

@@ -68,8 +68,8 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
     }
 }
 
-/// Factor M(s) by which a layer on a rigid base gives way less to a wave of pressure than a half space, for s = |q|t ≥ 0 and
-/// −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
+/// Ratio M(s) of the compliance of a layer on a rigid base to that of the half space, for a wave of pressure with s = |q|t ≥ 0
+/// and −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
 pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
     if s > SHORTEST_WAVE {
         return 1.0 + deficit(s.min(1e3), poisson_ratio);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::iter::repeat_n;
 
-use bem_halfspace::slide::{MotionRow, follow};
+use bem_halfspace::slide::{MotionRow, slide_along};
 use bem_halfspace::{Control, GridOptions};
 use numerics::whole_part;
 use rheology::Material;
@@ -24,7 +24,7 @@ fn moved(
 ) -> Vec<MotionRow> {
     let under_force = |(time, position)| (time, position, Control::NormalForce(FORCE));
     let motions = motions(path.into_iter().map(under_force));
-    follow(&paraboloid(0.5), material, &motions, options).expect("rows")
+    slide_along(&paraboloid(0.5), material, &motions, options).expect("rows")
 }
 
 fn solid() -> impl Material {
@@ -135,7 +135,7 @@ fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
         (2.5, far, Control::NormalForce(FORCE)),
     ]);
     let (material, options) = (three_elements(0.4, 2.0, 0.5), tight(squares(0.1, 1.6)));
-    let rows = follow(&paraboloid(0.5), &material, &motions, &options).expect("rows");
+    let rows = slide_along(&paraboloid(0.5), &material, &motions, &options).expect("rows");
     assert_eq!(rows[1].contact_x, None, "lifted");
     // The old dent, which recovers, is felt like a point force at that distance.
     let dent = FORCE / (4.0 * PI * 0.4 * far);

@@ -204,7 +204,7 @@ fn what_never_comes_to_rest_is_refused() {
     let name = "relaxation modulus of a depth held so long";
     let relaxed = indent(&paraboloid(0.5), &fluid, &relaxed, grid);
     assert_refused("a fluid", relaxed, name);
-    // At a constant depth the body sinks for ever, and so it does under a line load.
+    // At a constant depth the body sinks without limit, and so it does under a line load.
     let scene = Scene::new(paraboloid(0.3), viscous(2.0), at_depth(0.1, 1.0));
     let name = "SlidingDistanceMissing";
     assert_refused("a state", scene.try_steady(1e-3), name);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use bem_halfspace::indent::{HistoryOptions, IndentCurve, follow, indent_history};
+use bem_halfspace::indent::{HistoryOptions, IndentCurve, indent_along, indent_history};
 use bem_halfspace::{BemError, Control, GridOptions, HistoryPoint};
 use casebook::{Case, group};
 use numerics::Accuracy;
@@ -74,7 +74,7 @@ fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2]) -> IndentCurve {
         control: Control::IndentationDepth(case.input("V") * (turn - (time - turn).abs())),
     };
     let history = [0.0, turn, end].map(point);
-    follow(&body, &case.material(), &history, Accuracy::Elements(32)).expect("a history")
+    indent_along(&body, &case.material(), &history, Accuracy::Elements(32)).expect("a history")
 }
 
 /// After the turn the contact shrinks faster than the depth, and is lost before the depth is zero.

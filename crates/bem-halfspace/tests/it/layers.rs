@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bem_halfspace::{
-    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor, press, slide,
-    steady, steady_line, steady_periodic_on_grid,
+    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor, periodic,
+    press, slide, steady, steady_line,
 };
 use casebook::refuses;
 use friction_analytic::{power_sliding, winkler_line_force};
@@ -188,7 +188,7 @@ fn what_slides_over_an_elastic_layer_is_pressed_into_it() {
     assert_bar("cylinder", rough, fine.value, 1e-3);
 }
 
-/// Also of a layer that flows, under which a body does not sink for ever.
+/// Also of a layer that flows, under which a body does not sink without limit.
 #[test]
 fn a_march_comes_to_the_stationary_state() {
     let body = paraboloid(0.5);
@@ -209,7 +209,7 @@ fn a_march_comes_to_the_stationary_state() {
     }
 }
 
-/// The body does not sink for ever into a liquid on a rigid base, so that nothing is extrapolated, and what the surface
+/// The body does not sink without limit into a liquid on a rigid base, so that nothing is extrapolated, and what the surface
 /// remembers is as long as the layer is thick.
 #[test]
 fn a_march_over_a_liquid_layer_goes_on_until_it_is_stationary() {
@@ -270,7 +270,7 @@ fn a_periodic_layer_moves_by_its_factor() {
     let layer = Layer::new(&solid, thickness).unwrap();
     let load = PeriodicLoad::new(1.0, velocity).unwrap();
     let options = PeriodicOptions::default();
-    let state = steady_periodic_on_grid(&grid, &heights, &layer, &load, &options).unwrap();
+    let state = periodic::steady_on_grid(&grid, &heights, &layer, &load, &options).unwrap();
     // μ = p̂ h̃ q sin δ/2 over the mean pressure, with |p̂| = ½ |E*| q h̃/M.
     let modulus = solid.complex_modulus(TAU * velocity).unwrap().loss * 2.0 / 0.7;
     let friction = 0.25 * modulus * (TAU * 1e-3).powi(2) / layer_factor(TAU * thickness, 0.3);

@@ -48,3 +48,34 @@ fn stated_memory_is_what_a_solution_takes() {
         check(("slide", name), stated, solve);
     }
 }
+
+/// Elements of a periodic surface are those along its longer edge; with too few its waves are not resolved.
+#[cfg(feature = "rough")]
+#[test]
+fn a_period_is_solved_on_the_elements_asked_for() {
+    use bem_halfspace::PeriodicLoad;
+    use bem_halfspace::periodic::{memory, steady};
+    use indenters::rough::{PeriodicSurface, Wave};
+
+    use crate::support::{assert_bars_agree, assert_refused, prony};
+    let wave = |numbers| Wave {
+        numbers,
+        amplitude: 0.01,
+        phase: 0.3,
+    };
+    let waves = vec![wave([1, 1]), wave([2, 3])];
+    let surface = PeriodicSurface::new([2.0, 1.0], waves).expect("a surface");
+    let solid = prony([1.0, 0.0], &[(9.0, 1.0)]);
+    let load = PeriodicLoad::new(0.03, 0.3).expect("a load");
+    let on = |elements| steady(&surface, &solid, &load, Accuracy::Elements(elements));
+    check(("steady", "period"), memory(&surface, 512), || on(512));
+    let [coarse, fine] = [132, 512].map(|elements| on(elements).expect("a state"));
+    assert_eq!(coarse.finest.pressure.grid.shape(), [132, 132], "shape");
+    assert_bars_agree(
+        "friction",
+        coarse.friction_coefficient,
+        fine.friction_coefficient,
+    );
+    assert_refused("few", on(127), "PeriodTooCoarse");
+    assert_refused("many", on(usize::MAX), "GridTooLarge");
+}

@@ -1,8 +1,7 @@
 //! Periodic surfaces that slide from rest come to the stationary state.
 
-use bem_halfspace::{
-    BemError, ContactOptions, Grid, PeriodicLoad, PeriodicTransient, slide_periodic_on_grid,
-};
+use bem_halfspace::periodic::slide_on_grid;
+use bem_halfspace::{BemError, ContactOptions, Grid, PeriodicLoad, PeriodicTransient};
 use casebook::rough_cases;
 use rheology::Material;
 
@@ -27,8 +26,8 @@ fn slide(
         waves.iter().map(wave).sum()
     };
     let heights: Vec<f64> = (0..n * n).map(height).collect();
-    let load = PeriodicLoad::new(pressure, velocity)?;
-    slide_periodic_on_grid(&grid, &heights, material, (&load, distance), &OPTIONS)
+    let load = PeriodicLoad::new(pressure, velocity)?.after(distance)?;
+    slide_on_grid(&grid, &heights, material, &load, &OPTIONS)
 }
 
 #[test]
@@ -56,9 +55,10 @@ fn full_contact_ends_in_the_exact_friction() {
 #[cfg(feature = "rough")]
 #[test]
 fn a_march_ends_in_the_stationary_state() {
-    use crate::support::assert_near;
-    use bem_halfspace::{slide_periodic, steady_periodic};
+    use crate::support::{assert_near, within};
+    use bem_halfspace::periodic::{slide, steady};
     use indenters::rough::SelfAffine;
+    use numerics::AtMost;
     let surface = SelfAffine {
         period: [1.0; 2],
         hurst_exponent: 0.8,
@@ -74,10 +74,11 @@ fn a_march_ends_in_the_stationary_state() {
         (prony([1.0, 0.0], &[(49.0, 1.0), (50.0, 0.1)]), [1.0, 0.02]),
     ] {
         let pressed = PeriodicLoad::new(load[0], load[1]).expect("a load");
-        let exact = steady_periodic(&surface, &material, &pressed, 1e-3, 1 << 18);
+        let exact = steady(&surface, &material, &pressed, within(1e-3, &AtMost(512)));
         let exact = exact.expect("a stationary state");
-        let slid = slide_periodic(&surface, &material, (&pressed, 1.0), 0.07, 1 << 14);
-        let slid = slid.expect("a march");
+        let way = pressed.after(1.0).expect("a distance");
+        let march = |error| slide(&surface, &material, &way, within(error, &AtMost(128)));
+        let slid = march(0.07).expect("a march");
         let bar = slid.friction_coefficient;
         assert_near(load, bar.value, exact.friction_coefficient.value, bar.error);
         assert!(bar.error < 0.07 * bar.value, "{bar:?}");
@@ -91,8 +92,7 @@ fn a_march_ends_in_the_stationary_state() {
             first.abs() < 0.3 * exact.friction_coefficient.value,
             "{first}"
         );
-        let missed = slide_periodic(&surface, &material, (&pressed, 1.0), 1e-4, 1 << 14);
-        assert_refused(load, missed, "NotReached");
+        assert_refused(load, march(1e-4), "NotReached");
     }
 }
 
@@ -101,7 +101,7 @@ fn a_march_ends_in_the_stationary_state() {
 #[cfg(feature = "rough")]
 #[test]
 fn a_march_ends_at_its_distance() {
-    use bem_halfspace::slide_periodic;
+    use bem_halfspace::periodic::slide;
     use indenters::rough::{PeriodicSurface, Wave};
 
     use crate::support::assert_bars_agree;
@@ -115,14 +115,9 @@ fn a_march_ends_at_its_distance() {
     let material = prony([1.0, 0.0], &[(9.0, 1.0)]);
     let load = PeriodicLoad::new(0.1, 0.3).expect("a load");
     for distance in [0.02, 0.05, 0.13] {
-        let slid = |relative_error| {
-            let slid = slide_periodic(
-                &surface,
-                &material,
-                (&load, distance),
-                relative_error,
-                1 << 16,
-            );
+        let load = load.after(distance).expect("a distance");
+        let slid = |relative_error: f64| {
+            let slid = slide(&surface, &material, &load, relative_error);
             let slid = slid.unwrap_or_else(|error| panic!("{distance}: {error}"));
             let rows = &slid.finest.rows;
             assert_close(
@@ -143,8 +138,8 @@ fn what_does_not_march_is_refused() {
     let march = |scene| slide(&wave, 16, &elastic(1.0), scene);
     for (scene, name) in [
         ([1.0, 0.0, 1.0], "velocity"),
-        ([1.0, 1.0, 0.0], "sliding distance"),
-        ([1.0, 1.0, f64::NAN], "sliding distance"),
+        ([1.0, 1.0, 0.0], "sliding_distance"),
+        ([1.0, 1.0, f64::NAN], "sliding_distance"),
         ([1.0, 1.0, 1e20], "GridTooLarge"),
     ] {
         assert_refused(scene, march(scene), name);

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use bem_halfspace::periodic::steady_on_grid;
 use bem_halfspace::{
     BemError, Control, Convolution, Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding,
-    steady_periodic_on_grid,
 };
 use casebook::{RoughCase, rough_cases};
 use rheology::Material;
@@ -46,7 +46,7 @@ fn slide(
         tolerance: 1e-8,
         ..PeriodicOptions::default()
     };
-    steady_periodic_on_grid(grid, heights, material, &load, &options)
+    steady_on_grid(grid, heights, material, &load, &options)
 }
 
 fn solve(case: &RoughCase, n: usize) -> PeriodicSliding {
@@ -272,7 +272,10 @@ fn every_contact_on_a_small_grid_is_found() {
 #[cfg(feature = "rough")]
 #[test]
 fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
-    use bem_halfspace::steady_periodic;
+    use bem_halfspace::periodic::steady;
+    use numerics::AtMost;
+
+    use crate::support::within;
     let surface = indenters::rough::SelfAffine {
         period: [1e-2; 2],
         hurst_exponent: 0.8,
@@ -286,7 +289,12 @@ fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
     let material = prony([1e6, 0.0], &[(9e6, 0.01)]);
     let under = |pressure: f64, relative_error: f64| {
         let load = PeriodicLoad::new(pressure, 0.05).expect("a load");
-        steady_periodic(&surface, &material, &load, relative_error, 1 << 16)
+        steady(
+            &surface,
+            &material,
+            &load,
+            within(relative_error, &AtMost(256)),
+        )
     };
     let light = under(1.0, 0.05);
     match light {
@@ -310,7 +318,7 @@ fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
 #[cfg(feature = "rough")]
 #[test]
 fn the_bars_of_the_casebook_hold() {
-    use bem_halfspace::{steady_periodic, steady_periodic_at_depth};
+    use bem_halfspace::periodic::steady;
     use indenters::rough::{PeriodicSurface, Wave};
     use numerics::ValueWithError;
     for case in rough_cases("cases") {
@@ -323,15 +331,15 @@ fn the_bars_of_the_casebook_hold() {
         let waves = case.waves.iter().map(wave).collect();
         let surface = PeriodicSurface::new([1.0; 2], waves).expect("a surface");
         let load = PeriodicLoad::new(case.mean_pressure, case.velocity).expect("a load");
-        let estimate = steady_periodic(&surface, &case.material, &load, 0.1, 1 << 18);
+        let estimate = steady(&surface, &case.material, &load, 0.1);
         let estimate = estimate.unwrap_or_else(|error| panic!("{}: {error}", case.id));
         let (bar, exact) = (estimate.friction_coefficient, case.friction_coefficient);
         assert_near(&case.id, bar.value, exact, bar.error);
         let bar = estimate.area_fraction;
         assert_near(&case.id, bar.value, case.area, bar.error);
         let held = |depth| {
-            let held = [depth, case.velocity];
-            steady_periodic_at_depth(&surface, &case.material, held, 0.1, 1 << 18)
+            let load = PeriodicLoad::at_depth(depth, case.velocity)?;
+            steady(&surface, &case.material, &load, 0.1)
         };
         let ValueWithError { value, error } = *estimate.mean_depth;
         if value + error >= 0.0 {
@@ -354,7 +362,8 @@ fn the_bars_of_the_casebook_hold() {
 #[cfg(feature = "rough")]
 #[test]
 fn a_layer_carries_at_a_depth_what_makes_it() {
-    use bem_halfspace::{Layer, steady_periodic, steady_periodic_at_depth};
+    use bem_halfspace::Layer;
+    use bem_halfspace::periodic::steady;
     use indenters::rough::{PeriodicSurface, Wave};
     use rheology::Compressible;
 
@@ -369,16 +378,15 @@ fn a_layer_carries_at_a_depth_what_makes_it() {
     let solid = Compressible::new(&prony([0.25, 0.0], &[(2.25, 1.0)]), 0.3).expect("a ratio");
     let layer = Layer::new(&solid, 0.1).expect("a thickness");
     let load = PeriodicLoad::new(0.01, 0.1).expect("a load");
-    let under = steady_periodic(&surface, &layer, &load, 1e-2, 1 << 18).expect("a state");
-    let held = [under.mean_depth.value, 0.1];
-    let held = steady_periodic_at_depth(&surface, &layer, held, 1e-2, 1 << 18).expect("a state");
+    let under = steady(&surface, &layer, &load, 1e-2).expect("a state");
+    let at = |depth| steady(&surface, &layer, &PeriodicLoad::at_depth(depth, 0.1)?, 1e-2);
+    let held = at(under.mean_depth.value).expect("a state");
     let pressure = held.mean_pressure;
     assert_near("mean pressure", pressure.value, 0.01, pressure.error);
     assert!(pressure.error <= 1e-4, "{pressure:?}");
     let frictions = [under.friction_coefficient, held.friction_coefficient];
     assert_bars_agree("friction", frictions[0], frictions[1]);
     for depth in [-0.1, f64::NAN] {
-        let held = steady_periodic_at_depth(&surface, &layer, [depth, 0.1], 1e-2, 1 << 18);
-        assert_refused(depth, held, "mean_depth");
+        assert_refused(depth, at(depth), "mean_depth");
     }
 }

@@ -13,7 +13,7 @@ use crate::support::{
     under_force, viscous,
 };
 
-/// The surface ahead sinks like ln t, so the depth grows by D/π per unit of ln(distance), for ever.
+/// The surface ahead sinks like ln t, so the depth grows by D/π per unit of ln(distance), without limit.
 #[test]
 fn depth_drifts_like_the_logarithm_of_the_distance() {
     let mut cases = group("BEM-07").into_iter();

@@ -12,7 +12,7 @@ use bem_halfspace::{
 };
 pub(crate) use casebook::{Formula, prony};
 use indenters::{PowerProfile, SlidingLoad, Surface};
-use numerics::{Estimate, Request};
+use numerics::{AtMost, Estimate, Request};
 use rayon::ThreadPoolBuilder;
 use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 
@@ -384,4 +384,13 @@ pub(crate) fn every_kind_of_material() -> Vec<(&'static str, Box<dyn Material>)>
         ("compressible", Box::new(compressible)),
         ("two branches", Box::new(glassy)),
     ]
+}
+
+#[cfg(feature = "rough")]
+/// A relative error, sought with at most so many elements along the length that is resolved.
+pub(crate) fn within(relative_error: f64, elements: &AtMost) -> Request<'_> {
+    Request {
+        accuracy: relative_error.into(),
+        watch: elements,
+    }
 }

@@ -73,6 +73,25 @@ impl Default for Follow {
 /// depth everything is exact up to rounding; between two points the edge of the contact may turn once. So is the depth
 /// under a force as long as the contact does not shrink; without force the body touches.
 ///
+/// ```
+/// use mdr_core::indenters::{Control, HistoryPoint, PowerProfile};
+/// use mdr_core::rheology::{StandardSolid, StandardSolidParameters};
+/// use mdr_core::{Follow, indent_along};
+///
+/// let ball = PowerProfile::paraboloid(50.0)?;
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 1e6,
+///     viscosity: 1e6,
+/// })?;
+/// let depth = |time, depth| HistoryPoint { time, control: Control::IndentationDepth(depth) };
+/// let history = [depth(0.0, 0.0), depth(1.0, 1e-4), depth(2.0, 0.0)];
+/// let curve = indent_along(&ball, &rubber, &history, &Follow::default())?;
+/// // The surface has not recovered, so that the body leaves it before it is back.
+/// assert!(curve[1].normal_force.value > 0.0 && curve[2].normal_force.value == 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
 /// depth on a material with a lone dashpot; [`MdrError::Empty`] without points; [`MdrError::Indenter`] when the line of the

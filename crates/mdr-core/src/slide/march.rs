@@ -20,7 +20,7 @@ use crate::element_heights::ElementHeights;
 use crate::error::{enough_elements, finite};
 
 /// A line moving over a chain. All lists run from the rear to the front of the line.
-pub(super) struct March {
+pub(super) struct ChainMarch {
     line: ElementHeights,
     /// Mean slope that an element meets during the step to which its force belongs.
     mean_slopes: Vec<f64>,
@@ -66,7 +66,7 @@ struct Sums {
     ends: Option<[usize; 2]>,
 }
 
-impl March {
+impl ChainMarch {
     /// A chain at rest under the elements of the line, touched at the lowest one.
     pub(super) fn from_first_touch(
         line: &(impl RigidLine + ?Sized),

@@ -11,7 +11,7 @@ use rheology::Material;
 
 use crate::MdrError;
 use crate::element_heights::lowest_candidate;
-use crate::steady::{Problem, has_steep_kinks};
+use crate::steady::{LineProblem, has_steep_kinks};
 use memory::{ahead, has_memory};
 use on_grid::march;
 pub use on_grid::{SlideOptions, SlideRow, Transient, slide_memory, slide_on_grid};
@@ -61,6 +61,19 @@ pub struct Sliding {
 /// stationary, with as many elements as the relative error of the friction coefficient needs; or with a number of elements
 /// along the contact, and whatever error that has.
 ///
+/// ```
+/// use mdr_core::indenters::{EquivalentLine, PowerProfile, SlidingLoad};
+/// use mdr_core::{rheology::Viscous, slide};
+///
+/// // Long after first touch the friction is that of (21).
+/// let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1e4)?);
+/// let load = SlidingLoad::new(1.0, 0.01)?.after(0.1)?;
+/// let slid = slide(&EquivalentLine(&cone), &fluid, &load, 1e-2)?;
+/// let expected = std::f64::consts::FRAC_PI_2 * 0.1;
+/// assert!((slid.friction_coefficient.value / expected - 1.0).abs() < 0.02);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`MdrError::SlidingNotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
 /// dashpot; otherwise like [`slide_on_grid`].
@@ -70,7 +83,7 @@ pub fn slide<'w>(
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Sliding, MdrError> {
-    Problem::new(line, material, load.velocity())?.check_kinks(load.control())?;
+    LineProblem::new(line, material, load.velocity())?.check_kinks(load.control())?;
     let motion = Motion::new(line, material, load)?;
     let goal = Goal {
         request: request.into(),
@@ -81,7 +94,7 @@ pub fn slide<'w>(
         selection: 1.0,
     };
     let solve = |elements, tell: &dyn Fn(f64)| motion.march(elements, tell);
-    let others = |march: &March, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
+    let others = |march: &OnElements, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
     let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
     let (march, mut error) = (refined.value, refined.error);
     let error_parts = refined.parts[0];
@@ -120,7 +133,7 @@ struct Motion<'a, L: ?Sized, M: ?Sized> {
 }
 
 /// A march on one resolution.
-struct March {
+struct OnElements {
     options: SlideOptions,
     transient: Transient,
 }
@@ -135,9 +148,9 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         })
     }
 
-    fn march(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<March, MdrError> {
+    fn march(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<OnElements, MdrError> {
         let options = SlideOptions::with_elements(elements, self.line, self.material, self.load)?;
-        Ok(March {
+        Ok(OnElements {
             transient: march(self.line, self.material, self.load, &options, tell)?,
             options,
         })
@@ -158,7 +171,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         [friction, last.indentation_depth, rear, front]
     }
 
-    fn quantities(&self, march: &March) -> Vec<Quantity> {
+    fn quantities(&self, march: &OnElements) -> Vec<Quantity> {
         let last = &march.transient.last;
         let [friction, depth, rear, front] = self.values(&march.transient).map(Quantity::from);
         let slope = last.indentation_depth / last.contact_length;
@@ -205,7 +218,11 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
     }
 
     /// What all resolutions have in common: the step in time, the distance that is left, and what no element resolves.
-    fn other_errors(&self, march: &March, tell: &dyn Fn(f64)) -> Result<Vec<ErrorParts>, MdrError> {
+    fn other_errors(
+        &self,
+        march: &OnElements,
+        tell: &dyn Fn(f64),
+    ) -> Result<Vec<ErrorParts>, MdrError> {
         let steps = self.errors_of_step(march, tell)?;
         let rest = self.remainders(&march.transient.rows);
         let part = |quantity: usize| ErrorParts {
@@ -223,7 +240,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
     /// What the step does to the memory of the material, if it has one.
     fn errors_of_step(
         &self,
-        marched: &March,
+        marched: &OnElements,
         tell: &dyn Fn(f64),
     ) -> Result<Option<[f64; 4]>, MdrError> {
         let time_step = marched.options.spacing / self.load.velocity();

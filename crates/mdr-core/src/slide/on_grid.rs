@@ -16,11 +16,11 @@ use indenters::{RigidLine, SlidingLoad};
 use numerics::{between_zero_and_one, in_range, positive};
 use rheology::{ExponentialStep, Material};
 
-use super::march::{March, Stepped};
+use super::march::{ChainMarch, Stepped};
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
 use crate::error::{enough_elements, finite};
-use crate::steady::Problem;
+use crate::steady::LineProblem;
 
 /// Numerics of sliding.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,7 +58,7 @@ impl SlideOptions {
         let diverges = value <= 0.5 && material.relaxation().viscosity() > 0.0;
         let allowed = "above 1/2, where the friction integral (16) converges";
         in_range("apex exponent", value, !diverges, allowed)?;
-        let problem = Problem::new(line, material, load.velocity())?;
+        let problem = LineProblem::new(line, material, load.velocity())?;
         let length = problem.contact_span(load.control())?;
         // A whole part of the distance, and no more than the distance itself, so that resolutions have steps in proportion.
         let whole = |distance: f64| distance / (distance / length).ceil().max(1.0);
@@ -180,7 +180,7 @@ pub(super) fn march(
     let mut elements = first_elements(line, material, load, options.spacing)?;
     loop {
         let ceiling = elements.ceiling;
-        let mut march = March::from_first_touch(line, elements, material, load)?;
+        let mut march = ChainMarch::from_first_touch(line, elements, material, load)?;
         match march_on(&mut march, load, options, tell)? {
             Some(transient) => {
                 let unresolved = march.unresolved(line, &transient.last);
@@ -197,7 +197,7 @@ pub(super) fn march(
 
 /// The transient, or nothing when the chain was not high enough.
 fn march_on(
-    march: &mut March,
+    march: &mut ChainMarch,
     load: &SlidingLoad,
     options: &SlideOptions,
     tell: &dyn Fn(f64),

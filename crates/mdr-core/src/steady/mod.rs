@@ -28,7 +28,7 @@ use numerics::{Estimate, between_zero_and_one};
 use rheology::Material;
 
 use crate::MdrError;
-pub(crate) use problem::Problem;
+pub(crate) use problem::LineProblem;
 pub(crate) use steep_kinks::has_steep_kinks;
 
 /// The contact of a rigid line that slides, in the stationary state, or is pressed.
@@ -73,7 +73,7 @@ pub fn steady(
 ) -> Result<SteadySliding, MdrError> {
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let control = load.require_stationary()?;
-    let problem = Problem::new(line, material, load.velocity())?;
+    let problem = LineProblem::new(line, material, load.velocity())?;
     problem.check_kinks(control)?;
     problem.refine(control, relative_error, |state| state.friction_coefficient)
 }

@@ -31,12 +31,12 @@ const FINER: f64 = 1e-4;
 const ROUNDING_OF_ENDS: f64 = 2.4e-7;
 
 /// A line that moves over a foundation.
-pub(crate) struct Problem<'a, L: ?Sized> {
+pub(crate) struct LineProblem<'a, L: ?Sized> {
     line: &'a L,
     foundation: Foundation,
 }
 
-impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
+impl<'a, L: RigidLine + ?Sized> LineProblem<'a, L> {
     pub(crate) fn new(
         line: &'a L,
         material: &(impl Material + ?Sized),

@@ -9,7 +9,7 @@ use crate::element_heights::{checked_height, lowest_candidate};
 /// Stations per doubling of the distance from the anchor; narrower parts that come down again between kinks may be overlooked.
 const STATIONS_PER_OCTAVE: f64 = 16.0;
 /// An endless line is looked at this many times farther out than where it first rises above the ceiling.
-const OUTLOOK: f64 = 1024.0;
+const RATIO_OF_DISTANCES: f64 = 1024.0;
 /// Factor by which the search on an endless line goes outwards.
 const STRIDE: f64 = 8.0;
 
@@ -115,7 +115,7 @@ fn outermost(
     let mut outside = if end.is_finite() {
         end - anchor
     } else {
-        OUTLOOK * first_above(&excess, anchor, end.signum())?
+        RATIO_OF_DISTANCES * first_above(&excess, anchor, end.signum())?
     };
     // The sum of two positions may be rounded beyond the end.
     let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };

@@ -67,7 +67,7 @@ pub(super) fn sweep(
     profile: &Profile,
     loads: Option<Vec<[f64; 2]>>,
 ) -> Result<Sweep, MdrError> {
-    let mut march = March {
+    let mut march = SurfaceMarch {
         foundation,
         profile,
         sums: Sweep {
@@ -93,14 +93,14 @@ pub(super) fn sweep(
     Ok(march.end())
 }
 
-struct March<'a> {
+struct SurfaceMarch<'a> {
     foundation: &'a Foundation,
     profile: &'a Profile,
     sums: Sweep,
     surface: Surface,
 }
 
-impl March<'_> {
+impl SurfaceMarch<'_> {
     /// Moves on to the next event, or the end of the segment; returns where that is.
     fn advance(&mut self, segment: &Segment, piece: &Piece) -> Result<f64, MdrError> {
         match std::mem::replace(&mut self.surface, Surface::Free(Recovery::untouched())) {

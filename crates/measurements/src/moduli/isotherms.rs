@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 /// A measurement, in SI and in shear.
-pub(super) struct Row {
+pub(super) struct IsothermRow {
     pub(super) line: usize,
     /// ω or t, greater than 0.
     pub(super) at: f64,
@@ -20,7 +20,7 @@ pub(super) struct Group {
     pub(super) temperatures: Vec<f64>,
     set: Option<f64>,
     /// By the bits of ω or t, which are in the order of the numbers.
-    pub(super) rows: BTreeMap<u64, Row>,
+    pub(super) rows: BTreeMap<u64, IsothermRow>,
 }
 
 /// Within an isotherm the temperature may drift by this much, \[K].
@@ -29,7 +29,7 @@ const DRIFT: f64 = 1.0;
 /// Puts a row into the isotherm of the nearest temperature where its frequency is missing, or into a new one. The
 /// frequencies may come in any order, and so may the temperatures; says what was expected when the latest isotherm has a row
 /// of this frequency and temperature.
-pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static str> {
+pub(super) fn insert(groups: &mut Vec<Group>, row: IsothermRow) -> Result<(), &'static str> {
     let key = row.at.to_bits();
     let distance = |group: &Group| group.distance(&row);
     if let Some(last) = groups.last()
@@ -59,7 +59,7 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static s
 
 impl Group {
     /// How far a row is from the first one in temperature, where it may be of this isotherm.
-    fn distance(&self, row: &Row) -> Option<f64> {
+    fn distance(&self, row: &IsothermRow) -> Option<f64> {
         if let (Some(set), Some(own)) = (row.set, self.set) {
             return set.total_cmp(&own).is_eq().then_some(0.0);
         }

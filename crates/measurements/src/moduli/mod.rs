@@ -16,7 +16,7 @@ use crate::MeasurementError;
 pub use crate::table::Deformation;
 use crate::table::Quantity::{Loss, LossFactor, Set, Storage, Temperature, Time};
 use crate::table::{Column, Line, Meaning, Source, Table, text_of};
-use isotherms::{Group, Row, insert};
+use isotherms::{Group, IsothermRow, insert};
 use names::MODULI;
 pub use shifting::{Shifted, Shifting, master_curve};
 
@@ -121,7 +121,7 @@ impl Kind {
     }
 }
 
-fn row(table: &Table, line: &Line) -> Result<Row, MeasurementError> {
+fn row(table: &Table, line: &Line) -> Result<IsothermRow, MeasurementError> {
     let numbers = table.positives(line)?;
     let [first, last] = [numbers[1], numbers[numbers.len() - 1]];
     let moduli = match table.needed[1..] {
@@ -129,7 +129,7 @@ fn row(table: &Table, line: &Line) -> Result<Row, MeasurementError> {
         [Loss, LossFactor] => [first / last, first],
         _ => [first, last],
     };
-    Ok(Row {
+    Ok(IsothermRow {
         line: line.number,
         at: numbers[0],
         moduli,
@@ -153,7 +153,7 @@ fn measurements(
     }
     let groups = groups.into_iter();
     let rows = groups.flat_map(|group| group.rows.into_values());
-    let point = |Row { at, moduli, .. }: Row| RelaxationPoint {
+    let point = |IsothermRow { at, moduli, .. }: IsothermRow| RelaxationPoint {
         time: at,
         modulus: moduli[0],
     };
@@ -161,7 +161,7 @@ fn measurements(
 }
 
 fn isotherm(group: Group) -> Isotherm {
-    let point = |Row { at, moduli, .. }: Row| ModulusPoint {
+    let point = |IsothermRow { at, moduli, .. }: IsothermRow| ModulusPoint {
         angular_frequency: at,
         storage: moduli[0],
         loss: moduli[1],

@@ -1,6 +1,6 @@
 //! What was measured, over frequency or over time.
 
-use super::system::{LEAST_PART, Quantity, Row};
+use super::system::{LEAST_PART, Measurement, Quantity};
 use crate::RheologyError;
 use crate::error::in_list;
 use numerics::{InvalidParameter, in_range, not_negative, positive};
@@ -41,7 +41,7 @@ pub struct RelaxationPoint {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredCurve {
     /// One for every measured number.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<Measurement>,
     /// The shortest and the longest time that the curve covers, 1/ω or t.
     pub(super) time_window: [f64; 2],
 }
@@ -64,7 +64,7 @@ impl MeasuredCurve {
         for (index, point) in points.iter().enumerate() {
             let magnitude = magnitude(point, last).map_err(in_list("points", index))?;
             last = point.angular_frequency;
-            let row = |quantity, value| Row {
+            let row = |quantity, value| Measurement {
                 quantity,
                 at: last,
                 value,
@@ -92,7 +92,7 @@ impl MeasuredCurve {
                 .and_then(|_| positive("modulus", point.modulus));
             let modulus = modulus.map_err(in_list("points", index))?;
             last = point.time;
-            rows.push(Row {
+            rows.push(Measurement {
                 quantity: Quantity::Relaxation,
                 at: last,
                 value: modulus,
@@ -112,13 +112,13 @@ impl MeasuredCurve {
 
     /// The curve of oscillation with the names of its moduli exchanged.
     pub(super) fn swapped(&self) -> Option<Self> {
-        let swapped = |row: &Row| {
+        let swapped = |row: &Measurement| {
             let quantity = match row.quantity {
                 Quantity::Storage => Quantity::Loss,
                 Quantity::Loss => Quantity::Storage,
                 Quantity::Relaxation => return None,
             };
-            Some(Row { quantity, ..*row })
+            Some(Measurement { quantity, ..*row })
         };
         Some(Self {
             rows: self.rows.iter().map(swapped).collect::<Option<_>>()?,
@@ -134,7 +134,7 @@ fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, Inv
 }
 
 /// The first and the last frequency or time.
-fn ends(rows: &[Row], given: usize) -> Result<[f64; 2], RheologyError> {
+fn ends(rows: &[Measurement], given: usize) -> Result<[f64; 2], RheologyError> {
     match rows {
         [first, .., last] if given >= 2 => Ok([first.at, last.at]),
         _ => Err(RheologyError::TooFewPoints { needed: 2, given }),

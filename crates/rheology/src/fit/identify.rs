@@ -8,7 +8,7 @@ use numerics::{InvalidParameter, in_range, not_negative, positive};
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
-use super::system::{Quantity, Row};
+use super::system::{Measurement, Quantity};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// What happens after a long time.
@@ -113,7 +113,7 @@ pub(super) fn series_of(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
-    let mut problem = Problem {
+    let mut problem = Measured {
         rows: curve.rows.clone(),
         window: curve.time_window,
         ending: options.ending,
@@ -136,13 +136,13 @@ const OWN: f64 = 0.1;
 /// Times by which G' may be off more for the sake of G'', before they are taken for moduli that contradict each other.
 const CONTRADICTS: f64 = 3.0;
 
-struct Problem {
-    rows: Vec<Row>,
+struct Measured {
+    rows: Vec<Measurement>,
     window: [f64; 2],
     ending: Ending,
 }
 
-impl Problem {
+impl Measured {
     /// Divides G' and G'' by their own sizes instead of |G*|, unless they contradict each other: then G'', which is mostly the
     /// smaller one, would spoil G'.
     fn weigh(&mut self) -> Result<(), RheologyError> {
@@ -265,7 +265,7 @@ impl Problem {
 
     /// Squared relative error of every point; the two rows of a frequency are one point.
     fn point_errors(&self, series: &Series) -> Vec<f64> {
-        let square = |row: &Row| (row.weight * (series.value(row) - row.value)).powi(2);
+        let square = |row: &Measurement| (row.weight * (series.value(row) - row.value)).powi(2);
         let points = self
             .rows
             .chunk_by(|one, other| one.at.to_bits() == other.at.to_bits());

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
 use numerics::least_squares::{Linearised, Range, minimise};
 
-use super::system::Row;
+use super::system::Measurement;
 use crate::RelaxationBranch;
 
 /// A series while it is refined: the lone spring, if there is one, and the branches.
@@ -20,7 +20,7 @@ const LARGEST_STEP: f64 = 2.0;
 
 /// Moves moduli and times, all of them positive, to a local minimum of the squared residuals; the times stay within the
 /// `window`.
-pub(super) fn refine(rows: &[Row], start: Series, window: [f64; 2]) -> Series {
+pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> Series {
     let range = |bounds| Range {
         bounds,
         largest_step: LARGEST_STEP,
@@ -54,7 +54,7 @@ impl Series {
         }
     }
 
-    pub(super) fn value(&self, row: &Row) -> f64 {
+    pub(super) fn value(&self, row: &Measurement) -> f64 {
         let branches = self.branches.iter();
         let relaxing =
             branches.map(|branch| branch.modulus * row.branch(branch.relaxation_time)[0]);
@@ -62,12 +62,12 @@ impl Series {
     }
 
     /// Sum of squared relative errors.
-    pub(super) fn squares(&self, rows: &[Row]) -> f64 {
-        let error = |row: &Row| row.weight * (self.value(row) - row.value);
+    pub(super) fn squares(&self, rows: &[Measurement]) -> f64 {
+        let error = |row: &Measurement| row.weight * (self.value(row) - row.value);
         rows.iter().map(error).map(|error| error * error).sum()
     }
 
-    fn linearised(&self, rows: &[Row]) -> Linearised {
+    fn linearised(&self, rows: &[Measurement]) -> Linearised {
         let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
         let mut slopes = DMatrix::zeros(n, rows.len());
         let errors = rows.iter().zip(slopes.column_iter_mut());
@@ -82,7 +82,7 @@ impl Series {
     }
 
     /// Value of the series; into `slopes` go its weighted derivatives by the logarithms of spring, moduli and times.
-    fn slopes(&self, row: &Row, mut slopes: DVectorViewMut<f64>) -> f64 {
+    fn slopes(&self, row: &Measurement, mut slopes: DVectorViewMut<f64>) -> f64 {
         let mut entries = slopes.iter_mut();
         let mut put = |slope: f64| {
             if let Some(entry) = entries.next() {

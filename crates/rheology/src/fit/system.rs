@@ -18,7 +18,7 @@ pub(super) enum Quantity {
 /// One measured number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub(super) struct Row {
+pub(super) struct Measurement {
     pub(super) quantity: Quantity,
     /// ω or t.
     pub(super) at: f64,
@@ -32,7 +32,7 @@ pub(super) struct Row {
 /// Errors of a modulus that is a smaller part of |G*| are relative to this part: no instrument tells it from zero.
 pub(super) const LEAST_PART: f64 = 1e-3;
 
-impl Row {
+impl Measurement {
     /// What a spring of unit modulus contributes.
     pub(super) const fn spring(&self) -> f64 {
         match self.quantity {

@@ -138,11 +138,11 @@ fn fractional_elements_and_their_expansions_refuse_what_has_no_series() {
 #[test]
 fn shifts_refuse_constants_and_temperatures_outside_their_range() {
     let (wlf, arrhenius) = (WlfShift::new, ArrheniusShift::new);
-    refuses("c1", NOT_POSITIVE, |x| wlf([x, 1.0], 20.0));
-    refuses("c2", NOT_POSITIVE, |x| wlf([1.0, x], 20.0));
+    refuses("c1", NOT_POSITIVE, |x| wlf(x, 1.0, 20.0));
+    refuses("c2", NOT_POSITIVE, |x| wlf(1.0, x, 20.0));
     let infinite = &[f64::NAN, f64::INFINITY];
-    refuses("temperature", infinite, |x| wlf([1.0, 1.0], x));
-    let law = wlf([1.0, 1.0], 20.0).unwrap();
+    refuses("temperature", infinite, |x| wlf(1.0, 1.0, x));
+    let law = wlf(1.0, 1.0, 20.0).unwrap();
     refuses("temperature", infinite, |x| law.log10_factor(x));
     refuses("activation_energy", NOT_POSITIVE, |x| arrhenius(x, 300.0));
     let reference = "reference_temperature";

@@ -7,7 +7,7 @@ use crate::support::named_spectrum;
 fn wlf_matches_exact_numbers_about_any_reference() {
     for case in casebook::group("RHE-07") {
         let (c1, c2, difference) = (case.input("C1"), case.input("C2"), case.input("dT"));
-        let law = WlfShift::new([c1, c2], 20.0).unwrap();
+        let law = WlfShift::new(c1, c2, 20.0).unwrap();
         let shift = law.log10_factor(20.0 + difference);
         if case.expected_error().is_some() {
             let about = law.about(20.0 + difference).map(|law| law.constants()[1]);
@@ -30,7 +30,7 @@ fn wlf_matches_exact_numbers_about_any_reference() {
 
 #[test]
 fn wlf_constants_come_back_from_their_shifts() {
-    let law = WlfShift::new([8.86, 101.6], 50.0).unwrap();
+    let law = WlfShift::new(8.86, 101.6, 50.0).unwrap();
     let shifts = [10.0, 30.0, 50.0, 70.0, 120.0].map(|t| [t, law.log10_factor(t).unwrap()]);
     // The two equations are a few hundred times worse conditioned than the shifts.
     for enough in [&shifts, &shifts[1..4]] {
@@ -72,7 +72,7 @@ mod isotherms {
     use rheology::fit::{Isotherm, ModulusPoint, automatic_master_curve, shifted_master_curve};
 
     fn law() -> WlfShift {
-        WlfShift::new([8.86, 101.6], 42.0).unwrap()
+        WlfShift::new(8.86, 101.6, 42.0).unwrap()
     }
 
     /// Three decades at each of nine temperatures, with a deterministic scatter.

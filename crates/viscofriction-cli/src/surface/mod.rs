@@ -172,7 +172,7 @@ impl Surface {
 }
 
 /// Quantity, symbol, value and unit.
-type Row = (&'static str, &'static str, f64, &'static str);
+type Statistic = (&'static str, &'static str, f64, &'static str);
 
 /// Those of the rows.
 const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
@@ -188,7 +188,7 @@ const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
                           root mean square of the mean curvature||1/m\n\
                           Nayak's parameter|α|1";
 
-fn rows(of: &Roughness) -> Vec<Row> {
+fn rows(of: &Roughness) -> Vec<Statistic> {
     let heights = [
         of.rms_height,
         of.mean_deviation,
@@ -211,7 +211,7 @@ fn rows(of: &Roughness) -> Vec<Row> {
     QUANTITIES.lines().zip(values).map(row).collect()
 }
 
-fn table(rows: &[Row]) -> comfy_table::Table {
+fn table(rows: &[Statistic]) -> comfy_table::Table {
     let mut table = markdown("quantity | symbol | value | unit");
     for (quantity, symbol, value, unit) in rows {
         table.add_row([quantity, symbol, &&*format!("{value:.6e}"), unit]);

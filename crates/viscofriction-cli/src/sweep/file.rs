@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use viscofriction::WrongInput;
-use viscofriction::sweep::{Plan, Row, header, identity};
+use viscofriction::sweep::{Plan, SweepRow, header, identity};
 
 use super::wrong_row;
 use crate::input::read_rows;
@@ -79,7 +79,7 @@ impl SweepFile {
     }
 
     /// Writes a row, or nothing of it.
-    pub(super) fn append(&mut self, row: &Row) -> Result<()> {
+    pub(super) fn append(&mut self, row: &SweepRow) -> Result<()> {
         self.write(&line(&row.fields)?)?;
         self.table.rows.push(row.clone());
         Ok(())
@@ -127,7 +127,7 @@ fn whole(contents: &[u8]) -> &[u8] {
 /// The whole lines of a file of rows.
 pub(crate) struct RowTable {
     pub(super) header: Vec<String>,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<SweepRow>,
 }
 
 impl RowTable {
@@ -147,7 +147,7 @@ impl RowTable {
             let point = number.and_then(|number: usize| number.checked_sub(1));
             let point = point.ok_or_else(|| wrong(line, &"the number of its point is missing"))?;
             let fields = texts(&record);
-            rows.push(Row { point, fields });
+            rows.push(SweepRow { point, fields });
         }
         Ok(Self { header, rows })
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use viscofriction::WrongInput;
-use viscofriction::sweep::Row;
+use viscofriction::sweep::SweepRow;
 
 use super::file::RowTable;
 use super::picture::PictureFiles;
@@ -43,7 +43,7 @@ pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> R
 
 /// The rows of all files in the order of their points.
 fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
-    let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
+    let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
     let mut header = Vec::new();
     for path in paths {
         let table = RowTable::new(path, &read_table(path)?)?;

@@ -14,7 +14,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use rayon::prelude::*;
 use viscofriction::WrongInput;
-use viscofriction::sweep::{Plan, Row, Shard, Vary, each_once, header};
+use viscofriction::sweep::{Plan, Shard, SweepRow, Vary, each_once, header};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{ABOUT_WARNINGS, print_text, say};
@@ -96,8 +96,8 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
 }
 
 /// Says what the points warn of, each once; the column `warnings` has them all.
-fn say_warnings(rows: &[Row]) {
-    let warnings = each_once(rows.iter().map(Row::warnings));
+fn say_warnings(rows: &[SweepRow]) {
+    let warnings = each_once(rows.iter().map(SweepRow::warnings));
     for warning in &warnings {
         say(&format!("warning: {warning}"));
     }
@@ -122,7 +122,7 @@ fn into_file(
     mut points: Vec<usize>,
     threads: usize,
     (out, existing): (&Path, Existing),
-) -> Result<Vec<Row>> {
+) -> Result<Vec<SweepRow>> {
     let path = checked(out, existing)?;
     let open = || SweepFile::open(path.clone(), plan, existing);
     let (mut file, pictures) = match existing {
@@ -156,7 +156,7 @@ fn compute(
     plan: &Plan,
     points: &[usize],
     threads: usize,
-    mut take: impl FnMut(&Row) -> Result<()>,
+    mut take: impl FnMut(&SweepRow) -> Result<()>,
 ) -> Result<()> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

@@ -14,7 +14,7 @@ use crate::text::RecordLines;
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Row {
+struct ProfileRow {
     radius_m: f64,
     height_m: f64,
 }
@@ -25,7 +25,7 @@ struct Row {
 /// File, line and what is wrong there.
 pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
-    let rows = rows::<Row>(contents).map_err(wrong)?;
+    let rows = rows::<ProfileRow>(contents).map_err(wrong)?;
     let radii = rows.iter().map(|(_, row)| row.radius_m).collect();
     let heights = rows.iter().map(|(_, row)| row.height_m).collect();
     PiecewiseLinearProfile::new(radii, heights)
@@ -108,8 +108,8 @@ fn problem(error: &csv::Error, names: &StringRecord) -> String {
 }
 
 /// The line of the row that the library refuses.
-fn line_of_error(error: &IndenterError, rows: &[(usize, Row)]) -> usize {
-    let has = |row: &Row, value: f64| {
+fn line_of_error(error: &IndenterError, rows: &[(usize, ProfileRow)]) -> usize {
+    let has = |row: &ProfileRow, value: f64| {
         let numbers = [row.radius_m, row.height_m];
         numbers.map(f64::to_bits).contains(&value.to_bits())
     };

@@ -92,7 +92,7 @@ pub enum Indenter {
     },
     /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
     HeightMap(HeightMapTable),
-    /// A random self-affine surface that repeats itself along x and y for ever; it takes load.mean_pressure.
+    /// A random self-affine surface that repeats itself along x and y without end; it takes load.mean_pressure.
     SelfAffine(SelfAffineSurface),
 }
 
@@ -103,9 +103,9 @@ pub enum Edges {
     /// The body ends with a wall.
     #[default]
     Wall,
-    /// The same grid, for ever; it takes load.mean_pressure.
+    /// The same grid, without end; it takes load.mean_pressure.
     Periodic,
-    /// The grid and its mirror images, for ever: no height jumps at an edge. The periods are twice as long.
+    /// The grid and its mirror images, without end: no height jumps at an edge. The periods are twice as long.
     Mirrored,
 }
 

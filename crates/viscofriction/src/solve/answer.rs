@@ -179,7 +179,7 @@ impl Answer {
 
     /// The friction coefficient, or where nothing slides the area fraction of a periodic surface, the depth, or the force at a
     /// given depth: what the relative error is asked of.
-    pub fn asked(&self) -> Estimate {
+    pub fn requested_quantity(&self) -> Estimate {
         let (force, depth) = (self.normal_force, self.indentation_depth);
         let depth = depth.filter(|_| force.error == 0.0);
         let area = self.rough.map(|rough| rough.area_fraction);

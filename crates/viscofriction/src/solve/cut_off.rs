@@ -2,7 +2,7 @@
 
 use bem_halfspace::{BemError, PeriodicEstimate, PeriodicSliding, Reached};
 use indenters::rough::PeriodicSurface;
-use numerics::Estimate;
+use numerics::{Accuracy, Estimate, Request};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
@@ -25,14 +25,22 @@ pub struct WithoutShortestOctave {
 }
 
 impl WithoutShortestOctave {
-    /// Solves to the relative error asked for, or a larger one; none where no wave or no answer is left.
+    /// Solves to the relative error asked for, or a larger one, whatever the elements; none where no wave or no answer is left.
     pub(super) fn of(
         surface: &PeriodicSurface,
-        relative_error: f64,
-        solve: impl Fn(&PeriodicSurface, f64) -> Result<PeriodicEstimate<PeriodicSliding>, BemError>,
+        request: Request,
+        solve: impl Fn(&PeriodicSurface, Request) -> Result<PeriodicEstimate<PeriodicSliding>, BemError>,
     ) -> Option<Self> {
         let left = surface.without_shortest_octave()?;
-        let found = match solve(&left, relative_error.max(RELATIVE_ERROR)) {
+        let relative_error = match request.accuracy {
+            Accuracy::RelativeError(error) => error.max(RELATIVE_ERROR),
+            Accuracy::Elements(_) => RELATIVE_ERROR,
+        };
+        let request = Request {
+            accuracy: relative_error.into(),
+            ..request
+        };
+        let found = match solve(&left, request) {
             Ok(found) => found,
             Err(BemError::NotReached { reached, .. }) => match *reached {
                 Reached::Periodic(found) => found,

@@ -1,12 +1,11 @@
 //! What boundary elements say, as answers.
 
-use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate, follow};
+use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate, indent_along};
 use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow, slide};
 use bem_halfspace::steady::{LineEstimate, SteadyEstimate};
 use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
-    PeriodicTransient, Reached, indent, press_periodic, slide_periodic, steady, steady_line,
-    steady_periodic,
+    PeriodicTransient, Reached, indent, periodic, steady, steady_line,
 };
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
@@ -85,33 +84,23 @@ fn of_line(estimate: LineEstimate) -> Answer {
     answer
 }
 
-/// Largest grid of a period, and memory that one of its elements takes at most, and what contacts of few elements on stiff
-/// solids take besides, \[bytes].
-const LARGEST_GRID: u64 = 1 << 22;
-const BYTES_PER_ELEMENT: u64 = 200;
-const BYTES_BESIDE: u64 = 32 << 20;
-
 /// A periodic surface, and what it is asked for.
 #[derive(Clone, Copy)]
 pub(crate) struct Rough<'a> {
     pub(crate) surface: &'a PeriodicSurface,
     pub(crate) load: PeriodicLoad,
-    pub(crate) relative_error: f64,
+    /// Of the load, \[Pa].
+    pub(crate) mean_pressure: f64,
 }
 
 /// The stationary state of a periodic surface; forces and areas are those of one period.
-pub(crate) fn periodic(problem: &Problem, rough: Rough) -> Result<Answer> {
-    let Rough { surface, load, .. } = rough;
-    let most = largest_grid(problem);
+pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Result<Answer> {
     let elastomer = problem.elastomer()?;
-    let solve = |surface: &_, asked| steady_periodic(surface, &elastomer, &load, asked, most);
-    let estimate = solve(surface, rough.relative_error)?;
+    let solve =
+        |surface: &_, request: Request| periodic::steady(surface, &elastomer, &rough.load, request);
+    let estimate = solve(rough.surface, request)?;
     let mut answer = of_periodic(problem, rough, estimate)?;
-    answer.cut_off(WithoutShortestOctave::of(
-        surface,
-        rough.relative_error,
-        solve,
-    ));
+    answer.cut_off(WithoutShortestOctave::of(rough.surface, request, solve));
     Ok(answer)
 }
 
@@ -120,27 +109,29 @@ fn of_periodic(
     rough: Rough,
     estimate: PeriodicEstimate<PeriodicSliding>,
 ) -> Result<Answer> {
-    let Rough { surface, load, .. } = rough;
     let mut answer = of_rough(problem, rough, Method::BemSteady, &estimate);
     answer.iterations = estimate.finest.products;
+    let theory = persson(problem, rough)?;
     if let Some(rough) = &mut answer.rough {
-        rough.persson = persson(problem, surface, &load)?;
+        rough.persson = theory;
     }
     Ok(answer.under(estimate.finest.pressure))
 }
 
 /// A periodic surface that was pressed a time ago and does not slide.
-pub(crate) fn periodic_pressed(problem: &Problem, rough: Rough, time: f64) -> Result<Answer> {
-    let (elastomer, most) = (problem.elastomer()?, largest_grid(problem));
-    let pressed = [rough.load.mean_pressure(), time];
-    let solve = |surface: &_, asked| press_periodic(surface, &elastomer, pressed, asked, most);
-    let estimate = solve(rough.surface, rough.relative_error)?;
+pub(crate) fn periodic_pressed(
+    problem: &Problem,
+    rough: Rough,
+    time: f64,
+    request: Request,
+) -> Result<Answer> {
+    let elastomer = problem.elastomer()?;
+    let solve = |surface: &_, request: Request| {
+        periodic::indent(surface, &elastomer, rough.mean_pressure, time, request)
+    };
+    let estimate = solve(rough.surface, request)?;
     let mut answer = of_pressed(problem, rough, estimate);
-    answer.cut_off(WithoutShortestOctave::of(
-        rough.surface,
-        rough.relative_error,
-        solve,
-    ));
+    answer.cut_off(WithoutShortestOctave::of(rough.surface, request, solve));
     Ok(answer)
 }
 
@@ -152,7 +143,7 @@ fn of_pressed(
     let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
     answer.iterations = estimate.finest.products;
     answer.friction_coefficient = None;
-    answer.error_parts = ErrorParts::of_elements(answer.asked().error);
+    answer.error_parts = ErrorParts::of_elements(answer.requested_quantity().error);
     if let Some(rough) = &mut answer.rough {
         rough.friction_from_dissipation = None;
     }
@@ -168,12 +159,9 @@ fn of_pressed(
 pub(crate) fn periodic_transient(
     problem: &Problem,
     rough: Rough,
-    sliding_distance: f64,
+    request: Request,
 ) -> Result<Answer> {
-    let Rough { surface, load, .. } = rough;
-    let (elastomer, most) = (problem.elastomer()?, largest_grid(problem));
-    let way = (&load, sliding_distance);
-    let estimate = slide_periodic(surface, &elastomer, way, rough.relative_error, most)?;
+    let estimate = periodic::slide(rough.surface, &problem.elastomer()?, &rough.load, request)?;
     Ok(of_way(problem, rough, estimate))
 }
 
@@ -195,16 +183,6 @@ fn of_way(
     answer.under(estimate.finest.pressure)
 }
 
-/// Elements of the largest grid of a period.
-pub(super) fn largest_grid(problem: &Problem) -> usize {
-    let fitting = |bytes: u64| bytes.saturating_sub(BYTES_BESIDE) / BYTES_PER_ELEMENT;
-    let fitting = problem.max_memory().map(fitting);
-    let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));
-    #[expect(clippy::cast_possible_truncation, reason = "at most the largest grid")]
-    let most = most as usize;
-    most
-}
-
 fn of_rough<S>(
     problem: &Problem,
     rough: Rough,
@@ -212,7 +190,7 @@ fn of_rough<S>(
     estimate: &PeriodicEstimate<S>,
 ) -> Answer {
     let area: f64 = rough.surface.period().iter().product();
-    let mean_pressure = Estimate::exact(rough.load.mean_pressure());
+    let mean_pressure = Estimate::exact(rough.mean_pressure);
     let is_layer = problem.thickness().is_finite();
     Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
@@ -231,22 +209,19 @@ fn of_rough<S>(
 }
 
 /// The theory, which is that of the half space.
-fn persson(
-    problem: &Problem,
-    surface: &PeriodicSurface,
-    load: &PeriodicLoad,
-) -> Result<Option<Persson>> {
+fn persson(problem: &Problem, rough: Rough) -> Result<Option<Persson>> {
     if problem.thickness().is_finite() {
         return Ok(None);
     }
+    let surface = rough.surface;
     let wave = |wave: &Wave| SurfaceWave {
         amplitude: wave.amplitude,
         wave_vector: surface.wave_vector(wave),
     };
     let waves: Vec<SurfaceWave> = surface.waves().iter().map(wave).collect();
     let load = RoughLoad {
-        mean_pressure: load.mean_pressure(),
-        velocity: load.velocity(),
+        mean_pressure: rough.mean_pressure,
+        velocity: rough.load.velocity(),
     };
     let theory = persson_of_waves(&waves, problem.material(), load)?;
     Ok(Some(Persson {
@@ -335,7 +310,7 @@ pub(crate) fn followed(
     surface: &dyn Surface,
     request: Request,
 ) -> Result<Answer> {
-    of_curve(&follow(
+    of_curve(&indent_along(
         surface,
         &problem.elastomer()?,
         problem.history(),

@@ -2,14 +2,13 @@
 
 use std::sync::OnceLock;
 
-use bem_halfspace::indent::{follow_memory, indent_memory};
-use bem_halfspace::{elements_for_bars, slide::slide_memory, steady::steady_memory};
+use bem_halfspace::indent::{indent_along_memory, indent_memory};
+use bem_halfspace::{periodic, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
 use indenters::rough::PeriodicSurface;
 use numerics::{Watch, whole_part};
 
 use super::body::Body;
-use super::elements::largest_grid;
 use super::error::SolveError;
 use super::problem::Motion::{History, Pressing, Sliding};
 use super::problem::Problem;
@@ -21,7 +20,9 @@ const FIRST: usize = 16;
 
 /// Refuses a method that needs more memory than is allowed, and a periodic surface with waves that are too short for all grids.
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
-    if let Body::Periodic(surface) = problem.body() {
+    if let (Body::Periodic(surface), Accuracy::RelativeError(_)) =
+        (problem.body(), problem.accuracy())
+    {
         return check_waves(problem, surface);
     }
     let (elements, change) = match problem.accuracy() {
@@ -33,8 +34,8 @@ pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), Scen
 
 /// Refuses waves for which even the grids without which there are no error bars are too large.
 fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), SceneError> {
-    let most = largest_grid(problem) as f64;
-    let elements = elements_for_bars(surface.largest_numbers());
+    let most = periodic::largest_grid(problem.max_memory().map(|bytes| bytes as f64));
+    let elements = periodic::elements_for_bars(surface.largest_numbers());
     if elements <= most {
         return Ok(());
     }
@@ -46,7 +47,8 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     let wavelengths = surface.period().into_iter();
     let wavelengths =
         wavelengths.flat_map(|period| (0..31).map(move |power| period / f64::from(1 << power)));
-    let fitting = wavelengths.filter(|shortest| elements_for_bars(numbers(*shortest)) <= most);
+    let fitting =
+        wavelengths.filter(|shortest| periodic::elements_for_bars(numbers(*shortest)) <= most);
     let shortest = fitting.fold(f64::INFINITY, f64::min);
     if shortest.is_infinite() {
         let problem = format!(
@@ -136,6 +138,9 @@ impl Watch for Limited<'_> {
 
 /// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
 fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
+    if let Body::Periodic(surface) = problem.body() {
+        return periodic::memory(surface, elements).ok();
+    }
     let elastomer = problem.elastomer().ok()?;
     let surface = problem.body().surface()?;
     match (method, problem.motion()) {
@@ -143,7 +148,7 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
         (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, &load, elements).ok(),
         (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, &load, elements).ok(),
         (BemTransient, History(_)) => {
-            follow_memory(surface, &elastomer, problem.history(), elements).ok()
+            indent_along_memory(surface, &elastomer, problem.history(), elements).ok()
         }
         (MdrTransient, Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);

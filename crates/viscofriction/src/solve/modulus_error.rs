@@ -87,7 +87,7 @@ impl Problem {
 
     /// That the bar with the error of the moduli is larger than what was asked.
     pub(crate) fn missed(&self, answer: &Answer) -> Option<SolveError> {
-        let ValueWithError { value, error } = *answer.asked();
+        let ValueWithError { value, error } = *answer.requested_quantity();
         match self.accuracy() {
             Accuracy::RelativeError(asked)
                 if self.expansion().is_some()

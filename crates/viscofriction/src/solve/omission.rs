@@ -20,7 +20,7 @@ pub enum Omission {
     OutsideContact,
     /// Fourier transforms, where the contact is small.
     Transforms,
-    /// Rows of elements that the body has left for ever.
+    /// Rows of elements that the body has left and does not meet again.
     RowsBehind,
     /// Fields that remember a history, where the result does not depend on it.
     HistoryFields,

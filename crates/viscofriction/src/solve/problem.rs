@@ -45,7 +45,7 @@ pub struct Problem {
 /// How the body moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Slides under a force or at a depth, for ever or over a distance.
+    /// Slides under a force or at a depth, without end or over a distance.
     Sliding(SlidingLoad),
     /// Is pressed with a force or to a depth for a time, without sliding.
     Pressing(PressingLoad),
@@ -60,6 +60,14 @@ impl Motion {
             Self::Sliding(load) => load.control(),
             Self::Pressing(load) => load.control(),
             Self::History(last) => *last,
+        }
+    }
+
+    /// Sliding distance since first touch, \[m]; none for the stationary state, and where nothing slides.
+    pub fn sliding_distance(&self) -> Option<f64> {
+        match self {
+            Self::Sliding(load) => load.sliding_distance(),
+            Self::Pressing(_) | Self::History(_) => None,
         }
     }
 }

@@ -52,7 +52,9 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
         (Body::HeightMap(map), BemSteady | BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
         }
-        (Body::Periodic(surface), BemSteady | BemTransient) => periodic(problem, surface, method),
+        (Body::Periodic(surface), BemSteady | BemTransient) => {
+            periodic(problem, surface, method, accuracy)
+        }
         (Body::Periodic(_), _) => Err("it has no periodic surfaces; boundary elements slide them"),
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
@@ -69,7 +71,7 @@ fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
     if holds { Ok(()) } else { Err(refusal) }
 }
 
-/// Whether a single body sinks for ever, as it does not on a layer.
+/// Whether a single body sinks without limit, as it does not on a layer.
 fn sinks(problem: &Problem) -> bool {
     problem.material().creep().fluidity() > 0.0 && !problem.thickness().is_finite()
 }
@@ -154,35 +156,46 @@ pub(super) fn rough<'a>(
     };
     require(
         velocity == 0.0 || problem.material().creep().fluidity() <= 0.0,
-        "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
+        "under waves with crests along the motion a half space that flows creeps without limit, and never comes to rest",
     )?;
-    let Accuracy::RelativeError(relative_error) = problem.of_the_method() else {
-        return Err("it refines the period itself; give relative_error instead of elements");
-    };
     let area: f64 = surface.period().iter().product();
+    let mean_pressure = force / area;
+    let load = PeriodicLoad::new(mean_pressure, velocity);
+    let wrong = |_| "the mean pressure is no number above 0";
+    let mut load = load.map_err(wrong)?;
+    if let Some(distance) = problem.motion().sliding_distance() {
+        load = load.after(distance).map_err(wrong)?;
+    }
     Ok(Rough {
         surface,
-        load: PeriodicLoad::new(force / area, velocity)
-            .map_err(|_| "the mean pressure is no number above 0")?,
-        relative_error,
+        load,
+        mean_pressure,
     })
 }
 
-fn periodic<'a>(problem: &'a Problem, surface: &'a PeriodicSurface, method: Method) -> Offer<'a> {
+fn periodic<'a>(
+    problem: &'a Problem,
+    surface: &'a PeriodicSurface,
+    method: Method,
+    accuracy: Accuracy,
+) -> Offer<'a> {
     let rough = rough(problem, surface)?;
-    let load = match problem.motion() {
-        Sliding(load) => load,
-        Pressing(load) if method == BemTransient => {
-            return ready(move |_| elements::periodic_pressed(problem, rough, load.duration()));
+    match (method, problem.motion()) {
+        (BemTransient, Pressing(load)) => ready(move |watch| {
+            let request = Request { accuracy, watch };
+            elements::periodic_pressed(problem, rough, load.duration(), request)
+        }),
+        (_, Pressing(_) | History(_)) => Err(NOTHING_SLIDES),
+        (BemSteady, Sliding(load)) => {
+            require(load.sliding_distance().is_none(), STATIONARY)?;
+            ready(move |watch| elements::periodic(problem, rough, Request { accuracy, watch }))
         }
-        Pressing(_) | History(_) => return Err(NOTHING_SLIDES),
-    };
-    match (method, load.sliding_distance()) {
-        (BemSteady, None) => ready(move |_| elements::periodic(problem, rough)),
-        (BemSteady, Some(_)) => Err(STATIONARY),
-        (_, None) => Err("from rest it slides over a distance; give solve.sliding_distance"),
-        (_, Some(distance)) => {
-            ready(move |_| elements::periodic_transient(problem, rough, distance))
+        (_, Sliding(load)) => {
+            let from_rest = "from rest it slides over a distance; give solve.sliding_distance";
+            require(load.sliding_distance().is_some(), from_rest)?;
+            ready(move |watch| {
+                elements::periodic_transient(problem, rough, Request { accuracy, watch })
+            })
         }
     }
 }
@@ -212,7 +225,7 @@ fn boundary_elements<'a>(
         )?;
         require(
             !sinks(problem),
-            "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance, over which bem-transient marches",
+            "a half space that flows sinks without limit, so that a depth belongs to a distance; give solve.sliding_distance, over which bem-transient marches",
         )?;
     }
     let slid = if is_stationary {

@@ -4,6 +4,6 @@ mod plan;
 mod vary;
 mod warnings;
 
-pub use plan::{Plan, Row, header, identity};
+pub use plan::{Plan, SweepRow, header, identity};
 pub use vary::{Shard, Varied, Vary};
 pub use warnings::{SharedWarning, each_once};

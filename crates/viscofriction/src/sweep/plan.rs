@@ -103,11 +103,11 @@ impl Plan {
     ///
     /// # Errors
     /// [`WrongInput`] as of [`Self::validate`].
-    pub fn solve(&self, point: usize) -> Result<Row, WrongInput> {
+    pub fn solve(&self, point: usize) -> Result<SweepRow, WrongInput> {
         let answer = solve(&self.problem(point)?);
         let mut fields = identity(self, point);
         fields.extend(results(&answer));
-        Ok(Row { point, fields })
+        Ok(SweepRow { point, fields })
     }
 
     /// The problem of a point.
@@ -170,14 +170,14 @@ pub fn header(plan: &Plan) -> Vec<String> {
 /// One row of a sweep: which point it is, and what came out; times are not among the fields, because they differ from run to
 /// run.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Row {
+pub struct SweepRow {
     /// Counted from 0.
     pub point: usize,
     /// Texts in the order of the [`header`].
     pub fields: Vec<String>,
 }
 
-impl Row {
+impl SweepRow {
     /// Whether it says the point and the values that it was computed for, by the names of the columns.
     pub fn is_unchanged(&self, header: &[String]) -> bool {
         let end = header.iter().position(|name| name == CHECK);

@@ -74,7 +74,7 @@ pub(super) fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Verdict>>
             // A model may also find that it cannot take what is given.
             if request.is_offered(&scene.file).unwrap_or(false) {
                 let answer = request.solve(&scene.file);
-                solved.push((request, answer.map(|answer| answer.asked())));
+                solved.push((request, answer.map(|answer| answer.requested_quantity())));
             }
         }
         let known = solved

@@ -8,8 +8,9 @@
 //! solver for periodic surfaces answers, bars included.
 
 use anyhow::{Context, Result};
-use bem_halfspace::{BemError, Layer, PeriodicLoad, steady_periodic};
+use bem_halfspace::{BemError, Layer, PeriodicLoad, periodic};
 use indenters::rough::{PeriodicSurface, Wave};
+use numerics::{AtMost, Request};
 use rheology::Compressible;
 use viscofriction::solve::{Body, Motion, Problem};
 
@@ -19,7 +20,8 @@ const PERIODS: f64 = 16.0;
 const THIN: f64 = 1e-5;
 /// Of the friction.
 const RELATIVE_ERROR: f64 = 0.05;
-const MOST_ELEMENTS: usize = 1 << 18;
+/// Along the line.
+const MOST_ELEMENTS: AtMost = AtMost(1 << 17);
 
 /// The friction coefficient, to 5 %; none where it is not known as well.
 pub(super) fn friction(problem: &Problem) -> Result<Option<f64>> {
@@ -50,7 +52,11 @@ pub(super) fn friction(problem: &Problem) -> Result<Option<f64>> {
     // The layer has the stiffness 2 G/t.
     let pressure = force / (period[0] * period[1]) * longest / (2.0 * thickness);
     let load = PeriodicLoad::new(pressure, load.velocity())?;
-    match steady_periodic(&line, &layer, &load, RELATIVE_ERROR, MOST_ELEMENTS) {
+    let request = Request {
+        accuracy: RELATIVE_ERROR.into(),
+        watch: &MOST_ELEMENTS,
+    };
+    match periodic::steady(&line, &layer, &load, request) {
         Ok(estimate) => Ok(Some(estimate.friction_coefficient.value)),
         Err(BemError::NotReached { .. } | BemError::ContactNotConverged { .. }) => Ok(None),
         Err(error) => Err(error.into()),

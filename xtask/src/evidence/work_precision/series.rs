@@ -196,7 +196,7 @@ fn row(request: &Request, scene: &scene::Scene, reference: &Reference) -> Row {
 
 fn found(request: &Request, scene: &scene::Scene, reference: &Reference) -> Result<Found> {
     let answer = request.solve(scene)?;
-    let known = answer.asked();
+    let known = answer.requested_quantity();
     Ok(Found {
         error: deviation(&[known.value], &[reference.known.value]),
         error_bar: Some(known.error / known.value.abs()),

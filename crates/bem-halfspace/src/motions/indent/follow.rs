@@ -9,7 +9,8 @@ use super::history::refined;
 use super::press::{BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
-use crate::estimate::bars::{DEPTH, FORCE, reacts_at_once, refused};
+use crate::estimate::bars::{reacts_at_once, refused};
+use crate::estimate::quantities::{Name, Quantities};
 use crate::{BemError, Elastomer, GridOptions};
 
 /// Elements along the largest contact after which the error asked for is given up.
@@ -59,11 +60,30 @@ pub struct IndentCurve {
 /// The half space is undeformed before the first point. Two points of the same time are a jump, and so is a first one at
 /// which the body is pressed already; a jump takes one part in 10⁹ of the history.
 ///
+/// ```
+/// use bem_halfspace::indenters::PowerProfile;
+/// use bem_halfspace::rheology::{StandardSolid, StandardSolidParameters};
+/// use bem_halfspace::{Control, HistoryPoint, indent_along};
+///
+/// let ball = PowerProfile::paraboloid(50.0)?;
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 1e6,
+///     viscosity: 1e6,
+/// })?;
+/// let depth = |time, depth| HistoryPoint { time, control: Control::IndentationDepth(depth) };
+/// let history = [depth(0.0, 0.0), depth(1.0, 1e-4), depth(5.0, 1e-4)];
+/// let curve = indent_along(&ball, &rubber, &history, 0.1)?;
+/// // The force relaxes while the depth is held.
+/// assert!(curve.points[2].normal_force.value < curve.points[1].normal_force.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`BemError::InvalidParameter`] for fewer than two points, times that decrease, force and depth in one history, a history
 /// that never presses, and a jump of the depth on a material that does not react at once; [`BemError::NotReached`] with what
 /// was reached on the finest grid allowed; otherwise like [`indent_history`].
-pub fn follow<'w>(
+pub fn indent_along<'w>(
     surface: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
     history: &[HistoryPoint],
@@ -101,16 +121,16 @@ pub fn follow<'w>(
         |(found, _)| path.quantities(found),
         others,
     )?;
-    let worst = |place: usize| {
-        let rows = fine.parts.iter().skip(place).step_by(PLACES.len());
+    let worst = |name: Name| {
+        let rows = fine.parts.iter().skip(name.place());
+        let rows = rows.step_by(Name::ALL.len());
         let worst = rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
         worst.copied().unwrap_or(ErrorParts::NONE)
     };
     let (found, options) = fine.value;
-    let errors = PLACES.map(|place| worst(place).sum());
     let found = IndentCurve {
-        points: path.with_errors(history, &found.rows, errors),
-        error_parts: worst(path.sought()),
+        points: path.with_errors(history, &found.rows, |name| worst(name).sum()),
+        error_parts: worst(path.sought_and_given()[0]),
         n_contact: found.rows.last().map_or(0, |row| row.n_contact),
         n_steps: found.rows.len() * found.steps_per_row,
         options,
@@ -118,11 +138,11 @@ pub fn follow<'w>(
     refused(fine.missed, found)
 }
 
-/// Memory that [`follow`] takes at most for a number of elements along the largest contact, \[bytes].
+/// Memory that [`indent_along`] takes at most for a number of elements along the largest contact, \[bytes].
 ///
 /// # Errors
-/// As for [`follow`], before anything is solved.
-pub fn follow_memory(
+/// As for [`indent_along`], before anything is solved.
+pub fn indent_along_memory(
     surface: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
     history: &[HistoryPoint],
@@ -136,11 +156,15 @@ pub fn follow_memory(
     Ok(per_element * n_followed(&surface, &grid(&plan, elements)))
 }
 
-/// Places of area, force and depth among the quantities of a row, so that the last two are where errors have their names.
-const PLACES: [usize; 3] = [0, FORCE, DEPTH];
-
-fn of_row(row: &MotionRow) -> [f64; 3] {
-    [row.contact_area, row.normal_force, row.indentation_depth]
+/// Nothing slides, and the pressure has no limit that is known.
+const fn of_row(row: &MotionRow) -> Quantities<f64> {
+    Quantities {
+        friction_coefficient: 0.0,
+        normal_force: row.normal_force,
+        indentation_depth: row.indentation_depth,
+        contact_area: row.contact_area,
+        peak_pressure: 0.0,
+    }
 }
 
 /// A history of which every point is later than the one before.
@@ -219,27 +243,31 @@ impl Path {
         self.control(from + part * (to - from))
     }
 
-    /// Place of force or depth, whichever is not given.
-    const fn sought(&self) -> usize {
-        if self.is_force { DEPTH } else { FORCE }
+    /// Force or depth, whichever is not given, and the other.
+    const fn sought_and_given(&self) -> [Name; 2] {
+        if self.is_force {
+            [Name::Depth, Name::Force]
+        } else {
+            [Name::Force, Name::Depth]
+        }
     }
 
-    /// Those of all rows, of which the one that is sought must have the error asked for, relative to its largest value.
+    /// Those of all rows, one row after the other; what is sought must have the error asked for, relative to its largest value.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
-        let largest = |place: usize| {
-            let values = found.rows.iter().map(|row| of_row(row)[place].abs());
+        let rows: Vec<_> = found.rows.iter().map(of_row).collect();
+        let largest = |name| {
+            let values = rows.iter().map(|row| row.of(name).abs());
             values.fold(0.0, f64::max)
         };
-        let sizes = PLACES.map(largest);
-        let of_row = |row: &MotionRow| {
-            let values = of_row(row);
-            PLACES.map(|place| Quantity {
-                size: sizes[place],
-                drives: place == self.sought(),
-                ..Quantity::from(values[place])
-            })
+        let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
+        let quantity = |(name, value): (Name, f64)| Quantity {
+            size: sizes[name.place()],
+            drives: name == sought,
+            ..Quantity::from(value)
         };
-        found.rows.iter().flat_map(of_row).collect()
+        rows.iter()
+            .flat_map(|row| row.list().map(quantity))
+            .collect()
     }
 
     /// The points of a history with the errors of area, force and depth.
@@ -247,21 +275,28 @@ impl Path {
         &self,
         history: &[HistoryPoint],
         rows: &[MotionRow],
-        mut errors: [f64; 3],
+        error: impl Fn(Name) -> f64,
     ) -> Vec<IndentPoint> {
-        errors[FORCE + DEPTH - self.sought()] = 0.0;
-        let point = |(step, values): (&HistoryPoint, [f64; 3])| {
-            let known = |place: usize| Estimate::new(values[place], errors[place]);
-            let [contact_area, normal_force, indentation_depth] = PLACES.map(known);
+        let [_, given] = self.sought_and_given();
+        let error = |name: Name| if name == given { 0.0 } else { error(name) };
+        let errors = Name::ALL.map(error);
+        let point = |(step, values): (&HistoryPoint, Quantities<f64>)| {
+            let known = values.map(|name, value| Estimate::new(value, errors[name.place()]));
             IndentPoint {
                 time: step.time,
-                normal_force,
-                indentation_depth,
-                contact_area,
+                normal_force: known.normal_force,
+                indentation_depth: known.indentation_depth,
+                contact_area: known.contact_area,
             }
         };
         // Nothing is pressed at a first point that has no row.
-        let free = (rows.len() < history.len()).then_some([0.0, 0.0, self.points[0][1]]);
+        let free = (rows.len() < history.len()).then_some(Quantities {
+            friction_coefficient: 0.0,
+            normal_force: 0.0,
+            indentation_depth: self.points[0][1],
+            contact_area: 0.0,
+            peak_pressure: 0.0,
+        });
         let contacts = free.into_iter().chain(rows.iter().map(of_row));
         history.iter().zip(contacts).map(point).collect()
     }

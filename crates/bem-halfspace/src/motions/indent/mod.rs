@@ -15,7 +15,7 @@ use crate::error::check_contact_elements;
 pub use crate::stepping::MotionRow;
 use crate::stepping::{March, Motion};
 use crate::{BemError, Elastomer, GridOptions};
-pub use follow::{IndentCurve, IndentPoint, follow, follow_memory};
+pub use follow::{IndentCurve, IndentPoint, indent_along, indent_along_memory};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
 pub use press::{
     PressEstimate, PressSolution, indent, indent_memory, indent_on_grid, press, press_on_grid,

@@ -14,6 +14,7 @@ use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::estimate::plan::GridPlan;
+use crate::estimate::quantities::Quantities;
 use crate::stepping::{March, Motion};
 use crate::{BemError, Elastomer, GridOptions, Layer};
 
@@ -66,6 +67,19 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 /// Presses `surface` into a half space and waits until the material has come to rest, to a relative error of depth or
 /// force, whichever is not given; or with a number of elements along the contact, about, and whatever error that has.
 ///
+/// ```
+/// use bem_halfspace::indenters::PowerProfile;
+/// use bem_halfspace::{Control, press, rheology::Elastic};
+///
+/// // Hertz (1882), with the modulus 2 G/(1 − ν) = 4 G of an incompressible half space.
+/// let (ball, rubber) = (PowerProfile::paraboloid(50.0)?, Elastic::new(1e6)?);
+/// let pressed = press(&ball, &rubber, Control::IndentationDepth(1e-4), 1e-2)?;
+/// let hertz = 4.0 / 3.0 * 4e6 * 0.01_f64.sqrt() * 1e-4_f64.powf(1.5);
+/// let force = pressed.normal_force;
+/// assert!((force.value - hertz).abs() <= force.error && force.error <= 1e-2 * force.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`]
 /// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
@@ -81,6 +95,19 @@ pub fn press<'w>(
 
 /// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
 /// of depth or force, whichever is not given; or with a number of elements along the contact, about.
+///
+/// ```
+/// use bem_halfspace::indenters::PowerProfile;
+/// use bem_halfspace::{Control, PressingLoad, indent, rheology::Viscous};
+///
+/// // A cone sinks into a dashpot as into a spring of the modulus η/t (Sneddon 1965): d² = (π/8) slope F t/η.
+/// let (cone, fluid) = (PowerProfile::cone(0.5)?, Viscous::new(1e4)?);
+/// let load = PressingLoad::new(Control::NormalForce(2.0), 10.0)?;
+/// let depth = indent(&cone, &fluid, &load, 1e-2)?.indentation_depth.ok_or("a depth")?;
+/// let sneddon = (std::f64::consts::PI / 8.0 * 0.5 * 2.0 * 10.0 / 1e4).sqrt();
+/// assert!((depth.value - sneddon).abs() <= depth.error);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] where a depth was held for so long that no force is left; otherwise like [`press`].
@@ -300,7 +327,7 @@ fn estimate(
                 let needed = FEWEST_OF_DISC;
                 return Err(BemError::GridTooCoarse { elements, needed });
             }
-            // Refuses more than any grid has, which would take for ever to count.
+            // Refuses more than any grid has, which would take too long to count.
             options.footprint.elements(options.spacing)?;
             let [spacing, wider] = disc_of_elements(radius, elements);
             options.spacing = [spacing; 2];
@@ -361,13 +388,13 @@ impl PressSolution {
             Control::IndentationDepth(_) => elements as f64 * self.normal_force,
         };
         OnGrid {
-            quantities: [
-                0.0,
-                self.normal_force,
-                self.indentation_depth,
-                self.contact_area,
-                self.pressure.as_ref().map_or(0.0, PressureField::largest),
-            ],
+            quantities: Quantities {
+                friction_coefficient: 0.0,
+                normal_force: self.normal_force,
+                indentation_depth: self.indentation_depth,
+                contact_area: self.contact_area,
+                peak_pressure: self.pressure.as_ref().map_or(0.0, PressureField::largest),
+            },
             dissipated: None,
             other_error: ErrorParts {
                 iteration: Some(options.contact.tolerance * error),

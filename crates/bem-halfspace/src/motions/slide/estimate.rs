@@ -6,6 +6,7 @@ use rheology::{CreepSpectrum, Material as _};
 
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::GridPlan;
+use crate::estimate::quantities::Quantities;
 use crate::motions::slide::stationary::settle;
 use crate::motions::slide::{
     March, PressureField, SlideRow, StationaryOptions, Transient, slide_over,
@@ -40,6 +41,19 @@ pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 /// Slides `surface` over a linear viscoelastic half space from first touch on, in time, under a force or at a depth: over
 /// the sliding distance of the load, or without one until the state is stationary.
 ///
+/// ```
+/// use bem_halfspace::indenters::PowerProfile;
+/// use bem_halfspace::{SlidingLoad, rheology::Viscous, slide};
+///
+/// let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1e4)?);
+/// let load = SlidingLoad::new(1.0, 0.01)?.after(5e-3)?;
+/// let slid = slide(&cone, &fluid, &load, 0.2)?;
+/// // From no friction at first touch.
+/// let rows = &slid.finest.rows;
+/// assert!(rows[0].friction_coefficient < slid.friction_coefficient.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
 /// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
@@ -50,7 +64,7 @@ pub fn slide<'w>(
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SlideEstimate, BemError> {
-    Problem::new(&surface, elastomer, load, request.into())?.solve()
+    PlannedSlide::new(&surface, elastomer, load, request.into())?.solve()
 }
 
 /// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
@@ -64,7 +78,7 @@ pub fn slide_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let surface: &dyn Surface = &surface;
-    let problem = Problem::new(
+    let problem = PlannedSlide::new(
         surface,
         elastomer,
         load,
@@ -91,7 +105,7 @@ pub fn slide_memory(
 /// One march, the friction at its end, and the error of its extrapolation to the stationary state, where that is asked for.
 type End = (Transient, f64, Option<f64>);
 
-struct Problem<'a, M: ?Sized> {
+struct PlannedSlide<'a, M: ?Sized> {
     surface: &'a dyn Surface,
     elastomer: &'a M,
     load: &'a SlidingLoad,
@@ -133,7 +147,7 @@ impl Path {
     }
 }
 
-impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
+impl<'a, M: Elastomer + ?Sized> PlannedSlide<'a, M> {
     fn new(
         surface: &'a dyn Surface,
         elastomer: &'a M,
@@ -221,13 +235,13 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             _ => over_distance(march(self.load)?, self.load, tell)?,
         };
         let last = transient.last();
-        let quantities = [
-            friction,
-            last.normal_force,
-            last.indentation_depth,
-            last.contact_area,
-            transient.pressure.largest(),
-        ];
+        let quantities = Quantities {
+            friction_coefficient: friction,
+            normal_force: last.normal_force,
+            indentation_depth: last.indentation_depth,
+            contact_area: last.contact_area,
+            peak_pressure: transient.pressure.largest(),
+        };
         let iteration = || iteration_error(self.surface, &transient.pressure);
         Ok(OnGrid {
             quantities,

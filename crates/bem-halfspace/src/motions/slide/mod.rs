@@ -7,7 +7,7 @@
 //! ```
 //!
 //! and at the end of the step the contact conditions hold. [`slide_on_grid`] advances the indenter by one element per step, so
-//! that its motion is exact on the grid; [`follow`] moves it by any amount, stops it and takes it back. Both are a
+//! that its motion is exact on the grid; [`slide_along`] moves it by any amount, stops it and takes it back. Both are a
 //! [`March`].
 
 mod estimate;
@@ -70,7 +70,7 @@ fn slide_over(
 ///
 /// # Errors
 /// Like [`March::new`] and [`March::step`].
-pub fn follow(
+pub fn slide_along(
     surface: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
     motions: &[Motion],

@@ -65,13 +65,11 @@ impl Sliding {
         })
     }
 
-    #[cfg(feature = "rough")]
     pub(super) const fn is_on_layer(&self) -> bool {
         self.base.is_layer()
     }
 
     /// Largest pressure of a wave along x of this length that lifts a half space by an amplitude, \[Pa].
-    #[cfg(feature = "rough")]
     pub(super) fn pressure_of(&self, length: f64, amplitude: f64) -> Result<f64, BemError> {
         let wave_number = 2.0 * PI / length;
         Ok(amplitude * wave_number / self.compliances(&[wave_number])?[0].norm())

@@ -14,7 +14,6 @@
 
 use std::f64::consts::PI;
 
-use numerics::positive;
 use rheology::{ExponentialStep, Material as _};
 use rustfft::num_complex::Complex;
 
@@ -57,50 +56,53 @@ pub struct PeriodicTransient {
     pub pressure: PressureField,
 }
 
-/// Presses a periodic surface into a material at rest and slides it from there over a distance \[m], in steps of one element, of
-/// which the first is shorter where the distance has no whole number of them.
+/// Presses a periodic surface into a material at rest and slides it from there over the sliding distance of the load, in steps of
+/// one element, of which the first is shorter where the distance has no whole number of them.
 ///
-/// `heights` as in [`steady_periodic_on_grid`](crate::steady_periodic_on_grid), whose state it comes to after some contact
+/// `heights` as in [`steady_on_grid`](super::steady_on_grid), whose state it comes to after some contact
 /// lengths, once the slowest relaxation that matters is over.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] for a velocity of 0, and a distance that is not positive; [`BemError::GridTooLarge`] for one
-/// of too many elements; otherwise those of [`steady_periodic_on_grid`](crate::steady_periodic_on_grid).
-pub fn slide_periodic_on_grid(
+/// [`BemError::InvalidParameter`] for a velocity of 0; [`BemError::SlidingDistanceMissing`]; [`BemError::DepthFromRest`];
+/// [`BemError::GridTooLarge`] for a distance
+/// of too many elements; otherwise those of [`steady_on_grid`](super::steady_on_grid).
+pub fn slide_on_grid(
     grid: &Grid,
     heights: &[f64],
     elastomer: &(impl Elastomer + ?Sized),
-    (load, sliding_distance): (&PeriodicLoad, f64),
+    load: &PeriodicLoad,
     options: &ContactOptions,
 ) -> Result<PeriodicTransient, BemError> {
-    let way = Way {
-        distance: sliding_distance,
-        steps_per_element: 1.0,
+    let steps = Steps {
+        per_element: 1.0,
+        options: *options,
+        tell: &|_| (),
     };
-    slide_along(grid, heights, elastomer, (load, way), options)
+    slide_along(grid, heights, elastomer, load, &steps)
 }
 
-/// A sliding distance \[m], and how many steps are taken for each element of it, a whole number.
-#[derive(Clone, Copy)]
-pub(super) struct Way {
-    pub(super) distance: f64,
-    pub(super) steps_per_element: f64,
+/// How a march is made.
+pub(super) struct Steps<'a> {
+    /// How many are taken for each element of the distance, a whole number.
+    pub(super) per_element: f64,
+    pub(super) options: ContactOptions,
+    /// Is told of the progress.
+    pub(super) tell: &'a dyn Fn(f64),
 }
 
 pub(super) fn slide_along(
     grid: &Grid,
     heights: &[f64],
     elastomer: &(impl Elastomer + ?Sized),
-    (load, way): (&PeriodicLoad, Way),
-    options: &ContactOptions,
+    load: &PeriodicLoad,
+    steps: &Steps,
 ) -> Result<PeriodicTransient, BemError> {
     check_surface(grid, heights)?;
-    let velocity = positive("velocity", load.velocity())?;
-    let distance = positive("sliding distance", way.distance)?;
-    let (in_element, edge) = (way.steps_per_element, grid.spacing()[0]);
+    let ((mean_pressure, distance), velocity) = (load.require_march()?, load.velocity());
+    let (in_element, edge) = (steps.per_element, grid.spacing()[0]);
     let whole_step = edge / in_element;
     let n_steps = elements_along(distance, whole_step)?;
-    let mut march = March::new(grid, heights, elastomer, velocity)?;
+    let mut march = PeriodicMarch::new(grid, heights, elastomer, velocity)?;
     let rows = (0..n_steps).rev().map(|left| {
         let (to_go, is_first) = (left as f64, left + 1 == n_steps);
         let slid = distance - to_go * whole_step;
@@ -113,7 +115,8 @@ pub(super) fn slide_along(
         if behind + 1.0 >= in_element {
             march.pass_element();
         }
-        let state = march.step(load.mean_pressure(), options)?;
+        let state = march.step(mean_pressure, &steps.options)?;
+        (steps.tell)(slid / distance);
         Ok(PeriodicRow {
             sliding_distance: slid,
             time: slid / velocity,
@@ -130,7 +133,7 @@ pub(super) fn slide_along(
     })
 }
 
-struct March<'a> {
+struct PeriodicMarch<'a> {
     given: &'a [f64],
     sliding: Sliding,
     velocity: f64,
@@ -154,7 +157,7 @@ struct March<'a> {
     input: Vec<f64>,
 }
 
-impl<'a> March<'a> {
+impl<'a> PeriodicMarch<'a> {
     fn new(
         grid: &Grid,
         heights: &'a [f64],

@@ -17,63 +17,37 @@
 //! The search of the active set is in `search.rs`, the
 //! equations of a given contact in `equations.rs`.
 
-#[cfg(feature = "rough")]
 mod depth;
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
 mod far_loads;
 mod kernel;
+mod load;
 mod march;
 mod nested;
+#[cfg(feature = "rough")]
+mod refinement;
 mod search;
 mod waves;
 
-use numerics::{InvalidParameter, in_range, not_negative, positive};
+use std::cell::RefCell;
+
+use numerics::{InvalidParameter, in_range, positive};
 
 use crate::contact::check_length;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
+use depth::{Surface, hold};
 use equations::Equations;
 #[cfg(feature = "rough")]
-pub use estimate::{
-    PeriodicEstimate, elements_for_bars, press_periodic, slide_periodic, steady_periodic,
-    steady_periodic_at_depth,
-};
+pub use estimate::{PeriodicEstimate, indent, slide, steady};
 use kernel::Sliding;
-pub use march::{PeriodicRow, PeriodicTransient, slide_periodic_on_grid};
-
-/// How a periodic surface is pressed and moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct PeriodicLoad {
-    mean_pressure: f64,
-    velocity: f64,
-}
-
-impl PeriodicLoad {
-    /// A mean pressure > 0 \[Pa] over the whole period, and a velocity ≥ 0 \[m/s] towards positive x.
-    ///
-    /// # Errors
-    /// [`InvalidParameter`] for other numbers.
-    pub fn new(mean_pressure: f64, velocity: f64) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            mean_pressure: positive("mean_pressure", mean_pressure)?,
-            velocity: not_negative("velocity", velocity)?,
-        })
-    }
-
-    /// Mean pressure over the period, \[Pa].
-    pub const fn mean_pressure(&self) -> f64 {
-        self.mean_pressure
-    }
-
-    /// Sliding speed v, \[m/s].
-    pub const fn velocity(&self) -> f64 {
-        self.velocity
-    }
-}
+pub use load::{PeriodicControl, PeriodicLoad};
+pub use march::{PeriodicRow, PeriodicTransient, slide_on_grid};
+#[cfg(feature = "rough")]
+pub use refinement::{elements_along, elements_for_bars, largest_grid, memory};
 
 /// When the solver stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,7 +104,7 @@ pub struct PeriodicSliding {
 /// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for options out of range, one
 /// row or column only, and heights that are all the same; [`BemError::FlowsUnderWaves`]; [`BemError::Material`];
 /// [`BemError::ContactNotConverged`].
-pub fn steady_periodic_on_grid(
+pub fn steady_on_grid(
     grid: &Grid,
     heights: &[f64],
     elastomer: &(impl Elastomer + ?Sized),
@@ -139,23 +113,29 @@ pub fn steady_periodic_on_grid(
 ) -> Result<PeriodicSliding, BemError> {
     options.validate()?;
     check_surface(grid, heights)?;
-    let problem = search::Problem {
-        sliding: &Sliding::new(elastomer, load.velocity)?,
+    let surface = Surface {
+        sliding: &Sliding::new(elastomer, load.velocity())?,
         grid,
         heights,
-        mean_pressure: load.mean_pressure,
-        tolerance: options.tolerance,
-        max_products: options.max_products,
+        options: *options,
     };
-    solve_from(&mut Vec::new(), problem)
+    let guess = RefCell::new(Vec::new());
+    let solve = |problem: search::PeriodicContact| solve_from(&mut guess.borrow_mut(), problem);
+    Ok(hold(load.require_stationary()?, &surface, None, solve)?.state)
 }
 
 /// From a guess of the pressure on this grid or on elements of twice the edges, or from none; it becomes the pressure of this grid.
-fn solve_from(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
+fn solve_from(
+    guess: &mut Vec<f64>,
+    problem: search::PeriodicContact,
+) -> Result<PeriodicSliding, BemError> {
     in_pool(problem.grid.n_elements(), || solve_here(guess, problem))
 }
 
-fn solve_here(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
+fn solve_here(
+    guess: &mut Vec<f64>,
+    problem: search::PeriodicContact,
+) -> Result<PeriodicSliding, BemError> {
     let mut equations = Equations::new(problem.sliding, problem.grid)?;
     let solved = nested::solve(problem, &mut equations, guess)?;
     let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();

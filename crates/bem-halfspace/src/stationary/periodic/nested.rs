@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rustfft::num_complex::Complex;
 
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::search::{self, Problem, Solved};
+use crate::stationary::periodic::search::{self, PeriodicContact, Solved};
 use crate::stationary::periodic::waves::Waves;
 use crate::substrate::layer::Base;
 use crate::transform::plane_transform::ZERO;
@@ -20,7 +20,7 @@ const COARSE_PRODUCTS: usize = 300;
 /// Solves the problem with the equations of its grid from a guess on them, or on elements of twice the edges, or from none. The guess
 /// becomes the pressure, and outside the contact the gap, as a negative pressure.
 pub(super) fn solve(
-    problem: Problem,
+    problem: PeriodicContact,
     equations: &mut Equations,
     guess: &mut Vec<f64>,
 ) -> Result<Solved, BemError> {
@@ -37,14 +37,14 @@ pub(super) fn solve(
 }
 
 /// Starts from the solution on elements of twice the edges, if they can be so long.
-fn start(problem: &Problem, pressure: &mut Vec<f64>) -> Result<(), BemError> {
+fn start(problem: &PeriodicContact, pressure: &mut Vec<f64>) -> Result<(), BemError> {
     let can_be_halved = |n: &usize| n.is_multiple_of(2) && *n >= 2 * SMALLEST_EDGE;
     if !problem.grid.shape().iter().all(can_be_halved) {
         return Ok(());
     }
     let grid = problem.grid.blocks();
     let heights = halved(problem.grid, problem.heights);
-    let coarse = Problem {
+    let coarse = PeriodicContact {
         grid: &grid,
         heights: &heights,
         tolerance: problem.tolerance.max(COARSE_TOLERANCE),
@@ -108,7 +108,7 @@ fn doubled(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
 
 /// The pressure that makes the half space follow the surface everywhere, where it is nowhere a tension.
 fn full_contact(
-    problem: &Problem,
+    problem: &PeriodicContact,
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Option<Solved> {

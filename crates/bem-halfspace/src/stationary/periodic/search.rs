@@ -13,7 +13,7 @@ use crate::stationary::periodic::kernel::Sliding;
 use crate::{BemError, Grid};
 
 /// Part of the residual to which the equations are solved; with 0.1 there are up to a quarter more products in light contact.
-const PART: f64 = 0.2;
+const PART_OF_RESIDUAL: f64 = 0.2;
 /// Root mean square of the residual, as a part of that of the heights, and by which factor it is less after a contact in
 /// vain. Without it the contact of a solid whose moduli differ by 1000 takes up to twice as many products on 1024² elements.
 const ROUGH: f64 = 0.01;
@@ -23,9 +23,9 @@ const FINEST: i32 = 4;
 /// are as many products.
 const NOISE: f64 = 3.0;
 /// Likewise far from it, as a part of the largest residual.
-const HIDDEN: f64 = 0.3;
+const HIDING_RESIDUAL: f64 = 0.3;
 /// Part of the pressure up to which tension is small. With 1e-2 thousands of elements came in far away that had to leave
-/// again, and now and then for ever.
+/// again, and now and then without end.
 const SMALL_TENSION: f64 = 1e-3;
 /// Contacts without fewer violations up to which all violating elements change sides, and then the larger ones.
 const ALL: i32 = 10;
@@ -33,11 +33,11 @@ const LARGER: i32 = 30;
 /// Part of the largest violation from which others count as large.
 const LARGE: f64 = 0.3;
 /// Part of the tolerance to which the equations are solved.
-const LAST: f64 = 0.5;
+const PART_OF_TOLERANCE: f64 = 0.5;
 
 /// A contact problem on one grid.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Problem<'a> {
+pub(super) struct PeriodicContact<'a> {
     pub(super) sliding: &'a Sliding,
     pub(super) grid: &'a Grid,
     /// At the centres of the elements, \[m].
@@ -60,7 +60,7 @@ pub(super) struct Solved {
 
 /// The fields of a search.
 struct Search<'a> {
-    problem: Problem<'a>,
+    problem: PeriodicContact<'a>,
     equations: &'a mut Equations,
     /// Where the gaps are evaluated, \[m].
     heights: Vec<f64>,
@@ -83,7 +83,7 @@ type Least = Option<f64>;
 /// gap, as a negative multiple of the displacement of an element under its own pressure. Without a positive pressure half
 /// of the elements are taken for the contact.
 pub(super) fn solve(
-    problem: Problem,
+    problem: PeriodicContact,
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Result<Solved, BemError> {
@@ -102,7 +102,11 @@ pub(super) fn solve(
 }
 
 impl<'a> Search<'a> {
-    fn new(problem: Problem<'a>, equations: &'a mut Equations, mut pressure: Vec<f64>) -> Self {
+    fn new(
+        problem: PeriodicContact<'a>,
+        equations: &'a mut Equations,
+        mut pressure: Vec<f64>,
+    ) -> Self {
         let n = problem.grid.n_elements();
         let mut heights = vec![0.0; n];
         equations.kernel.shifted(problem.heights, &mut heights);
@@ -140,9 +144,9 @@ impl<'a> Search<'a> {
                 _ => None,
             };
             // What cycles with rough solutions may end with better ones.
-            let part = least.map_or(0.0, |_| PART);
+            let part = least.map_or(0.0, |_| PART_OF_RESIDUAL);
             let rough = ROUGH * FINER.powi(vain.min(FINEST)) * self.roughness;
-            let largest = LAST * tolerance * self.scale;
+            let largest = PART_OF_TOLERANCE * tolerance * self.scale;
             let noise = self.equations.iterate(part, rough, largest);
             let (violations, is_solved) = self.change(noise, least);
             if is_solved {
@@ -176,7 +180,7 @@ impl<'a> Search<'a> {
         let is_slight = tension <= tolerance * self.total();
         // Without much tension the gaps far away are hardly changed by what is taken from it.
         let is_small = tension <= SMALL_TENSION * self.total();
-        let hidden = if is_small { HIDDEN } else { 1.0 };
+        let hidden = if is_small { HIDING_RESIDUAL } else { 1.0 };
         let mut changed = if least.is_some() {
             let allowed = (NOISE * noise).max(tolerance * self.scale);
             self.exchange(allowed, least, Some(true))

@@ -1,4 +1,4 @@
-//! How deep a body lies that slides for ever.
+//! How deep a body lies that slides without end.
 
 use crate::BemError;
 use crate::stationary::steady::loading::sunken;

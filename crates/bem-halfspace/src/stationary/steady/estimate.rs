@@ -7,7 +7,7 @@ use rheology::Material as _;
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::{GridPlan, SHARP};
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::refinement::{Problem, refine};
+use crate::stationary::steady::refinement::{SteadyProblem, refine};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::solution::SteadyEstimate;
 use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
@@ -69,6 +69,23 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// after the distance, up to terms of the order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the
 /// motion from first touch.
 ///
+/// ```
+/// use bem_halfspace::indenters::PowerProfile;
+/// use bem_halfspace::rheology::{StandardSolid, StandardSolidParameters};
+/// use bem_halfspace::{SlidingLoad, steady};
+///
+/// let ball = PowerProfile::paraboloid(50.0)?;
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 9e6,
+///     viscosity: 9e4,
+/// })?;
+/// let state = steady(&ball, &rubber, &SlidingLoad::new(1.0, 0.1)?, 1e-2)?;
+/// let friction = state.friction_coefficient;
+/// assert!(friction.value > 0.0 && friction.error <= 1e-2 * friction.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`BemError::NotReached`] with what was reached on the finest grid allowed;
 /// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
@@ -114,7 +131,7 @@ fn refined(
     watch: &dyn Watch,
 ) -> Result<SteadyEstimate, BemError> {
     let plan = plan(surface, elastomer, load)?;
-    let problem = Problem {
+    let problem = SteadyProblem {
         surface,
         loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
         plan,

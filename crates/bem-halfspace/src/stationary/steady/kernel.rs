@@ -1,4 +1,4 @@
-//! The surface behind and ahead of a load that slides for ever.
+//! The surface behind and ahead of a load that slides without end.
 //!
 //! In the frame of the indenter, ξ = x − v t, the viscous half space under a stationary pressure satisfies
 //! `∂u/∂ξ = −w/(ηv)` with the load potential `w = (1/4π) ∬ P/r dA`. A point load therefore moves the surface by

@@ -18,7 +18,7 @@ use crate::estimate::plan::GridPlan;
 use crate::stationary::steady::contact_scale::scale_of_profile;
 use crate::stationary::steady::estimate::resolution;
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::refinement::{Problem, refine};
+use crate::stationary::steady::refinement::{SteadyProblem, refine};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{
     RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
@@ -89,6 +89,18 @@ const MOST_UNKNOWNS: usize = 2000;
 ///
 /// Of the profile only the heights at y = 0 matter.
 ///
+/// ```
+/// use bem_halfspace::indenters::Cylinder;
+/// use bem_halfspace::{SlidingLoad, rheology::Elastic, steady_line};
+///
+/// // Hertz: the half width is √(4 F' R/(π E*)) with E* = 4 G.
+/// let (roll, rubber) = (Cylinder::new(0.01)?, Elastic::new(1e6)?);
+/// let state = steady_line(&roll, &rubber, &SlidingLoad::new(1e3, 0.1)?, 1e-2)?;
+/// let width = 2.0 * (4.0 * 1e3 * 0.01 / (std::f64::consts::PI * 4e6)).sqrt();
+/// assert!((state.contact_area.value - width).abs() <= state.contact_area.error);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a half space that flows, and
 /// [`BemError::Indenter`] for a depth, which does not exist on a half space in plane strain.
@@ -106,7 +118,7 @@ pub fn steady_line<'w>(
     let footprint = [-REAR * length, front * length];
     let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
-    let problem = Problem {
+    let problem = SteadyProblem {
         surface: &strip,
         loading,
         plan: GridPlan {
@@ -184,7 +196,7 @@ pub fn steady_line_on_grid(
 
 /// On a number of elements along the contact of a cylinder on an elastic half space.
 fn with_elements(
-    problem: &Problem,
+    problem: &SteadyProblem,
     strip: f64,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {

@@ -11,7 +11,7 @@ use crate::stationary::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Elastomer, Footprint};
 
 const SINKS: &str =
-    "on a material that flows the body sinks for ever, so that a depth belongs to a distance";
+    "on a material that flows the body sinks without limit, so that a depth belongs to a distance";
 /// Sliding distance in lengths of the footprint where none is given: on a solid it has no effect.
 const DISTANCE_ON_SOLID: f64 = 100.0;
 

@@ -1,7 +1,7 @@
 //! The neighbourhood of a few violations, solved by itself.
 //!
 //! A tooth of the outline wears off by one element per change of the whole active set, and the end of a column may change
-//! sides for ever. Both concern few elements: the problem is solved for those near the violations, while the other loads
+//! sides without end. Both concern few elements: the problem is solved for those near the violations, while the other loads
 //! and the depth stay.
 
 use nalgebra::DMatrix;

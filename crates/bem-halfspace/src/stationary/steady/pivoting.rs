@@ -23,14 +23,14 @@ const EVERY_OTHER: usize = 200;
 const FIRST_TOLERANCE: f64 = 1e-4;
 const TOLERANCE_RATIO: f64 = 0.1;
 /// Largest residual, as a part of the violation by an element at the front on the wrong side, that does not hide it.
-const HIDDEN: f64 = 1e-2;
+const HIDING_RESIDUAL: f64 = 1e-2;
 /// Part of the tolerance asked for to which the last equations are solved: the largest residual is far above the root
 /// mean square.
-const LAST: f64 = 0.2;
+const PART_OF_TOLERANCE: f64 = 0.2;
 /// Smaller contacts are solved as fast as a neighbourhood.
 const NEIGHBOURHOOD_FROM: usize = 500;
 /// A tolerance that fails this far below the target fails because of rounding.
-const HOPELESS: f64 = 1e-3;
+const ROUNDING_OF_TOLERANCE: f64 = 1e-3;
 /// The largest residual of a contact is that many times its root mean square, at most, as a rule.
 const PEAK: f64 = 10.0;
 
@@ -71,12 +71,12 @@ pub(super) fn solve(
                 return Ok(search.finish(residual, iterations, opening));
             }
             // Only the residual is left to improve; far below the target that is hopeless.
-            if search.tolerance < HOPELESS * target {
+            if search.tolerance < ROUNDING_OF_TOLERANCE * target {
                 break;
             }
             search.tolerance *= TOLERANCE_RATIO.max(0.5 * target / residual);
         } else {
-            search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(LAST * target);
+            search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(PART_OF_TOLERANCE * target);
             let chosen = progress.choose(&state.violations);
             // That too may repeat itself.
             if progress.vain > BLOCKS || !search.solve_neighbourhood(&state) {
@@ -170,7 +170,7 @@ impl<'mesh> Search<'mesh> {
             loads: vec![0.0; mesh.n_elements()],
             depth: 0.0,
             factorised: false,
-            tolerance: first_tolerance(guess.len()).max(LAST * mesh.options.tolerance),
+            tolerance: first_tolerance(guess.len()).max(PART_OF_TOLERANCE * mesh.options.tolerance),
             product: Product::new(plans.kernel(all.shape), &all),
             plans,
             all,
@@ -285,5 +285,5 @@ impl<'mesh> Search<'mesh> {
 /// front.
 fn first_tolerance(n_elements: usize) -> f64 {
     let along = (n_elements as f64).sqrt().max(1.0);
-    FIRST_TOLERANCE.min(HIDDEN * along.powf(-1.5))
+    FIRST_TOLERANCE.min(HIDING_RESIDUAL * along.powf(-1.5))
 }

@@ -14,8 +14,9 @@ use numerics::{ErrorParts, Estimate, Progress, Watch, between_zero_and_one, in_r
 use crate::BemError;
 use crate::Reached;
 use crate::estimate::averages::{Average, Refinement};
-use crate::estimate::bars::{self, DEPTH, FORCE, FRICTION, NAMES};
+use crate::estimate::bars;
 use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
+use crate::estimate::quantities::Name;
 use crate::stationary::steady::extrapolation::{
     HIDDEN_EDGE, OBSERVED, by_observed_order, extrapolate,
 };
@@ -49,7 +50,7 @@ const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
 const ALWAYS_ALLOWED: f64 = 1e5;
 /// Active sets tried on one grid.
 const MAX_ITERATIONS: usize = 100;
-/// At the edge of a contact elements may change sides for ever; then the grid is this much finer, and its own spacing is
+/// At the edge of a contact elements may change sides without end; then the grid is this much finer, and its own spacing is
 /// the one that is reported.
 const FINER: [f64; 2] = [0.99, 0.98];
 /// Residual left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
@@ -86,7 +87,7 @@ impl Default for RefinementOptions {
 }
 
 /// A surface that slides, and the grids for it.
-pub(super) struct Problem<'a> {
+pub(super) struct SteadyProblem<'a> {
     pub(super) surface: &'a dyn Surface,
     pub(super) loading: Loading,
     pub(super) plan: GridPlan,
@@ -98,7 +99,7 @@ pub(super) struct Problem<'a> {
 /// Refines until friction and force have the error asked for; `finish` makes of the estimate what is returned, also where
 /// that error was not reached.
 pub(super) fn refine<E: Into<Reached>>(
-    problem: &Problem,
+    problem: &SteadyProblem,
     options: &RefinementOptions,
     finish: impl FnOnce(SteadyEstimate) -> Result<E, BemError>,
 ) -> Result<E, BemError> {
@@ -119,9 +120,9 @@ pub(super) fn refine<E: Into<Reached>>(
         let rounding = ROUNDING * finest.state.mean_slope;
         // Without friction the contact is known as well as its depth.
         let (name, driving) = match grids.depth(&refinements) {
-            Some(depth) if friction.error <= rounding => (NAMES[DEPTH], depth),
-            None if friction.error <= rounding => (NAMES[FORCE], force),
-            _ => (NAMES[FRICTION], friction),
+            Some(depth) if friction.error <= rounding => (Name::Depth, depth),
+            None if friction.error <= rounding => (Name::Force, force),
+            _ => (Name::Friction, friction),
         };
         let is_enough = driving.is_within(relative_error) && force.is_within(relative_error);
         if is_enough || !grids.allows(index + 1, &finest.averages) {
@@ -155,7 +156,7 @@ fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
 }
 
 fn not_reached(
-    driving: (&'static str, Estimate),
+    driving: (Name, Estimate),
     force: Estimate,
     relative_error: f64,
     reached: Reached,
@@ -163,10 +164,10 @@ fn not_reached(
     let (quantity, known) = if force.is_within(relative_error) {
         driving
     } else {
-        (NAMES[FORCE], force)
+        (Name::Force, force)
     };
     BemError::NotReached {
-        quantity,
+        quantity: quantity.in_words(),
         value: known.value,
         error: known.error,
         relative_error,
@@ -183,7 +184,7 @@ struct Solved {
 
 /// A problem on finer and finer grids.
 struct Grids<'a> {
-    problem: &'a Problem<'a>,
+    problem: &'a SteadyProblem<'a>,
     options: &'a RefinementOptions,
     /// Order of the error of the averages.
     order: f64,
@@ -326,7 +327,7 @@ impl Grids<'_> {
 
     /// Whether a refinement is within the limits; it has twice as many unknowns as the one before.
     fn allows(&self, refinement: i32, before: &Refinement) -> bool {
-        let Problem { plan, watch, .. } = self.problem;
+        let SteadyProblem { plan, watch, .. } = self.problem;
         refinement < MAX_REFINEMENTS
             && self.n_elements(refinement) <= self.most_elements()
             && 2 * before.unknowns <= self.options.max_unknowns

@@ -1,4 +1,4 @@
-//! How the surface under a load that slides for ever creeps, from one element to the next.
+//! How the surface under a load that slides without end creeps, from one element to the next.
 //!
 //! In the frame of the indenter an element passes in the time Δx/v, and the creep compliance
 //! `J(t) = J₀ + t/η_f + Σ J_k (1 − e^(−t/λ_k))` becomes a filter along x that looks ahead:
@@ -15,7 +15,7 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::substrate::layer::Base;
 use crate::{BemError, Elastomer};
 
-/// Rate of the retardation element that stands for a flow behind which the load is not felt for ever.
+/// Rate of the retardation element that stands for a flow behind which the load is not felt without end.
 const SLOWEST: f64 = 1e-100;
 
 /// A material at a sliding speed.
@@ -84,7 +84,7 @@ impl SlidingCreep {
     }
 
     /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a layer, where a load is not felt far ahead, so that the surface does
-    /// not sink for ever.
+    /// not sink without limit.
     pub(super) const fn fluidity(&self) -> f64 {
         if self.base.is_layer() {
             0.0

@@ -7,6 +7,7 @@ use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
 use crate::estimate::bars::{ContactEstimate, OnGrid};
+use crate::estimate::quantities::Quantities;
 use crate::stationary::steady::SteadyOptions;
 use crate::stationary::steady::depth::SinkingDepth;
 use crate::stationary::steady::mesh::Mesh;
@@ -72,13 +73,13 @@ impl SteadySliding {
     ) -> OnGrid<Self, SteadyOptions> {
         let unresolved = self.unresolved(creep, kinks) * self.friction_coefficient.abs();
         OnGrid {
-            quantities: [
-                self.friction_coefficient,
-                self.normal_force,
-                self.depth.at(sliding_distance),
-                self.contact_area,
-                self.pressure.largest(),
-            ],
+            quantities: Quantities {
+                friction_coefficient: self.friction_coefficient,
+                normal_force: self.normal_force,
+                indentation_depth: self.depth.at(sliding_distance),
+                contact_area: self.contact_area,
+                peak_pressure: self.pressure.largest(),
+            },
             dissipated: Some(self.friction_from_dissipation),
             other_error: ErrorParts {
                 iteration: Some(self.iteration_error()),

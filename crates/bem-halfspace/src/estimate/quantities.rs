@@ -1,0 +1,76 @@
+//! What is known of a contact, by name.
+
+/// Which quantity of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Name {
+    Friction,
+    Force,
+    Depth,
+    Area,
+    Peak,
+}
+
+impl Name {
+    pub(crate) const ALL: [Self; 5] = [
+        Self::Friction,
+        Self::Force,
+        Self::Depth,
+        Self::Area,
+        Self::Peak,
+    ];
+
+    /// Its place in a list with one entry for each name.
+    pub(crate) const fn place(self) -> usize {
+        self as usize
+    }
+
+    /// As errors call it, with its unit.
+    pub(crate) const fn in_words(self) -> &'static str {
+        match self {
+            Self::Friction => "friction coefficient",
+            Self::Force => "normal force [N]",
+            Self::Depth => "indentation depth [m]",
+            Self::Area => "contact area [m²]",
+            Self::Peak => "largest pressure [Pa]",
+        }
+    }
+}
+
+/// The same of every quantity of a contact: its value, its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Quantities<T> {
+    pub(crate) friction_coefficient: T,
+    pub(crate) normal_force: T,
+    pub(crate) indentation_depth: T,
+    pub(crate) contact_area: T,
+    pub(crate) peak_pressure: T,
+}
+
+impl<T: Copy> Quantities<T> {
+    pub(crate) const fn of(&self, name: Name) -> T {
+        match name {
+            Name::Friction => self.friction_coefficient,
+            Name::Force => self.normal_force,
+            Name::Depth => self.indentation_depth,
+            Name::Area => self.contact_area,
+            Name::Peak => self.peak_pressure,
+        }
+    }
+
+    /// Of each of them something else.
+    pub(crate) fn map<U>(&self, mut of: impl FnMut(Name, T) -> U) -> Quantities<U> {
+        let mut one = |name| of(name, self.of(name));
+        Quantities {
+            friction_coefficient: one(Name::Friction),
+            normal_force: one(Name::Force),
+            indentation_depth: one(Name::Depth),
+            contact_area: one(Name::Area),
+            peak_pressure: one(Name::Peak),
+        }
+    }
+
+    /// A list in the order of [`Name::ALL`].
+    pub(crate) fn list(&self) -> impl Iterator<Item = (Name, T)> {
+        Name::ALL.into_iter().map(|name| (name, self.of(name)))
+    }
+}

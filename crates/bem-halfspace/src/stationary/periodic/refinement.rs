@@ -1,0 +1,364 @@
+//! Finer and finer grids of one periodic surface, and the error bars from the last three.
+
+use indenters::rough::PeriodicSurface;
+use numerics::{Accuracy, Estimate, Progress, Request, between_zero_and_one};
+
+use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
+use crate::{BemError, Grid, Reached};
+
+/// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
+const FIRST: usize = 4;
+const FEWEST: usize = 32;
+/// The error of the stationary friction is at most what the last refinement changed, or what the one before leaves of its
+/// change at the second order; that of all others twice as much, at the first order. The factor is for which elements
+/// touch, which jumps from grid to grid: of 160 random surfaces, loads and solids two frictions and eight areas erred by
+/// more.
+pub(super) const FRICTION: Fall = Fall {
+    safety: 1.0,
+    left: 0.25,
+};
+pub(super) const OTHERS: Fall = Fall {
+    safety: 2.0,
+    left: 0.5,
+};
+/// Fewest elements in contact on the coarsest of the three grids of which the bars are made: with fewer, their number may jump
+/// to the same one, and the friction with it.
+const FEWEST_IN_CONTACT: usize = 30;
+/// Tolerance of the contact on the first grid, which is halved on each of the next, whatever error is asked for; ten residuals are
+/// added to the bars.
+const TOLERANCE: f64 = 1e-5;
+const RESIDUALS: f64 = 10.0;
+/// Rounding of what is known in closed form.
+const ROUNDING: f64 = 1e-12;
+/// Elements times steps of a march that are not exceeded: about half an hour of one thread.
+const MOST_STEPS: f64 = 2e9;
+
+/// Elements of the largest grid, and memory that one of them takes at most, and what contacts of few elements on stiff solids
+/// take besides, \[bytes].
+const LARGEST_GRID: f64 = 4_194_304.0;
+const BYTES_PER_ELEMENT: f64 = 200.0;
+const BYTES_BESIDE: f64 = 33_554_432.0;
+/// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
+const THREE_GRIDS: usize = 4;
+
+/// How an error falls from grid to grid.
+#[derive(Clone, Copy)]
+pub(super) struct Fall {
+    safety: f64,
+    /// Part of a change that the next one is at least.
+    left: f64,
+}
+
+/// What is asked, and how errors fall.
+pub(super) struct Goal<'w> {
+    pub(super) request: Request<'w>,
+    pub(super) control: PeriodicControl,
+    pub(super) friction: Fall,
+    /// Steps of a march for each row of the grid.
+    pub(super) steps_per_row: Option<f64>,
+}
+
+/// What is known from one grid.
+pub(super) struct Found {
+    pub(super) friction: f64,
+    pub(super) from_dissipation: Option<f64>,
+    pub(super) area_fraction: f64,
+    /// Number of elements.
+    pub(super) in_contact: usize,
+    pub(super) mean_pressure: f64,
+    pub(super) mean_depth: f64,
+    /// Of the contact.
+    pub(super) residual: f64,
+}
+
+/// The shape of the first grid.
+pub(super) fn first_shape(
+    surface: &PeriodicSurface,
+    accuracy: Accuracy,
+) -> Result<[usize; 2], BemError> {
+    let first = surface.largest_numbers().map(first_elements);
+    let Accuracy::Elements(elements) = accuracy else {
+        return Ok(first);
+    };
+    let along = elements_along(surface.largest_numbers());
+    if elements < along {
+        let needed = along;
+        return Err(BemError::PeriodTooCoarse { elements, needed });
+    }
+    // In proportion; what is too large to be multiplied is too large for a grid.
+    Ok(first.map(|edge| edge.saturating_mul(elements).div_ceil(along)))
+}
+
+fn first_elements(number: usize) -> usize {
+    match number {
+        0 => 2,
+        _ => (FIRST * number).next_power_of_two().max(FEWEST),
+    }
+}
+
+/// Elements along the edge that has more of them, of the last of the three grids without which there are no error bars, of a
+/// surface with so many waves at most in its periods along x and y.
+pub fn elements_along(largest_numbers: [usize; 2]) -> usize {
+    let first = largest_numbers.map(first_elements);
+    THREE_GRIDS * first[0].max(first[1])
+}
+
+/// Elements of that grid.
+pub fn elements_for_bars(largest_numbers: [usize; 2]) -> f64 {
+    let edges = largest_numbers.map(|number| (THREE_GRIDS * first_elements(number)) as f64);
+    edges[0] * edges[1]
+}
+
+/// Elements of the largest grid that a memory \[bytes] allows; without it of the largest one at all.
+pub fn largest_grid(memory: Option<f64>) -> f64 {
+    let fitting = |bytes: f64| {
+        ((bytes - BYTES_BESIDE) / BYTES_PER_ELEMENT)
+            .floor()
+            .max(0.0)
+    };
+    memory.map_or(LARGEST_GRID, |bytes| fitting(bytes).min(LARGEST_GRID))
+}
+
+/// Memory that [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide) take at most on a grid with so
+/// many elements along the edge that has more of them, \[bytes].
+///
+/// # Errors
+/// [`BemError::PeriodTooCoarse`].
+pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemError> {
+    let first = first_shape(surface, Accuracy::Elements(elements))?;
+    let edges = first.map(|edge| (THREE_GRIDS * edge) as f64);
+    Ok(BYTES_BESIDE + BYTES_PER_ELEMENT * edges[0] * edges[1])
+}
+
+/// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact; `solve` is told
+/// the grid, its heights, the tolerance, and what is to be told of its progress. The grids do not depend on the error asked for, so
+/// that a smaller one is answered by what follows on the answer to a larger one.
+pub(super) fn refine<S>(
+    surface: &PeriodicSurface,
+    goal: &Goal,
+    mut solve: impl FnMut(&Grid, &[f64], f64, &dyn Fn(f64)) -> Result<(Found, S), BemError>,
+) -> Result<PeriodicEstimate<S>, BemError>
+where
+    PeriodicEstimate<S>: Into<Reached>,
+{
+    let asked = match goal.request.accuracy {
+        Accuracy::RelativeError(error) => Some(between_zero_and_one("relative_error", error)?),
+        Accuracy::Elements(_) => None,
+    };
+    let mut shape = first_shape(surface, goal.request.accuracy)?;
+    goal.check_size(shape, THREE_GRIDS as f64)?;
+    let first = goal.work_on(shape);
+    let all = first + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
+    let mut progress = Progress::new(goal.request.watch, all);
+    let (mut grids, mut tolerance) = (Vec::new(), TOLERANCE);
+    let mut best: Option<(Known, PeriodicEstimate<S>)> = None;
+    loop {
+        let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
+        let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
+        check_surface(&grid, &heights)?;
+        let (found, state) = progress.during(goal.work_on(shape), |tell| {
+            solve(&grid, &heights, tolerance, tell)
+        })?;
+        grids.push(found);
+        let finer = shape.map(|n| 2 * n);
+        if let Some(bars) = goal.bars(&grids, state) {
+            let known = bars.asked();
+            let Some(missed) = asked.filter(|asked| !known.estimate.is_within(*asked)) else {
+                return Ok(bars);
+            };
+            let better = |(best, _): &(Known, _)| best.relative_error() <= known.relative_error();
+            if !best.as_ref().is_some_and(better) {
+                best = Some((known, bars));
+            }
+            if let Some((known, bars)) = best.take_if(|_| !goal.may_go_on(finer)) {
+                return Err(known.missed(missed, bars.into()));
+            }
+            let excess = known.relative_error() / missed;
+            goal.check_march(excess, finer)?;
+            progress.expect(goal.work_after(excess, finer));
+        }
+        shape = finer;
+        tolerance *= 0.5;
+    }
+}
+
+/// What the relative error is of.
+#[derive(Clone, Copy)]
+struct Known {
+    quantity: &'static str,
+    estimate: Estimate,
+}
+
+impl Known {
+    fn relative_error(&self) -> f64 {
+        self.estimate.error / self.estimate.value.abs()
+    }
+
+    fn missed(self, relative_error: f64, reached: Reached) -> BemError {
+        BemError::NotReached {
+            quantity: self.quantity,
+            value: self.estimate.value,
+            error: self.estimate.error,
+            relative_error,
+            reached: Box::new(reached),
+        }
+    }
+}
+
+impl Goal<'_> {
+    /// Elements, or elements times steps.
+    fn work_on(&self, shape: [usize; 2]) -> f64 {
+        let [rows, columns] = shape.map(|n| n as f64);
+        rows * columns * self.steps_per_row.map_or(1.0, |steps| steps * rows)
+    }
+
+    /// Of the grids from this one on that are needed if the error is too large by a factor and falls as it is assumed to.
+    fn work_after(&self, excess: f64, shape: [usize; 2]) -> f64 {
+        let grids = (excess.log2() / -self.friction.left.log2()).ceil().max(1.0);
+        let growth: f64 = if self.steps_per_row.is_some() {
+            8.0
+        } else {
+            4.0
+        };
+        self.work_on(shape) * (growth.powf(grids) - 1.0) / (growth - 1.0)
+    }
+
+    /// Refuses a grid that is finer by a factor and too large.
+    fn check_size(&self, shape: [usize; 2], finer: f64) -> Result<(), BemError> {
+        let [rows, columns] = shape.map(|n| n as f64);
+        let elements = finer.powi(2) * rows * columns;
+        let steps = self.steps_per_row.map_or(1.0, |steps| steps * finer * rows);
+        let limit = LARGEST_GRID.min(MOST_STEPS / steps);
+        if elements <= limit {
+            return Ok(());
+        }
+        Err(BemError::GridTooLarge { elements, limit })
+    }
+
+    /// Whether a grid that is finer than needed for bars may be begun.
+    fn may_go_on(&self, shape: [usize; 2]) -> bool {
+        self.check_size(shape, 1.0).is_ok() && self.request.watch.allows(shape[0].max(shape[1]))
+    }
+
+    /// Half an hour is not spent on a march in vain: no error falls faster than with the second order.
+    fn check_march(&self, excess: f64, shape: [usize; 2]) -> Result<(), BemError> {
+        if self.steps_per_row.is_none() {
+            return Ok(());
+        }
+        let finer = 0.5 * excess.sqrt().log2().ceil().max(1.0).exp2();
+        self.check_size(shape, finer)
+    }
+
+    /// From three grids or more.
+    fn bars<S>(&self, grids: &[Found], finest: S) -> Option<PeriodicEstimate<S>> {
+        let [.., coarse, middle, fine] = grids else {
+            return None;
+        };
+        let of = |quantity: &dyn Fn(&Found) -> f64, Fall { safety, left }: Fall| {
+            let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
+            let change = (value - middle).abs().max(left * (middle - coarse).abs());
+            let solved = RESIDUALS * fine.residual + ROUNDING;
+            Estimate::new(value, safety * change + solved * value.abs())
+        };
+        let mut slopes = of(&|found| found.friction, self.friction);
+        let dissipated = |found: &Found| found.from_dissipation.unwrap_or(f64::NAN);
+        let mut dissipation = fine
+            .from_dissipation
+            .map(|_| of(&dissipated, self.friction));
+        if let Some(dissipation) = &mut dissipation
+            && dissipation.value > 0.0
+        {
+            // Both are the same friction; without loss there is none.
+            let apart = (slopes.value - dissipation.value).abs();
+            let missing = (apart - slopes.error - dissipation.error).max(0.0);
+            slopes = slopes.widened(missing);
+            *dissipation = dissipation.widened(missing);
+        }
+        let is_better =
+            |dissipation: &Estimate| dissipation.error <= slopes.error || slopes.value < 0.0;
+        let better = dissipation.filter(is_better);
+        let bars = PeriodicEstimate {
+            friction_coefficient: better.unwrap_or(slopes),
+            friction_from_dissipation: dissipation,
+            area_fraction: of(&|found| found.area_fraction, OTHERS),
+            mean_pressure: match self.control {
+                PeriodicControl::MeanPressure(pressure) => Estimate::exact(pressure),
+                PeriodicControl::MeanDepth(_) => of(&|found| found.mean_pressure, OTHERS),
+            },
+            mean_depth: match self.control {
+                PeriodicControl::MeanPressure(_) => of(&|found| found.mean_depth, OTHERS),
+                PeriodicControl::MeanDepth(depth) => Estimate::exact(depth),
+            },
+            finest,
+        };
+        let is_resolved = coarse.in_contact >= FEWEST_IN_CONTACT;
+        Some(if is_resolved { bars } else { bars.unresolved() })
+    }
+}
+
+impl<S> PeriodicEstimate<S> {
+    /// With bars that reach to 0, because so few elements touch that which of them do decides the values.
+    fn unresolved(mut self) -> Self {
+        let friction = self.friction_from_dissipation.as_mut();
+        let known = [&mut self.friction_coefficient, &mut self.area_fraction];
+        for known in known.into_iter().chain(friction) {
+            *known = known.widened(known.value.abs());
+        }
+        self
+    }
+
+    /// What the relative error is of.
+    fn asked(&self) -> Known {
+        let first = if self.friction_coefficient.value == 0.0 {
+            ("area fraction", self.area_fraction)
+        } else {
+            ("friction coefficient", self.friction_coefficient)
+        };
+        let relative = |known: Estimate| known.error / known.value.abs();
+        let (quantity, estimate) = if relative(self.mean_pressure) > relative(first.1) {
+            ("mean pressure [Pa]", self.mean_pressure)
+        } else {
+            first
+        };
+        Known { quantity, estimate }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use numerics::Accuracy;
+
+    use super::{FRICTION, Found, Goal, PeriodicControl};
+
+    /// Frictions that both changed little and yet differ: on a finer grid they are 0.0592.
+    #[test]
+    fn the_bars_of_both_frictions_reach_each_other() {
+        let found = |(friction, dissipated)| Found {
+            friction,
+            from_dissipation: Some(dissipated),
+            area_fraction: 0.05,
+            in_contact: 100,
+            mean_pressure: 1.0,
+            mean_depth: 0.0,
+            residual: 1e-7,
+        };
+        let frictions = [
+            (0.059_064, 0.059_039),
+            (0.058_969, 0.059_598),
+            (0.058_847, 0.059_891),
+        ];
+        let goal = Goal {
+            request: Accuracy::RelativeError(0.01).into(),
+            control: PeriodicControl::MeanPressure(1.0),
+            friction: FRICTION,
+            steps_per_row: None,
+        };
+        let bars = goal.bars(&frictions.map(found), ()).expect("three grids");
+        let slopes = bars.friction_coefficient;
+        let dissipated = bars.friction_from_dissipation.expect("both frictions");
+        let apart = (slopes.value - dissipated.value).abs();
+        let reach = (slopes.error + dissipated.error) * (1.0 + 1e-12);
+        assert!(apart <= reach, "{slopes:?}, {dissipated:?}");
+        assert!((slopes.value - 0.0592).abs() <= slopes.error, "{slopes:?}");
+    }
+}
