@@ -121,7 +121,7 @@ pub enum SolveError {
         longest: f64,
     },
     /// No front of the contact carries the force.
-    #[error("no front of the contact was found that carries the normal force {normal_force}")]
+    #[error("no front of the contact was found that carries the normal force {}", InWords(*normal_force))]
     FrontNotFound {
         /// The force, \[N].
         normal_force: f64,
