@@ -121,18 +121,17 @@ pub(super) fn rows(contents: &[u8], spacing: [f64; 2]) -> Result<Topography, Top
 
 /// The text of a file in UTF-16 where a byte-order mark says so, in UTF-8, or in Latin-1.
 pub(super) fn text_of(contents: &[u8]) -> String {
-    let units: [(_, fn([u8; 2]) -> u16); 2] = [
-        (b"\xff\xfe", u16::from_le_bytes),
-        (b"\xfe\xff", u16::from_be_bytes),
-    ];
-    for (mark, unit) in units {
-        if let Some(text) = contents.strip_prefix(mark) {
-            let units = text.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
-            let letters = char::decode_utf16(units);
-            return letters
-                .map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER))
-                .collect();
-        }
+    let is_big = contents.starts_with(b"\xfe\xff");
+    if is_big || contents.starts_with(b"\xff\xfe") {
+        let unit = if is_big {
+            u16::from_be_bytes
+        } else {
+            u16::from_le_bytes
+        };
+        let units = contents[2..].chunks_exact(2);
+        let letters = char::decode_utf16(units.map(|pair| unit([pair[0], pair[1]])));
+        let letters = letters.map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER));
+        return letters.collect();
     }
     let contents = contents.strip_prefix(b"\xef\xbb\xbf").unwrap_or(contents);
     let latin = || contents.iter().copied().map(char::from).collect();
