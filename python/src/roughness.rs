@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
 use viscofriction::indenters::topography::Topography;
 use viscofriction::scene::{Edges, HeightMapTable, SceneError};
-use viscofriction::solve::warnings_of_heights;
+use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
 use crate::tables::{table, wrong};
 
@@ -19,7 +19,7 @@ pub(crate) fn surface_numbers<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let (table, surface) = prepared(&heights, keys)?;
     let map = surface.body().map_err(wrong)?;
-    let warnings = warnings_of_heights(&table, &surface, &map);
+    let warnings = warnings_of_heights(&table, &surface, &map, &AdviceOnHeights::SCENE);
     let map = match table.edges {
         Edges::Mirrored => map.mirrored(),
         _ => map,

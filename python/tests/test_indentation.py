@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -77,6 +78,10 @@ def test_a_fit_finds_the_material_within_its_intervals() -> None:
     # Young's modulus, 3 G of an incompressible material.
     assert "\n  E_inf: 6.12e+03 ± 2.2e+02 Pa, 95 % within" in repr(fit)
     assert fit.plot().get_xlabel() == "time t [s]"
+    plain = json.loads(json.dumps(fit.to_dict()))
+    assert plain["findings"]["G_inf"]["value"] == fit.findings["G_inf"].value
+    assert plain["fitted_force"] == fit.fitted_force.tolist() and plain["material"]["prony"]["poisson_ratio"] == 0.5
+    assert plain.keys() == vars(fit).keys()
 
 
 def test_a_table_is_fitted_as_its_columns_are(tmp_path: Path) -> None:

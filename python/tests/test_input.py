@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,7 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("radius", {"body": vf.Sphere("large")}),  # type: ignore[arg-type]
     ("exponent", {"body": vf.Superposition([(1.0, -1.0)])}),
     ("indenter", {"body": "ball"}),
+    ("indenter must be a Body of this package, but is 5e-06", {"body": 5e-6}),
     ("poisson_ratio", {"material": vf.Elastic(1e6, poisson_ratio=0.6)}),
     ("branches[0].relaxation_time", {"material": vf.Prony(1e6, [(1e6, 0.0)])}),
     ("no-such-file", {"material": vf.MaterialFile("no-such-file.toml")}),
@@ -70,6 +72,48 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
 def test_a_wrong_height_map_is_named(name: str, heights: Any, spacing: Any) -> None:
     with pytest.raises(ValueError, match=name):
         vf.HeightMap(heights, spacing)
+
+
+class Table(dict[str, Any]):
+    """A table with named columns, as pandas has them."""
+
+    columns = ("modulus", "relaxation_time")
+
+
+LAW = {"temperature": 20.0, "temperature_range": [0.0, 40.0], "law": {"wlf": [8.0, 100.0]}}
+SHIFTED = vf.Fit(RUBBER, 0.0, 0.0, temperature=20.0, shift=LAW)
+CURVE = {name: np.arange(40.0) for name in ("time", "depth", "force")}
+
+CALLS: list[tuple[str, Callable[[Any], Any], list[Any]]] = [
+    (
+        "branches must be a list of pairs",
+        lambda branches: vf.Prony(1e6, branches),
+        [{"modulus": 1e6, "relaxation_time": 1.0}, Table(), 5.0, "ab", [1e6, 1.0], [(1e6, 1.0, 2.0)], ["ab"]],
+    ),
+    ("branches must be a whole number", lambda n: vf.fit_material([1.0], [1.0], [1.0], branches=n), [{}, 1.5, -1, True]),
+    ("branches must be a whole number", lambda n: vf.fit_relaxation([1.0], [1.0], branches=n), [[2]]),
+    ("branches must be a whole number", lambda n: vf.fit_indentation(CURVE, body=BALL, branches=n), [{}]),
+    ("scene must be the name of a scene file", vf.solve, [None, 5]),
+    ("scene must be the name of a scene file", lambda scene: vf.sweep(scene, {}), [None]),
+    ("vary must be a dictionary of keys", lambda vary: vf.sweep({"indenter": BALL, "material": RUBBER}, vary), [None, 1.0]),
+    ("temperature must be", SHIFTED.at, [np.ones(2), None, "warm", np.nan]),
+    ("exponent must be", vf.scaling_factor, [np.ones(2), None, np.inf]),
+    ("body must be a Body", lambda body: vf.fit_indentation(CURVE, body=body), [5e-6, None]),
+    (
+        "body must be a body of revolution, but is a HeightMap",
+        lambda body: vf.fit_indentation(CURVE, body=body),
+        [vf.HeightMap(BUMP, 1e-4), vf.HeightMapFile("map.csv")],
+    ),
+    ("spring_constant has no effect", lambda k: vf.fit_indentation(CURVE, body=BALL, spring_constant=k), [0.1]),
+    ("sensitivity and ramp_rate are for files", lambda rate: vf.fit_indentation(CURVE, body=BALL, ramp_rate=rate), [1.0]),
+]
+
+
+@pytest.mark.parametrize(("message", "call", "wrong"), CALLS, ids=lambda value: value if isinstance(value, str) else "")
+def test_a_wrong_argument_is_named(message: str, call: Callable[[Any], Any], wrong: list[Any]) -> None:
+    for value in wrong:
+        with pytest.raises(ValueError, match=message):
+            call(value)
 
 
 def test_masked_points_of_a_curve_are_refused_by_name() -> None:

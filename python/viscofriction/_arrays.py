@@ -38,6 +38,28 @@ def numbers(
     return array
 
 
+def number(name: str, value: Any) -> float:
+    """A single finite number; a ValueError names what is wrong."""
+    array = numbers(name, value)
+    if array.shape != ():
+        raise ValueError(f"{name} must be one number, but has the shape {array.shape}")
+    return float(array)
+
+
+def count(name: str, value: Any) -> int | None:
+    """A whole number of at least 0, or None; a ValueError names anything else."""
+    is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool) and value >= 0
+    if value is not None and not is_whole:
+        raise ValueError(f"{name} must be a whole number of at least 0, but is {text_of(value)}")
+    return None if value is None else int(value)
+
+
+def text_of(value: Any) -> str:
+    """A value for messages, by its type where it is long."""
+    text = repr(value)
+    return text if len(text) <= 60 and "\n" not in text else f"a {type(value).__name__}"
+
+
 def is_masked(values: Any) -> bool:
     """Whether an entry is masked, in an array or in a list of them."""
     if isinstance(values, np.ma.MaskedArray):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Compared, columns
+from ._arrays import Compared, columns, count, number
 from ._materials import Prony
 
 Numbers = NDArray[np.float64]
@@ -48,7 +48,7 @@ class Fit:
         """
         if self.shift is None or self.temperature is None:
             raise ValueError("temperature: the fit has no shift law, which needs isotherms of several temperatures")
-        celsius = temperature + (self.shift["temperature"] - self.temperature)
+        celsius = number("temperature", temperature) + (self.shift["temperature"] - self.temperature)
         factor = _native.shift_factor(json.dumps(self.shift), celsius)
         material = self.material
         window = material.valid_frequencies
@@ -116,7 +116,7 @@ def fit_material(
 
     Raises ValueError for wrong input and for moduli that no series fits.
     """
-    options = {"liquid": liquid, "branches": branches, "tolerance": tolerance, "smoothing": smoothing}
+    options = {"liquid": liquid, "branches": count("branches", branches), "tolerance": tolerance, "smoothing": smoothing}
     if isinstance(frequency, str | os.PathLike):
         if storage is not None or loss is not None:
             raise ValueError("storage and loss: a file has its own")
@@ -167,13 +167,13 @@ def fit_relaxation(
     """The Prony series of relaxation moduli [Pa] that were measured over time [s], in any order; otherwise as fit_material."""
     times, moduli = columns(time=time, modulus=modulus)
     order = np.argsort(times, kind="stable")
-    options = {"liquid": liquid, "branches": branches, "tolerance": tolerance, "smoothing": smoothing}
+    options = {"liquid": liquid, "branches": count("branches", branches), "tolerance": tolerance, "smoothing": smoothing}
     return _fit(_native.fit_relaxation(times[order], moduli[order], options), poisson_ratio)
 
 
 def scaling_factor(exponent: float) -> tuple[float, float]:
     """The factor s(p) between half space and line on a viscous material, for h = c r^p, and its error."""
-    return _native.scaling_factor(exponent)
+    return _native.scaling_factor(number("exponent", exponent))
 
 
 def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:

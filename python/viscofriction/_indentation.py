@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Compared, columns
-from ._bodies import Body, Pyramid
+from ._arrays import Compared, columns, count, text_of
+from ._bodies import Body, Cylinder, HeightMap, HeightMapFile, Pyramid, SelfAffine
 from ._materials import Material, Prony
 from ._results import rounded
 from ._solving import ask, given
@@ -116,6 +117,14 @@ class IndentationFit(Compared):
                 rows.append(f"  E{name[1:]}: {one.times(2 * (1 + self.material.poisson_ratio))}")
         return "\n".join(["fit of a curve", *rows, *(f"  flag: {flag}" for flag in self.flags)])
 
+    def to_dict(self) -> dict[str, Any]:
+        """All that is known, under the names of the attributes, as numbers, texts, lists and dictionaries of them."""
+        known = {field.name: getattr(self, field.name) for field in fields(self)}
+        known["findings"] = {name: asdict(one) for name, one in self.findings.items()}
+        known["material"] = self.material._table()
+        plain: dict[str, Any] = json.loads(json.dumps(known, default=np.ndarray.tolist))
+        return plain
+
     def plot(self, ax: Any = None) -> Any:
         """Draws the measured force and that of the fit over time; returns the axes of matplotlib."""
         from . import _plotting
@@ -174,6 +183,16 @@ def _axisymmetric(body: Body) -> Body:
     return body.cone if isinstance(body, Pyramid) else body
 
 
+def _of_revolution(body: Body) -> dict[str, Any]:
+    """The table of a body whose force the fit knows."""
+    if not isinstance(body, Body):
+        raise ValueError(f"body must be a Body of this package, but is {text_of(body)}")
+    if isinstance(body, Cylinder | HeightMap | HeightMapFile | SelfAffine):
+        known = "Sphere, Paraboloid, Cone, Pyramid, FlatPunch, Power and the others that are round about their axis"
+        raise ValueError(f"body must be a body of revolution, but is a {type(body).__name__}; these are: {known}")
+    return _axisymmetric(body)._table()
+
+
 def _measured(curve: Any, spring_constant: float | None) -> list[ArrayLike]:
     """Time, depth and force of a curve with named columns, of the package afmformats, pandas or a dictionary."""
     names = set(getattr(curve, "columns", curve))
@@ -203,6 +222,8 @@ def _measured(curve: Any, spring_constant: float | None) -> list[ArrayLike]:
         if not stiffness:
             raise missing("beside the height the spring_constant [N/m]")
         depth = -height - force / stiffness
+    elif depth is not None and spring_constant is not None:
+        raise ValueError("spring_constant has no effect, because the depth is there: leave it out")
     if depth is None:
         raise missing("a column 'depth', 'tip position' or 'height (measured)' [m]")
     return [time, depth, force]
@@ -241,14 +262,14 @@ def fit_indentation(
     Raises ValueError for wrong input and for a damaged curve, with the reason.
     """
     request: dict[str, Any] = {
-        "body": _axisymmetric(body)._table(),
+        "body": _of_revolution(body),
         "file": None,
         "columns": None,
         "spring_constant": spring_constant,
         "sensitivity": sensitivity,
         "ramp_rate": ramp_rate,
         "material": material,
-        "branches": branches,
+        "branches": count("branches", branches),
         "poisson_ratio": poisson_ratio,
         "tilt": tilt,
         "before_retraction": before_retraction,
@@ -261,6 +282,8 @@ def fit_indentation(
     elif hasattr(time, "columns") or isinstance(time, Mapping):
         if depth is not None or force is not None:
             raise ValueError("depth and force: a curve has its own")
+        if (sensitivity, ramp_rate) != (None, None):
+            raise ValueError("sensitivity and ramp_rate are for files")
         request["columns"] = columns(**dict(zip(("time", "depth", "force"), _measured(time, spring_constant), strict=True)))
     else:
         if depth is None or force is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, fields
 from pathlib import Path
 from typing import Any, ClassVar
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import as_value, columns, numbers
+from ._arrays import as_value, columns, numbers, text_of
 
 __all__ = [
     "Elastic",
@@ -188,8 +188,12 @@ class Prony(Material):
 
 
 def _pairs(branches: Branches) -> tuple[tuple[float, float], ...]:
+    needed = "branches must be a list of pairs of a modulus [Pa] and a relaxation time [s], or of dictionaries of both"
     pairs: list[tuple[float, float]] = []
     has_names = False
+    # The elements of a dictionary or of a table are names.
+    if isinstance(branches, Mapping | str) or hasattr(branches, "columns") or not isinstance(branches, Iterable):
+        raise ValueError(f"{needed}, but is {text_of(branches)}; columns are moduli=… and relaxation_times=…")
     for branch in branches:
         if isinstance(branch, Mapping):
             if set(branch) != {"modulus", "relaxation_time"}:
@@ -197,7 +201,9 @@ def _pairs(branches: Branches) -> tuple[tuple[float, float], ...]:
             pairs.append((branch["modulus"], branch["relaxation_time"]))
             has_names = True
         else:
-            modulus, time = branch
+            if isinstance(branch, str) or not isinstance(branch, Iterable) or len(pair := tuple(branch)) != 2:
+                raise ValueError(f"{needed}, but holds {text_of(branch)}")
+            modulus, time = pair
             pairs.append((modulus, time))
     # What is no number is refused where the branches are used.
     are_numbers = all(isinstance(value, int | float | np.number) for pair in pairs for value in pair)

@@ -12,7 +12,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arrays import numbers, together
+from ._arrays import numbers, text_of, together
 from ._bodies import Body, HeightMap
 from ._materials import Elastic, Material
 from ._results import Answer, not_reached
@@ -152,6 +152,8 @@ def _solved(
 def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
     """The tables of a scene, the folder of the files that it names, and the heights of a map that it holds."""
     if not isinstance(scene, Mapping):
+        if not isinstance(scene, str | os.PathLike):
+            raise ValueError(f"scene must be the name of a scene file, or the same as a dictionary, but is {text_of(scene)}")
         path = Path(scene)
         try:
             return tomllib.loads(_scene_text(path)), os.fspath(path.parent), None

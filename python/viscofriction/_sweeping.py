@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Compared, numbers
+from ._arrays import Compared, numbers, text_of
 from ._results import QUANTITIES, html_table, noted, rounded, with_unit
 from ._solving import Progress, Scene, read, shown
 
@@ -128,6 +128,8 @@ def sweep(
     table, folder, heights = read(scene)
     if heights is not None:
         raise ValueError("indenter: a sweep needs the heights in a file, {'height-map': {'file': …, 'spacing': …}}")
+    if not isinstance(vary, Mapping):
+        raise ValueError(f"vary must be a dictionary of keys and their values, such as {{'load.velocity': v}}, but is {text_of(vary)}")
     values = {key: _values(key, wanted) for key, wanted in vary.items()}
     request = {"scene": table, "folder": os.path.abspath(folder), "vary": list(values.items())}
     header, identities = _native.sweep_plan(request)

@@ -75,7 +75,8 @@ pub enum BemError {
     },
     /// A vertical wall of the indenter is in contact: its slope, and with it the friction, is infinite.
     #[error(
-        "at x = {x} m, y = {y} m from its lowest point a vertical wall of the indenter is in contact"
+        "at x = {} m, y = {} m from its lowest point a vertical wall of the indenter is in contact",
+        InWords(*x), InWords(*y)
     )]
     VerticalWall {
         /// Position of the wall ahead of the lowest point, \[m].

@@ -27,7 +27,9 @@ pub fn refuses<T: Debug, E: Display>(
             f64::INFINITY => "larger than any number".to_owned(),
             f64::NEG_INFINITY => "below every number".to_owned(),
             none if none.is_nan() => "not a number".to_owned(),
-            number => number.to_string(),
+            0.0 => "0".to_owned(),
+            // With a power of ten where that is shorter.
+            number => format!("{number:?}").trim_end_matches(".0").to_owned(),
         };
         let named = message.ends_with(&format!(", but is {said}"));
         assert!(named, "{message}, for {number} as {parameter}");

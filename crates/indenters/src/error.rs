@@ -1,6 +1,6 @@
 //! Why an indenter, its load or a geometric problem is refused.
 
-use numerics::InvalidParameter;
+use numerics::{InWords, InvalidParameter};
 use thiserror::Error;
 
 /// Why an indenter, a load or a geometric problem is refused.
@@ -44,7 +44,10 @@ pub enum IndenterError {
         previous: f64,
     },
     /// The body does not reach as far as the position asked for.
-    #[error("position {position} lies outside the body, which reaches from {lower} to {upper}")]
+    #[error(
+        "position {} lies outside the body, which reaches from {} to {}",
+        InWords(*position), InWords(*lower), InWords(*upper)
+    )]
     OutOfDomain {
         /// The position asked for, \[m].
         position: f64,
@@ -56,8 +59,8 @@ pub enum IndenterError {
     /// The equivalent line turns downwards before it reaches the depth asked for: there the contact is no longer a
     /// single circle and the method of dimensionality reduction does not hold.
     #[error(
-        "the equivalent line rises only up to radius {limiting_radius}, where its height is {limiting_depth}; \
-         a depth of {depth} was asked for"
+        "the equivalent line rises only up to radius {}, where its height is {}; a depth of {} was asked for",
+        InWords(*limiting_radius), InWords(*limiting_depth), InWords(*depth)
     )]
     NonMonotoneLine {
         /// Radius at which the equivalent line stops rising, \[m].
@@ -69,7 +72,8 @@ pub enum IndenterError {
     },
     /// The body or its leading edge ends below the depth asked for.
     #[error(
-        "the line rises only {available} above its lowest point, but a depth of {depth} was asked for"
+        "the line rises only {} above its lowest point, but a depth of {} was asked for",
+        InWords(*available), InWords(*depth)
     )]
     NotHighEnough {
         /// Height of the leading edge above its lowest point, \[m].

@@ -42,9 +42,9 @@ pub enum MdrError {
     },
     /// The contact would reach the edge of the body, or the front end of the line, before it carries the force (Remark 4).
     #[error(
-        "the contact would reach the edge at position {position} (of a sphere: its equator) under a force, in N, of {}, \
-         which is not the normal force {normal_force} N: lower the force, or check the unit of the modulus or viscosity",
-        InWords(*carried_force)
+        "the contact would reach the edge at position {} (of a sphere: its equator) under a force, in N, of {}, \
+         which is not the normal force {} N: lower the force, or check the unit of the modulus or viscosity",
+        InWords(*position), InWords(*carried_force), InWords(*normal_force)
     )]
     ForceBeyondEdge {
         /// Where the line ends, \[m].
@@ -58,8 +58,9 @@ pub enum MdrError {
     },
     /// The contact would reach the edge of the body, or the front end of the line, before the depth.
     #[error(
-        "the contact would reach the edge at position {position} (of a sphere: its equator), where the line is {available} m \
-         above its lowest point, at a depth less than {indentation_depth} m"
+        "the contact would reach the edge at position {} (of a sphere: its equator), where the line is {} m \
+         above its lowest point, at a depth less than {} m",
+        InWords(*position), InWords(*available), InWords(*indentation_depth)
     )]
     DepthBeyondEdge {
         /// Where the line ends, \[m].

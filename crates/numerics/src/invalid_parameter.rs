@@ -1,6 +1,7 @@
 //! Checks of numbers against the ranges that their parameters may take.
 
 use std::fmt::{self, Display, Formatter, LowerExp};
+use std::ops::Range;
 
 use thiserror::Error;
 
@@ -16,7 +17,8 @@ pub struct InvalidParameter {
     pub allowed: &'static str,
 }
 
-/// A number as it stands in messages, where what is none is said in words.
+/// A number as it stands in messages: what is none in words, very large and very small ones with a power of ten, and zero
+/// without a sign or a power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InWords(pub f64);
 
@@ -36,15 +38,22 @@ impl Display for InWords {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self.words() {
             Some(words) => formatter.write_str(words),
+            None if self.0 == 0.0 => formatter.write_str("0"),
+            // Debug takes a power of ten for these, and a point for all others.
+            None if !PLAIN.contains(&self.0.abs()) => fmt::Debug::fmt(&self.0, formatter),
             None => Display::fmt(&self.0, formatter),
         }
     }
 }
 
+/// Numbers without a power of ten.
+const PLAIN: Range<f64> = 1e-5..1e16;
+
 impl LowerExp for InWords {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self.words() {
             Some(words) => formatter.write_str(words),
+            None if self.0 == 0.0 => formatter.write_str("0"),
             None => LowerExp::fmt(&self.0, formatter),
         }
     }
@@ -113,6 +122,15 @@ mod tests {
     use super::*;
 
     type Check = fn(&'static str, f64) -> Result<f64, InvalidParameter>;
+
+    #[test]
+    fn numbers_in_messages_are_short() {
+        let numbers = [1e-300, -1e300, 0.25, -0.0, 1e-4, 300.0, f64::INFINITY];
+        let said = numbers.map(|number| InWords(number).to_string());
+        let expected = "1e-300|-1e300|0.25|0|0.0001|300|larger than any number";
+        assert_eq!(said.join("|"), expected, "in words");
+        assert_eq!(format!("{:.1e}", InWords(-0.0)), "0", "with a power");
+    }
 
     #[test]
     fn each_check_accepts_its_range_and_no_more() {

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use viscofriction::WrongInput;
+use viscofriction::numerics::InvalidParameter;
 use viscofriction::scene::Source;
 
 /// Larger files are no input of this program, \[bytes].
@@ -65,23 +66,62 @@ pub(crate) fn read_rows(path: &Path) -> Result<Vec<u8>, WrongInput> {
     read_file(path, half_of_free_memory().unwrap_or(u64::MAX) / 32)
 }
 
+/// Keeps a table that the command line names from being replaced, and refuses one that cannot be opened.
+pub(crate) fn check_file(path: &Path) -> Result<(), WrongInput> {
+    protect(path);
+    opened(path).map(drop).map_err(|error| unread(path, &error))
+}
+
 /// Reads a regular file of at most so many bytes.
 fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     let most = most.min(LARGEST_FILE);
     let read = || {
-        let file = path.metadata()?;
-        if !file.is_file() {
-            let needed = "a regular file is needed, and not a folder, a device or a pipe";
-            return Err(io::Error::other(needed));
-        }
-        if file.len() > most {
+        let file = opened(path)?;
+        if file.metadata()?.len() > most {
             return Err(io::Error::other(format!(
                 "the memory that is allowed is enough for a file of {most} bytes, and this one has more"
             )));
         }
-        read_at_most(most, File::open(path)?)
+        read_at_most(most, file)
     };
-    read().map_err(|error| WrongInput(format!("{}: {error}", path.display())))
+    read().map_err(|error| unread(path, &error))
+}
+
+fn opened(path: &Path) -> io::Result<File> {
+    if !path.metadata()?.is_file() {
+        let needed = "a regular file is needed, and not a folder, a device or a pipe";
+        return Err(io::Error::other(needed));
+    }
+    File::open(path)
+}
+
+fn unread(path: &Path, error: &io::Error) -> WrongInput {
+    WrongInput(format!("{}: {error}", path.display()))
+}
+
+/// Parameters of the libraries, and the options that give them.
+const OPTIONS: [(&str, &str); 12] = [
+    ("n_branches", "--branches"),
+    ("branches", "--branches"),
+    ("tolerance", "--parsimony"),
+    ("weight", "--smoothing"),
+    ("poisson_ratio", "--poisson-ratio"),
+    ("reference_temperature", "--reference-temperature"),
+    ("c1", "--wlf C1"),
+    ("c2", "--wlf C2"),
+    ("activation_energy", "--arrhenius"),
+    ("spring_constant", "--spring-constant"),
+    ("sensitivity", "--sensitivity"),
+    ("ramp_rate", "--ramp-rate"),
+];
+
+/// The option that gave what a library refuses.
+pub(crate) fn wrong_option(mut refused: InvalidParameter) -> WrongInput {
+    let mut options = OPTIONS.iter();
+    if let Some((_, option)) = options.find(|(parameter, _)| *parameter == refused.parameter) {
+        refused.parameter = option;
+    }
+    WrongInput(refused.to_string())
 }
 
 /// Half of the memory that the machine has free, \[bytes]; none where the system does not say.

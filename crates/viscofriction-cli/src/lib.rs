@@ -13,6 +13,7 @@ mod run;
 mod surface;
 mod sweep;
 
+use std::any::TypeId;
 use std::process::ExitCode;
 
 use clap::{Arg, CommandFactory as _, Parser, Subcommand};
@@ -37,7 +38,11 @@ struct CommandLine {
 /// A negative number is a value, and no option: whether it is allowed is for what it stands for to say.
 fn with_negative_numbers(option: Arg) -> Arg {
     let takes_values = option.get_action().takes_values();
-    option.allow_negative_numbers(takes_values)
+    let is_number = option.get_value_parser().type_id() == TypeId::of::<f64>();
+    // What clap takes for a negative number has no sign in its exponent.
+    option
+        .allow_negative_numbers(takes_values)
+        .allow_hyphen_values(is_number)
 }
 
 #[derive(Debug, Subcommand)]

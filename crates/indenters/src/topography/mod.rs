@@ -110,7 +110,7 @@ impl Topography {
         })
     }
 
-    /// The surface in a text of one line of heights for each y, without names; a cell that is empty or says that it is no
+    /// The surface in a text of one line of heights for each y, without names, in UTF-8, Latin-1 or UTF-16 with a byte-order mark; a cell that is empty or says that it is no
     /// number (`nan`, `NA`, `--`) is a missing height.
     ///
     /// Commas, semicolons, tabs or blanks separate. A comma is a decimal mark where semicolons or tabs separate, and between

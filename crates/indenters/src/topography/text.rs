@@ -119,8 +119,20 @@ pub(super) fn rows(contents: &[u8], spacing: [f64; 2]) -> Result<Topography, Top
     Ok(Topography::of_rows([rows, columns], spacing, heights))
 }
 
-/// The text of a file in UTF-8, or in Latin-1.
+/// The text of a file in UTF-16 where a byte-order mark says so, in UTF-8, or in Latin-1.
 pub(super) fn text_of(contents: &[u8]) -> String {
+    let is_big = contents.starts_with(b"\xfe\xff");
+    if is_big || contents.starts_with(b"\xff\xfe") {
+        let unit = if is_big {
+            u16::from_be_bytes
+        } else {
+            u16::from_le_bytes
+        };
+        let units = contents[2..].chunks_exact(2);
+        let letters = char::decode_utf16(units.map(|pair| unit([pair[0], pair[1]])));
+        let letters = letters.map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER));
+        return letters.collect();
+    }
     let contents = contents.strip_prefix(b"\xef\xbb\xbf").unwrap_or(contents);
     let latin = || contents.iter().copied().map(char::from).collect();
     std::str::from_utf8(contents).map_or_else(|_| latin(), str::to_owned)

@@ -32,10 +32,13 @@ pub(super) fn usable(curve: &IndentationCurve, before_retraction: bool) -> Resul
     if let Some(place) = time.windows(4).position(is_gap) {
         return Err(Flag::Gap(time[place + 1]));
     }
+    let [low, high] = ends(&curve.depth);
+    if low >= high {
+        return Err(Flag::ConstantDepth(low));
+    }
     saturation(curve)?;
     let mut curve = curve.clone();
     if before_retraction {
-        let [low, high] = ends(&curve.depth);
         let ones = vec![1.0; curve.time.len()];
         let jitter = 4.0 * depth::noise(&curve.time, &curve.depth, &ones);
         let deep = high - jitter.max(1e-3 * (high - low));

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use numerics::{InvalidParameter, in_range, positive};
+
 use super::{IndentationCurve, igor};
 use crate::MeasurementError;
 use crate::moduli::Deformation;
@@ -74,12 +76,14 @@ pub struct CurveOptions {
 /// deflection are the depth.
 ///
 /// # Errors
-/// [`MeasurementError`] with file, line and column, or with the option that is missing.
+/// [`MeasurementError`] with file, line and column, or with the option that is missing, out of range or without effect.
 pub fn indentation_curve(
     file: &Path,
     contents: &[u8],
     options: &CurveOptions,
 ) -> Result<IndentationCurve, MeasurementError> {
+    options.check_ranges()?;
+    let given = options;
     let text = text_of(contents, &CURVES);
     let stiffness = options.spring_constant.or_else(|| stated_stiffness(&text));
     let options = &CurveOptions {
@@ -104,6 +108,7 @@ pub fn indentation_curve(
     let tables = source.tables()?;
     let several = tables.len() > 1;
     for (table, rows) in tables {
+        given.check_needed(&table)?;
         let segment = Segment::of(&source, &table, options)?;
         let points = segment.points(&table, &rows)?;
         // JPK may end with two points of a pause, seconds apart.
@@ -112,6 +117,53 @@ pub fn indentation_curve(
         }
     }
     Ok(curve)
+}
+
+impl CurveOptions {
+    fn check_ranges(&self) -> Result<(), InvalidParameter> {
+        let rates = [
+            ("spring_constant", self.spring_constant),
+            ("ramp_rate", self.ramp_rate),
+        ];
+        for (name, value) in rates {
+            value.map_or(Ok(1.0), |value| positive(name, value))?;
+        }
+        let sensitivity = self.sensitivity.unwrap_or(1.0);
+        let holds = sensitivity.is_finite() && sensitivity != 0.0;
+        in_range("sensitivity", sensitivity, holds, "finite and not 0")?;
+        Ok(())
+    }
+
+    /// Refuses what changes nothing beside the columns of a table.
+    fn check_needed(&self, table: &Table) -> Result<(), MeasurementError> {
+        let find = |quantities: &[Quantity]| quantities.iter().find_map(|one| table.find(*one));
+        let load = find(&[Force, Deflection]);
+        let force = load.filter(|load| load.unit.ends_with('N'));
+        let depth = find(&[Depth, Tip]);
+        let beside = [
+            (
+                "ramp_rate",
+                self.ramp_rate,
+                table.find(Time).map(|time| vec![time]),
+            ),
+            (
+                "sensitivity",
+                self.sensitivity,
+                load.filter(|load| !is_volts(load)).map(|load| vec![load]),
+            ),
+            (
+                "spring_constant",
+                self.spring_constant,
+                force.zip(depth).map(|(force, depth)| vec![force, depth]),
+            ),
+        ];
+        for (option, given, beside) in beside {
+            if let (Some(_), Some(columns)) = (given, beside) {
+                return Err(table.without_effect(option, &columns));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The stiffness that JPK and Asylum write beside their numbers, \[N/m].

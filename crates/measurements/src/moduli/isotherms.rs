@@ -13,6 +13,14 @@ pub(super) struct IsothermRow {
     pub(super) set: Option<f64>,
 }
 
+impl Row {
+    /// Whether this is the same measurement a second time, of the same temperature and at the same frequency.
+    fn repeats(&self, other: &Self) -> bool {
+        let moduli = |row: &Self| row.moduli.map(f64::to_bits);
+        self.temperature == other.temperature && moduli(self) == moduli(other)
+    }
+}
+
 /// Rows of one temperature.
 pub(super) struct Group {
     /// Where it begins.
@@ -27,10 +35,14 @@ pub(super) struct Group {
 const DRIFT: f64 = 1.0;
 
 /// Puts a row into the isotherm of the nearest temperature where its frequency is missing, or into a new one. The
-/// frequencies may come in any order, and so may the temperatures; says what was expected when the latest isotherm has a row
+/// frequencies may come in any order, and so may the temperatures, and a row that is there already counts once; says what was expected when the latest isotherm has a row
 /// of this frequency and temperature.
 pub(super) fn insert(groups: &mut Vec<Group>, row: IsothermRow) -> Result<(), &'static str> {
     let key = row.at.to_bits();
+    let is_repeated = |group: &Group| group.rows.get(&key).is_some_and(|same| same.repeats(&row));
+    if groups.iter().any(is_repeated) {
+        return Ok(());
+    }
     let distance = |group: &Group| group.distance(&row);
     if let Some(last) = groups.last()
         && let Some(same) = last.rows.get(&key)

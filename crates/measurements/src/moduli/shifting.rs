@@ -1,5 +1,6 @@
 //! Isotherms onto one curve, at exactly the temperature that is wanted.
 
+use numerics::finite;
 use rheology::fit::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};
 use rheology::{ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError, Shift, ShiftLaw, WlfShift};
 
@@ -50,6 +51,7 @@ pub fn master_curve(
     let range = [lowest, highest].map(|temperature| temperature + to_celsius);
     let middle = temperatures[temperatures.len() / 2];
     let wanted = shifting.reference_temperature.unwrap_or(middle);
+    finite("reference_temperature", wanted)?;
     if let Some(law) = shifting.law {
         let temperature = wanted + to_celsius;
         let shift = Shift {

@@ -199,10 +199,17 @@ impl<'a> Source<'a> {
     }
 
     fn wrong(&self, line: usize, column: &Column, expected: &str, cell: &str) -> MeasurementError {
-        let [name, cell] = [column.name, cell].map(|text| shown(text, 40));
+        let [name, cell] = [column.shown(), shown(cell, 40)];
         let place = column.place + 1;
         let problem = format!("column {place} ({name}): expected {expected}, but found '{cell}'");
         MeasurementError::Table(format!("{}, line {line}, {problem}", self.file.display()))
+    }
+}
+
+impl Column<'_> {
+    /// Its name, for messages.
+    fn shown(&self) -> String {
+        shown(self.name, 40)
     }
 }
 
@@ -273,19 +280,42 @@ impl<'a> Table<'a> {
                 let may_be_there = first.quantity == Frequency && first.name != column.name;
                 first.place < column.place && !may_be_there
             });
+            if let Some(first) = first.filter(|_| is_again) {
+                return Err(self.twice(line, [first, column]));
+            }
             let storage = self.find(Storage).filter(|_| column.quantity == Loss);
             let other = storage.filter(|storage| storage.deformation != column.deformation);
             let expected = match other {
-                _ if is_again => "a quantity once, in tension (E) or in shear (G)",
                 _ if column.quantity.is_modulus() && column.deformation.is_none() => {
                     "E (tension) or G (shear) in the name, or else the option deformation"
                 }
-                Some(storage) => &format!("a loss modulus to go with {}", shown(storage.name, 40)),
+                Some(storage) => &format!("a loss modulus to go with {}", storage.shown()),
                 None => continue,
             };
             return Err(self.source.wrong(line, column, expected, column.name));
         }
         Ok(())
+    }
+
+    /// Two columns of one quantity, of which nothing says which one counts.
+    fn twice(&self, line: usize, both: [&Column; 2]) -> MeasurementError {
+        let [first, second] = both.map(|one| format!("{} ({})", one.place + 1, one.shown()));
+        let quantity = both[0].quantity.usual();
+        let file = self.source.file.display();
+        MeasurementError::Table(format!(
+            "{file}, line {line}, columns {first} and {second}: both are {quantity}; remove or rename the one that does not count"
+        ))
+    }
+
+    /// An option that changes nothing beside these columns.
+    pub(crate) fn without_effect(&self, option: &str, beside: &[&Column]) -> MeasurementError {
+        let names: Vec<String> = beside
+            .iter()
+            .map(|one| format!("'{}'", one.shown()))
+            .collect();
+        let names = names.join(" and ");
+        let problem = format!("{option} has no effect, because there is {names}: leave it out");
+        self.source.wrong_line(self.line, &problem)
     }
 
     /// Reads the units, which are in the names or in the line below.
@@ -323,7 +353,7 @@ impl<'a> Table<'a> {
             }
             let Some((unit, factor)) = column.quantity.unit(column.unit) else {
                 let known = column.quantity.units().replace(' ', ", ");
-                let expected = format!("the unit of {}: {known}", shown(column.name, 40));
+                let expected = format!("the unit of {}: {known}", column.shown());
                 let source = self.source;
                 return Err(source.wrong(line.number, column, &expected, column.unit));
             };

@@ -78,11 +78,12 @@ const CURVE: [[f64; 2]; 6] = [
 
 #[test]
 fn curves_of_three_makers_and_in_any_unit_have_the_same_points() {
-    let options = CurveOptions {
-        spring_constant: Some(0.1),
-        sensitivity: Some(5e-8),
-        ramp_rate: Some(0.5 / 0.75),
-    };
+    type Give = fn(&mut CurveOptions);
+    let given: [(&str, Give); 3] = [
+        ("spring_constant", |of| of.spring_constant = Some(0.1)),
+        ("sensitivity", |of| of.sensitivity = Some(5e-8)),
+        ("ramp_rate", |of| of.ramp_rate = Some(0.5 / 0.75)),
+    ];
     let exports = include_str!("../data/curves.txt").split("\n== ").skip(1);
     for export in exports {
         let (title, text) = export.split_once('\n').expect("a title");
@@ -90,6 +91,19 @@ fn curves_of_three_makers_and_in_any_unit_have_the_same_points() {
             let curve = indentation_curve(Path::new("curve.txt"), text.as_bytes(), options);
             curve.map_err(|error| error.to_string())
         };
+        // All options that change something.
+        let mut options = CurveOptions::default();
+        for (name, give) in given {
+            let mut only = CurveOptions::default();
+            give(&mut only);
+            let without_effect = format!("{name} has no effect, because there is '");
+            if read(&only)
+                .err()
+                .is_none_or(|error| !error.contains(&without_effect))
+            {
+                give(&mut options);
+            }
+        }
         let curve = read(&options).unwrap_or_else(|error| panic!("{title}: {error}"));
         assert_eq!(curve.time.len(), CURVE.len(), "{title}: {curve:?}");
         for (i, [force, depth]) in CURVE.into_iter().enumerate() {
@@ -156,9 +170,13 @@ fn seven_layouts_of_instruments_have_the_same_points() {
 fn isotherms_are_found_in_temperature_sweeps_of_any_order() {
     let sweep = "f / Hz,T / K,G' / MPa,G'' / MPa\n10,293.2,2,1\n10,313,3,1\n10,303,4,1\n\n% 1 Hz\n1,303.3,5,1\n1,293,6,1\n\
         1,313.1,7,1\n1,293.1,8,1\n";
-    let read = read(sweep.as_bytes(), None);
-    assert_eq!(read.celsius, Some(false), "K");
-    let isotherms = isotherms(read);
+    let first = read(sweep.as_bytes(), None);
+    assert_eq!(first.celsius, Some(false), "K");
+    // Rows that stand in the table twice count once.
+    let (_, rows) = sweep.split_once('\n').expect("rows below the names");
+    let twice = read(format!("{sweep}{rows}").as_bytes(), None);
+    assert_eq!(twice, first, "every row twice");
+    let isotherms = isotherms(first);
     let storage = isotherms.iter().map(|(_, points)| {
         let storage = points.iter().map(|point| point[1].round());
         storage.collect::<Vec<_>>()

@@ -234,7 +234,10 @@ fn noiseless_curves_give_the_material_itself() {
 type Damage = fn(&mut IndentationCurve, f64);
 
 /// How the reasons begin, and what has them.
-const REASONS: [(&str, Damage); 8] = [
+const REASONS: [(&str, Damage); 9] = [
+    ("the depth does not change: it is 1e-7 m", |c, _| {
+        change(&mut c.depth, |_| 1e-7);
+    }),
     ("point 71 has no number", |c, _| c.force[70] = f64::NAN),
     ("at point 301 the time", |c, _| {
         add(&mut c.time[300..], -1.5);

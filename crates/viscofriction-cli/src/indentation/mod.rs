@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
 use clap::Args;
+use measurements::MeasurementError;
 use measurements::indentation::{
     CurveOptions, Finding, FitOptions, IndentationFit, Rheology, fit_indentation, indentation_curve,
 };
@@ -15,7 +16,7 @@ use viscofriction::WrongInput;
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
 use viscofriction::numerics::{in_range, positive};
 
-use crate::input::{protect, read_table};
+use crate::input::{check_file, read_table, wrong_option};
 use crate::material::{prony, wrong_table};
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
@@ -100,14 +101,16 @@ impl Body {
         let cone = |angle| PowerProfile::cone(slope("--cone", angle)?);
         let pyramid = |angle| PowerProfile::pyramid(slope("--pyramid", angle)?);
         let paraboloid = |radius| PowerProfile::paraboloid(0.5 / positive("--paraboloid", radius)?);
+        let sphere = |radius| Sphere::new(positive("--sphere", radius)?);
+        let flat_punch = |radius| FlatPunch::new(positive("--flat-punch", radius)?);
         // One of them is given.
         let shapes = [
-            self.sphere.map(|radius| Sphere::new(radius).map(boxed)),
+            self.sphere.map(|radius| sphere(radius).map(boxed)),
             self.paraboloid.map(|radius| paraboloid(radius).map(boxed)),
             self.cone.map(|angle| cone(angle).map(boxed)),
             self.pyramid.map(|angle| pyramid(angle).map(boxed)),
         ];
-        let punch = || FlatPunch::new(self.flat_punch.unwrap_or_default()).map(boxed);
+        let punch = || flat_punch(self.flat_punch.unwrap_or_default()).map(boxed);
         let shape = shapes.into_iter().flatten().next().unwrap_or_else(punch);
         shape.map_err(|error| WrongInput(error.to_string()))
     }
@@ -127,7 +130,8 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
             "--branches is for --material prony; the other materials have no branches to choose";
         return Err(WrongInput(problem.to_owned()).into());
     }
-    options.curves.iter().for_each(|file| protect(file));
+    let mut curves = options.curves.iter();
+    curves.try_for_each(|file| check_file(file))?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let [file] = &options.curves[..] else {
@@ -180,8 +184,10 @@ impl FitIndentation {
             before_retraction: self.before_retraction,
             profile,
         };
-        fit_indentation(body, &curve, &options)
-            .map_err(|error| WrongInput(format!("{}: {error}", file.display())))
+        fit_indentation(body, &curve, &options).map_err(|error| match error {
+            MeasurementError::InvalidParameter(refused) => wrong_option(refused),
+            other => WrongInput(format!("{}: {other}", file.display())),
+        })
     }
 }
 

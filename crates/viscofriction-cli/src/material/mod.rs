@@ -12,15 +12,15 @@ use measurements::moduli::{
     Deformation, MeasuredModuli, Measurements, Shifted, Shifting, TableOptions, master_curve,
     measured_moduli, shear_per_tension,
 };
+use rheology::RheologyError;
 use rheology::fit::{
     Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelativeError,
     RelaxationPoint, identify,
 };
-use rheology::{InvalidParameter, RheologyError};
 use viscofriction::WrongInput;
 use viscofriction::scene::ShiftLaw;
 
-use crate::input::read_table;
+use crate::input::{read_table, wrong_option};
 use crate::output::{OutputFolder, print_line, print_text};
 use crate::progress;
 pub(crate) use output_files::prony;
@@ -74,7 +74,10 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let contents = read_table(&options.data)?;
     let table = options.table()?;
     let moduli = measured_moduli(&options.data, &contents, &table).map_err(wrong_table)?;
-    let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));
+    let wrong = |error: RheologyError| match error {
+        RheologyError::InvalidParameter(refused) => wrong_option(refused),
+        other => WrongInput(format!("{}: {other}", options.data.display())),
+    };
     if moduli.celsius.is_none() && options.shifting() != Shifting::default() {
         let problem =
             "the table has no temperatures, from which it could be shifted to another one";
@@ -85,7 +88,13 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let found = progress::during(format!("fitting {}", options.data.display()), |_| {
-        identify(&curve, &options.identification()).map_err(wrong_option)
+        identify(&curve, &options.identification())
+    });
+    let found = found.map_err(|error| match error {
+        RheologyError::FitNotConverged { .. } => {
+            anyhow::Error::from(error).context(options.data.display().to_string())
+        }
+        other => wrong(other).into(),
     })?;
     let fitted = Fitted {
         options,
@@ -133,7 +142,10 @@ pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput
 
 /// What is wrong with a table is the user's.
 pub(crate) fn wrong_table(error: MeasurementError) -> WrongInput {
-    WrongInput(error.to_string())
+    match error {
+        MeasurementError::InvalidParameter(refused) => wrong_option(refused),
+        other => WrongInput(other.to_string()),
+    }
 }
 
 /// What the command found.
@@ -162,10 +174,9 @@ impl Points {
 }
 
 impl FitMaterial {
-    fn table(&self) -> Result<TableOptions> {
+    fn table(&self) -> Result<TableOptions, WrongInput> {
         Ok(TableOptions {
-            shear_per_tension: shear_per_tension(self.poisson_ratio)
-                .map_err(|refused| wrong_option(refused.into()))?,
+            shear_per_tension: shear_per_tension(self.poisson_ratio).map_err(wrong_option)?,
             deformation: self.deformation,
         })
     }
@@ -216,26 +227,5 @@ impl Fitted<'_> {
             _ => format!("G(t): {}", error(of_all)),
         };
         format!("{n_branches} branches; relative error of {errors}")
-    }
-}
-
-/// An option that the library refuses is the user's; that a fit does not converge is not.
-fn wrong_option(error: RheologyError) -> anyhow::Error {
-    match error {
-        RheologyError::InvalidParameter(refused) => {
-            let parameter = match refused.parameter {
-                "n_branches" => "--branches",
-                "tolerance" => "--parsimony",
-                "weight" => "--smoothing",
-                "poisson_ratio" => "--poisson-ratio",
-                other => other,
-            };
-            let refused = InvalidParameter {
-                parameter,
-                ..refused
-            };
-            WrongInput(refused.to_string()).into()
-        }
-        other => other.into(),
     }
 }

@@ -11,7 +11,7 @@ use viscofriction::WrongInput;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
 use viscofriction::indenters::topography::Topography;
 use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError, measured};
-use viscofriction::solve::warnings_of_heights;
+use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
 use crate::input::{half_of_free_memory, protect, read_input};
 use crate::output::{ABOUT_WARNINGS, OutputFolder, markdown, print_line, print_text, to_csv};
@@ -55,6 +55,11 @@ pub(crate) struct Surface {
     overwrite: bool,
 }
 
+const ADVICE: AdviceOnHeights = AdviceOnHeights {
+    unit: "--unit mm, um or nm says another one",
+    step: "in a scene edges = \"mirrored\" has no step",
+};
+
 const NAMES: &str = "roughness.csv spectrum.csv profiles.csv surface.svg surface.png tidied.xyz";
 
 /// Reads the map, and writes what it is like.
@@ -66,7 +71,7 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
     let wrong = |error| options.wrong(error);
     let map = surface.body().map_err(|error| options.wrong(error))?;
     let roughness = Roughness::of(&map, options.periodic).map_err(wrong)?;
-    for warning in warnings_of_heights(&options.table(), &surface, &map) {
+    for warning in warnings_of_heights(&options.table(), &surface, &map, &ADVICE) {
         notes += &format!("warning: {warning}\n");
     }
     if notes.contains("warning: ") {

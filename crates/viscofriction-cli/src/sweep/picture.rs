@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use viscofriction::WrongInput;
+use viscofriction::numerics::InWords;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
@@ -148,6 +149,10 @@ fn figure(table: &RowTable) -> Result<Figure> {
     }
 }
 
+/// Decimals behind the first digit of a number in a legend, at least, and those that any number has at most.
+const FEWEST_DECIMALS: usize = 2;
+const MOST_DECIMALS: usize = 16;
+
 /// More curves than these are not told apart.
 const MOST_CURVES: usize = 6;
 
@@ -167,6 +172,26 @@ impl Key<'_> {
         let numbers: Option<Vec<f64>> = self.numbers().into_iter().collect();
         numbers.map_or(0, |numbers| sorted(numbers.into_iter()).len())
     }
+
+    /// What each row has, numbers with as many digits as tell them apart.
+    fn shown(&self) -> Vec<String> {
+        let numbers: Option<Vec<f64>> = self.numbers().into_iter().collect();
+        let Some(numbers) = numbers else {
+            return self.cells.iter().map(ToString::to_string).collect();
+        };
+        let rounded = |decimals: usize| -> Vec<f64> {
+            let texts = numbers.iter().map(|number| format!("{number:.decimals$e}"));
+            texts.filter_map(|text| text.parse().ok()).collect()
+        };
+        let n_values = self.n_numbers();
+        let are_apart = |decimals: &usize| sorted(rounded(*decimals).into_iter()).len() == n_values;
+        let decimals = (FEWEST_DECIMALS..MOST_DECIMALS).find(are_apart);
+        let shown = rounded(decimals.unwrap_or(MOST_DECIMALS));
+        shown
+            .into_iter()
+            .map(|number| InWords(number).to_string())
+            .collect()
+    }
 }
 
 /// The rows by the values of the keys over which they are not drawn.
@@ -180,10 +205,12 @@ struct Curves {
 impl Curves {
     fn new(keys: &[Key<'_>], rows: usize) -> Self {
         let (mut labels, mut of) = (Vec::new(), Vec::new());
+        let keys: Vec<(&str, Vec<String>)> =
+            keys.iter().map(|key| (key.name, key.shown())).collect();
         for row in 0..rows {
-            let value = |key: &Key| {
-                let name = key.name.rsplit('.').next().unwrap_or(key.name);
-                let (label, value) = (labelled(name), &key.cells[row]);
+            let value = |(name, shown): &(&str, Vec<String>)| {
+                let name = name.rsplit('.').next().unwrap_or(name);
+                let (label, value) = (labelled(name), &shown[row]);
                 match label
                     .strip_suffix(']')
                     .and_then(|label| label.split_once(" ["))

@@ -96,6 +96,35 @@ fn a_force_that_rises_gives_the_depth_of_theory() {
     assert_elements_agree(&folder, "force.toml", "indentation_depth", &depths);
 }
 
+#[test]
+fn a_history_that_is_not_reached_is_printed_and_kept_with_its_bars() {
+    let folder = Folder::new("unreached-history");
+    let history = "history = [{ time = 0, normal_force = 0 }, { time = 1, normal_force = 0.02 }]";
+    let limited =
+        "solve = { method = \"bem-transient\", relative_error = 1e-4, max_memory = \"4 MiB\" }";
+    folder.write("scene.toml", scene(history, limited));
+    folder.write("exact.toml", scene(history, ""));
+    let reason = "the indentation depth [m] was not reached to the relative error 1e-4";
+    let said = folder.ends("run scene.toml --out out", 1, reason);
+    for printed in [
+        "\n| indentation depth |",
+        &format!("\nnot reached: {reason}"),
+    ] {
+        assert!(said.stdout.contains(printed), "no {printed} in {said:?}");
+    }
+    let result: Value = serde_json::from_str(&folder.text("out/result.json")).expect("JSON");
+    let bar = number(&result["history_error"], "indentation_depth");
+    let [written, exact] = [
+        folder.column("out/history.csv", 3),
+        column(&folder.json("exact.toml"), "indentation_depth"),
+    ];
+    let off = (written[1] - exact[1]).abs();
+    assert!(
+        off <= bar && bar > 1e-4 * exact[1],
+        "{written:?}, {exact:?}, bar {bar:e}"
+    );
+}
+
 /// F = 16/3 G d^(3/2) (Hertz), with 1/J(t) or G(t) as the modulus G.
 #[test]
 fn what_is_held_has_the_history_and_the_pressure_of_hertz() {

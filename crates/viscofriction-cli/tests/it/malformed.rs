@@ -85,6 +85,7 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     let folder = Folder::new("malformed");
     folder.write("map.csv", "0,0,0\n0,1,0\n0,0,0\n");
     folder.write("hole.csv", "0;0;0\n0;1;\n0;0;0\n");
+    folder.write("flat.csv", "1,1,1\n1,1,1\n1,1,1\n");
     let mut cases = numbers();
     let place = |line: &str| format!("scene.toml:{line}");
     for [lines, named, needed, text] in table("scenes") {

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::SceneError;
 use super::files::{measured, topography};
 use super::indenter::Edges;
+use super::source::problem_of;
 
 /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
 ///
@@ -93,7 +94,7 @@ impl TryFrom<toml::Table> for HeightMapTable {
     fn try_from(table: toml::Table) -> Result<Self, SceneError> {
         serde_path_to_error::deserialize(table).map_err(|error| {
             let key = format!("indenter.height-map.{}", error.path());
-            SceneError::at(key, error.inner().message().trim())
+            SceneError::at(key, problem_of(error.inner()))
         })
     }
 }

@@ -104,9 +104,19 @@ pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Resu
     }
     serde_path_to_error::deserialize(table).map_err(|error| {
         let path = error.path().to_string();
-        let problem = error.inner().message().trim();
-        SceneError::at(full_key(&path, problem), problem)
+        let problem = problem_of(error.inner());
+        SceneError::at(full_key(&path, &problem), problem)
     })
+}
+
+/// What is wrong with a value, in words in the place of types of Rust.
+pub(super) fn problem_of(error: &toml::de::Error) -> String {
+    let problem = error.message().trim();
+    match problem.rsplit_once(", expected ") {
+        Some((found, "f64")) => format!("{found}, expected a number"),
+        Some((found, "usize" | "u64")) => format!("{found}, expected a whole number"),
+        _ => problem.to_owned(),
+    }
 }
 
 /// Refuses lists where tables belong, of which serde would take the values in the order of the keys.

@@ -121,7 +121,7 @@ pub enum SolveError {
         longest: f64,
     },
     /// No front of the contact carries the force.
-    #[error("no front of the contact was found that carries the normal force {normal_force}")]
+    #[error("no front of the contact was found that carries the normal force {}", InWords(*normal_force))]
     FrontNotFound {
         /// The force, \[N].
         normal_force: f64,
@@ -191,7 +191,13 @@ fn others(offered: &[Method]) -> String {
 }
 
 fn reasons(refusals: &[(Method, Refusal)]) -> String {
-    let reason = |(method, why): &(Method, Refusal)| format!("{}: {why}", method.name());
-    let reasons: Vec<String> = refusals.iter().map(reason).collect();
-    reasons.join("; ")
+    let mut methods: Vec<(Refusal, Vec<&str>)> = Vec::new();
+    for (method, why) in refusals {
+        match methods.iter_mut().find(|(known, _)| known == why) {
+            Some((_, names)) => names.push(method.name()),
+            None => methods.push((why, vec![method.name()])),
+        }
+    }
+    let reason = |(why, names): &(Refusal, Vec<&str>)| format!("{}: {why}", names.join(", "));
+    methods.iter().map(reason).collect::<Vec<_>>().join("; ")
 }

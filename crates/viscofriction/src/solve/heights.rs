@@ -1,8 +1,8 @@
 //! The rigid body of a grid of heights, and whether the grid is likely to be meant as it is.
 
-use indenters::HeightMap;
 use indenters::rough::PeriodicSurface;
 use indenters::topography::Topography;
+use indenters::{HeightMap, IndenterError};
 use numerics::whole_part;
 
 use super::body::{Body, BodyOfScene};
@@ -28,11 +28,18 @@ pub fn body_of_heights(
     };
     let surface = table.prepared(surface)?;
     let map = surface.body().map_err(|error| in_file(error.to_string()))?;
-    let warnings = warnings(table, &surface, &map);
+    let warnings = warnings(table, &surface, &map, &Advice::SCENE);
     let periodic = |map: &HeightMap| {
         let shortest = table.shortest_wavelength.unwrap_or(0.0);
         let waves = PeriodicSurface::through(map, shortest);
-        waves.map_err(|error| SceneError::at(key("edges"), error.to_string()))
+        waves.map_err(|error| match error {
+            IndenterError::InvalidParameter(refused)
+                if refused.parameter == "shortest_wavelength" =>
+            {
+                SceneError::within("indenter.height-map", refused)
+            }
+            other => in_file(other.to_string()),
+        })
     };
     let body = match table.edges {
         Edges::Periodic => Body::Periodic(periodic(&map)?),
@@ -47,8 +54,30 @@ pub fn body_of_heights(
     Ok(BodyOfScene { body, warnings })
 }
 
+/// What to do about strange heights, in the words in which they were described.
+#[derive(Debug, Clone, Copy)]
+pub struct Advice {
+    /// Where they are in another unit.
+    pub unit: &'static str,
+    /// Where a map that repeats itself does not fit to itself.
+    pub step: &'static str,
+}
+
+impl Advice {
+    /// In the keys of a scene.
+    pub const SCENE: Self = Self {
+        unit: "unit = \"mm\", \"um\" or \"nm\" says another one",
+        step: "level = true takes a tilt out, and edges = \"mirrored\" has no step",
+    };
+}
+
 /// What is strange about the heights, in sentences with the numbers.
-pub fn warnings(table: &HeightMapTable, surface: &Topography, map: &HeightMap) -> Vec<String> {
+pub fn warnings(
+    table: &HeightMapTable,
+    surface: &Topography,
+    map: &HeightMap,
+    advice: &Advice,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     if surface.states_unit && table.unit.is_some() {
         warnings.push("the file states the unit of its heights: unit has no effect".to_owned());
@@ -59,13 +88,13 @@ pub fn warnings(table: &HeightMapTable, surface: &Topography, map: &HeightMap) -
     let highest = map.heights().iter().copied().fold(0.0, f64::max);
     // A body that ends may be steep far from its contact.
     if slope > STEEPEST && (table.edges != Edges::Wall || highest > x.max(y)) {
-        let advice = if surface.states_unit {
-            "is the unit in the file right?"
+        let question = if surface.states_unit {
+            "is the unit in the file right?".to_owned()
         } else {
-            "are they in that unit? unit = \"mm\", \"um\" or \"nm\" says another one"
+            format!("are they in that unit? {}", advice.unit)
         };
         warnings.push(format!(
-            "the heights span {highest:.3e} m over {x:.3e} m × {y:.3e} m, with a root mean square slope of {slope:.3}: {advice}"
+            "the heights span {highest:.3e} m over {x:.3e} m × {y:.3e} m, with a root mean square slope of {slope:.3}: {question}"
         ));
     }
     if table.edges == Edges::Periodic {
@@ -73,7 +102,7 @@ pub fn warnings(table: &HeightMapTable, surface: &Topography, map: &HeightMap) -
             let half = 0.5 * table.shortest_wavelength.unwrap_or(0.0) / map.spacing()[axis];
             let most = (map.shape()[axis] / 2) as f64;
             let steps = Steps::of(map, axis, whole_part(half.round().max(1.0).min(most)));
-            warnings.extend(steps.warning(name));
+            warnings.extend(steps.warning(name, advice.step));
         }
     }
     warnings
@@ -116,15 +145,14 @@ impl Steps {
     }
 
     /// A sentence where the step across the edge is most of the mean square slope.
-    fn warning(&self, axis: &str) -> Option<String> {
+    fn warning(&self, axis: &str, advice: &str) -> Option<String> {
         let [inside, across] = [self.inside, self.across].map(|[sum, count]| (sum / count).sqrt());
         let all = self.inside[0] + self.across[0];
         let part = (self.across[0] - inside * inside * self.across[1]) / all;
         (part > MOST).then(|| {
             format!(
                 "{:.0} % of the mean square slope along {axis} belong to the step at the edge of the map, where it is \
-                 repeated: {across:.3e} m (root mean square) over {:.3e} m, and {inside:.3e} m elsewhere; level = true takes \
-                 a tilt out, and edges = \"mirrored\" has no step",
+                 repeated: {across:.3e} m (root mean square) over {:.3e} m, and {inside:.3e} m elsewhere; {advice}",
                 100.0 * part, self.length
             )
         })

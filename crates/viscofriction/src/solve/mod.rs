@@ -31,7 +31,7 @@ pub use dissipation::Dissipation;
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;
 pub use half_space::{HalfSpace, half_space};
-pub use heights::{body_of_heights, warnings as warnings_of_heights};
+pub use heights::{Advice as AdviceOnHeights, body_of_heights, warnings as warnings_of_heights};
 use memory::Limited;
 pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of};

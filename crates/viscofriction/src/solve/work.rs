@@ -31,6 +31,8 @@ const NO_SHARE: Refusal =
     "it does not say which part of the friction comes from outside of valid_frequencies";
 const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
+const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: its slope is 0 in the contact and infinite at its \
+     edge, so that its friction would be that of the edge alone; a flat-cone or a truncated-paraboloid has a flat end and a front";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
@@ -42,6 +44,9 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     if let History(_) = problem.motion() {
         return followed(problem, method, accuracy);
     }
+    let is_elastic = problem.simple() == Some(&Simple::Elastic);
+    let rises = has_front(problem.body()) || (is_elastic && method == Analytic);
+    require(rises || !matches!(problem.motion(), Sliding(_)), NO_FRONT)?;
     match (problem.body(), method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Analytic) => closed(problem, body, accuracy),
@@ -59,6 +64,14 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
         ),
+    }
+}
+
+/// Whether a body rises where it ends; a flat punch does not.
+fn has_front(body: &Body) -> bool {
+    match body {
+        Body::Revolution(body) => body.profile(body.max_radius()).height > 0.0,
+        _ => true,
     }
 }
 

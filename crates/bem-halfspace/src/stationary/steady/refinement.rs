@@ -60,7 +60,7 @@ const SMALLEST_RESIDUAL: f64 = 1e-12;
 const RESIDUAL_SHARE_OF_STRIP: f64 = 1e-2;
 /// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
 const FIRST_PART: f64 = 1e-3;
-/// Friction that is known to this part of the mean slope counts as known: what is left of an elastic body is rounding.
+/// Friction on an elastic material that is known to this part of the mean slope counts as known: what is left is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// How far a friction coefficient is refined.
@@ -117,25 +117,31 @@ pub(super) fn refine<E: Into<Reached>>(
     loop {
         let friction = grids.friction(&refinements);
         let force = grids.force(&refinements);
-        let rounding = ROUNDING * finest.state.mean_slope;
-        // Without friction the contact is known as well as its depth.
+        let is_elastic = problem.loading.creep.is_elastic();
+        let rounding = if is_elastic {
+            ROUNDING
+        } else {
+            SMALLEST_RESIDUAL
+        };
+        // Without friction the contact is known as well as its depth, and finer grids leave what is rounding.
+        let is_rounding = friction.error <= rounding * finest.state.mean_slope;
         let (name, driving) = match grids.depth(&refinements) {
-            Some(depth) if friction.error <= rounding => (Name::Depth, depth),
-            None if friction.error <= rounding => (Name::Force, force),
+            Some(depth) if is_rounding => (Name::Depth, depth),
+            None if is_rounding => (Name::Force, force),
             _ => (Name::Friction, friction),
         };
         let is_enough = driving.is_within(relative_error) && force.is_within(relative_error);
         if is_enough || !grids.allows(index + 1, &finest.averages) {
             let found = finish(grids.estimate(friction, force, refinements, finest))?;
-            return if is_enough {
+            let asked = if is_elastic {
+                (name, driving)
+            } else {
+                (Name::Friction, friction)
+            };
+            return if asked.1.is_within(relative_error) && force.is_within(relative_error) {
                 Ok(found)
             } else {
-                Err(not_reached(
-                    (name, driving),
-                    force,
-                    relative_error,
-                    found.into(),
-                ))
+                Err(not_reached(asked, force, relative_error, found.into()))
             };
         }
         let excess = [driving, force].map(|known| known.error / known.value.abs());

@@ -83,6 +83,11 @@ impl SlidingCreep {
             && self.spectrum.elements().is_empty()
     }
 
+    /// Whether nothing is dissipated.
+    pub(super) fn is_elastic(&self) -> bool {
+        self.spectrum.fluidity() == 0.0 && self.spectrum.elements().is_empty()
+    }
+
     /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a layer, where a load is not felt far ahead, so that the surface does
     /// not sink without limit.
     pub(super) const fn fluidity(&self) -> f64 {
