@@ -95,7 +95,7 @@ pub enum SolveError {
         /// Relaxation modulus at that time, \[Pa].
         modulus: f64,
     },
-    /// What happens is faster or slower than a fractional element was expanded for.
+    /// What happens is faster or slower than a series stands for its law.
     #[error(
         "it takes {time:e} s, and time_range of the material is from {shortest:e} to {longest:e} s: widen it"
     )]
@@ -107,7 +107,7 @@ pub enum SolveError {
         /// Longest time of the range, \[s].
         longest: f64,
     },
-    /// Long waves under a line contact strain a fractional element for longer than its series creeps.
+    /// Long waves under a line contact strain a material for longer than its series stands for it.
     #[error(
         "up to {part:.2} of the friction of this line contact is of times after the longest one of time_range of the material, \
          {longest:e} s, and the error asked for is {asked:e}: widen it"

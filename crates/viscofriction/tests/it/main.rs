@@ -6,6 +6,8 @@ mod height_maps_of_numpy;
 mod histories;
 mod layers;
 mod malformed;
+#[cfg(feature = "fit")]
+mod own_materials;
 mod rough_scenes;
 mod scenes;
 mod shared;
