@@ -56,6 +56,11 @@ pub mod slide;
 pub mod steady;
 mod stepping;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use bars::ContactEstimate;
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
 pub use convolution::{Convolution, ConvolutionWorkspace};

@@ -64,6 +64,11 @@ mod transient;
 mod viscoelastic;
 mod wavy;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use axisymmetric::axisymmetric_sliding;
 pub use cylinder::{CylinderSliding, LineContact, cylinder_sliding};
 pub use elastic_limit::{

@@ -37,6 +37,11 @@ mod press;
 mod slide;
 mod steady;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use error::MdrError;
 pub use history::{
     CurvePoint, Follow, ForceDerivatives, force_derivatives, indent_along, work_along,

@@ -35,4 +35,9 @@ pub mod indentation;
 pub mod moduli;
 mod table;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use error::MeasurementError;

@@ -42,6 +42,11 @@ struct FromRust;
 #[doc = include_str!("../../../docs/own-material.md")]
 struct OwnMaterial;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use bem_halfspace::slide::PressureField;
 pub use files::{Files, ReadFile};
 pub use numerics::{ErrorParts, Estimate, Watch};
