@@ -72,6 +72,7 @@ pub struct RelativeError {
 /// A Prony series, and how well it fits.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Identification {
     /// The series.
     pub spectrum: RelaxationSpectrum,

@@ -14,6 +14,7 @@ use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// Of the half space.
     #[error("{_0}{}", of_half_space(_0))]
@@ -163,6 +164,7 @@ pub(crate) type Refusal = &'static str;
 
 /// Why no method is asked.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NotOffered {
     /// The method that the scene names does not answer it.
     #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]
