@@ -19,7 +19,9 @@ mod native {
     #[pymodule_export]
     use super::indentation::fit_curve;
     #[pymodule_export]
-    use super::materials::{fit_oscillation, fit_relaxation, material_curve, scaling_factor};
+    use super::materials::{
+        expand_relaxation, fit_oscillation, fit_relaxation, material_curve, scaling_factor,
+    };
     #[pymodule_export]
     use super::moduli::{master_curve, read_moduli, shift_factor};
     #[pymodule_export]

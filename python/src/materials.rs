@@ -1,13 +1,14 @@
 //! Properties of materials, and materials from measurements.
 
+use std::cell::OnceCell;
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rheology::RheologyError;
+use rheology::{RelaxationSpectrum, RheologyError};
 use rheology::fit::{
-    Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, identify,
+    Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, expand, identify,
 };
 use viscofriction::scene::MaterialTable;
 use viscofriction::solve::{Expansion, HalfSpace, half_space};
@@ -130,6 +131,46 @@ pub(crate) fn fit_relaxation<'py>(
     fitted(py, MeasuredCurve::relaxation(points), &options)
 }
 
+/// The Prony series of a function G(t), and its largest relative error; raises what the function raises.
+#[pyfunction]
+pub(crate) fn expand_relaxation<'py>(
+    relaxation_modulus: &Bound<'py, PyAny>,
+    shortest: f64,
+    longest: f64,
+    relative_error: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let raised = OnceCell::new();
+    let modulus = |time: f64| {
+        let value = relaxation_modulus.call1((time,));
+        let value = value.and_then(|value| value.extract::<f64>());
+        // Refused as no modulus, and then raised.
+        value.unwrap_or_else(|error| {
+            raised.get_or_init(|| error);
+            f64::NAN
+        })
+    };
+    let found = expand(&modulus, [shortest, longest], relative_error);
+    if let Some(error) = raised.into_inner() {
+        return Err(error);
+    }
+    let found = found.map_err(wrong)?;
+    let dictionary = series(relaxation_modulus.py(), &found.spectrum)?;
+    dictionary.set_item("relative_error", found.relative_error)?;
+    Ok(dictionary)
+}
+
+/// Spring and branches as pairs.
+fn series<'py>(py: Python<'py>, spectrum: &RelaxationSpectrum) -> PyResult<Bound<'py, PyDict>> {
+    let branches = spectrum.branches().iter();
+    let branches: Vec<[f64; 2]> = branches
+        .map(|branch| [branch.modulus, branch.relaxation_time])
+        .collect();
+    let dictionary = PyDict::new(py);
+    dictionary.set_item("equilibrium_modulus", spectrum.equilibrium_modulus())?;
+    dictionary.set_item("branches", branches)?;
+    Ok(dictionary)
+}
+
 fn fitted<'py>(
     py: Python<'py>,
     curve: Result<MeasuredCurve, RheologyError>,
@@ -139,14 +180,7 @@ fn fitted<'py>(
     let curve = curve.map_err(wrong)?;
     let found = py.detach(|| identify(&curve, &options)).map_err(wrong)?;
     let [lowest, highest] = curve.frequencies();
-    let branches = found.spectrum.branches().iter();
-    let branches: Vec<[f64; 2]> = branches
-        .map(|branch| [branch.modulus, branch.relaxation_time])
-        .collect();
-    let dictionary = PyDict::new(py);
-    let modulus = found.spectrum.equilibrium_modulus();
-    dictionary.set_item("equilibrium_modulus", modulus)?;
-    dictionary.set_item("branches", branches)?;
+    let dictionary = series(py, &found.spectrum)?;
     dictionary.set_item("valid_frequencies", (lowest, highest))?;
     dictionary.set_item("rms_relative_error", found.rms_relative_error)?;
     let pair = |error: Option<RelativeError>| error.map(|one| (one.rms, one.max));

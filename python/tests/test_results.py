@@ -6,9 +6,11 @@ import copy
 import math
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import viscofriction as vf
 
@@ -222,3 +224,28 @@ def test_what_was_reached_is_held_with_its_bars() -> None:
     assert answer.pressure.size > 0 and answer.to_dict()["not_reached"] == str(raised.value)
     assert "not reached: the friction coefficient" in repr(answer)
     assert pickle.loads(pickle.dumps(answer)) == answer
+
+
+def test_a_law_of_ones_own_has_its_error_in_the_bars(capsys: pytest.CaptureFixture[str]) -> None:
+    page = (ROOT / "docs" / "own-material.md").read_text()
+    programs = [block.split("```")[0] for block in page.split("```python\n")[1:]]
+    names: dict[str, Any] = {}
+    for program in programs:
+        exec(program, names)
+    by_function, by_table = (line.split("μ = ")[1].split(" ± ") for line in capsys.readouterr().out.splitlines())
+    (mu, error), (other, other_error) = (map(float, pair) for pair in (by_function, by_table))
+    assert 0 < error < 1e-3 * mu and abs(mu - other) <= error + other_error
+    rubber = names["rubber"]
+    bare = vf.Prony(rubber.equilibrium_modulus, [{"modulus": g, "relaxation_time": t} for g, t in rubber.branches])
+    narrow = vf.slide(vf.Sphere(5e-3), bare, normal_force=2.0, velocity=0.1)
+    assert narrow.mu_error + rubber.approximation[0] * mu < error
+
+
+def test_a_law_that_raises_or_rises_is_refused() -> None:
+    def broken(time: float) -> float:
+        raise KeyError("my law")
+
+    with pytest.raises(KeyError, match="my law"):
+        vf.Prony.from_relaxation(broken, (1e-3, 1e3))
+    with pytest.raises(ValueError, match="a relative error of"):
+        vf.Prony.from_relaxation(lambda time: 1.0 + time / (1.0 + time), (1e-3, 1e3))

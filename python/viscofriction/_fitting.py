@@ -40,6 +40,21 @@ class Fit:
     #: The shift law as in a scene's ``shift``, in °C, where several isotherms have one.
     shift: dict[str, Any] | None = None
 
+    @property
+    def material_with_error(self) -> Prony:
+        """The material with its largest relative error, which is then in all bars, for times 1/ω within the measured frequencies."""
+        material = self.material
+        lowest, highest = material.valid_frequencies or (0.0, 0.0)
+        approximation = (self.max_relative_error, (1 / highest, 1 / lowest))
+        branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in material.branches]
+        return Prony(
+            material.equilibrium_modulus,
+            branches,
+            poisson_ratio=material.poisson_ratio,
+            valid_frequencies=material.valid_frequencies,
+            approximation=approximation,
+        )
+
     def at(self, temperature: float) -> Prony:
         """The material at another temperature, in the unit of the table, by the shift law; the frequencies at which it was
         measured shift along.

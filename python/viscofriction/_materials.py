@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, fields
 from pathlib import Path
 from typing import Any, ClassVar
@@ -140,6 +140,9 @@ class Prony(Material):
 
     Instead of both, ``branches`` are dictionaries ``{"modulus": …, "relaxation_time": …}``, or pairs in this order, which are
     refused where all seem to be the other way round.
+
+    A series that stands for another law has an ``approximation`` ``(relative_error, (shortest, longest))``, the largest relative
+    error of its moduli at these times [s] and at the frequencies 1/t, which is then in all bars.
     """
 
     equilibrium_modulus: float
@@ -148,6 +151,7 @@ class Prony(Material):
     viscosity: float = 0.0
     poisson_ratio: float = 0.5
     valid_frequencies: tuple[float, float] | None = None
+    approximation: tuple[float, tuple[float, float]] | None = None
     _kind = "prony"
 
     def __init__(
@@ -160,6 +164,7 @@ class Prony(Material):
         viscosity: float = 0.0,
         poisson_ratio: float = 0.5,
         valid_frequencies: tuple[float, float] | None = None,
+        approximation: tuple[float, tuple[float, float]] | None = None,
     ) -> None:
         if branches is not None:
             if moduli is not None or relaxation_times is not None:
@@ -176,14 +181,42 @@ class Prony(Material):
             "viscosity": viscosity,
             "poisson_ratio": poisson_ratio,
             "valid_frequencies": valid_frequencies,
+            "approximation": approximation,
         }
         for name, value in values.items():
             object.__setattr__(self, name, as_value(value))
+
+    @classmethod
+    def from_relaxation(
+        cls,
+        relaxation_modulus: Callable[[float], float],
+        time_range: tuple[float, float],
+        relative_error: float = 1e-5,
+        *,
+        poisson_ratio: float = 0.5,
+    ) -> Prony:
+        """The series that stands for a function G(t) [Pa], with an error that is in all bars.
+
+        ``time_range`` is the shortest and the longest time for which the material is needed [s]: there G(t), and at the frequencies 1/t
+        G*, are within ``relative_error`` of the function. It is asked for times beyond the range too, and must fall as that of a
+        material does.
+
+        Raises ValueError where no series is as near, and whatever the function raises.
+        """
+        first, last = (float(time) for time in time_range)
+        found = _native.expand_relaxation(relaxation_modulus, first, last, relative_error)
+        branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in found["branches"]]
+        approximation = (found["relative_error"], (first, last))
+        modulus = found["equilibrium_modulus"]
+        return cls(modulus, branches, poisson_ratio=poisson_ratio, approximation=approximation)
 
     def _table(self) -> dict[str, Any]:
         table = super()._table()
         branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in self.branches]
         table[self._kind]["branches"] = branches
+        if self.approximation is not None:
+            error, times = self.approximation
+            table[self._kind]["approximation"] = {"relative_error": error, "time_range": times}
         return table
 
 

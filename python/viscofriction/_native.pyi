@@ -26,6 +26,9 @@ def fit_oscillation(
 def fit_relaxation(
     time: NDArray[np.float64], modulus: NDArray[np.float64], options: dict[str, Any]
 ) -> dict[str, Any]: ...
+def expand_relaxation(
+    relaxation_modulus: Callable[[float], float], shortest: float, longest: float, relative_error: float
+) -> dict[str, Any]: ...
 def read_moduli(
     file: str, poisson_ratio: float, deformation: str | None
 ) -> tuple[list[tuple[float | None, list[NDArray[np.float64]]]], bool | None]: ...

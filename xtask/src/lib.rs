@@ -70,6 +70,12 @@ enum Command {
     Evidence(evidence::Evidence),
     /// Count what each library crate pulls in when it is built alone. Markdown.
     Dependencies(ci::Dependencies),
+    /// Make everything that is published, and try each part where nothing of the workspace is installed.
+    Release {
+        /// A new folder for packed crates, wheel, source distribution and book.
+        #[arg(long, default_value = "target/published")]
+        out: PathBuf,
+    },
     /// Run everything that CI checks.
     Ci,
 }
@@ -87,6 +93,7 @@ pub fn execute() -> ExitCode {
         Command::ScalingTable { out } => scaling::generate_table(&out),
         Command::Evidence(options) => evidence::evidence(options),
         Command::Dependencies(options) => ci::write_dependencies(&options),
+        Command::Release { out } => ci::release(&out),
         Command::Ci => ci::run(),
     };
     match outcome {

@@ -9,6 +9,7 @@ use crate::{Footprint, Reached};
 
 /// Why there is no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum BemError {
     /// A parameter is not a number, or outside the range it may take.
     #[error(transparent)]

@@ -38,6 +38,11 @@ mod stepping;
 mod substrate;
 mod transform;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 /// The crates whose types are arguments and results, so that no other dependency is needed.
 pub use ::{indenters, numerics, rheology};
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};

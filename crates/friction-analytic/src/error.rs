@@ -7,6 +7,7 @@ use thiserror::Error;
 /// Why the friction integral has no finite value.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub enum DivergenceCause {
     /// The profile rises from its apex like `r^exponent` with an exponent of at most 1/2.
     #[error("the profile rises from its apex with exponent {exponent}, more than 0.5 is needed")]
@@ -35,6 +36,7 @@ pub enum DivergenceCause {
 
 /// Why friction, depth or sinking velocity cannot be given.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum FrictionError {
     /// The geometry refuses.
     #[error(transparent)]

@@ -64,6 +64,11 @@ mod transient;
 mod viscoelastic;
 mod wavy;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 /// The crates whose types are arguments and results, so that no other dependency is needed.
 pub use ::{indenters, numerics, rheology};
 pub use axisymmetric::axisymmetric_sliding;

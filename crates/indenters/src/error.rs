@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Why an indenter, a load or a geometric problem is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum IndenterError {
     /// A parameter is not a number, or outside the range it may take.
     #[error(transparent)]

@@ -60,6 +60,11 @@ mod surface;
 mod table;
 pub mod topography;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use analytic_line::AnalyticLine;
 pub use axisymmetric::{Axisymmetric, Kink, LinePoint, ProfilePoint, abel_height, abel_slope};
 pub use contact_radius::contact_radius;

@@ -9,6 +9,7 @@ use crate::{CurvePoint, SlideRow, Sliding, SteadySliding};
 
 /// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MdrError {
     /// A parameter is not a number, or outside the range it may take.
     #[error(transparent)]

@@ -37,6 +37,11 @@ mod press;
 mod slide;
 mod steady;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 /// The crates whose types are arguments and results, so that no other dependency is needed.
 pub use ::{indenters, numerics, rheology};
 pub use error::MdrError;

@@ -8,6 +8,7 @@ use crate::indentation::Flag;
 
 /// Why a table cannot be read, or a curve not be fitted.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MeasurementError {
     /// An option is out of range.
     #[error(transparent)]

@@ -35,6 +35,11 @@ pub mod indentation;
 pub mod moduli;
 mod table;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 /// The crates whose types are arguments and results, so that no other dependency is needed.
 pub use ::{indenters, rheology};
 pub use error::MeasurementError;

@@ -38,6 +38,11 @@ mod refinement;
 mod root;
 mod whole_part;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use error_parts::ErrorParts;
 pub use estimate::{Estimate, ValueWithError};
 pub use fourier::wave_power;

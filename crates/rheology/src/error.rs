@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Why a material, or an argument of one of its functions, is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RheologyError {
     /// A parameter is not a number, or outside the range it may take.
     #[error(transparent)]

@@ -39,6 +39,11 @@ mod step;
 mod time_temperature;
 mod window;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use complex::{ComplexCompliance, ComplexModulus};
 pub use error::RheologyError;
 pub use fractional::PronyExpansion;

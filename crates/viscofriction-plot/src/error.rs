@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// What a figure must satisfy and what was given instead.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PlotError {
     /// The range of an axis or colour scale cannot be drawn.
     #[error("the range of '{axis}' must {needed}, it is {from} to {to}")]

@@ -40,6 +40,11 @@ mod png;
 mod series;
 mod ticks;
 
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
+
 pub use axis::{Axis, Scale};
 pub use canvas::Drawing;
 pub use chart::Chart;

@@ -33,10 +33,19 @@ pub mod solve;
 pub mod sweep;
 mod text;
 
-/// The programs of that page compile and run.
+/// The programs of these pages compile and run.
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/rust.md")]
 struct FromRust;
+
+#[cfg(all(doctest, feature = "fit"))]
+#[doc = include_str!("../../../docs/own-material.md")]
+struct OwnMaterial;
+
+/// The program of that page compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
 
 pub use bem_halfspace::slide::PressureField;
 pub use files::{Files, ReadFile};

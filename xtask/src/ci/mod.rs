@@ -5,6 +5,7 @@
 
 mod cargo;
 mod dependencies;
+mod release;
 mod workspace;
 
 use std::process::Command;
@@ -15,7 +16,11 @@ use anyhow::{Context, Result, ensure};
 use crate::figures;
 use cargo::Cargo;
 pub(crate) use dependencies::{Dependencies, write as write_dependencies};
+pub(crate) use release::release;
 use workspace::{Workspace, check_lengths};
+
+/// What is published.
+const PACKAGES: &str = "--workspace --exclude xtask --exclude benches --exclude casebook";
 
 /// Runs all steps up to the first that fails; the last line printed counts the tests.
 pub(crate) fn run() -> Result<()> {
@@ -56,9 +61,8 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
     })?;
     step("packages", || {
         // Packs what would be published, without compiling it once more.
-        let private = "--exclude xtask --exclude benches --exclude casebook";
         cargo.run(&format!(
-            "package --workspace {private} --no-verify --allow-dirty --offline"
+            "package {PACKAGES} --no-verify --allow-dirty --offline"
         ))
     })?;
     step("figures", figures::check)

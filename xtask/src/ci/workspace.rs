@@ -16,12 +16,13 @@ const MOST_LINES: usize = 500;
 #[derive(Debug, Deserialize)]
 pub(super) struct Workspace {
     pub(super) packages: Vec<Package>,
-    target_directory: PathBuf,
+    pub(super) target_directory: PathBuf,
 }
 
 #[derive(Debug, Deserialize)]
 pub(super) struct Package {
-    name: String,
+    pub(super) name: String,
+    pub(super) version: String,
     /// The registries where it may be published; none when it may be anywhere.
     publish: Option<Vec<String>>,
     dependencies: Vec<Dependency>,
@@ -70,7 +71,7 @@ impl Workspace {
 
 impl Package {
     /// Names of its targets of a kind.
-    fn targets(&self, kind: &str) -> impl Iterator<Item = &str> {
+    pub(super) fn targets(&self, kind: &str) -> impl Iterator<Item = &str> {
         let is_wanted = move |target: &&Target| target.kind.iter().any(|own| own == kind);
         let wanted = self.targets.iter().filter(is_wanted);
         wanted.map(|target| &*target.name)

@@ -23,6 +23,7 @@ const ELEMENTS_AT_END: f64 = 1.5;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct ContactEstimate<S, O> {
     /// Friction coefficient μ = F_h/F_N; 0 where nothing slides.
     pub friction_coefficient: Estimate,

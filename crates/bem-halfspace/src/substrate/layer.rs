@@ -21,15 +21,15 @@ use crate::substrate::rectangle::integrate_smooth;
 /// What a surface is pressed into: every [`Material`] stands for a half space, and [`Layer`] makes a layer of it.
 pub trait Elastomer {
     /// What it is made of.
-    fn material(&self) -> &(impl Material + ?Sized);
+    fn material(&self) -> Box<dyn Material + '_>;
 
     /// Its thickness, \[m]; infinite for a half space.
     fn thickness(&self) -> f64;
 }
 
 impl<M: Material + ?Sized> Elastomer for M {
-    fn material(&self) -> &(impl Material + ?Sized) {
-        self
+    fn material(&self) -> Box<dyn Material + '_> {
+        Box::new(self)
     }
 
     fn thickness(&self) -> f64 {
@@ -59,8 +59,8 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
 }
 
 impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
-    fn material(&self) -> &(impl Material + ?Sized) {
-        self.material
+    fn material(&self) -> Box<dyn Material + '_> {
+        Box::new(self.material)
     }
 
     fn thickness(&self) -> f64 {

@@ -3,12 +3,12 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bem_halfspace::{
-    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor, periodic,
-    press, slide, steady, steady_line,
+    Control, Convolution, Elastomer, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor,
+    periodic, press, slide, steady, steady_line,
 };
 use casebook::refuses;
 use friction_analytic::{power_sliding, winkler_line_force};
-use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, RigidLine};
+use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, RigidLine, Surface};
 use nalgebra::{DMatrix, DVector};
 use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
 use rheology::{Compressible, Material, Prony};
@@ -28,6 +28,31 @@ const FACTORS: [[f64; 3]; 7] = [
     [0.5, 0.05, 8.296_003_684_674_766e-5],
     [0.5, 3.0, 0.886_720_854_075_309_1],
 ];
+
+/// Bodies, materials and layers that are known at run time only.
+#[test]
+fn trait_objects_have_the_answer_of_their_types() {
+    let (ball, solid) = (paraboloid(0.5), solid());
+    let layer = Layer::new(&solid, 0.1).unwrap();
+    let material: &dyn Material = &solid;
+    let of_object = Layer::new(material, 0.1).unwrap();
+    let elastomers: [&dyn Elastomer; 4] = [&solid, &material, &layer, &of_object];
+    let surface: &dyn Surface = &ball;
+    let control = Control::NormalForce(0.02);
+    let found = elastomers.map(|elastomer| press(surface, elastomer, control, 0.02).unwrap());
+    let [half_space, layer] = [
+        press(&ball, &solid, control, 0.02),
+        press(&ball, &layer, control, 0.02),
+    ]
+    .map(Result::unwrap);
+    for (found, expected) in found.iter().zip([&half_space, &half_space, &layer, &layer]) {
+        assert_eq!(found.contact_area, expected.contact_area, "area");
+    }
+    assert!(
+        half_space.contact_area.value > layer.contact_area.value,
+        "the layer is stiffer"
+    );
+}
 
 #[test]
 fn the_factor_is_known_to_rounding_for_all_waves() {

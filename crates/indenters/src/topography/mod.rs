@@ -22,6 +22,7 @@ use crate::{HeightMap, IndenterError};
 
 /// Why a file is no surface.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum TopographyError {
     /// The contents are not of the format.
     #[error("{format} is needed, but there is {found}")]

@@ -13,6 +13,7 @@ use crate::{MdrError, error};
 
 /// The force of a history and its derivatives; every list has an entry for every point, 0 without contact.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ForceDerivatives {
     /// Normal force F, \[N].
     pub normal_force: Vec<f64>,

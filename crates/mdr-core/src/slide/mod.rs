@@ -40,6 +40,7 @@ const LAST_STEPS: usize = 6;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct Sliding {
     /// Friction coefficient μ = F_h/F_N after the sliding distance of the load, or of the stationary state.
     pub friction_coefficient: Estimate,

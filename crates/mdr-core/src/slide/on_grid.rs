@@ -113,6 +113,7 @@ pub struct SlideRow {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct Transient {
     /// One row per step.
     pub rows: Vec<SlideRow>,

@@ -35,6 +35,7 @@ pub(crate) use steep_kinks::has_steep_kinks;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N; 0 where nothing slides.
     pub friction_coefficient: Estimate,

@@ -4,6 +4,7 @@ use numerics::InWords;
 
 /// What is wrong with a curve, or doubtful about a fit; with a count or the first point, a time \[s] or a force \[N].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Flag {
     /// Less than 30 points.
     #[error("{0} points are too few: at least 30 are needed")]

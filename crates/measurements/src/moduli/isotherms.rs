@@ -13,7 +13,7 @@ pub(super) struct IsothermRow {
     pub(super) set: Option<f64>,
 }
 
-impl Row {
+impl IsothermRow {
     /// Whether this is the same measurement a second time, of the same temperature and at the same frequency.
     fn repeats(&self, other: &Self) -> bool {
         let moduli = |row: &Self| row.moduli.map(f64::to_bits);

@@ -85,19 +85,30 @@ impl MeasuredCurve {
     /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a time is not greater
     /// than the one before it, or a modulus is not finite and greater than zero.
     pub fn relaxation(points: Vec<RelaxationPoint>) -> Result<Self, RheologyError> {
+        Self::relaxing(&points, |point| point.modulus)
+    }
+
+    /// A curve of relaxation whose errors are relative to a size greater than 0.
+    pub(super) fn relaxing(
+        points: &[RelaxationPoint],
+        size: impl Fn(&RelaxationPoint) -> f64,
+    ) -> Result<Self, RheologyError> {
+        let checked = |point: &RelaxationPoint, last: f64| {
+            increasing("time", point.time, last)?;
+            not_negative("modulus", point.modulus)?;
+            positive("modulus", size(point))
+        };
         let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {
-            let modulus = increasing("time", point.time, last)
-                .and_then(|_| positive("modulus", point.modulus));
-            let modulus = modulus.map_err(in_list("points", index))?;
+            let size = checked(point, last).map_err(in_list("points", index))?;
             last = point.time;
             rows.push(Measurement {
                 quantity: Quantity::Relaxation,
                 at: last,
-                value: modulus,
-                size: modulus,
-                weight: modulus.recip(),
+                value: point.modulus,
+                size,
+                weight: size.recip(),
             });
         }
         let time_window = ends(&rows, points.len())?;

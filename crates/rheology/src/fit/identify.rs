@@ -9,7 +9,7 @@ use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
 use super::system::{Measurement, Quantity};
-use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
+use crate::{PronyExpansion, RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// What happens after a long time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,9 +72,12 @@ pub struct RelativeError {
 /// A Prony series, and how well it fits.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Identification {
     /// The series.
     pub spectrum: RelaxationSpectrum,
+    /// The shortest and the longest time of the curve, 1/ω or t, \[s].
+    pub time_range: [f64; 2],
     /// Root of the mean over all points of the squared relative error |G*_fit/G* − 1|², or of (G_fit(t)/G(t) − 1)².
     pub rms_relative_error: f64,
     /// The largest of these relative errors.
@@ -85,11 +88,22 @@ pub struct Identification {
     pub loss_error: Option<RelativeError>,
 }
 
+/// The series as one that stands for what was measured, with the largest error at the points.
+impl From<Identification> for PronyExpansion {
+    fn from(found: Identification) -> Self {
+        Self {
+            spectrum: found.spectrum,
+            relative_error: found.max_relative_error,
+            time_range: found.time_range,
+        }
+    }
+}
+
 /// How far beyond the measured window, as a factor m, a time may move. Beyond the window the loss modulus of a branch is then at most
 /// (m + 1/m)/2 = 1.25 times what it is at the end of the window: a branch far outside would be an invention of its flank.
 const WINDOW_MARGIN: f64 = 2.0;
 const DENSE_PER_DECADE: f64 = 4.0;
-const MAX_BRANCHES: usize = 200;
+pub(super) const MAX_BRANCHES: usize = 200;
 
 /// The Prony series with moduli ≥ 0 that has the least mean squared relative error.
 ///
@@ -243,6 +257,7 @@ impl Measured {
         let errors = self.point_errors(series);
         Ok(Identification {
             spectrum,
+            time_range: self.window,
             rms_relative_error: (errors.iter().sum::<f64>() / errors.len() as f64).sqrt(),
             max_relative_error: errors.into_iter().fold(0.0, f64::max).sqrt(),
             storage_error: self.error_of(series, Quantity::Storage),

@@ -1,6 +1,7 @@
 //! Materials from measurements: master curves, and the Prony series behind them.
 
 mod curve;
+mod expand;
 mod identify;
 mod master_curve;
 mod nnls;
@@ -8,5 +9,6 @@ mod refine;
 mod system;
 
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};
+pub use expand::expand;
 pub use identify::{Control, Ending, Identification, IdentifyOptions, RelativeError, identify};
 pub use master_curve::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};

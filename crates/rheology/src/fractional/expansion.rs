@@ -20,8 +20,11 @@ use numerics::{InvalidParameter, in_range, positive};
 pub struct PronyExpansion {
     /// The series.
     pub spectrum: RelaxationSpectrum,
-    /// Largest |G*/G*_exact − 1| in the band of frequencies it was made for, found on 32 frequencies per decade.
+    /// Largest |G*/G*_exact − 1| at the frequencies 1/t of the range, found on 32 frequencies per decade; of a relaxation
+    /// function also the largest |G/G_exact − 1| in the range.
     pub relative_error: f64,
+    /// The shortest and the longest time for which it holds, 1/ω, \[s].
+    pub time_range: [f64; 2],
 }
 
 /// A continuous spectrum, its exact modulus, and what the expansion must know of them.
@@ -60,6 +63,7 @@ impl Continuous<'_> {
                 return Ok(PronyExpansion {
                     spectrum,
                     relative_error: reached,
+                    time_range: [band[1].recip(), band[0].recip()],
                 });
             }
             best = best.min(reached);
@@ -137,7 +141,7 @@ fn sum(term: impl Fn(u32) -> f64) -> f64 {
 /// The slowest decay, e^(−0.01 h) per term with h > 0.1, is over before.
 const MAX_TERMS: u32 = 100_000;
 
-fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(), RheologyError> {
+pub(crate) fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(), RheologyError> {
     positive("lowest_frequency", low)?;
     positive("highest_frequency", high)?;
     let holds = high > low;

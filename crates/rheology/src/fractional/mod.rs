@@ -5,3 +5,5 @@ pub(crate) mod fractional_maxwell;
 pub(crate) mod springpot;
 
 pub use expansion::PronyExpansion;
+#[cfg(feature = "fit")]
+pub(crate) use expansion::validate;

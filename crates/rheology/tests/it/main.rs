@@ -6,6 +6,8 @@ mod conversion_round_trip;
 #[cfg(feature = "fit")]
 mod fit_recovers_materials;
 mod fractional_elements_expand;
+#[cfg(feature = "fit")]
+mod own_laws_expand;
 mod standard_solid_has_its_limits;
 mod steps_are_exact;
 mod support;

@@ -1,91 +1,11 @@
-//! Every committed scene is answered, with the parts of its error bar, and written into files.
+//! Answers are printed, and written into files.
 
 use std::fs;
 
 use serde_json::Value;
+use viscofriction_cli::{InputKind, check_input};
 
-use crate::support::{Folder, argument, assert_close, estimate, number, scene, table};
-
-#[test]
-fn every_committed_scene_is_answered() {
-    let folder = Folder::new("committed");
-    let mut scenes = folder.names(&argument("IN/"));
-    scenes.retain(|name| name.ends_with(".toml"));
-    assert!(scenes.len() >= 12, "only {} scenes", scenes.len());
-    for scene in scenes {
-        let result = folder.json(&format!("IN/{scene}"));
-        assert!(number(&result, "normal_force") > 0.0, "{scene}: {result}");
-        let answered = ["friction_coefficient", "indentation_depth", "contact_area"];
-        let is_answered = answered.iter().any(|field| result[*field].is_number());
-        assert!(is_answered, "{scene}: {result}");
-        assert_bar_is_its_parts(&result);
-    }
-}
-
-/// Besides the parts there is rounding, of 1e-11 of the value at most.
-fn assert_bar_is_its_parts(result: &Value) {
-    let bars = ["friction_coefficient", "indentation_depth", "normal_force"];
-    let error = |field: &str| result[format!("{field}_error")].as_f64();
-    // What is given has an error of 0.
-    let found = bars.iter().find(|field| error(field) > Some(0.0));
-    let Some(field) = found.or(bars.iter().find(|field| error(field).is_some())) else {
-        let is_line = result["indentation_depth"].is_null();
-        assert!(is_line, "only a line contact has no bar: {result}");
-        return;
-    };
-    let Some(parts) = result["error_parts"].as_object() else {
-        let is_closed = result["method"] == "analytic";
-        assert!(is_closed, "only closed forms have no parts: {result}");
-        return;
-    };
-    let bar = estimate(result, field);
-    let sum: f64 = parts.values().filter_map(Value::as_f64).sum();
-    let allowed = -1e-12 * bar.error..=1.1e-11 * bar.value.abs();
-    let is_sum = allowed.contains(&(bar.error - sum));
-    assert!(is_sum, "the parts add up to {sum:e}: {result}");
-}
-
-#[test]
-fn each_method_names_the_parts_that_it_has() {
-    let folder = Folder::new("parts-of-bars");
-    let maxwell = "paraboloid; maxwell; normal_force = 1, velocity = 0.05; elements = 64";
-    folder.write("maxwell.toml", scene(maxwell));
-    for [line, expected] in table("parts of bars") {
-        let result = folder.json(&line);
-        assert_bar_is_its_parts(&result);
-        let parts = result["error_parts"].as_object();
-        let names = parts.map(|parts| parts.keys().cloned().collect::<Vec<_>>());
-        assert_eq!(names.unwrap_or_default().join(" "), expected, "{line}");
-    }
-}
-
-#[test]
-fn an_answer_names_what_has_no_part_in_it() {
-    let folder = Folder::new("not-modelled");
-    for [parts, expected] in table("not modelled") {
-        let answer = folder.answer(&parts);
-        let words = answer["not_modelled"].as_array().expect("a list");
-        let words: Vec<&str> = words.iter().filter_map(Value::as_str).collect();
-        assert_eq!(words.join(", "), expected, "{parts}");
-        let printed = folder.done("run scene.toml").stdout;
-        let line = format!("\nnot modelled: {expected}\n");
-        assert!(printed.contains(&line), "{printed}");
-    }
-}
-
-#[test]
-fn a_material_that_is_viscous_by_another_name_is_the_same() {
-    let folder = Folder::new("another-name");
-    // 2 (1 − ν) = 2 halves the viscosity that the surface feels.
-    let prony = "material.prony = { equilibrium_modulus = 0.0, viscosity = 2.0e4, poisson_ratio = 0.0, branches = [] }";
-    let [viscous, prony] = ["viscous", prony].map(|material| {
-        let scene = "normal_force = 1.0, velocity = 0.01; model = \"line\"";
-        folder.answer(&format!("paraboloid; {material}; {scene}"))
-    });
-    for field in ["friction_coefficient", "indentation_depth"] {
-        assert_close(field, number(&prony, field), number(&viscous, field), 1e-14);
-    }
-}
+use crate::support::{Folder, assert_close, number, scene, table};
 
 #[test]
 fn files_read_back_to_the_same_numbers() {
@@ -101,6 +21,10 @@ fn files_read_back_to_the_same_numbers() {
     assert!(rest.is_empty(), "whole numbers");
     let same = values.eq(folder.column("pressure.csv", 2));
     assert!(same, "NPY and CSV hold the same field");
+    let printed = folder.json("IN/press-hold-pull-press.toml --out curve");
+    let rows = printed["history"].as_array().expect("a history");
+    let forces: Vec<f64> = rows.iter().map(|row| number(row, "normal_force")).collect();
+    assert_eq!(folder.column("curve/history.csv", 1), forces, "forces");
 }
 
 /// Fields, histories and pictures of every method that has them.
@@ -152,16 +76,6 @@ fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
 }
 
 #[test]
-fn a_quantity_that_overflows_ends_with_status_1_and_its_name() {
-    let folder = Folder::new("overflow");
-    for [parts, needed] in table("overflows") {
-        folder.write("scene.toml", scene(&parts));
-        let said = folder.ends("run --format json scene.toml", 1, &needed);
-        assert_eq!(said.stdout, "", "{parts}");
-    }
-}
-
-#[test]
 fn a_line_that_could_not_be_reached_says_how_far_it_came_too() {
     let folder = Folder::new("unreachable-line");
     let sphere = "[indenter.sphere]\nradius = 5e-3\n[load]\nnormal_force = 2.0\nvelocity = 0.1\n";
@@ -179,4 +93,63 @@ fn a_line_that_could_not_be_reached_says_how_far_it_came_too() {
         holds && folder.names("out").join(" ").contains("line_load.csv"),
         "{said:?}"
     );
+}
+
+#[test]
+fn a_history_that_is_not_reached_is_printed_and_kept_with_its_bars() {
+    let folder = Folder::new("unreached-history");
+    let text = |solve: &str| {
+        format!(
+            "load.history = [{{ time = 0, normal_force = 0 }}, {{ time = 1, normal_force = 0.02 }}]
+indenter.paraboloid.curvature = 0.5
+material.standard-solid = {{ equilibrium_modulus = 1.0, maxwell_modulus = 4.0, viscosity = 4.0 }}\n{solve}\n"
+        )
+    };
+    let limited =
+        "solve = { method = \"bem-transient\", relative_error = 1e-4, max_memory = \"4 MiB\" }";
+    folder.write("scene.toml", text(limited));
+    folder.write("exact.toml", text(""));
+    let reason = "the indentation depth [m] was not reached to the relative error 1e-4";
+    let said = folder.ends("run scene.toml --out out", 1, reason);
+    for printed in [
+        "\n| indentation depth |",
+        &format!("\nnot reached: {reason}"),
+    ] {
+        assert!(said.stdout.contains(printed), "no {printed} in {said:?}");
+    }
+    let result: Value = serde_json::from_str(&folder.text("out/result.json")).expect("JSON");
+    let bar = number(&result["history_error"], "indentation_depth");
+    let written = folder.column("out/history.csv", 3)[1];
+    let exact = number(
+        &folder.json("exact.toml")["history"][1],
+        "indentation_depth",
+    );
+    let off = (written - exact).abs();
+    assert!(
+        off <= bar && bar > 1e-4 * exact,
+        "{written} and {exact}, bar {bar:e}"
+    );
+}
+
+#[test]
+fn units_per_length_are_printed_and_the_pressure_is_written() {
+    let folder = Folder::new("line-contact");
+    let said = folder.done("run IN/cylinder-solid.toml --out out");
+    for unit in ["N/m", "m²/m"] {
+        assert!(said.stdout.contains(unit), "no {unit} in {}", said.stdout);
+    }
+    let [x, pressure] = [0, 1].map(|column| folder.column("out/line_pressure.csv", column));
+    let force = (x[1] - x[0]) * pressure.iter().sum::<f64>();
+    assert_close("force of 2000 N/m", force, 2000.0, 1e-9);
+}
+
+/// The pressure of an answer as the heights of a body: whatever is written can be read.
+#[test]
+fn what_is_written_for_numpy_is_a_height_map() {
+    let folder = Folder::new("numpy-written");
+    folder.json("IN/tread.toml --out .");
+    let file = folder.path("pressure.npy");
+    let contents = fs::read(&file).expect("a pressure");
+    let checked = check_input(InputKind::HeightMap, &file, &contents);
+    assert_eq!(checked, Ok(()), "{}", file.display());
 }

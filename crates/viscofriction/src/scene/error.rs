@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Why a scene is refused; the key is a path such as `material.prony.branches[2].modulus`.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// A number is outside the range it may take.
     #[error("{key} must be {allowed}, but is {}", InWords(*value))]

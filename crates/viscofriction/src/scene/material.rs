@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use rheology::Shift;
+use rheology::{PronyExpansion, RelaxationBranch, Shift};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
@@ -97,6 +97,8 @@ pub enum MaterialTable {
         valid_frequencies: Option<[f64; 2]>,
         /// How its times change with temperature, for scenes that name this material as a file.
         shift: Option<Shift>,
+        /// How well it stands for another law, where it does; the error is then in all bars.
+        approximation: Option<Approximation>,
     },
     /// Between spring and dashpot: G* = K (iω)^a.
     Springpot {
@@ -163,6 +165,39 @@ pub struct Branch {
     pub modulus: f64,
     /// Relaxation time > 0, \[s].
     pub relaxation_time: f64,
+}
+
+/// How well a series stands for another law.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Approximation {
+    /// Largest relative error of its moduli, from 0 to 0.1, at the times of `time_range` and at the frequencies 1/t.
+    pub relative_error: f64,
+    /// Shortest and longest time for which that holds, \[s], as of a springpot.
+    pub time_range: [f64; 2],
+}
+
+/// An incompressible material, with the error of the series.
+impl From<&PronyExpansion> for MaterialTable {
+    fn from(expansion: &PronyExpansion) -> Self {
+        let branches = expansion.spectrum.branches().iter();
+        let branch = |one: &RelaxationBranch| Branch {
+            modulus: one.modulus,
+            relaxation_time: one.relaxation_time,
+        };
+        Self::Prony {
+            equilibrium_modulus: expansion.spectrum.equilibrium_modulus(),
+            viscosity: expansion.spectrum.viscosity(),
+            branches: branches.map(branch).collect(),
+            poisson_ratio: incompressible(),
+            valid_frequencies: None,
+            shift: None,
+            approximation: Some(Approximation {
+                relative_error: expansion.relative_error,
+                time_range: expansion.time_range,
+            }),
+        }
+    }
 }
 
 const fn incompressible() -> f64 {

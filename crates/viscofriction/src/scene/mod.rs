@@ -24,7 +24,7 @@ pub use height_map::{HeightMapTable, HeightsAre, LengthUnit};
 pub use indenter::{Edges, Indenter, IndenterKind, SelfAffineSurface, Term};
 pub use indenters::Control;
 pub use load::{Load, LoadPoint};
-pub use material::{Branch, MaterialKind, MaterialTable};
+pub use material::{Approximation, Branch, MaterialKind, MaterialTable};
 pub use numerics::Accuracy;
 pub use rheology::{Shift, ShiftLaw};
 pub use solve::{Method, Model, Solve};
@@ -57,6 +57,19 @@ pub struct Scene {
     /// What is asked, and how well.
     #[serde(default)]
     pub solve: Solve,
+}
+
+impl Scene {
+    /// A body on the half space, solved to the relative error that scenes have by default.
+    pub fn new(indenter: Indenter, material: MaterialTable, load: Load) -> Self {
+        Self {
+            indenter,
+            material,
+            layer: None,
+            load,
+            solve: Solve::default(),
+        }
+    }
 }
 
 /// The scene that a text in TOML describes, as a scene file holds it; numbers are checked by

@@ -19,6 +19,7 @@ use crate::scene::{Method, Model};
 /// As JSON it is flat: every quantity is followed by its absolute error, `friction_coefficient` by
 /// `friction_coefficient_error`; the error of what was given, or is exact, is 0.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Answer {
     /// The method that was asked.
     pub method: Method,
@@ -65,6 +66,7 @@ pub struct Answer {
 
 /// What is said of a periodic surface beside other bodies; `normal_force` and `contact_area` are those of one period.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct RoughAnswer {
     /// \[Pa].
     pub mean_pressure: Estimate,
@@ -111,6 +113,7 @@ pub(crate) struct Grid {
 
 /// Fields and histories behind an answer; what a method does not have is empty.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Fields {
     /// Pressure on the half space.
     pub pressure: Option<PressureField>,

@@ -14,6 +14,7 @@ use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SolveError {
     /// Of the half space.
     #[error("{_0}{}", of_half_space(_0))]
@@ -95,7 +96,7 @@ pub enum SolveError {
         /// Relaxation modulus at that time, \[Pa].
         modulus: f64,
     },
-    /// What happens is faster or slower than a fractional element was expanded for.
+    /// What happens is faster or slower than a series stands for its law.
     #[error(
         "it takes {time:e} s, and time_range of the material is from {shortest:e} to {longest:e} s: widen it"
     )]
@@ -107,7 +108,7 @@ pub enum SolveError {
         /// Longest time of the range, \[s].
         longest: f64,
     },
-    /// Long waves under a line contact strain a fractional element for longer than its series creeps.
+    /// Long waves under a line contact strain a material for longer than its series stands for it.
     #[error(
         "up to {part:.2} of the friction of this line contact is of times after the longest one of time_range of the material, \
          {longest:e} s, and the error asked for is {asked:e}: widen it"
@@ -163,6 +164,7 @@ pub(crate) type Refusal = &'static str;
 
 /// Why no method is asked.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NotOffered {
     /// The method that the scene names does not answer it.
     #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]

@@ -11,7 +11,7 @@ use rheology::{
 
 use super::expansion::{Expansion, expanded};
 use crate::files::Files;
-use crate::scene::{Branch, MaterialTable, SceneError, Shift, Source};
+use crate::scene::{Approximation, Branch, MaterialTable, SceneError, Shift, Source};
 use crate::text::WrongInput;
 
 /// The material of a scene.
@@ -90,7 +90,7 @@ impl HalfSpace {
         Ok(Self {
             material: Box::new(material),
             window: self.window.map(|ends| ends.map(|end| end / factor)),
-            ..self
+            expansion: self.expansion.map(|expansion| expansion.shifted(factor)),
         })
     }
 }
@@ -129,12 +129,13 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
             equilibrium_modulus,
             viscosity,
             branches,
+            approximation,
             ..
         } => {
             let branch = |one: &Branch| RelaxationBranch::new(one.modulus, one.relaxation_time);
             let branches = branches.iter().map(branch).collect();
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
-            spectrum.and_then(Prony::new).map(boxed)
+            return series(&table.key(), spectrum, *approximation);
         }
         MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
             return fractional(table).map_err(|error| refused(&table.key(), error));
@@ -147,6 +148,23 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
     Ok(HalfSpace {
         material,
         expansion: None,
+        window: None,
+    })
+}
+
+/// A Prony series, which may stand for another law.
+fn series(
+    key: &str,
+    spectrum: Result<RelaxationSpectrum, RheologyError>,
+    approximation: Option<Approximation>,
+) -> Result<HalfSpace, SceneError> {
+    let spectrum = spectrum.map_err(|error| refused(key, error))?;
+    let expansion = approximation.map(|given| given.of(&spectrum)).transpose();
+    let expansion = expansion.map_err(|error| refused(&format!("{key}.approximation"), error))?;
+    let material = Prony::new(spectrum).map_err(|error| refused(key, error))?;
+    Ok(HalfSpace {
+        material: Box::new(material),
+        expansion,
         window: None,
     })
 }
@@ -213,7 +231,7 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
 }
 
 /// Parameters of the library that are keys too.
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 12] = [
     "viscosity",
     "shear_modulus",
     "equilibrium_modulus",
@@ -223,6 +241,7 @@ const KEYS: [&str; 11] = [
     "poisson_ratio",
     "coefficient",
     "exponent",
+    "relative_error",
     "time_range[0]",
     "time_range[1]",
 ];

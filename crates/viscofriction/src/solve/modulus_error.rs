@@ -1,4 +1,4 @@
-//! The error of a series that stands for a fractional element, as a part of all bars.
+//! The error of a series that stands for another law, as a part of all bars.
 
 use numerics::{NotReached, ValueWithError};
 

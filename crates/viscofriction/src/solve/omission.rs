@@ -7,6 +7,7 @@ use strum::IntoStaticStr;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, IntoStaticStr)]
 #[serde(into = "&'static str")]
 #[strum(serialize_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Omission {
     /// Elements, where there is a closed form.
     NumericalSolution,

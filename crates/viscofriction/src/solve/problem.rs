@@ -161,7 +161,7 @@ impl Problem {
         self.thickness
     }
 
-    /// How well the material stands for a fractional element; none of a material that stands for itself.
+    /// How well the series stands for another law; none of a material that stands for itself.
     pub const fn expansion(&self) -> Option<Expansion> {
         self.expansion
     }
@@ -239,8 +239,8 @@ impl Problem {
             && matches!(self.motion, Motion::Sliding(_))
             && matches!(self.motion.control(), Control::IndentationDepth(_))
         {
-            let problem = "on the half space the depth of a fractional element in sliding depends on times beyond \
-                           time_range; give load.normal_force";
+            let problem = "on the half space the depth in sliding depends on times beyond time_range of the \
+                           material; give load.normal_force";
             return Err(SceneError::at("load.indentation_depth", problem));
         }
         Ok(())

@@ -305,6 +305,7 @@ fn other_material(material: &MaterialTable) -> Option<MaterialTable> {
             poisson_ratio,
             valid_frequencies: None,
             shift: None,
+            approximation: None,
         })
     };
     match *material {

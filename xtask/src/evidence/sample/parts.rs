@@ -243,6 +243,7 @@ impl Sample<'_> {
             poisson_ratio,
             valid_frequencies: self.random.choice(&[None, Some(window)]),
             shift: None,
+            approximation: None,
         }
     }
 }

@@ -40,6 +40,7 @@ pub struct IndentPoint {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct IndentCurve {
     /// The points of the history; the error of a quantity is the largest one at any of them.
     pub points: Vec<IndentPoint>,

@@ -36,6 +36,7 @@ impl HistoryOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct IndentHistory {
     /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
     pub rows: Vec<MotionRow>,

@@ -41,6 +41,7 @@ pub(super) const BYTES_PER_ELEMENT: f64 = 600.0;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct PressSolution {
     /// Depth of the lowest point, \[m].
     pub indentation_depth: f64,

@@ -122,6 +122,7 @@ pub struct StationaryOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct StationarySlide {
     /// The rows from first touch on.
     pub transient: Transient,

@@ -63,6 +63,7 @@ impl SlideRow {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct Transient {
     /// One entry per step, by increasing distance; never empty.
     pub rows: Vec<SlideRow>,

@@ -21,6 +21,7 @@ const FEWEST_STEPS: f64 = 4.0;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct PeriodicEstimate<S> {
     /// Friction coefficient; of a stationary state from slopes or from the dissipated power, whichever the last refinement
     /// changed less. Each bar reaches to that of the other.

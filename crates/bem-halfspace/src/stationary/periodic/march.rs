@@ -49,6 +49,7 @@ pub struct PeriodicRow {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct PeriodicTransient {
     /// One entry for each step; the last is at the end of the distance.
     pub rows: Vec<PeriodicRow>,

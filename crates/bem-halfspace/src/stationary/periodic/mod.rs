@@ -74,6 +74,7 @@ impl Default for PeriodicOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct PeriodicSliding {
     /// Friction coefficient ⟨p ∂h/∂x⟩/⟨p⟩, with the slope of the trigonometric polynomial through the heights.
     pub friction_coefficient: f64,

@@ -47,6 +47,7 @@ pub struct LineOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct LineSliding {
     /// Friction coefficient μ.
     pub friction_coefficient: f64,

@@ -24,6 +24,7 @@ pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
+#[non_exhaustive]
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,

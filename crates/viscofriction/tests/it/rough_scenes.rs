@@ -16,9 +16,7 @@ load.velocity = 0.03
 load.";
 
 fn answer(folder: &Folder, mean_pressure: f64) -> Value {
-    let scene = format!("{SURFACE}mean_pressure = {mean_pressure}\n");
-    folder.write("rough.toml", scene);
-    folder.json("rough.toml")
+    folder.answer(format!("{SURFACE}mean_pressure = {mean_pressure}\n"))
 }
 
 /// The half space and the sum of the theory share no code.
@@ -51,13 +49,6 @@ fn partial_contact_has_two_frictions_within_their_bars() {
     assert!(warns, "{warnings}");
     let is_reached = bar_of_friction <= 0.1 * friction && bar_of_area < 0.5 * area;
     assert!(is_reached && area < 0.6, "{partial}");
-    folder.write("sweep.toml", format!("{SURFACE}mean_pressure = 0.02\n"));
-    let said = folder.done("sweep sweep.toml --vary load.mean_pressure=0.02,100");
-    let header = said.stdout.lines().next().unwrap_or_default();
-    let columns: Vec<&str> = header.split(',').collect();
-    for name in ["area_fraction", "persson_friction_coefficient"] {
-        assert!(columns.contains(&name), "no {name} in {columns:?}");
-    }
 }
 
 /// From rest, and pressed without sliding; where the stationary contact is that of the first the bars of both say so.
@@ -66,18 +57,19 @@ fn the_way_from_rest_ends_in_the_stationary_state() {
     let folder = Folder::new("rough-from-rest");
     let scene = format!("solve.sliding_distance = 2.0\n{SURFACE}mean_pressure = 0.02\n");
     folder.write("rest.toml", scene);
-    folder.done("run rest.toml --out slid");
     let [slid, stationary] = [folder.json("rest.toml"), answer(&folder, 0.02)];
     for name in ["friction_coefficient", "area_fraction"] {
         let [[a, a_bar], [b, b_bar]] = [&slid, &stationary]
             .map(|one| [name, &format!("{name}_error")].map(|name| number(one, name)));
         assert!((a - b).abs() <= a_bar + b_bar, "{slid} {stationary}");
     }
-    let way = folder.column("slid/history.csv", 3);
-    assert!(way[0] < 0.5 * way[way.len() - 1], "{way:?}");
+    let way = folder.solved("rest.toml").answer.fields.history;
+    let frictions = (way.first(), way.last());
+    let [first, last] =
+        <[_; 2]>::from(frictions).map(|row| row.map(|row| row.friction_coefficient));
+    assert!(first < last.map(|last| 0.5 * last), "{way:?}");
     let scene = format!("solve.duration = 1e9\n{SURFACE}mean_pressure = 0.02\n");
-    folder.write("pressed.toml", scene.replace("0.03", "0.0"));
-    let pressed = folder.json("pressed.toml");
+    let pressed = folder.answer(scene.replace("0.03", "0.0"));
     assert!(pressed.get("friction_coefficient").is_none(), "{pressed}");
     // The relaxed solid touches more than the one that slides.
     let [more, less] = [&pressed, &stationary].map(|one| number(one, "area_fraction"));
@@ -145,8 +137,7 @@ fn a_periodic_map_is_the_same_surface_on_any_grid() {
         assert!(before.starts_with("indenter.self-affine"), "{before}");
         let map = format!("file = \"map.csv\", spacing = {spacing:?}, edges = \"periodic\"");
         let scene = format!("indenter.height-map = {{ {map} }}\n{after}mean_pressure = 0.02\n");
-        folder.write("map.toml", scene);
-        folder.json("map.toml")
+        folder.answer(scene)
     });
     for name in ["friction_coefficient", "area_fraction"] {
         let [one, other] = [0, 1].map(|index: usize| number(&answers[index], name));

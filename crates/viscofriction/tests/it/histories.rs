@@ -73,12 +73,6 @@ fn a_surface_that_has_not_recovered_is_pressed_again() {
     let bar = number(bars, "normal_force");
     assert!(bar > 0.0 && bar < 1e-12, "bar {bar:e}");
     assert_eq!(bars["indentation_depth"], 0.0, "the depth is given");
-    folder.done("run file.toml --out out");
-    let written = folder.column("out/history.csv", 1);
-    assert_eq!(written, forces, "forces in history.csv");
-    let pictures = "history.png history.svg history_over_time.png history_over_time.svg";
-    let names = format!("history.csv {pictures} result.json");
-    assert_eq!(folder.names("out").join(" "), names, "files");
 }
 
 #[test]
@@ -96,66 +90,36 @@ fn a_force_that_rises_gives_the_depth_of_theory() {
     assert_elements_agree(&folder, "force.toml", "indentation_depth", &depths);
 }
 
-#[test]
-fn a_history_that_is_not_reached_is_printed_and_kept_with_its_bars() {
-    let folder = Folder::new("unreached-history");
-    let history = "history = [{ time = 0, normal_force = 0 }, { time = 1, normal_force = 0.02 }]";
-    let limited =
-        "solve = { method = \"bem-transient\", relative_error = 1e-4, max_memory = \"4 MiB\" }";
-    folder.write("scene.toml", scene(history, limited));
-    folder.write("exact.toml", scene(history, ""));
-    let reason = "the indentation depth [m] was not reached to the relative error 1e-4";
-    let said = folder.ends("run scene.toml --out out", 1, reason);
-    for printed in [
-        "\n| indentation depth |",
-        &format!("\nnot reached: {reason}"),
-    ] {
-        assert!(said.stdout.contains(printed), "no {printed} in {said:?}");
-    }
-    let result: Value = serde_json::from_str(&folder.text("out/result.json")).expect("JSON");
-    let bar = number(&result["history_error"], "indentation_depth");
-    let [written, exact] = [
-        folder.column("out/history.csv", 3),
-        column(&folder.json("exact.toml"), "indentation_depth"),
-    ];
-    let off = (written[1] - exact[1]).abs();
-    assert!(
-        off <= bar && bar > 1e-4 * exact[1],
-        "{written:?}, {exact:?}, bar {bar:e}"
-    );
-}
-
 /// F = 16/3 G d^(3/2) (Hertz), with 1/J(t) or G(t) as the modulus G.
 #[test]
 fn what_is_held_has_the_history_and_the_pressure_of_hertz() {
     let folder = Folder::new("held");
     let depth = |time: f64| (3.0 / 16.0 * 0.01 * (1.0 - 0.8 * (-time / 5.0).exp())).powf(2.0 / 3.0);
     let force = |time: f64| 16.0 / 3.0 * (1.0 + 4.0 * (-time).exp()) * 0.001;
-    let held: [(_, _, _, &dyn Fn(f64) -> f64); 2] = [
-        ("normal_force", "indentation_depth", 3, &depth),
-        ("indentation_depth", "normal_force", 1, &force),
+    let held: [(_, _, &dyn Fn(f64) -> f64); 2] = [
+        ("normal_force", "indentation_depth", &depth),
+        ("indentation_depth", "normal_force", &force),
     ];
-    for (given, found, place, expected) in held {
+    for (given, found, expected) in held {
         let load = format!("{given} = 0.01, velocity = 0");
         folder.write("held.toml", scene(&load, "solve.duration = 4.0"));
-        let result = folder.json("held.toml --out out --overwrite");
-        let [times, written] = [0, place].map(|column| folder.column("out/history.csv", column));
+        let result = folder.json("held.toml");
+        let [times, values] = ["time", found].map(|name| column(&result, name));
         let ends = (times.first(), times.last());
         assert_eq!(ends, (Some(&0.0), Some(&4.0)), "touch and duration");
-        assert_eq!(written, column(&result, found), "{found} in both files");
         let end = number(&result, found);
-        assert_eq!(written.last(), Some(&end), "{found} at the end");
+        assert_eq!(values.last(), Some(&end), "{found} at the end");
         let bar = number(&result["history_error"], found);
         assert!(bar < 1e-9 * end, "bar {bar:e} of {found}");
-        for (time, value) in times.into_iter().zip(written) {
+        for (time, value) in times.into_iter().zip(values) {
             let off = (value - expected(time)).abs();
             assert!(off <= bar, "{found} {value} at {time} is off by {off:e}");
         }
     }
-    let [radii, pressures] = [0, 1].map(|column| folder.column("out/line_pressure.csv", column));
-    assert_eq!(radii.len(), 202, "places of the pressure");
+    let pressure = folder.solved("held.toml").answer.fields.line_pressure;
+    assert_eq!(pressure.len(), 202, "places of the pressure");
     let peak = 1.5 * force(4.0) / (PI * 0.01);
-    for (radius, pressure) in radii.into_iter().zip(pressures) {
+    for [radius, pressure] in pressure {
         let root = (1.0 - radius * radius / 0.01).max(0.0).sqrt();
         let off = (pressure - peak * root).abs();
         // At the rim the root has half of the digits.

@@ -1,0 +1,22 @@
+//! What a scene asks, and what comes back; one binary, one module per claim.
+
+mod answers_agree;
+mod explained_omissions;
+mod height_maps_of_numpy;
+mod histories;
+mod layers;
+mod malformed;
+#[cfg(feature = "fit")]
+mod own_materials;
+mod rough_scenes;
+mod scenes;
+mod shared;
+mod support;
+mod windows;
+
+/// Cases of the tests.
+const TABLES: [&str; 3] = [
+    include_str!("../data/answers.txt"),
+    include_str!("../data/cases.txt"),
+    include_str!("../data/malformed.txt"),
+];

@@ -1,0 +1,186 @@
+//! `release`: everything that is published, in one folder, each part tried where nothing of the workspace is installed.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+
+use super::cargo::{Cargo, workspace_root};
+use super::workspace::{Package, Workspace};
+use super::{PACKAGES, step};
+
+/// What a user of the Python package does first.
+const PROGRAM: &str = "import viscofriction as vf; friction = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=0.01); \
+     print(vf.__version__, friction.mu, '±', friction.mu_error)";
+
+/// Makes the packed crates, the wheel, the source distribution and the book, and tries them.
+pub(crate) fn release(out: &Path) -> Result<()> {
+    let exists = out.exists();
+    ensure!(!exists, "{} is there already: remove it", out.display());
+    fs::create_dir_all(out)?;
+    let release = Release {
+        workspace: Workspace::read()?,
+        out: out.canonicalize()?,
+    };
+    step("crates", || release.pack())?;
+    step("their examples", || release.compile_examples())?;
+    step("Python", || release.python())?;
+    step("book", || release.book())
+}
+
+struct Release {
+    workspace: Workspace,
+    /// All folders are in this one: `crates`, `python`, `book`, and `trial`, which is not published.
+    out: PathBuf,
+}
+
+impl Release {
+    fn pack(&self) -> Result<()> {
+        Cargo::default().run(&format!("package {PACKAGES} --no-verify"))?;
+        let (packed, trial) = (self.out.join("crates"), self.out.join("trial"));
+        fs::create_dir_all(&packed)?;
+        fs::create_dir_all(&trial)?;
+        for package in &self.workspace.packages {
+            let file = format!("{}.crate", package.full_name());
+            let made = self.workspace.target_directory.join("package").join(&file);
+            fs::copy(made, packed.join(&file)).context(file.clone())?;
+            let crate_file = packed.join(&file);
+            run(Command::new("tar")
+                .arg("xzf")
+                .arg(crate_file)
+                .arg("-C")
+                .arg(&trial))?;
+        }
+        Ok(())
+    }
+
+    /// A project whose programs are the examples of the packed READMEs, and that knows the packed crates only.
+    fn compile_examples(&self) -> Result<()> {
+        let trial = self.out.join("trial");
+        let programs = trial.join("examples/src/bin");
+        fs::create_dir_all(&programs)?;
+        let mut manifest =
+            "[package]\nname = \"examples\"\nedition = \"2024\"\n\n[dependencies]\n".to_owned();
+        let mut patch = "\n[workspace]\n\n[patch.crates-io]\n".to_owned();
+        for package in &self.workspace.packages {
+            let (name, folder) = (&package.name, package.full_name());
+            writeln!(manifest, "{name} = \"{}\"", package.version)?;
+            writeln!(patch, "{name} = {{ path = \"../{folder}\" }}")?;
+            let page = fs::read_to_string(trial.join(folder).join("README.md"))?;
+            let example = example(&page);
+            ensure!(
+                example.is_some() || package.is_program(),
+                "{name} has no example in its README"
+            );
+            if let Some(example) = example {
+                fs::write(programs.join(format!("{name}.rs")), example)?;
+            }
+        }
+        let project = trial.join("examples");
+        fs::write(project.join("Cargo.toml"), manifest + &patch)?;
+        fs::copy(
+            workspace_root().join("Cargo.lock"),
+            project.join("Cargo.lock"),
+        )?;
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut cargo = Command::new(cargo);
+        cargo
+            .args(["check", "--release", "--bins"])
+            .current_dir(project);
+        run(cargo.env("CARGO_TARGET_DIR", &self.workspace.target_directory))
+    }
+
+    /// The wheel and the source distribution, each installed into an environment of its own, where a program runs.
+    fn python(&self) -> Result<()> {
+        let made = self.out.join("python");
+        let builder = self.environment("builder", "maturin>=1.16,<2")?;
+        let mut maturin = Command::new(builder.join("maturin"));
+        maturin.args([
+            "build",
+            "--release",
+            "--sdist",
+            "--manifest-path",
+            "python/Cargo.toml",
+        ]);
+        maturin
+            .arg("--out")
+            .arg(&made)
+            .current_dir(workspace_root());
+        run(maturin.env("CARGO_TARGET_DIR", &self.workspace.target_directory))?;
+        for entry in fs::read_dir(made)? {
+            let file = entry?.path();
+            let name = file
+                .extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            let installed = self.environment(&name, &file.display().to_string())?;
+            let mut python = Command::new(installed.join("python"));
+            run(python.args(["-I", "-c", PROGRAM]).current_dir(&self.out))?;
+        }
+        Ok(())
+    }
+
+    /// A new virtual environment with one thing installed; the folder of its programs.
+    fn environment(&self, name: &str, installed: &str) -> Result<PathBuf> {
+        let folder = self.out.join("trial").join(name);
+        run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
+        let programs = folder.join(if cfg!(windows) { "Scripts" } else { "bin" });
+        let mut pip = Command::new(programs.join("python"));
+        pip.args(["-m", "pip", "install", "--quiet", installed]);
+        run(pip.env("CARGO_TARGET_DIR", &self.workspace.target_directory))?;
+        Ok(programs)
+    }
+
+    fn book(&self) -> Result<()> {
+        if Command::new("mdbook").arg("--version").output().is_err() {
+            println!("mdbook is not installed: there is no book");
+            return Ok(());
+        }
+        let mut mdbook = Command::new("mdbook");
+        mdbook
+            .args(["build", "docs", "--dest-dir"])
+            .arg(self.out.join("book"));
+        run(mdbook.current_dir(workspace_root()))
+    }
+}
+
+impl Package {
+    /// Name and version, as packed files have them.
+    fn full_name(&self) -> String {
+        format!("{}-{}", self.name, self.version)
+    }
+
+    fn is_program(&self) -> bool {
+        self.targets("bin").next().is_some()
+    }
+}
+
+/// The first program in Rust of a page.
+fn example(page: &str) -> Option<&str> {
+    let (_, from) = page.split_once("```rust")?;
+    let (_, from) = from.split_once('\n')?;
+    from.split("```").next()
+}
+
+fn run(command: &mut Command) -> Result<()> {
+    println!("{command:?}");
+    let status = command.status().with_context(|| format!("{command:?}"))?;
+    ensure!(status.success(), "{command:?}: {status}");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::example;
+
+    #[test]
+    fn the_first_program_of_a_page_is_found() {
+        let page =
+            "# A crate\n```sh\nls\n```\n```rust,no_run\nfn main() {}\n```\n```rust\n2\n```\n";
+        assert_eq!(example(page), Some("fn main() {}\n"), "{page}");
+        assert_eq!(example("# A program\n"), None, "no program");
+    }
+}
