@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use viscofriction::WrongInput;
-use viscofriction::scene::{Source, profile, topography};
+use viscofriction::indenters::topography::Topography;
+use viscofriction::scene::{Source, profile};
 use viscofriction::solve::{plan_of, problem_of};
 
 use crate::input::read_input;
@@ -40,9 +41,14 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         }
         InputKind::Profile => profile(file, contents).map(drop).map_err(WrongInput),
         InputKind::HeightMap => {
-            let surface = topography(file, contents, [1.0; 2], u64::MAX).map_err(WrongInput)?;
-            let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
-            surface.body().map(drop).map_err(wrong)
+            let extension = file.extension().unwrap_or_default().to_string_lossy();
+            let spacing = (!Topography::has_spacing(&extension)).then_some([1.0; 2]);
+            let surface = Topography::read(&extension, contents, spacing, u64::MAX);
+            let wrong = |error| WrongInput(format!("{}: {error}", file.display()));
+            surface
+                .and_then(|surface| surface.body())
+                .map(drop)
+                .map_err(wrong)
         }
         InputKind::Moduli => check_table(file, contents),
         InputKind::SweepRows => RowTable::new(file, contents).map(drop),

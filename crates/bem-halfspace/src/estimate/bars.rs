@@ -67,6 +67,30 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) options: O,
 }
 
+impl<S, O> OnGrid<S, O> {
+    /// Its quantities, of which normal force and the one with the name drive the refinement.
+    fn driven_by(&self, driven: Name) -> Vec<Quantity> {
+        let quantity = |(name, value): (Name, f64)| Quantity {
+            drives: name == driven || name == Name::Force,
+            least: if name == driven {
+                self.least * value.abs()
+            } else {
+                0.0
+            },
+            ..Quantity::from(value)
+        };
+        let dissipated = self.dissipated.map(|value| Quantity {
+            drives: false,
+            ..Quantity::from(value)
+        });
+        self.quantities
+            .list()
+            .map(quantity)
+            .chain(dissipated)
+            .collect()
+    }
+}
+
 /// The quantity that a refinement drives to the error asked for, beside the normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Target {
@@ -130,23 +154,7 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     finish: impl FnOnce(ContactEstimate<S, O>) -> Result<E, BemError>,
 ) -> Result<E, BemError> {
     let (control, driven) = (resolution.control, resolution.driven());
-    let quantities = |contact: &OnGrid<S, O>| {
-        let driving = |(name, value): (Name, f64)| Quantity {
-            drives: name == driven || name == Name::Force,
-            least: if name == driven {
-                contact.least * value.abs()
-            } else {
-                0.0
-            },
-            ..Quantity::from(value)
-        };
-        let dissipated = contact.dissipated.map(|value| Quantity {
-            drives: false,
-            ..Quantity::from(value)
-        });
-        let list = contact.quantities.list().map(driving);
-        list.chain(dissipated).collect()
-    };
+    let quantities = |contact: &OnGrid<S, O>| contact.driven_by(driven);
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
         let mut others = vec![ErrorParts::NONE; DISSIPATED + 1];
         others[driven.place()] = contact.other_error;

@@ -9,6 +9,7 @@ mod asc;
 #[cfg(feature = "topography")]
 mod binary;
 mod memory;
+mod numpy;
 mod text;
 #[cfg(feature = "topography")]
 mod x3p;
@@ -50,6 +51,18 @@ pub enum TopographyError {
         /// What is needed, and what is there.
         problem: String,
     },
+    /// The array of heights is none, or one of other numbers.
+    #[error("{problem}")]
+    Array {
+        /// What is needed, and what is there.
+        problem: String,
+    },
+    /// The distances of the points are missing, or there already.
+    #[error("spacing: {problem}")]
+    Spacing {
+        /// What is needed.
+        problem: &'static str,
+    },
     /// Points were not measured.
     #[error(
         "{missing} of {points} heights are missing: fill them, or cut out a part without holes"
@@ -79,62 +92,57 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// The surface in the contents of a file with the extension asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple
-    /// Field), sur (Digital Surf), x3p (ISO 25178-72) or xyz (rows of x, y and z \[m]); beside the contents it takes at most
-    /// so much `memory` \[bytes].
+    /// The surface in the contents of a file, by its extension; beside the contents it takes at most so much `memory`
+    /// \[bytes].
+    ///
+    /// With the feature `topography`, asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p
+    /// (ISO 25178-72) and xyz (rows of x, y and z \[m]) have a `spacing` of their own. All others need one, along x and y \[m]:
+    /// npy is an array of NumPy of the shape (n_y, n_x), in which NaN is a missing height, and everything else a text of one
+    /// line of heights for each y, without names, in which a cell that is empty or says that it is no number (`nan`, `NA`, `--`)
+    /// is one. Commas, semicolons, tabs or blanks separate its cells. A comma is a decimal mark where semicolons or tabs
+    /// separate, and between blanks where there are no decimal points.
     ///
     /// # Errors
-    /// [`TopographyError::Format`] where the contents are not of that format, [`TopographyError::Memory`] before more is taken.
-    #[cfg(feature = "topography")]
-    pub fn read(extension: &str, contents: &[u8], memory: u64) -> Result<Self, TopographyError> {
-        let extension = extension.to_ascii_lowercase();
-        let memory = Memory(memory);
-        let found = match &extension[..] {
-            "asc" => asc::read(contents, memory),
-            "gsf" => binary::simple_field(contents, memory),
-            "sur" => binary::digital_surf(contents, memory),
-            "x3p" => x3p::read(contents, memory),
-            "xyz" => xyz::read(contents, memory),
-            other => Err(other.to_owned().into()),
-        };
-        let format = match &extension[..] {
-            "asc" => "an ASCII grid with ncols, nrows, cellsize and heights",
-            "gsf" => "a Gwyddion Simple Field 1.0",
-            "sur" => "a surface of Digital Surf that is not compressed",
-            "x3p" => "a surface of ISO 25178-72 with equally spaced points",
-            "xyz" => "x, y and z of points of a grid in each line",
-            _ => "one of the extensions asc, gsf, sur, x3p, xyz",
-        };
-        found.map_err(|unread| match unread {
-            Unread::Other(found) => TopographyError::Format { format, found },
-            Unread::TooLarge(error) => error,
-        })
-    }
-
-    /// The surface in a text of one line of heights for each y, without names, in UTF-8, Latin-1 or UTF-16 with a byte-order mark; a cell that is empty or says that it is no
-    /// number (`nan`, `NA`, `--`) is a missing height.
-    ///
-    /// Commas, semicolons, tabs or blanks separate. A comma is a decimal mark where semicolons or tabs separate, and between
-    /// blanks where there are no decimal points. Beside the contents it takes at most so much `memory` \[bytes].
-    ///
-    /// # Errors
-    /// [`TopographyError::Line`] for a line that is shorter or longer than the others or holds anything else,
-    /// [`TopographyError::Memory`] before more memory is taken.
-    pub fn of_text(
+    /// [`TopographyError::Format`] where the contents are not of that format; [`TopographyError::Line`] for a line of a text that
+    /// is shorter or longer than the others or holds anything else; [`TopographyError::Array`] for another array;
+    /// [`TopographyError::Memory`] before more is taken;
+    /// [`TopographyError::Spacing`] where it is missing, or there already.
+    pub fn read(
+        extension: &str,
         contents: &[u8],
-        spacing: [f64; 2],
+        spacing: Option<[f64; 2]>,
         memory: u64,
     ) -> Result<Self, TopographyError> {
-        Memory(memory).holds_text(contents)?;
-        text::rows(contents, spacing)
+        let extension = extension.to_ascii_lowercase();
+        let memory = Memory(memory);
+        match (Self::has_spacing(&extension), spacing) {
+            (true, None) => measured(&extension, contents, memory),
+            (true, Some(_)) => {
+                let problem = "a measured surface has its own; leave this out";
+                Err(TopographyError::Spacing { problem })
+            }
+            (false, None) => {
+                let problem = "missing field `spacing`";
+                Err(TopographyError::Spacing { problem })
+            }
+            (false, Some(spacing)) if extension == "npy" => {
+                let found = numpy::read(contents, spacing, memory);
+                found.map_err(|unread| match unread {
+                    Unread::Other(problem) => TopographyError::Array { problem },
+                    Unread::TooLarge(error) => error,
+                })
+            }
+            (false, Some(spacing)) => {
+                memory.holds_text(contents)?;
+                text::rows(contents, spacing)
+            }
+        }
     }
 
-    /// Whether so much `memory` \[bytes] is enough to read so many heights.
-    ///
-    /// # Errors
-    /// [`TopographyError::Memory`] where it is not.
-    pub fn check_memory(points: usize, memory: u64) -> Result<(), TopographyError> {
-        Memory(memory).holds(Some(points))
+    /// Whether files with this extension say how far apart their points are.
+    pub fn has_spacing(extension: &str) -> bool {
+        let mut known = MEASURED.iter();
+        known.any(|known| known.eq_ignore_ascii_case(extension))
     }
 
     /// From heights row by row, of a file that does not state their unit.
@@ -256,8 +264,48 @@ impl Topography {
     }
 }
 
-/// Why a reader gives up.
+/// Extensions of the formats of measured surfaces.
+const MEASURED: [&str; 5] = ["asc", "gsf", "sur", "x3p", "xyz"];
+
 #[cfg(feature = "topography")]
+fn measured(
+    extension: &str,
+    contents: &[u8],
+    memory: Memory,
+) -> Result<Topography, TopographyError> {
+    let (found, format) = match extension {
+        "asc" => (
+            asc::read(contents, memory),
+            "an ASCII grid with ncols, nrows, cellsize and heights",
+        ),
+        "gsf" => (
+            binary::simple_field(contents, memory),
+            "a Gwyddion Simple Field 1.0",
+        ),
+        "sur" => (
+            binary::digital_surf(contents, memory),
+            "a surface of Digital Surf that is not compressed",
+        ),
+        "x3p" => (
+            x3p::read(contents, memory),
+            "a surface of ISO 25178-72 with equally spaced points",
+        ),
+        _ => (
+            xyz::read(contents, memory),
+            "x, y and z of points of a grid in each line",
+        ),
+    };
+    found.map_err(|unread| unread.of(format))
+}
+
+#[cfg(not(feature = "topography"))]
+fn measured(extension: &str, _: &[u8], _: Memory) -> Result<Topography, TopographyError> {
+    let format = "the feature `topography` of the crate `indenters`";
+    let found = format!("a file in the format {extension}");
+    Err(TopographyError::Format { format, found })
+}
+
+/// Why a reader gives up.
 enum Unread {
     /// The contents are not of the format: what there is instead.
     Other(String),
@@ -265,13 +313,21 @@ enum Unread {
 }
 
 #[cfg(feature = "topography")]
+impl Unread {
+    fn of(self, format: &'static str) -> TopographyError {
+        match self {
+            Self::Other(found) => TopographyError::Format { format, found },
+            Self::TooLarge(error) => error,
+        }
+    }
+}
+
 impl From<String> for Unread {
     fn from(found: String) -> Self {
         Self::Other(found)
     }
 }
 
-#[cfg(feature = "topography")]
 impl From<TopographyError> for Unread {
     fn from(error: TopographyError) -> Self {
         Self::TooLarge(error)

@@ -5,7 +5,7 @@ use indenters::topography::{Topography, TopographyError};
 const SPACING: [f64; 2] = [0.5, 2.0];
 
 fn read(text: &str) -> Result<Topography, TopographyError> {
-    Topography::of_text(text.as_bytes(), SPACING, 1 << 20)
+    Topography::read("csv", text.as_bytes(), Some(SPACING), 1 << 20)
 }
 
 #[test]
@@ -26,7 +26,8 @@ fn separators_and_decimal_marks_do_not_matter() {
     let utf16 = || "\u{feff}1.5;-2e-3;0.25\n4;5;6\n".encode_utf16();
     let [little, big] = [u16::to_le_bytes, u16::to_be_bytes].map(|bytes| utf16().flat_map(bytes));
     for bytes in [little.collect::<Vec<u8>>(), big.collect()] {
-        let found = Topography::of_text(&bytes, SPACING, 1 << 20).expect("heights in UTF-16");
+        let found =
+            Topography::read("txt", &bytes, Some(SPACING), 1 << 20).expect("heights in UTF-16");
         assert_eq!(found.heights, expected, "{bytes:?}");
     }
     for text in ["1,,3\n4,nan,6", "1\t\t3\n4\tNA\t6", "1;;3\n4;--;6"] {

@@ -10,7 +10,7 @@ use clap::Args;
 use viscofriction::WrongInput;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
 use viscofriction::indenters::topography::Topography;
-use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError, measured};
+use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError};
 use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
 use crate::input::{half_of_free_memory, protect, read_input};
@@ -103,7 +103,8 @@ impl Surface {
         let memory = half_of_free_memory().unwrap_or(u64::MAX);
         let contents = read_input(&self.file, memory)?;
         let rest = memory.saturating_sub(contents.len() as u64);
-        if measured(&self.file).is_none() && table.spacing.is_none() {
+        let extension = self.file.extension().unwrap_or_default();
+        if !Topography::has_spacing(&extension.to_string_lossy()) && table.spacing.is_none() {
             return Err(self.wrong("its heights need --spacing DX DY in m"));
         }
         let wrong = |error| self.wrong_option(&error);

@@ -3,13 +3,11 @@
 use std::path::Path;
 
 use csv::{ErrorKind, StringRecord};
-use indenters::topography::{Topography, TopographyError};
 use indenters::{IndenterError, PiecewiseLinearProfile};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::load::LoadPoint;
-use crate::npy::{NpyTable, from_npy};
 use crate::text::RecordLines;
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -121,47 +119,4 @@ fn line_of_error(error: &IndenterError, rows: &[(usize, ProfileRow)]) -> usize {
         _ => rows.last(),
     };
     row.map_or(1, |(line, _)| *line)
-}
-
-/// The extension, where it is that of a measured surface.
-pub fn measured(file: &Path) -> Option<&str> {
-    let extension = file.extension()?.to_str()?;
-    let mut known = ["asc", "gsf", "sur", "x3p", "xyz"].iter();
-    let is_known = known.any(|known| known.eq_ignore_ascii_case(extension));
-    is_known.then_some(extension)
-}
-
-/// The surface in the contents of a file, an array of NumPy if its name ends with `.npy` and a text otherwise.
-///
-/// # Errors
-/// File, place and what is wrong there.
-pub fn topography(
-    file: &Path,
-    contents: &[u8],
-    spacing: [f64; 2],
-    memory: u64,
-) -> Result<Topography, String> {
-    let extension = file.extension();
-    if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("npy")) {
-        of_numpy(contents, spacing, memory)
-            .map_err(|problem| format!("{}: {problem}", file.display()))
-    } else {
-        Topography::of_text(contents, spacing, memory).map_err(|error| match error {
-            TopographyError::Line { line, problem } => at(file, line, &problem),
-            other => format!("{}: {other}", file.display()),
-        })
-    }
-}
-
-/// An array of heights of the shape (n_y, n_x), in which NaN stands for a missing one.
-fn of_numpy(contents: &[u8], spacing: [f64; 2], memory: u64) -> Result<Topography, String> {
-    let NpyTable { shape, values } = from_npy(contents, memory)?;
-    if let Some(index) = values.iter().position(|height| height.is_infinite()) {
-        let [row, column] = [index / shape[1], index % shape[1]];
-        let value = values[index];
-        return Err(format!(
-            "[{row}, {column}]: a finite height is needed, and not {value}"
-        ));
-    }
-    Ok(Topography::of_rows(shape, spacing, values))
 }

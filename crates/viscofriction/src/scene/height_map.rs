@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use indenters::topography::Topography;
+use indenters::topography::{Topography, TopographyError};
 use numerics::{in_range, positive, whole_part};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::files::{measured, topography};
 use super::indenter::Edges;
 use super::source::problem_of;
 
@@ -110,17 +109,19 @@ impl HeightMapTable {
         contents: &[u8],
         memory: u64,
     ) -> Result<Topography, SceneError> {
-        let spaced = |problem: &str| SceneError::at("indenter.height-map.spacing", problem);
-        let found = match (measured(file), self.spacing) {
-            (Some(_), Some(_)) => {
-                return Err(spaced("a measured surface has its own; leave this out"));
-            }
-            (None, None) => return Err(spaced("missing field `spacing`")),
-            (Some(extension), None) => measured_surface(extension, contents, memory)
-                .map_err(|problem| format!("{}: {problem}", file.display())),
-            (None, Some(spacing)) => topography(file, contents, spacing, memory),
-        };
-        found.map_err(|problem| SceneError::at("indenter.height-map.file", problem))
+        let extension = file.extension().unwrap_or_default().to_string_lossy();
+        let found = Topography::read(&extension, contents, self.spacing, memory);
+        found.map_err(|error| {
+            let [key, problem] = match error {
+                TopographyError::Spacing { problem } => ["spacing", problem].map(str::to_owned),
+                TopographyError::Line { line, problem } => {
+                    let problem = format!("{}:{line}: {problem}", file.display());
+                    ["file".to_owned(), problem]
+                }
+                other => ["file".to_owned(), format!("{}: {other}", file.display())],
+            };
+            SceneError::at(format!("indenter.height-map.{key}"), problem)
+        })
     }
 
     /// The surface with its heights in metres out of the body, x along the motion, and holes and tilt treated as is asked.
@@ -163,15 +164,4 @@ impl HeightMapTable {
         };
         Ok(surface.turned(whole_part(quarters)))
     }
-}
-
-#[cfg(feature = "topography")]
-fn measured_surface(extension: &str, contents: &[u8], memory: u64) -> Result<Topography, String> {
-    Topography::read(extension, contents, memory).map_err(|error| error.to_string())
-}
-
-#[cfg(not(feature = "topography"))]
-fn measured_surface(extension: &str, _: &[u8], _: u64) -> Result<Topography, String> {
-    let problem = "a reader of this format needs the feature topography of the crate viscofriction";
-    Err(format!("{extension}: {problem}"))
 }

@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
-pub use files::{measured, profile, topography};
+pub use files::profile;
 pub use height_map::{HeightMapTable, HeightsAre, LengthUnit};
 pub use indenter::{Edges, Indenter, IndenterKind, SelfAffineSurface, Term};
 pub use indenters::Control;

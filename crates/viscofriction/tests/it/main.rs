@@ -1,5 +1,10 @@
 //! What a scene asks, and what comes back; one binary, one module per claim.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "scenes of tests are files, which only the library does not read"
+)]
+
 mod answers_agree;
 mod explained_omissions;
 mod height_maps_of_numpy;
