@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::SceneError;
 
 /// A force or a depth, and a speed.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Normal force > 0, \[N]; or `indentation_depth`.
