@@ -133,23 +133,13 @@ fn contradictions(rows: &[Row]) -> String {
     let size = |row: &Row| row.part.unwrap_or(f64::INFINITY);
     found.sort_by(|one, other| size(other).total_cmp(&size(one)));
     let lines = found.iter().take(NAMED).map(|row| {
-        let Row {
-            seed,
-            scene,
-            relation,
-            quantity,
-            message,
-            ..
-        } = row;
-        let part = row
-            .part
-            .map(|part| format!(" {part:.2}"))
-            .unwrap_or_default();
-        let what = if message.is_empty() {
-            quantity
-        } else {
-            message
+        let part = row.part.map(|part| format!(" {part:.2}"));
+        let what = match &*row.message {
+            "" => &row.quantity,
+            message => message,
         };
+        let [seed, scene] = [row.seed, row.scene as u64];
+        let (relation, part) = (&row.relation, part.unwrap_or_default());
         format!("- agreement-{seed}-{scene}, {relation}: {what}{part}\n")
     });
     let listed: String = lines.collect();

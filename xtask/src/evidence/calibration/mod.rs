@@ -98,15 +98,13 @@ fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<(Label, Result<Bar, 
     for of_model in requests.chunk_by(|one, other| one.model == other.model) {
         // A model may also find that it cannot take what is given.
         let is_offered = |request: &&Request| request.is_offered(&scene.file).unwrap_or(false);
-        let answered = |request| (request, Request::solve(request, &scene.file));
-        let solved = of_model.iter().filter(is_offered).map(answered);
-        let solved: Vec<_> = solved
-            .map(|(request, answer)| (request, answer.map(|one| one.asked())))
-            .collect();
-        let numerical_ones = solved
-            .iter()
-            .filter(|(request, _)| request.method != Method::Analytic);
-        let bars = numerical_ones.filter_map(|(_, known)| Some(relative(known.as_ref().ok()?)));
+        let offered = of_model.iter().filter(is_offered);
+        let known = |request: &Request| Ok(request.solve(&scene.file)?.asked());
+        let solved: Vec<_> = offered.map(|request| (request, known(request))).collect();
+        let bars = solved.iter().filter_map(|(request, known)| {
+            let is_closed = request.method == Method::Analytic;
+            (!is_closed).then_some(relative(known.as_ref().ok()?))
+        });
         let least = bars.fold(f64::INFINITY, f64::min);
         let shared = LazyCell::new(|| numerical(scene, of_model[0].model, least));
         for (request, known) in solved {

@@ -61,12 +61,9 @@ fn chosen<'a>(
     let mut cases = Vec::new();
     for (family, run) in families {
         let values = family.values().step_by(step);
-        let values = values.filter(|value| family.case(*value).contains(text));
-        cases.extend(
-            values
-                .filter(|_| !(quick && family.is_costly))
-                .map(|value| (family, *run, value)),
-        );
+        let is_asked = |value: &f64| family.case(*value).contains(text);
+        let values = values.filter(|value| is_asked(value) && !(quick && family.is_costly));
+        cases.extend(values.map(|value| (family, *run, value)));
     }
     let wrong = format!("--only {text:?} is in no case");
     ensure!(!cases.is_empty(), WrongInput(wrong));
@@ -84,7 +81,7 @@ fn summary(rows: &[Row]) -> String {
     let lines = families.map(|rows| {
         let parts = rows.iter().filter_map(Row::part_of_tolerance);
         let seconds: f64 = rows.iter().map(|row| row.seconds).sum();
-        let largest = parts.reduce(f64::max);
+        let largest = parts.reduce(f64::max).map(|part| format!("{part:.1e}"));
         [
             rows[0].family.clone(),
             rows[0].parameter.clone(),
@@ -92,9 +89,7 @@ fn summary(rows: &[Row]) -> String {
             count(rows, Verdict::Accurate).to_string(),
             count(rows, Verdict::Refused).to_string(),
             count(rows, Verdict::Wrong).to_string(),
-            largest
-                .map(|part| format!("{part:.1e}"))
-                .unwrap_or_default(),
+            largest.unwrap_or_default(),
             format!("{seconds:.2}"),
         ]
     });
@@ -103,10 +98,8 @@ fn summary(rows: &[Row]) -> String {
 
 /// All cases over the decade of their parameter, those at the ends of floating-point numbers in a panel of their own.
 fn picture(rows: &[Row]) -> Figure {
-    let [usual, ends]: [Vec<&Row>; 2] = rows
-        .iter()
-        .partition(|row| row.value.log10().abs() < 13.0)
-        .into();
+    let is_usual = |row: &&Row| row.value.log10().abs() < 13.0;
+    let (usual, ends): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(is_usual);
     let panels = [(usual, 13.0), (ends, 330.0)].into_iter();
     let panels = panels.filter(|(rows, _)| !rows.is_empty());
     Figure::new(panels.map(|(rows, end)| panel(&rows, end)), 2)
