@@ -13,6 +13,7 @@ mod evidence;
 mod figures;
 mod meter;
 mod output;
+mod picture;
 mod random;
 mod scaling;
 mod scene;

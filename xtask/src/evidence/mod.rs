@@ -19,6 +19,7 @@ use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use clap::{Args, Subcommand};
+use strum::{EnumIter, IntoEnumIterator as _};
 
 use crate::output::{make_folder, print_line};
 use report::{Report, Table};
@@ -42,8 +43,11 @@ pub(crate) struct Evidence {
     quick: bool,
 }
 
-#[derive(Debug, Subcommand)]
+/// In this order, because the first one reports the largest memory that the process has had.
+#[derive(Debug, Subcommand, EnumIter)]
 enum Experiment {
+    /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed.
+    Stationary(stationary::Options),
     /// Measure error against run time of every method on every benchmark scene.
     WorkPrecision,
     /// Judge every method on stiff and extreme cases; fails when one is wrong.
@@ -54,8 +58,6 @@ enum Experiment {
     Calibration(sample::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
     SpeedRange,
-    /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed.
-    Stationary(stationary::Options),
     /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
     Rough,
 }
@@ -66,7 +68,7 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
     make_folder(out)?;
     let experiments = options.experiment.map(|one| vec![one]);
     let mut failures = Vec::new();
-    for experiment in experiments.unwrap_or_else(Experiment::all) {
+    for experiment in experiments.unwrap_or_else(|| Experiment::iter().collect()) {
         let start = Instant::now();
         let report = experiment.run(out, options.quick)?;
         report.write(out)?;
@@ -80,19 +82,6 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
 }
 
 impl Experiment {
-    fn all() -> Vec<Self> {
-        // The first one reports the largest memory that the process has had.
-        vec![
-            Self::Stationary(stationary::Options::default()),
-            Self::WorkPrecision,
-            Self::Stability(stability::Options::default()),
-            Self::Agreement(sample::Options::default()),
-            Self::Calibration(sample::Options::default()),
-            Self::SpeedRange,
-            Self::Rough,
-        ]
-    }
-
     fn run(&self, out: &Path, quick: bool) -> Result<Report> {
         match self {
             Self::WorkPrecision => work_precision::report(quick),

@@ -7,9 +7,10 @@ use serde::Serialize;
 use viscofriction_plot::Figure;
 
 use crate::output::{known_digits, markdown_table, to_csv, write_atomically, write_figure};
+use crate::tasks::in_parallel;
 
 /// What an experiment found.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Report {
     /// Name of the page.
     pub(super) name: &'static str,
@@ -19,6 +20,26 @@ pub(super) struct Report {
     pub(super) summary: String,
     /// Why the command fails, if it does.
     pub(super) failure: Option<String>,
+}
+
+/// Items whose rows are computed before they are written.
+const AT_ONCE: usize = 64;
+
+/// Adds the rows of all missing items to a table, and writes it after some items each, so that an interrupted run goes on where
+/// it was.
+pub(super) fn resume<T: Sync, R: Serialize + Send>(
+    (file, rows): (&Path, &mut Vec<R>),
+    missing: &[T],
+    run: impl Fn(&T) -> Result<Vec<R>> + Sync + Send,
+) -> Result<()> {
+    let name = file.file_stem().unwrap_or_default().display();
+    for (chunk, some) in missing.chunks(AT_ONCE).enumerate() {
+        let task = format!("{name}, {} of {}", chunk * AT_ONCE, missing.len());
+        let found = in_parallel(task, some, &run)?;
+        rows.extend(found.into_iter().flatten());
+        write_atomically(file, to_csv(rows)?.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// A file of comma-separated values.

@@ -46,20 +46,11 @@ impl Request {
         matches!(self.accuracy, Accuracy::Elements(_))
     }
 
-    /// What is asked for.
-    pub(super) fn kind(&self) -> &'static str {
-        if self.is_by_elements() {
-            "elements"
-        } else {
-            "relative error"
-        }
-    }
-
-    /// The relative error or the number of elements asked for.
-    pub(super) const fn number(&self) -> f64 {
+    /// What is asked for, and its number.
+    pub(super) const fn asked(&self) -> (&'static str, f64) {
         match self.accuracy {
-            Accuracy::RelativeError(error) => error,
-            Accuracy::Elements(elements) => elements as f64,
+            Accuracy::RelativeError(error) => ("relative error", error),
+            Accuracy::Elements(elements) => ("elements", elements as f64),
         }
     }
 
@@ -86,7 +77,7 @@ impl Request {
         let known = self.solve(scene)?.requested_quantity();
         let source = match self.method {
             Method::Analytic => "closed form".to_owned(),
-            method => format!("{} to {:.1e}", method.name(), self.number()),
+            method => format!("{} to {:.1e}", method.name(), self.asked().1),
         };
         let error = known.error.max(rounding * known.value.abs());
         Ok(Reference::new(known.value, error, &source))

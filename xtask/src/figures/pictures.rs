@@ -4,9 +4,8 @@ use crate::figures::approach::{self, Approach, LENGTHS};
 use crate::figures::friction_over_speed::Row;
 use crate::figures::{Data, contact_maps, loss_tangent, resolution, scaling_function};
 use crate::output::points;
-use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
-};
+use crate::picture::{chart, guide};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 /// Names and pictures.
 pub(super) fn all(data: &Data) -> [(&'static str, Figure); 9] {
@@ -110,7 +109,7 @@ fn approach_chart(approaches: &[Approach; 2]) -> Chart {
         let chain = curve(|row| row.chain, Colour::Blue);
         let half_space = curve(|row| row.half_space, Colour::Red);
         let limit = [0.0, LENGTHS].map(|length| [length, approach.scaling_factor]);
-        let limit = Series::line(limit.to_vec(), Line::thin(Dash::Dotted), Colour::Black);
+        let limit = guide(limit, Dash::Dotted);
         series.extend([
             chain.labelled(format!("{name}, chain")),
             half_space.labelled(format!("{name}, half space")),
@@ -119,10 +118,7 @@ fn approach_chart(approaches: &[Approach; 2]) -> Chart {
     }
     let x = Axis::linear(along, [0.0, LENGTHS]);
     let y = Axis::linear("μ / stationary μ of the line model", [0.0, 1.1]);
-    Chart {
-        legend: LegendPlace::Below,
-        ..Chart::new(x, y, series)
-    }
+    chart(x, y, series)
 }
 
 fn pressure_maps(approaches: &[Approach; 2]) -> Figure {

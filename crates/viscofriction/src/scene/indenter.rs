@@ -16,7 +16,8 @@ use super::height_map::HeightMapTable;
 #[strum(serialize_all = "kebab-case")]
 #[strum_discriminants(
     name(IndenterKind),
-    derive(EnumIter),
+    derive(EnumIter, IntoStaticStr),
+    strum(serialize_all = "kebab-case"),
     doc = "The kinds of bodies, for whoever goes through all of them."
 )]
 pub enum Indenter {

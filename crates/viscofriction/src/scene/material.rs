@@ -19,7 +19,8 @@ use super::source::checked;
 #[strum(serialize_all = "kebab-case")]
 #[strum_discriminants(
     name(MaterialKind),
-    derive(EnumIter),
+    derive(EnumIter, IntoStaticStr),
+    strum(serialize_all = "kebab-case"),
     doc = "The kinds of materials, for whoever goes through all of them."
 )]
 pub enum MaterialTable {

@@ -30,7 +30,7 @@ pub enum Body {
 
 impl Body {
     /// Its surface; none of a cylinder and of a periodic surface, which have no end.
-    pub(crate) fn surface(&self) -> Option<&dyn Surface> {
+    pub fn surface(&self) -> Option<&dyn Surface> {
         match self {
             Self::Revolution(body) => Some(body.surface()),
             Self::HeightMap(map) => Some(map),

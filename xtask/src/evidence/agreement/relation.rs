@@ -3,14 +3,17 @@
 use std::path::Path;
 
 use anyhow::Result;
-use strum::{EnumIter, IntoStaticStr};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use strum::{EnumIter, IntoEnumIterator as _, IntoStaticStr};
+use toml::{Table, Value};
 use viscofriction::scene::{
-    Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method, Scene, Term,
+    Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method, Model, Scene,
 };
-use viscofriction::solve::Answer;
+use viscofriction::solve::{Answer, plan};
 
-use super::units::in_other_units;
-use crate::evidence::sample::Case;
+use super::units::Powers;
+use crate::evidence::request::presses;
+use crate::evidence::sample::{Case, filled};
 use crate::random::Random;
 
 /// What is done to a scene, and what its answer must then be.
@@ -45,11 +48,18 @@ pub(super) enum Relation {
     SubdividedHistory,
 }
 
+/// A scene and its answer; its files are in the folder.
+#[derive(Clone, Copy)]
+pub(super) struct Answered<'a> {
+    pub(super) case: &'a Case,
+    pub(super) folder: &'a Path,
+    pub(super) answer: &'a Answer,
+}
+
 /// A scene that was derived from another one, and what its quantities are multiples of.
 pub(super) struct Derived {
     pub(super) case: Case,
-    /// Powers of two by which lengths, stresses and times were multiplied.
-    pub(super) powers: [i32; 3],
+    pub(super) powers: Powers,
     /// The method that is asked; none for that of the scene.
     pub(super) method: Option<Method>,
     /// By how much the truth of the other scene may differ, relative to that of the first.
@@ -58,6 +68,10 @@ pub(super) struct Derived {
 
 /// A layer is a half space where it is so many contacts thick.
 const THICK: f64 = 1e6;
+/// Relative difference between a layer and the half space, some times the contact over the thickness, if long waves find the
+/// material no softer than the contact does; and what says nothing any more.
+const DIFFERENCE: f64 = 1e-5;
+const VAGUE: f64 = 0.01;
 /// Factor of the load that is larger.
 const MORE: f64 = 1.5;
 /// Largest power of two of a unit.
@@ -69,86 +83,123 @@ impl Relation {
     /// Elements lie elsewhere on a mirrored map, and the depth under a falling force is extrapolated from the parts of its
     /// history.
     pub(super) const fn is_exact(self) -> bool {
+        use Relation::{OtherFile, OtherName, OtherThreads, OtherUnits, SplitBranches};
         matches!(
             self,
-            Self::OtherUnits
-                | Self::OtherName
-                | Self::SplitBranches
-                | Self::OtherFile
-                | Self::OtherThreads
+            OtherUnits | OtherName | SplitBranches | OtherFile | OtherThreads
         )
     }
 
     /// Whether it is the same scene in other words, of which both forms are answered or none.
     pub(super) const fn is_same(self) -> bool {
-        let is_history = matches!(self, Self::LaterHistory | Self::SubdividedHistory);
-        self.is_exact() || is_history || matches!(self, Self::Mirrored)
+        use Relation::{LaterHistory, Mirrored, SubdividedHistory};
+        self.is_exact() || matches!(self, LaterHistory | SubdividedHistory | Mirrored)
     }
 
     /// The other scene; none where the relation says nothing.
-    pub(super) fn derive(
-        self,
-        case: &Case,
-        answer: &Answer,
-        random: &mut Random,
-    ) -> Option<Derived> {
+    pub(super) fn derive(self, first: Answered, random: &mut Random) -> Result<Option<Derived>> {
         let mut derived = Derived {
-            case: case.clone(),
-            powers: [0; 3],
+            case: first.case.clone(),
+            powers: Powers::default(),
             method: None,
             vague: 0.0,
         };
-        let scene = &mut derived.case.scene;
+        let Derived {
+            case,
+            powers,
+            method,
+            vague,
+        } = &mut derived;
+        let changed = match self {
+            Self::OtherThreads => Some(()),
+            Self::OtherMethod => {
+                *method = other_method(first, random);
+                method.map(|_| ())
+            }
+            Self::ThickLayer => {
+                let is_changed = thick_layer(case);
+                if is_changed.is_some() {
+                    *vague = DIFFERENCE * softening(first)?;
+                }
+                is_changed.filter(|()| *vague <= VAGUE)
+            }
+            Self::OtherUnits => {
+                *powers = drawn(random);
+                powers.apply(case)?;
+                Some(())
+            }
+            Self::OtherName => renamed(case)?,
+            Self::Mirrored => other_map(case, false),
+            Self::OtherFile => other_map(case, true),
+            _ => self.change(&mut case.scene, first.answer),
+        };
+        Ok(changed.map(|()| derived))
+    }
+
+    /// Changes a scene whose files stay as they are.
+    fn change(self, scene: &mut Scene, answer: &Answer) -> Option<()> {
         match self {
-            // The method is chosen by the caller, who knows what is offered.
-            Self::OtherMethod | Self::OtherThreads => {}
             Self::QuarterOfTheError => *scene.solve.relative_error.as_mut()? *= 0.25,
             Self::OtherControl => other_control(scene, answer)?,
-            Self::ThickLayer => {
-                let lowest_one = scene.layer.is_none() && scene.solve.model.is_none();
-                let thickness = THICK * case.contact;
-                let layer =
-                    (lowest_one && !is_periodic(&scene.indenter)).then_some(Layer { thickness });
-                scene.layer = Some(layer?);
-            }
             Self::MoreLoad => {
                 let load = &mut scene.load;
                 let given = [&mut load.normal_force, &mut load.indentation_depth];
                 let given = given.into_iter().chain([&mut load.mean_pressure]);
                 *given.into_iter().flatten().next()? *= MORE;
             }
-            Self::OtherUnits => {
-                let powers = [0; 3].map(|_| random.between([-POWERS, POWERS]).round());
-                #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
-                let powers = powers.map(|power| power as i32);
-                derived.powers = powers;
-                in_other_units(&mut derived.case, powers);
-            }
-            Self::OtherName => renamed(scene, case.material.as_ref())?,
             Self::SplitBranches => {
                 let MaterialTable::Prony { branches, .. } = &mut scene.material else {
                     return None;
                 };
                 *branches = split(branches)?;
             }
-            Self::Mirrored => other_map(&mut derived.case, false)?,
-            Self::OtherFile => other_map(&mut derived.case, true)?,
-            Self::LaterHistory => later(
-                scene.load.history.as_mut()?,
-                case.scene.load.history.as_ref()?,
-            )?,
+            Self::LaterHistory => later(scene.load.history.as_mut()?)?,
             Self::SubdividedHistory => {
                 let points = scene.load.history.as_mut()?;
                 *points = subdivided(points);
             }
+            _ => return None,
         }
-        Some(derived)
+        Some(())
     }
+}
+
+/// Another method that answers the scene.
+fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
+    let scene = &first.case.scene;
+    // Where nothing slides both models are the same.
+    let model = scene.solve.model.unwrap_or(Model::HalfSpace);
+    let is_of_model = |method: &Method| {
+        presses(scene) || method.model().is_none_or(|of_method| of_method == model)
+    };
+    let is_offered = |method: &Method| {
+        let mut case = first.case.clone();
+        case.scene.solve.method = Some(*method);
+        let problem = case.problem(first.folder);
+        let is_other = *method != first.answer.method && is_of_model(method);
+        is_other && problem.is_ok_and(|problem| plan(&problem).is_ok())
+    };
+    let offered: Vec<Method> = Method::iter().filter(is_offered).collect();
+    (!offered.is_empty()).then(|| random.choice(&offered))
+}
+
+/// The lowest layer of a body that does not repeat itself.
+fn thick_layer(case: &mut Case) -> Option<()> {
+    let thickness = THICK * case.contact;
+    let scene = &mut case.scene;
+    let is_periodic = match &scene.indenter {
+        Indenter::SelfAffine(_) => true,
+        Indenter::HeightMap(map) => map.edges != Edges::Wall,
+        _ => false,
+    };
+    let is_half_space = scene.layer.is_none() && scene.solve.model.is_none();
+    scene.layer = (is_half_space && !is_periodic).then_some(Layer { thickness });
+    scene.layer.map(|_| ())
 }
 
 /// How much softer the material is for waves as long as a thick layer than for those of the contact that slides over it; 1 at
 /// rest.
-pub(super) fn softening(case: &Case, folder: &Path) -> Result<f64> {
+fn softening(Answered { case, folder, .. }: Answered) -> Result<f64> {
     let velocity = case.scene.load.velocity.unwrap_or_default();
     if velocity <= 0.0 {
         return Ok(1.0);
@@ -161,34 +212,33 @@ pub(super) fn softening(case: &Case, folder: &Path) -> Result<f64> {
     }
 }
 
+fn drawn(random: &mut Random) -> Powers {
+    #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
+    let [length, stress, time] = [0; 3].map(|_| random.between([-POWERS, POWERS]).round() as i32);
+    Powers {
+        length,
+        stress,
+        time,
+    }
+}
+
 /// Whether another unit rounds the numbers of a scene, which may move an element over the edge of the contact.
 pub(super) const fn has_powers(scene: &Scene) -> bool {
     use MaterialTable::{FractionalMaxwell, Springpot};
     let material = matches!(scene.material, Springpot { .. } | FractionalMaxwell { .. });
+    let body = &scene.indenter;
     material
         || matches!(
-            scene.indenter,
+            body,
             Indenter::Power { .. } | Indenter::Superposition { .. }
         )
-}
-
-fn is_periodic(indenter: &Indenter) -> bool {
-    match indenter {
-        Indenter::SelfAffine(_) => true,
-        Indenter::HeightMap(map) => map.edges != Edges::Wall,
-        _ => false,
-    }
 }
 
 /// What was found, given; only of states that do not depend on how they were reached.
 fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
     let is_elastic = matches!(scene.material, MaterialTable::Elastic { .. });
-    let is_stationary = scene
-        .solve
-        .duration
-        .or(scene.solve.sliding_distance)
-        .is_none();
-    if !(is_elastic || is_stationary) {
+    let solve = &scene.solve;
+    if !is_elastic && solve.duration.or(solve.sliding_distance).is_some() {
         return None;
     }
     let load = &mut scene.load;
@@ -211,10 +261,8 @@ fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
     if is_turned {
         map.direction = 180.0;
         map.heights_are = HeightsAre::Surface;
-        lengths
-            .values
-            .iter_mut()
-            .for_each(|height| *height = -*height);
+        let heights = lengths.values.iter_mut();
+        heights.for_each(|height| *height = -*height);
     } else {
         let rows = lengths.values.chunks_mut(lengths.columns);
         rows.for_each(<[f64]>::reverse);
@@ -223,19 +271,53 @@ fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
     Some(())
 }
 
+/// Other names of bodies and materials.
+#[derive(Deserialize)]
+struct Names {
+    indenter: Table,
+    material: Table,
+}
+
 /// The body or the material under another name; none where there is no other one.
-fn renamed(scene: &mut Scene, of_file: Option<&MaterialTable>) -> Option<()> {
-    let body = other_body(&scene.indenter);
-    let material = match &scene.material {
-        MaterialTable::File { temperature, .. } => Some(at(of_file?, *temperature)?),
-        material => other_material(material),
+fn renamed(case: &mut Case) -> Result<Option<()>> {
+    let names: Names = toml::from_str(include_str!("other_names.toml"))?;
+    let scene = &mut case.scene;
+    let body = match &mut scene.indenter {
+        Indenter::Superposition { terms } => {
+            terms.reverse();
+            Some(scene.indenter.clone())
+        }
+        body => other_name(body, &names.indenter)?,
     };
-    if body.is_none() && material.is_none() {
-        return None;
-    }
+    let material = match &scene.material {
+        MaterialTable::File { temperature, .. } => {
+            let of_file = case.material.as_ref();
+            of_file.and_then(|of_file| at(of_file, *temperature))
+        }
+        material => other_name(material, &names.material)?,
+    };
+    let is_changed = body.is_some() || material.is_some();
     scene.indenter = body.unwrap_or_else(|| scene.indenter.clone());
     scene.material = material.unwrap_or_else(|| scene.material.clone());
-    Some(())
+    Ok(is_changed.then_some(()))
+}
+
+/// The same under its other name, if it has one.
+fn other_name<T: Serialize + DeserializeOwned>(of: &T, names: &Table) -> Result<Option<T>> {
+    let table = Value::try_from(of)?;
+    let kinds = table.as_table().into_iter().flatten();
+    let mut kinds = kinds.filter_map(|(kind, numbers)| names.get(kind).zip(numbers.as_table()));
+    let Some((name, numbers)) = kinds.next() else {
+        return Ok(None);
+    };
+    let mut numbers = numbers.clone();
+    let number = |name: &str| numbers.get(name).and_then(Value::as_float);
+    let modulus = number("maxwell_modulus").or(number("shear_modulus"));
+    if let Some((modulus, viscosity)) = modulus.zip(number("viscosity")) {
+        numbers.insert("relaxation_time".to_owned(), (viscosity / modulus).into());
+    }
+    let other = filled(name, &numbers);
+    Ok(other.map(Value::try_into).transpose()?)
 }
 
 /// What a file of a material holds, at a temperature.
@@ -254,85 +336,13 @@ fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable
         ..
     } = &mut material
     {
-        branches
-            .iter_mut()
-            .for_each(|one| one.relaxation_time *= factor);
-        *viscosity *= factor;
+        let times = branches.iter_mut().map(|one| &mut one.relaxation_time);
+        times.chain([viscosity]).for_each(|time| *time *= factor);
         let window = valid_frequencies.iter_mut().flatten();
         window.for_each(|frequency| *frequency /= factor);
         *shift = None;
     }
     Some(material)
-}
-
-fn other_body(indenter: &Indenter) -> Option<Indenter> {
-    let power = |coefficient, exponent| Indenter::Power {
-        coefficient,
-        exponent,
-    };
-    match indenter {
-        Indenter::Cone { slope } => Some(power(*slope, 1.0)),
-        Indenter::Paraboloid { curvature } => Some(power(*curvature, 2.0)),
-        Indenter::Power {
-            coefficient,
-            exponent,
-        } => {
-            let terms = vec![Term {
-                coefficient: *coefficient,
-                exponent: *exponent,
-            }];
-            Some(Indenter::Superposition { terms })
-        }
-        Indenter::Superposition { terms } => {
-            let terms = terms.iter().rev().cloned().collect();
-            Some(Indenter::Superposition { terms })
-        }
-        _ => None,
-    }
-}
-
-fn other_material(material: &MaterialTable) -> Option<MaterialTable> {
-    let branch = |modulus: f64, viscosity: f64| Branch {
-        modulus,
-        relaxation_time: viscosity / modulus,
-    };
-    let poisson_ratio = material.poisson_ratio()?;
-    let prony = |equilibrium_modulus, viscosity, branches| {
-        Some(MaterialTable::Prony {
-            equilibrium_modulus,
-            viscosity,
-            branches,
-            poisson_ratio,
-            valid_frequencies: None,
-            shift: None,
-            approximation: None,
-        })
-    };
-    match *material {
-        MaterialTable::Viscous { viscosity, .. } => prony(0.0, viscosity, Vec::new()),
-        MaterialTable::Elastic { shear_modulus, .. } => prony(shear_modulus, 0.0, Vec::new()),
-        MaterialTable::KelvinVoigt {
-            shear_modulus,
-            viscosity,
-            ..
-        } => prony(shear_modulus, viscosity, Vec::new()),
-        MaterialTable::Maxwell {
-            shear_modulus,
-            viscosity,
-            ..
-        } => prony(0.0, 0.0, vec![branch(shear_modulus, viscosity)]),
-        MaterialTable::StandardSolid {
-            equilibrium_modulus,
-            maxwell_modulus,
-            viscosity,
-            ..
-        } => prony(
-            equilibrium_modulus,
-            0.0,
-            vec![branch(maxwell_modulus, viscosity)],
-        ),
-        _ => None,
-    }
 }
 
 /// Each branch as a quarter and three quarters, in the opposite order.
@@ -347,10 +357,10 @@ fn split(branches: &[Branch]) -> Option<Vec<Branch>> {
 }
 
 /// The history after half of its duration without load; only of one that begins with none.
-fn later(points: &mut Vec<LoadPoint>, before: &[LoadPoint]) -> Option<()> {
-    let first = before[0];
+fn later(points: &mut Vec<LoadPoint>) -> Option<()> {
+    let first = *points.first()?;
     let is_free = first.normal_force.or(first.indentation_depth)? <= 0.0;
-    let time = 0.5 * before[before.len() - 1].time;
+    let time = 0.5 * points.last()?.time;
     points.iter_mut().for_each(|point| point.time += time);
     points.insert(0, LoadPoint { time: 0.0, ..first });
     is_free.then_some(())

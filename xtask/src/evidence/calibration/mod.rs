@@ -1,43 +1,38 @@
 //! Do the error bars of every method hold on random scenes?
+//!
+//! Each scene is solved as `requests.toml` asks, and each answer compared with its reference.
 
-mod judge;
 mod reference;
-mod requests;
 mod scene;
 
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
-use anyhow::Result;
-use viscofriction::scene::Method;
-use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
-};
+use anyhow::{Result, anyhow};
+use serde::Serialize;
+use viscofriction::Estimate;
+use viscofriction::scene::{Method, Model};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Shape};
 
+use super::request::{Reference, Request, presses};
 use super::sample::Options;
 use super::{Report, Table};
 use crate::meter::median;
 use crate::output::markdown_table;
+use crate::picture::{chart, guide, markers};
 use crate::random::Random;
 use crate::tasks::in_parallel;
-use judge::{Bar, Refusal, Row, judge};
-use requests::{FULL, QUICK, requests};
-use scene::Scene;
-
-const SCENES: usize = 300;
-const QUICK_SCENES: usize = 40;
+use reference::{SHARP, closed_form, is_numerical, numerical};
+use scene::{Extent, FLAT, Label, Scene};
 
 /// Judges the bars of every method; a quick run takes fewer scenes, larger errors and fewer elements on the half space.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
-    let (usual, extent) = if quick {
-        (QUICK_SCENES, QUICK)
-    } else {
-        (SCENES, FULL)
-    };
+    let extent = Extent::new(quick)?;
     let mut random = Random::new(options.seed());
     let mut scenes = Vec::new();
-    for number in 1..=options.count(usual)? {
-        let scene = Scene::new(number, &mut random, extent.memory)?;
-        let requests = requests(&mut random, &scene, &extent);
+    for number in 1..=options.count(extent.scenes)? {
+        let scene = Scene::new(number, &mut random, &extent.memory)?;
+        let requests = extent.requests(&mut random, &scene);
         scenes.push((scene, requests));
     }
     let judged = in_parallel("calibration", &scenes, |(scene, requests)| {
@@ -62,6 +57,123 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     })
 }
 
+/// A scene, and one bar.
+type Row = (Label, Bar);
+
+/// One bar; all errors are absolute.
+#[derive(Debug, Clone, Serialize)]
+struct Bar {
+    /// What the table calls the method.
+    method: String,
+    /// Unit of `asked`.
+    asked_kind: &'static str,
+    asked: f64,
+    value: f64,
+    error_bar: f64,
+    reference: f64,
+    reference_error: f64,
+    reference_source: String,
+    deviation: f64,
+    /// Whether the deviation is within the bar and the error of the reference.
+    holds: bool,
+    /// Whether it is within the bar alone.
+    holds_alone: bool,
+    #[serde(skip)]
+    solver: Method,
+}
+
+/// A result or a reference that could not be computed.
+type Refusal = (Label, Reason);
+
+/// By what method, and why it could not.
+#[derive(Debug, Clone, Default, Serialize)]
+struct Reason {
+    method: String,
+    reason: String,
+}
+
+/// Solves a scene by every method that can.
+fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<(Label, Result<Bar, Reason>)>> {
+    let mut judged = Vec::new();
+    for of_model in requests.chunk_by(|one, other| one.model == other.model) {
+        // A model may also find that it cannot take what is given.
+        let is_offered = |request: &&Request| request.is_offered(&scene.file).unwrap_or(false);
+        let offered = of_model.iter().filter(is_offered);
+        let known = |request: &Request| Ok(request.solve(&scene.file)?.requested_quantity());
+        let solved: Vec<_> = offered.map(|request| (request, known(request))).collect();
+        let bars = solved.iter().filter_map(|(request, known)| {
+            let is_closed = request.method == Method::Analytic;
+            (!is_closed).then_some(relative(known.as_ref().ok()?))
+        });
+        let least = bars.fold(f64::INFINITY, f64::min);
+        let shared = LazyCell::new(|| numerical(scene, of_model[0].model, least));
+        for (request, known) in solved {
+            let bar = known.and_then(|known| bar(scene, request, known, &shared));
+            let bar = bar.map_err(|error| Reason {
+                method: name(request, scene),
+                reason: format!("{error:#}"),
+            });
+            judged.extend(bar.transpose().map(|bar| (scene.label.clone(), bar)));
+        }
+    }
+    Ok(judged)
+}
+
+fn relative(known: &Estimate) -> f64 {
+    known.error / known.value.abs()
+}
+
+/// One bar, if there is anything to compare it with.
+fn bar(
+    scene: &Scene,
+    request: &Request,
+    got: Estimate,
+    shared: &Result<Reference>,
+) -> Result<Option<Bar>> {
+    let own = closed_form(scene, request, relative(&got))?;
+    let reference = match (&own, shared) {
+        (Some(own), _) => own,
+        (None, _) if !is_numerical(scene, request) => return Ok(None),
+        (None, Ok(shared)) => shared,
+        (None, Err(error)) => return Err(anyhow!("no reference: {error:#}")),
+    };
+    let expected = reference.known;
+    let (asked_kind, asked) = request.asked();
+    let deviation = (got.value - expected.value).abs();
+    Ok(Some(Bar {
+        method: name(request, scene),
+        asked_kind,
+        asked,
+        value: got.value,
+        error_bar: got.error,
+        reference: expected.value,
+        reference_error: expected.error,
+        reference_source: reference.source.clone(),
+        deviation,
+        holds: deviation <= got.error + expected.error,
+        holds_alone: deviation <= got.error,
+        solver: request.method,
+    }))
+}
+
+/// What the table of the results calls a method.
+fn name(request: &Request, scene: &Scene) -> String {
+    let group = match request.method {
+        _ if presses(&scene.file) && scene.is_at_depth() => ", pressed to a depth",
+        _ if presses(&scene.file) => ", pressed",
+        _ if request.model == Model::Line => "",
+        _ if scene.is("self-affine") => ", rough",
+        _ if scene.is("cylinder") => ", cylinder",
+        _ if scene.is(FLAT) => ", flat end",
+        _ if scene.is_at_depth() => ", depth",
+        Method::Analytic => ", half space",
+        _ => "",
+    };
+    let by_elements = request.is_by_elements();
+    let resolution = if by_elements { ", elements" } else { "" };
+    format!("{}{group}{resolution}", request.method.name())
+}
+
 /// One line per method: how many bars hold, and how wide they are.
 fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
     let mut methods: BTreeMap<&str, Vec<&Bar>> = BTreeMap::new();
@@ -75,20 +187,25 @@ fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
         line(method, &bars, refused.count())
     });
     let all: Vec<&Bar> = rows.iter().map(|(_, bar)| bar).collect();
-    markdown_table(
-        header.split('|'),
-        lines.chain([line("all", &all, refusals.len())]),
-    )
+    let lines = lines.chain([line("all", &all, refusals.len())]);
+    markdown_table(header.split('|'), lines)
 }
 
 fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
     let held = bars.iter().filter(|bar| bar.holds).count();
-    let sharp: Vec<_> = bars.iter().filter(|bar| bar.is_sharply_judged()).collect();
+    // Whether the reference is much more exact than the bar says of the result.
+    let is_sharp = |bar: &&&Bar| bar.reference_error <= SHARP * bar.error_bar;
+    let sharp: Vec<_> = bars.iter().filter(is_sharp).collect();
     let held_alone = sharp.iter().filter(|bar| bar.holds_alone).count();
-    let worst = bars.iter().map(|bar| bar.part_of_bar()).reduce(f64::max);
+    // A bar of zero holds for a deviation of zero only.
+    let part_of_bar = |bar: &&Bar| match bar.deviation {
+        deviation if deviation > 0.0 => deviation / bar.error_bar,
+        _ => 0.0,
+    };
+    let worst = bars.iter().map(part_of_bar).reduce(f64::max);
     // The friction of an elastic material is known to be zero.
     let unknown = bars.iter().filter(|bar| bar.reference.abs() > 0.0);
-    let parts: Vec<f64> = unknown.map(|bar| bar.part_of_bar()).collect();
+    let parts: Vec<f64> = unknown.map(part_of_bar).collect();
     let middle = (!parts.is_empty()).then(|| 1.0 / median(parts));
     [
         method.to_owned(),
@@ -96,17 +213,15 @@ fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
         percentage(held, bars.len()),
         sharp.len().to_string(),
         percentage(held_alone, sharp.len()),
-        middle.map_or_else(String::new, short),
-        worst.map_or_else(String::new, short),
+        middle.map(short).unwrap_or_default(),
+        worst.map(short).unwrap_or_default(),
         refused.to_string(),
     ]
 }
 
 fn percentage(held: usize, all: usize) -> String {
-    if all == 0 {
-        return String::new();
-    }
-    format!("{:.1} %", 100.0 * held as f64 / all as f64)
+    let percentage = || format!("{:.1} %", 100.0 * held as f64 / all as f64);
+    (all > 0).then(percentage).unwrap_or_default()
 }
 
 /// Two digits, or a power of ten.
@@ -137,18 +252,15 @@ fn figure(rows: &[Row]) -> Figure {
     let [x, y] = ["error bar / value", "deviation / value"].map(axis);
     let methods = STYLES.into_iter().filter_map(|(method, shape, colour)| {
         let points = points.iter().filter(|(of, _)| *of == method);
-        let points: Vec<[f64; 2]> = points.map(|(_, point)| *point).collect();
-        let series = Series::markers(points, Marker::open(shape), colour);
-        (!series.points.is_empty()).then(|| series.labelled(method.name()))
+        let points = points.map(|(_, point)| *point).collect();
+        markers(points, (shape, colour), method.name())
     });
-    let ends = x.range.map(|end| [end; 2]).to_vec();
-    let diagonal = Series::line(ends, Line::thin(Dash::Solid), Colour::Black);
-    let diagonal = diagonal.labelled("deviation = bar");
-    let series = methods.chain([diagonal]).collect();
+    let diagonal = guide(x.range.map(|end| [end; 2]), Dash::Solid);
+    let series = methods.chain([diagonal.labelled("deviation = bar")]);
+    let series = series.collect();
     Figure::single(Chart {
         title: Some(format!("{} error bars", points.len())),
-        legend: LegendPlace::Below,
-        ..Chart::new(x, y, series)
+        ..chart(x, y, series)
     })
 }
 

@@ -1,15 +1,15 @@
 //! What a result is compared with: a closed form, or the stationary solver of the model with a far smaller error.
 
-use anyhow::{Context, Error, Result, bail};
+use anyhow::{Context, Result, bail};
 use friction_analytic::{
     FrictionError, LineContact, cylinder_sliding, power_indentation_after_impulse,
 };
-use numerics::try_bracketed_root;
+use numerics::{Estimate, try_bracketed_root};
 use rheology::Viscous;
-use viscofriction::scene::{self, Control, MaterialTable, Method, Model};
+use viscofriction::scene::{self, Control, Method, Model};
 use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 
-use super::scene::Scene;
+use super::scene::{FLAT, Scene};
 use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
 
 /// Half the lengths of contacts over the radius of a cylinder, between which a force is sought.
@@ -26,25 +26,19 @@ const HALF_SPACE_ERRORS: [f64; 2] = [1e-5, 1e-3];
 /// The closed form that a result is compared with, if there is one that is not of the same method, and is sharp for a bar
 /// of this relative length.
 pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<Option<Reference>> {
-    if request.method == Method::Analytic {
-        return if presses(&scene.file) {
-            power_pressed(&scene.file)
-        } else {
-            Ok(None)
-        };
+    let (file, presses) = (&scene.file, presses(&scene.file));
+    match request.method {
+        Method::Analytic if presses => return power_pressed(file),
+        Method::Analytic => return Ok(None),
+        _ => {}
     }
-    let has_one_time = matches!(
-        scene.file.material,
-        MaterialTable::KelvinVoigt { .. } | MaterialTable::StandardSolid { .. }
-    );
-    if scene.is_cylinder() && has_one_time && !presses(&scene.file) {
-        return cylinder(&scene.file).map(Some);
+    if scene.is("cylinder") && scene.is("kelvin-voigt standard-solid") && !presses {
+        return cylinder(file).map(Some);
     }
     let closed_form = Request::to_error(request.model, Method::Analytic, sharp_for(bar));
-    if !closed_form.is_offered(&scene.file)? {
-        return Ok(None);
-    }
-    closed_form.reference(&scene.file, ROUNDING).map(Some)
+    let is_offered = closed_form.is_offered(file)?;
+    let reference = is_offered.then(|| closed_form.reference(file, ROUNDING));
+    reference.transpose()
 }
 
 /// Whether a stationary solver can judge a result that no closed form does.
@@ -57,35 +51,30 @@ fn sharp_for(bar: f64) -> f64 {
     (SHARP * bar).max(smallest).min(largest)
 }
 
-/// The stationary solver of a model, sharp for bars of this relative length.
+/// The stationary solver of a model, sharp for bars of this relative length; where its error is not reached, what was
+/// reached is the reference, with the error that it has.
 pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Reference> {
-    if scene.is_elastic() && !presses(&scene.file) {
-        return Ok(Reference::new(
-            0.0,
-            0.0,
-            "no friction on an elastic material",
-        ));
+    if scene.is("elastic") && !presses(&scene.file) {
+        let source = "no friction on an elastic material";
+        return Ok(Reference::new(0.0, 0.0, source));
     }
+    let is_coarse = scene.is("self-affine") || scene.is(FLAT);
+    let sharp = if is_coarse {
+        SHARP * bar
+    } else {
+        sharp_for(bar)
+    };
     let found = match model {
         Model::Line => first_reached(&scene.file, model, &LINE_ERRORS),
-        Model::HalfSpace if scene.is_rough() || scene.is_flat() => {
-            first_reached(&scene.file, model, &[SHARP * bar])
-        }
-        Model::HalfSpace => first_reached(&scene.file, model, &[sharp_for(bar)]),
+        Model::HalfSpace => first_reached(&scene.file, model, &[sharp]),
     };
-    found.or_else(as_far_as_it_came)
-}
-
-/// Where the error is not reached, what was reached is the reference, with the error that it has.
-fn as_far_as_it_came(failure: Error) -> Result<Reference> {
-    let reached = failure.downcast_ref().and_then(SolveError::reached);
-    match reached.and_then(|answer| answer.friction_coefficient) {
-        Some(friction) => {
-            let source = "the stationary solver, as far as it came";
-            Ok(Reference::new(friction.value, friction.error, source))
-        }
-        None => Err(failure),
-    }
+    found.or_else(|failure| {
+        let reached = failure.downcast_ref().and_then(SolveError::reached);
+        let friction = reached.and_then(|answer| answer.friction_coefficient);
+        let source = "the stationary solver, as far as it came";
+        let reference = |found: Estimate| Reference::new(found.value, found.error, source);
+        friction.map(reference).ok_or(failure)
+    })
 }
 
 /// The contact of Hunter's cylinder (1961) that carries the force.
@@ -97,26 +86,18 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
     };
     let force = load.require_normal_force()?;
     let slide = |logarithm: f64| {
-        let half_length = logarithm.exp() * cylinder.radius();
-        let velocity = load.velocity();
-        cylinder_sliding(
-            cylinder,
-            problem.material(),
-            LineContact {
-                half_length,
-                velocity,
-            },
-        )
+        let contact = LineContact {
+            half_length: logarithm.exp() * cylinder.radius(),
+            velocity: load.velocity(),
+        };
+        cylinder_sliding(cylinder, problem.material(), contact)
     };
     let missing = |logarithm| Ok::<_, FrictionError>(slide(logarithm)?.line_load.ln() - force.ln());
     let half_length = try_bracketed_root(missing, HALF_LENGTHS.map(f64::ln))?;
-    let friction =
-        slide(half_length.context("no contact carries the force")?)?.friction_coefficient;
-    Ok(Reference::new(
-        friction,
-        CYLINDER * friction,
-        "Hunter's cylinder",
-    ))
+    let half_length = half_length.context("no contact carries the force")?;
+    let friction = slide(half_length)?.friction_coefficient;
+    let error = CYLINDER * friction;
+    Ok(Reference::new(friction, error, "Hunter's cylinder"))
 }
 
 /// The closed form of powers beside the quadrature that solves any body.

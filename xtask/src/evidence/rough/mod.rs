@@ -9,12 +9,13 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use viscofriction::scene::Source;
 use viscofriction::sweep::{Plan, Vary, header, identity};
-use viscofriction_plot::{Axis, Chart, Colour, Figure, LegendPlace, Marker, Series, Shape};
+use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
 
 use super::Report;
+use super::report::resume;
 use crate::meter::median;
-use crate::output::{WrongInput, markdown_table, write_atomically};
-use crate::tasks;
+use crate::output::{WrongInput, markdown_table};
+use crate::picture::chart;
 
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "rough.csv";
@@ -33,8 +34,6 @@ const THEORIES: [(&str, [&str; 2]); 4] = [
     ("friction / line", ["friction_coefficient", LINE]),
     ("area / Persson", ["area_fraction", "persson_area_fraction"]),
 ];
-/// Points that are computed before they are written.
-const AT_ONCE: usize = 64;
 /// Names and scenes of the solids; about the geometric means of their moduli of rest and glass, and speeds around the
 /// transition; how they are drawn.
 const SOLIDS: [(&str, &str); 3] = [
@@ -76,28 +75,23 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
             }));
         }
     }
-    for (done, some) in missing.chunks(AT_ONCE).enumerate() {
-        let task = format!("rough surfaces, {} of {}", done * AT_ONCE, missing.len());
-        let solved = tasks::in_parallel(task, some, |(solid, plan, point)| {
-            let fields = plan.solve(*point)?.fields;
-            let of_line = line::friction(&plan.problem(*point)?)?;
-            let of_line = of_line.map_or_else(String::new, |friction| friction.to_string());
-            let row = std::iter::once((*solid).to_owned()).chain(fields);
-            Ok(row.chain([of_line]).collect())
-        })?;
-        rows.extend(solved);
-        write_atomically(&file, csv(&rows)?.as_bytes())?;
-    }
+    resume((&file, &mut rows), &missing, |(solid, plan, point)| {
+        let mut row = vec![(*solid).to_owned()];
+        row.extend(plan.solve(*point)?.fields);
+        let of_line = line::friction(&plan.problem(*point)?)?;
+        let of_line = of_line.map(|friction| friction.to_string());
+        row.push(of_line.unwrap_or_default());
+        Ok(vec![row])
+    })?;
     let ratios = ratios(&rows);
     let [all, known] = [rows.len() - 1, ratios.len()];
     let table = table(&ratios);
     let summary = format!("{table}\n\n{known} of {all} scenes in [{ROWS}]({ROWS}) have an answer.");
     Ok(Report {
         name: "rough",
-        tables: Vec::new(),
         pictures: vec![("rough", figure(&ratios))],
         summary,
-        failure: None,
+        ..Report::default()
     })
 }
 
@@ -137,14 +131,6 @@ fn read(file: &Path, plan: &Plan) -> Result<Rows> {
     let other = format!("{} is of another run; take another --out", file.display());
     ensure!(rows.first() == Some(&header), WrongInput(other));
     Ok(rows)
-}
-
-fn csv(rows: &Rows) -> Result<String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(row)?;
-    }
-    Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
 /// Name of the solid, area fraction, and what was solved over what each theory says.
@@ -210,14 +196,11 @@ fn figure(ratios: &[Ratios]) -> Figure {
             let points = points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN.contains(ratio));
             Series::markers(points.collect(), Marker::open(shape), colour).labelled(*solid)
         });
-        Chart {
-            legend: LegendPlace::Below,
-            ..Chart::new(
-                Axis::log10("area fraction", [AREAS[0], 1.0]),
-                Axis::log10(name, [*DRAWN.start(), *DRAWN.end()]),
-                series.collect(),
-            )
-        }
+        chart(
+            Axis::log10("area fraction", [AREAS[0], 1.0]),
+            Axis::log10(name, [*DRAWN.start(), *DRAWN.end()]),
+            series.collect(),
+        )
     });
     Figure::new(charts, 2)
 }

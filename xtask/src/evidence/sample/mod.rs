@@ -1,23 +1,25 @@
-//! Random scenes over all that a scene can be: every kind of body and material is drawn from the types of the scene file, so
-//! that the compiler refuses one that is forgotten.
+//! Random scenes over all that a scene can be: every kind of body and material of the scene file, as `recipes.toml` describes it; a
+//! kind that is forgotten there ends the command.
 
-mod parts;
+mod draw;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use strum::IntoEnumIterator as _;
+use toml::{Table, Value};
+use viscofriction::WrongInput;
 use viscofriction::npy::to_npy;
-use viscofriction::scene::{
-    IndenterKind, Layer, Load, LoadPoint, MaterialKind, MaterialTable, Method, Model, Scene, Solve,
-};
-use viscofriction::solve::{Body, Problem, body, half_space, plan};
-use viscofriction::{Files, WrongInput};
+use viscofriction::scene::{IndenterKind, Layer, Load, MaterialKind, MaterialTable, Scene, Solve};
+use viscofriction::solve::{Problem, plan};
 
 use crate::output::write_atomically;
 use crate::random::Random;
+use draw::Sample;
 
 /// Which scenes.
 #[derive(Debug, Default, Args)]
@@ -67,15 +69,13 @@ pub(super) struct Lengths {
     pub(super) values: Vec<f64>,
 }
 
-/// Relative errors that are asked for.
-const ERRORS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
 /// Files that scenes name.
 const HEIGHTS: [&str; 2] = ["heights.npy", "heights.csv"];
 const PROFILE: &str = "profile.csv";
 const MATERIAL: &str = "material.toml";
 
 /// Reads a file of a case.
-pub(super) fn read(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+fn read(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     std::fs::read(path).map_err(|error| WrongInput(format!("{}: {error}", path.display())))
 }
 
@@ -122,60 +122,107 @@ impl Lengths {
 }
 
 /// What scenes are drawn from.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Deserialize)]
 pub(super) struct Range {
-    pub(super) bodies: Vec<IndenterKind>,
-    pub(super) materials: Vec<MaterialKind>,
-    pub(super) motions: &'static [Motion],
+    /// Kinds of bodies and materials that are left out, and those that alone are drawn; all if there are none.
+    #[serde(default)]
+    without: Vec<String>,
+    #[serde(default)]
+    only: Vec<String>,
+    motions: Vec<Motion>,
     /// Half the decades over which the units of length and time are spread; stresses over twice as many.
-    pub(super) decades: &'static [f64],
+    decades: Vec<f64>,
     /// Half the decades over which the time of contact is spread around that of the material.
-    pub(super) speeds: f64,
+    speeds: f64,
     /// Part of the scenes that are on a layer.
-    pub(super) layers: f64,
+    layers: f64,
     /// Part of them that are held at a depth.
-    pub(super) depths: f64,
+    depths: f64,
     /// Half the decades over which the distances from first touch are spread around three contacts.
     pub(super) distances: f64,
     /// Memory of one solution, which bounds the size of a scene.
-    pub(super) memory: &'static str,
+    pub(super) memory: String,
 }
 
-/// What is done with a body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Motion {
+/// What is done with a body; it slides from first touch for a time or over a distance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Motion {
     Stationary,
-    /// From first touch.
     SlidingForTime,
     SlidingOverDistance,
     Pressed,
     History,
 }
 
-/// A scene that is drawn.
-struct Sample<'a> {
-    random: &'a mut Random,
-    /// Units in which the numbers of the scene are moderate, \[m], \[Pa], \[s].
-    length: f64,
-    stress: f64,
-    time: f64,
-    /// Half the length of the contact, and the time in which the body slides over it or is pressed.
-    contact: f64,
-    contact_time: f64,
-    lengths: Option<Lengths>,
-    material: Option<MaterialTable>,
+/// What `recipes.toml` holds.
+#[derive(Debug, Clone, Deserialize)]
+struct Recipes {
+    range: BTreeMap<String, Range>,
+    indenter: Table,
+    material: Table,
+}
+
+/// What random scenes are drawn from, and how.
+#[derive(Debug, Clone)]
+pub(super) struct Source {
+    pub(super) range: Range,
+    recipes: Recipes,
+}
+
+impl Source {
+    /// A range of the file by its name.
+    pub(super) fn new(range: &str) -> Result<Self> {
+        let recipes: Recipes = toml::from_str(include_str!("recipes.toml"))?;
+        let range = recipes.range.get(range).context("a range")?.clone();
+        Ok(Self { range, recipes })
+    }
+
+    fn kinds<K: Into<&'static str>>(&self, all: impl Iterator<Item = K>) -> Vec<&'static str> {
+        let Range { only, without, .. } = &self.range;
+        let is_in = |list: &[String], kind: &str| list.iter().any(|one| one == kind);
+        let is_drawn =
+            |kind: &&str| (only.is_empty() || is_in(only, kind)) && !is_in(without, kind);
+        all.map(Into::into).filter(is_drawn).collect()
+    }
+}
+
+/// The one table of this kind, with the numbers of these names.
+pub(super) fn made<T: DeserializeOwned>(recipes: &Table, kind: &str, drawn: &Table) -> Result<T> {
+    let recipe = recipes.get(kind);
+    let recipe = recipe.with_context(|| format!("no recipe of {kind}"))?;
+    let value = filled(recipe, drawn).with_context(|| format!("an empty recipe of {kind}"))?;
+    Ok(Value::from(Table::from_iter([(kind.to_owned(), value)])).try_into()?)
+}
+
+/// A value with what was drawn in the place of names; none where that was not.
+pub(super) fn filled(value: &Value, drawn: &Table) -> Option<Value> {
+    match value {
+        Value::String(text) => match text.strip_prefix('$') {
+            Some(name) => drawn.get(name).cloned(),
+            None => Some(value.clone()),
+        },
+        Value::Array(items) => {
+            let items = items.iter().map(|item| filled(item, drawn));
+            items.collect::<Option<Vec<_>>>().map(Value::from)
+        }
+        Value::Table(items) => {
+            let filled = |(key, item): (&String, _)| Some((key.clone(), filled(item, drawn)?));
+            Some(Value::Table(items.iter().filter_map(filled).collect()))
+        }
+        other => Some(other.clone()),
+    }
 }
 
 /// The next scene of the generator; its files are tried in `folder`.
-pub(super) fn sample(random: &mut Random, range: &Range, folder: &Path) -> Result<Case> {
-    let decades = random.choice(range.decades);
+pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Result<Case> {
+    let Source { range, recipes } = source;
+    let decades = random.choice(&range.decades);
     let [length, stress, time] = [1.0, 2.0, 1.0].map(|more| random.decades(decades * more));
     let contact = 0.3 * random.decades(0.3) * length;
     let contact_time = random.decades(range.speeds) * time;
-    let (kind, material) = (
-        random.choice(&range.bodies),
-        random.choice(&range.materials),
-    );
+    let kind = random.choice(&source.kinds(IndenterKind::iter()));
+    let material_kind = random.choice(&source.kinds(MaterialKind::iter()));
     let mut sample = Sample {
         random,
         length,
@@ -184,10 +231,14 @@ pub(super) fn sample(random: &mut Random, range: &Range, folder: &Path) -> Resul
         contact,
         contact_time,
         lengths: None,
-        material: None,
+        drawn: Table::new(),
     };
-    let indenter = sample.body(kind);
-    let material = sample.half_space(material);
+    sample.draw_body(kind)?;
+    let indenter = made(&recipes.indenter, kind, &sample.drawn)?;
+    sample.draw_material(material_kind)?;
+    let material = made(&recipes.material, material_kind, &sample.drawn)?;
+    let is_of_file = material_kind == "file";
+    let of_file = is_of_file.then(|| made(&recipes.material, "prony", &sample.drawn));
     let is_thin = sample.random.uniform() < range.layers;
     let thickness = contact * 10_f64.powf(sample.random.between([-1.3, 2.0]));
     let mut case = Case {
@@ -195,16 +246,16 @@ pub(super) fn sample(random: &mut Random, range: &Range, folder: &Path) -> Resul
             indenter,
             material,
             layer: is_thin.then_some(Layer { thickness }),
-            load: EMPTY,
+            load: Load::default(),
             solve: Solve::default(),
         },
         lengths: sample.lengths.take(),
-        material: sample.material.take(),
+        material: of_file.transpose()?,
         contact,
     };
     case.write_files(folder)?;
     for _ in 0..TRIALS {
-        (case.scene.load, case.scene.solve) = (EMPTY, Solve::default());
+        (case.scene.load, case.scene.solve) = (Load::default(), Solve::default());
         sample.motion(&mut case.scene, range, folder)?;
         let problem = case.problem(folder);
         if problem.is_ok_and(|problem| plan(&problem).is_ok()) {
@@ -216,102 +267,3 @@ pub(super) fn sample(random: &mut Random, range: &Range, folder: &Path) -> Resul
 
 /// Motions that are drawn for a body until one has a method, or the last one is refused.
 const TRIALS: usize = 3;
-const EMPTY: Load = Load {
-    normal_force: None,
-    indentation_depth: None,
-    mean_pressure: None,
-    velocity: None,
-    history: None,
-    history_file: None,
-};
-
-impl Sample<'_> {
-    /// Load, motion, model and what is asked.
-    fn motion(&mut self, scene: &mut Scene, range: &Range, folder: &Path) -> Result<()> {
-        let files = Files::of(scene, folder, read)?;
-        let body = body(&scene.indenter, &files)?.body;
-        let [force, depth] = self.load(scene, &body, &files)?;
-        let is_round = matches!(body, Body::Revolution(_)) && scene.layer.is_none();
-        if is_round && self.random.uniform() < 0.25 {
-            scene.solve.model = Some(Model::Line);
-        }
-        scene.solve.relative_error = Some(self.random.choice(&ERRORS));
-        scene.solve.max_memory = Some(range.memory.to_owned());
-        let at_depth = self.random.uniform() < range.depths;
-        let motion = self.random.choice(range.motions);
-        if let Body::Periodic(surface) = &body {
-            let area: f64 = surface.period().iter().product();
-            scene.load.mean_pressure = Some(force / area);
-        } else if motion == Motion::History {
-            scene.load.history =
-                Some(self.history(if at_depth { None } else { Some(force) }, depth));
-            return Ok(());
-        } else if at_depth {
-            scene.load.indentation_depth = Some(depth);
-        } else {
-            scene.load.normal_force = Some(force);
-        }
-        let velocity = 2.0 * self.contact / self.contact_time;
-        let lengths = 3.0 * self.random.decades(range.distances);
-        let slides = !matches!(motion, Motion::Pressed | Motion::History);
-        scene.load.velocity = Some(if slides { velocity } else { 0.0 });
-        match motion {
-            Motion::Stationary => {}
-            Motion::SlidingForTime => scene.solve.duration = Some(lengths * self.contact_time),
-            Motion::SlidingOverDistance => {
-                scene.solve.sliding_distance = Some(lengths * self.contact);
-            }
-            Motion::Pressed | Motion::History => scene.solve.duration = Some(self.contact_time),
-        }
-        Ok(())
-    }
-
-    /// Force \[N] and depth \[m] of a contact of about the length that was drawn: D = h(a) = 2 (1 − ν) F J(t)/(4 a).
-    fn load(&mut self, scene: &Scene, body: &Body, files: &Files<'_>) -> Result<[f64; 2]> {
-        let material = half_space(&scene.material, files)?.material;
-        let compliance =
-            material.half_space_factor() * material.creep_compliance(self.contact_time)?;
-        let depth = match body {
-            Body::Revolution(body) => match body.profile_height(self.contact) {
-                height if height > 0.0 => height,
-                _ => 0.02 * self.contact,
-            },
-            Body::Periodic(surface) => {
-                let area: f64 = surface.period().iter().product();
-                let pressure = surface.rms_slope() * 10_f64.powf(self.random.between([-2.0, 0.5]));
-                return Ok([pressure * area / compliance, 0.0]);
-            }
-            Body::Cylinder(cylinder) => {
-                // F' J(t) 2 (1 − ν) = π a²/R.
-                let force = self.contact * self.contact / cylinder.radius() / compliance;
-                return Ok([force, 0.01 * self.contact]);
-            }
-            Body::HeightMap(_) => 0.02 * self.contact,
-        };
-        Ok([4.0 * self.contact * depth / compliance, depth])
-    }
-
-    /// Up to six points that rise and fall, with dwells and jumps, of a force or, without one, of a depth.
-    fn history(&mut self, force: Option<f64>, depth: f64) -> Vec<LoadPoint> {
-        let count = self.random.choice(&[2, 3, 4, 6]);
-        let (mut time, mut level) = (0.0, 0.0);
-        let mut points = Vec::new();
-        for _ in 0..count {
-            points.push(LoadPoint {
-                time,
-                normal_force: force.map(|force| force * level),
-                indentation_depth: force.is_none().then_some(depth * level),
-            });
-            let step = self.contact_time * self.random.decades(1.0);
-            time += self.random.choice(&[step, step, step, step, 0.0]);
-            let next = self.random.uniform();
-            level = self.random.choice(&[next, next, next, level, 0.0]);
-        }
-        points
-    }
-}
-
-/// The methods, from the types of the scene file.
-pub(super) fn methods() -> impl Iterator<Item = Method> {
-    Method::iter()
-}

@@ -5,9 +5,11 @@ mod border;
 mod pictures;
 mod sliding;
 
-use anyhow::Result;
+use std::collections::BTreeMap;
+
+use anyhow::{Context, Result};
 use friction_analytic::scaling_factor;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use viscofriction::scene::Model;
 
 use super::{Report, Table};
@@ -17,56 +19,28 @@ use sliding::Sliding;
 /// Exponents of the profiles: cone and paraboloid, in this order in every table.
 const EXPONENTS: [f64; 2] = [1.0, 2.0];
 
-/// Values from 10^first to 10^last, evenly spaced in the logarithm.
-#[derive(Debug, Clone, Copy)]
-struct Decades {
-    first: i32,
-    last: i32,
-    per_decade: i32,
-}
+/// From 10^first to 10^last, and so many values per decade, evenly spaced in the logarithm.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct Decades(i32, i32, i32);
 
 impl Decades {
-    const fn new(first: i32, last: i32, per_decade: i32) -> Self {
-        Self {
-            first,
-            last,
-            per_decade,
-        }
-    }
-
     fn values(self) -> impl Iterator<Item = f64> {
-        (self.first * self.per_decade..=self.last * self.per_decade)
-            .map(move |step| 10_f64.powf(f64::from(step) / f64::from(self.per_decade)))
+        let Self(first, last, per_decade) = self;
+        let steps = first * per_decade..=last * per_decade;
+        steps.map(move |step| 10_f64.powf(f64::from(step) / f64::from(per_decade)))
     }
 }
 
-/// What is computed; errors are relative.
+/// What is computed, of `extent.toml`; errors are relative.
+#[derive(Deserialize)]
 struct Extent {
-    curve_ratios: &'static [f64],
+    curve_ratios: Vec<f64>,
     curve_speeds: Decades,
     curve_error: f64,
     map_ratios: Decades,
     map_speeds: Decades,
     map_error: f64,
 }
-
-const FULL: Extent = Extent {
-    curve_ratios: &[1e-6, 1e-4, 1e-2],
-    curve_speeds: Decades::new(-9, 3, 5),
-    curve_error: 3e-3,
-    map_ratios: Decades::new(-6, 0, 2),
-    map_speeds: Decades::new(-8, 2, 4),
-    map_error: 1e-2,
-};
-
-const QUICK: Extent = Extent {
-    curve_ratios: &[1e-4],
-    curve_speeds: Decades::new(-7, 3, 1),
-    curve_error: 2e-2,
-    map_ratios: Decades::new(-3, -1, 1),
-    map_speeds: Decades::new(-4, 1, 1),
-    map_error: 3e-2,
-};
 
 /// A contact and its friction.
 type Point = (Sliding, Friction);
@@ -103,7 +77,9 @@ struct Law {
 
 /// Computes curves, map and border; a quick run takes fewer speeds and stiffness ratios, and wider error bars.
 pub(super) fn report(quick: bool) -> Result<Report> {
-    let extent = if quick { QUICK } else { FULL };
+    let mut extents: BTreeMap<String, Extent> = toml::from_str(include_str!("extent.toml"))?;
+    let extent = extents.remove(if quick { "quick" } else { "full" });
+    let extent = extent.context("an extent")?;
     let problems = problems(extent.curve_ratios.iter().copied(), extent.curve_speeds);
     let curves = in_parallel("friction over speed", &problems, |&at| {
         Ok((at, Friction::of(at, extent.curve_error)?))

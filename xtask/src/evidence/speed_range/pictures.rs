@@ -1,15 +1,12 @@
 //! The curves and the map as pictures.
 
-use std::iter::once;
-
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
-use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::{Decades, EXPONENTS, Extent, Friction, MODELS, Point, Prediction, border, plateau};
 use crate::output::points;
+use crate::picture::{chart as chart_of, guide};
 use crate::scene::solid;
 
 /// Colours of the stiffness ratios.
@@ -22,8 +19,8 @@ fn name(exponent: f64) -> &'static str {
     if exponent < 1.5 { "cone" } else { "paraboloid" }
 }
 
-fn range(decades: Decades) -> [f64; 2] {
-    [decades.first, decades.last].map(|power| 10_f64.powi(power))
+fn range(Decades(first, last, _): Decades) -> [f64; 2] {
+    [first, last].map(|power| 10_f64.powi(power))
 }
 
 fn same(one: f64, other: f64) -> bool {
@@ -34,8 +31,7 @@ fn chart(exponent: f64, extent: &Extent, y: Axis, series: Vec<Series>) -> Chart 
     let x = Axis::log10("speed vτ/a", range(extent.curve_speeds));
     Chart {
         title: Some(name(exponent).to_owned()),
-        legend: LegendPlace::Below,
-        ..Chart::new(x, y, series)
+        ..chart_of(x, y, series)
     }
 }
 
@@ -104,10 +100,8 @@ pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
 pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
     let panel = |exponent: f64| {
         let y = Axis::linear("friction of half space / line", RATIOS);
-        let level = |value: f64| {
-            let points = range(extent.curve_speeds).map(|speed| [speed, value]);
-            Series::line(points.to_vec(), Line::thin(Dash::Dashed), Colour::Black)
-        };
+        let ends = range(extent.curve_speeds);
+        let level = |value: f64| guide(ends.map(|speed| [speed, value]), Dash::Dashed);
         let viscous = level(plateau(exponent)?).labelled("1/2, viscous s, 1");
         let mut series = vec![level(0.5), viscous, level(1.0)];
         for curve in curves(points, exponent, extent) {
@@ -151,7 +145,10 @@ pub(super) fn validity(
             let model = model.name().replace('-', " ");
             panels.push(Chart {
                 title: Some(format!("{}, {model}", name(exponent))),
-                series: once(window.clone()).chain(outline(borders)).collect(),
+                series: [window.clone()]
+                    .into_iter()
+                    .chain(outline(borders))
+                    .collect(),
                 ..Chart::map(x, y, field)
             });
         }
@@ -161,8 +158,9 @@ pub(super) fn validity(
 
 /// Every value in the middle of its cell.
 fn map_axis(label: &str, decades: Decades) -> Axis {
-    let half = 0.5 / f64::from(decades.per_decade);
-    let [first, last] = [decades.first, decades.last].map(f64::from);
+    let Decades(first, last, per_decade) = decades;
+    let half = 0.5 / f64::from(per_decade);
+    let [first, last] = [first, last].map(f64::from);
     Axis::linear(label, [first - half, last + half])
 }
 
@@ -179,7 +177,7 @@ fn outline<'a>(borders: impl Iterator<Item = &'a border::Row>) -> Option<Series>
 
 /// The outline of tan δ > 1.
 fn window(extent: &Extent) -> Result<Series> {
-    let lowest = 10_f64.powi(extent.map_ratios.first);
+    let lowest = range(extent.map_ratios)[0];
     let steps = StandardSolid::LARGEST_VISCOUS_RATIO / lowest;
     let ends = (0..WINDOW_STEPS).map(|step| {
         let ratio = lowest * steps.powf(f64::from(step) / f64::from(WINDOW_STEPS));

@@ -4,26 +4,37 @@ use std::fmt::{Debug, Display};
 use std::time::Instant;
 
 use anyhow::Result;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::tasks::in_parallel;
 
 /// Cases that differ in one parameter.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default)]
 pub(super) struct Family {
     /// What is computed.
-    pub(super) name: &'static str,
+    pub(super) name: String,
     /// What differs from case to case.
-    pub(super) parameter: &'static str,
-    pub(super) values: Vec<f64>,
-    pub(super) cost: Cost,
-    pub(super) run: Box<dyn Fn(f64) -> Result<Row> + Send + Sync>,
+    pub(super) parameter: String,
+    /// First and last power of ten, and the step of the exponent.
+    decades: Vec<(i32, i32, usize)>,
+    values: Vec<f64>,
+    /// Whether a quick run leaves it out.
+    pub(super) is_costly: bool,
 }
 
-/// What a family costs; a quick run leaves the costly ones out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Cost {
-    Cheap,
-    Costly,
+impl Family {
+    /// Values of the parameter; powers of ten are the nearest numbers, because `powi` rounds more than once.
+    pub(super) fn values(&self) -> impl Iterator<Item = f64> {
+        let powers = self.decades.iter();
+        let powers = powers.flat_map(|&(first, last, step)| (first..=last).step_by(step));
+        let powers = powers.map(|power| format!("1e{power}").parse().unwrap_or(f64::NAN));
+        powers.chain(self.values.iter().copied())
+    }
+
+    pub(super) fn case(&self, value: f64) -> String {
+        format!("{}, {} = {value:e}", self.name, self.parameter)
+    }
 }
 
 /// What a case is worth.
@@ -42,14 +53,14 @@ pub(super) enum Verdict {
 /// A case in the table: what it came to, and, of [`judge`], which one it is.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Row {
-    pub(super) family: &'static str,
-    pub(super) parameter: &'static str,
+    pub(super) family: String,
+    pub(super) parameter: String,
     pub(super) value: f64,
     /// Of several numbers the one that is closest to its tolerance.
     quantity: String,
     /// The right number, or the pattern of the right error.
-    pub(super) expected: String,
-    pub(super) got: String,
+    expected: String,
+    got: String,
     deviation: Option<f64>,
     tolerance: Option<f64>,
     pub(super) verdict: Verdict,
@@ -110,6 +121,19 @@ impl Row {
         }
     }
 
+    /// Which case is wrong, and how.
+    pub(super) fn complaint(&self) -> String {
+        let Self {
+            family,
+            parameter,
+            value,
+            expected,
+            got,
+            ..
+        } = self;
+        format!("{family}, {parameter} = {value:e}: expected {expected}, got {got}")
+    }
+
     /// Deviation as a part of what is allowed, where numbers were compared.
     pub(super) fn part_of_tolerance(&self) -> Option<f64> {
         Some(self.deviation? / self.tolerance?)
@@ -120,19 +144,6 @@ impl Verdict {
     fn provided(self, right: bool) -> Self {
         if right { self } else { Self::Wrong }
     }
-}
-
-/// A list of families, each as `cost name, parameter, values => function of the value;`.
-macro_rules! families {
-    ($($cost:ident $name:expr, $parameter:expr, $values:expr => $run:expr;)*) => {
-        vec![$($crate::evidence::stability::case::Family {
-            name: $name,
-            parameter: $parameter,
-            values: $values.into_iter().collect(),
-            cost: $crate::evidence::stability::case::Cost::$cost,
-            run: Box::new($run),
-        }),*]
-    };
 }
 
 /// Numbers beside the right ones, within one relative tolerance: fields of two structs, or `name => got, expected`.
@@ -160,35 +171,23 @@ macro_rules! refused {
         ))
     };
 }
-pub(super) use {compare, families, refused};
+pub(super) use {compare, refused};
 
 /// Runs all cases on all threads; rows in the order of the cases.
-pub(super) fn judge(families: &[Family]) -> Result<Vec<Row>> {
-    let mut cases = Vec::new();
-    for family in families {
-        cases.extend(family.values.iter().map(|value| (family, *value)));
-    }
-    in_parallel("stability", &cases, |(family, value)| {
-        Ok(row(family, *value))
+pub(super) fn judge<F: Fn(f64) -> Result<Row> + Sync>(
+    cases: &[(&Family, F, f64)],
+) -> Result<Vec<Row>> {
+    in_parallel("stability", cases, |(family, run, value)| {
+        let start = Instant::now();
+        let row = run(*value);
+        Ok(Row {
+            family: family.name.clone(),
+            parameter: family.parameter.clone(),
+            value: *value,
+            seconds: start.elapsed().as_secs_f64(),
+            ..row.unwrap_or_else(|error| Row::wrong("a solution", format!("{error:#}")))
+        })
     })
-}
-
-fn row(family: &Family, value: f64) -> Row {
-    let start = Instant::now();
-    let row = (family.run)(value);
-    Row {
-        family: family.name,
-        parameter: family.parameter,
-        value,
-        seconds: start.elapsed().as_secs_f64(),
-        ..row.unwrap_or_else(|error| Row::wrong("a solution", format!("{error:#}")))
-    }
-}
-
-/// 10^first, 10^(first + step), …, 10^last, each as the nearest number; `powi` rounds more than once.
-pub(super) fn decades(first: i32, last: i32, step: usize) -> impl Iterator<Item = f64> {
-    let power = |exponent| format!("1e{exponent}").parse().unwrap_or(f64::NAN);
-    (first..=last).step_by(step).map(power)
 }
 
 #[cfg(test)]
@@ -200,8 +199,8 @@ mod tests {
     use super::*;
 
     fn judged(run: impl Fn(f64) -> Result<Row> + Send + Sync + 'static) -> Row {
-        let families = families! { Cheap "test", "number", [1.0] => run; };
-        judge(&families).expect("a row").remove(0)
+        let rows = judge(&[(&Family::default(), run, 1.0)]);
+        rows.expect("a row").remove(0)
     }
 
     fn beside_one(got: f64) -> Row {

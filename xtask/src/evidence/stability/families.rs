@@ -1,79 +1,82 @@
-//! All families, in the order of the table.
+//! All families, in the order of the table: `families.toml` holds their values, and here is what is computed of each.
 
+use anyhow::{Result, bail};
 use indenters::{Hyperboloid, PowerProfile, RoundTippedCone, Sphere};
 use rheology::{KelvinVoigt, Maxwell};
+use serde::Deserialize;
 
-use super::case::{Family, decades, families};
-use super::line::sixteen_branches;
-use super::{half_space, line, range};
+use super::case::{Family, Row};
+use super::half_space;
+use super::line::{self, sixteen_branches};
 use crate::scene::solid;
 
-const LINE: [f64; 18] = [
-    0.1, 0.5, 0.501, 0.51, 0.55, 0.6, 0.75, 0.9, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0, 300.0,
-    1000.0,
-];
-const HALF_SPACE: [f64; 14] = [
-    0.5, 0.55, 0.6, 0.75, 0.9, 1.0, 1.5, 2.0, 4.0, 8.0, 16.0, 100.0, 300.0, 1000.0,
-];
-const WIDTHS: [f64; 6] = [0.2, 0.5, 1.0, 2.0, 5.0, 10.0];
-
-pub(super) fn all() -> Vec<Family> {
-    let usual = shapes().into_iter().chain(on_the_line());
-    let usual = usual.chain(on_the_half_space());
-    usual.chain(range::families()).collect()
+/// What `families.toml` holds.
+#[derive(Deserialize)]
+struct Families {
+    family: Vec<Family>,
 }
 
-fn ratios() -> impl Iterator<Item = f64> {
-    decades(-12, 12, 1)
+/// What a case comes to.
+pub(super) type Run = fn(f64) -> Result<Row>;
+
+pub(super) fn all() -> Result<Vec<(Family, Run)>> {
+    let Families { family } = toml::from_str(include_str!("families.toml"))?;
+    let with_run = |family: Family| {
+        let run = run(&family.name)?;
+        Ok((family, run))
+    };
+    family.into_iter().map(with_run).collect()
 }
 
-/// Bodies that are almost flat, and needles.
-fn shapes() -> Vec<Family> {
-    let tips = decades(-12, -3, 1).chain(decades(3, 12, 1));
-    families! {
-        Cheap "line, cone with round tip", "tip / m", ratios() => |tip| line::both(&RoundTippedCone::new(tip, 1.0)?);
-        Cheap "line, sphere", "radius/depth", decades(0, 12, 1) => |radius| line::both(&Sphere::new(radius)?);
-        Cheap "line, hyperboloid", "radius/depth", ratios() => |radius| line::both(&Hyperboloid::new(radius, 1.0)?);
-        Cheap "line, cone, any slope", "slope", ratios() => |slope| line::both(&PowerProfile::cone(slope)?);
-        Costly "half space, cone, any slope", "slope", decades(-12, 12, 3) => half_space::any_slope;
-        Costly "half space, cone with flat end", "end/contact", decades(-12, -4, 1) => half_space::flat_end;
-        Costly "half space, cone with round tip", "tip / m", tips => half_space::round_tip;
-    }
-}
-
-/// Ratios are distances that a branch or a retardation takes, over the front of the contact.
-fn on_the_line() -> Vec<Family> {
-    let gammas = || decades(-12, 3, 1);
-    let cone = || PowerProfile::cone(0.1);
-    let paraboloid = || PowerProfile::paraboloid(0.1);
-    families! {
-        Cheap "line, dashpot, stationary", "p", LINE => line::power_profile;
-        Cheap "line, cone on Kelvin–Voigt", "vλ/x_r", ratios() => move |ratio| line::kelvin_voigt(&cone()?, ratio);
-        Cheap "line, paraboloid on Kelvin–Voigt", "vλ/x_r", ratios() => move |ratio| line::kelvin_voigt(&paraboloid()?, ratio);
-        Cheap "line, cone on Maxwell", "vτ/x_r", ratios() => move |ratio| line::maxwell(&cone()?, ratio);
-        Cheap "line, paraboloid on Maxwell", "vτ/x_r", ratios() => move |ratio| line::maxwell(&paraboloid()?, ratio);
-        Cheap "line, cone on 16 branches over 15 decades", "v/x_r", ratios() => |speed| line::cone_at_depth(&sixteen_branches(), speed);
-        Cheap "line, cone on three elements, vτ = x_r", "γ", gammas() => |gamma| line::cone_at_depth(&solid(gamma)?, 1.0);
-        Cheap "line, cone on three elements, slow", "γ", gammas() => |gamma| line::cone_at_depth(&solid(gamma)?, 1e-3 * gamma);
-        Cheap "line, pressed, Kelvin–Voigt", "Δt/λ", ratios() => |ratio| line::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio);
-        Cheap "line, pressed, Maxwell", "Δt/τ", ratios() => |ratio| line::pressed(&Maxwell::new(1.0, 1.0)?, ratio);
-        Cheap "line, pressed, 16 branches", "Δt", ratios() => |ratio| line::pressed(&sixteen_branches(), ratio);
-        Cheap "line, march, cone on Maxwell", "vτ/x_r", ratios().step_by(2) => line::march;
-    }
-}
-
-fn on_the_half_space() -> Vec<Family> {
-    let gammas = || decades(-12, 3, 3);
-    let limits = || decades(-12, -5, 1).chain(decades(5, 12, 1));
-    families! {
-        Costly "half space, dashpot, stationary", "p", HALF_SPACE => half_space::power_profile;
-        Costly "half space, three elements, slow", "γ", gammas() => half_space::slow;
-        Costly "half space, three elements, fast", "γ", gammas() => half_space::fast;
-        Costly "half space, slender paraboloid", "width/length", WIDTHS => half_space::slender;
-        Cheap "half space, pressed, Kelvin–Voigt", "Δt/λ", ratios() => |ratio| half_space::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio);
-        Cheap "half space, pressed, Maxwell", "Δt/τ", ratios() => |ratio| half_space::pressed(&Maxwell::new(1.0, 1.0)?, ratio);
-        Cheap "half space, pressed, 16 branches", "Δt", ratios() => |ratio| half_space::pressed(&sixteen_branches(), ratio);
-        Cheap "half space, march on Maxwell", "Δt/τ", limits() => half_space::march_on_maxwell;
-        Cheap "half space, march on three elements", "Δt/τ", limits() => half_space::march_on_solid;
-    }
+fn run(family: &str) -> Result<Run> {
+    Ok(match family {
+        "line, cone with round tip" => |tip| line::both(&RoundTippedCone::new(tip, 1.0)?),
+        "line, sphere" => |radius| line::both(&Sphere::new(radius)?),
+        "line, hyperboloid" => |radius| line::both(&Hyperboloid::new(radius, 1.0)?),
+        "line, cone, any slope" => |slope| line::both(&PowerProfile::cone(slope)?),
+        "half space, cone, any slope" => half_space::any_slope,
+        "half space, cone with flat end" => half_space::flat_end,
+        "half space, cone with round tip" => half_space::round_tip,
+        "line, dashpot, stationary" => line::power_profile,
+        "line, cone on Kelvin–Voigt" => |ratio| line::kelvin_voigt(&line::cone()?, ratio),
+        "line, paraboloid on Kelvin–Voigt" => {
+            |ratio| line::kelvin_voigt(&line::paraboloid()?, ratio)
+        }
+        "line, cone on Maxwell" => |ratio| line::maxwell(&line::cone()?, ratio),
+        "line, paraboloid on Maxwell" => |ratio| line::maxwell(&line::paraboloid()?, ratio),
+        "line, cone on 16 branches over 15 decades" => {
+            |speed| line::cone_at_depth(&sixteen_branches(), speed)
+        }
+        "line, cone on three elements, vτ = x_r" => {
+            |gamma| line::cone_at_depth(&solid(gamma)?, 1.0)
+        }
+        "line, cone on three elements, slow" => {
+            |gamma| line::cone_at_depth(&solid(gamma)?, 1e-3 * gamma)
+        }
+        "line, pressed, Kelvin–Voigt" => {
+            |ratio| line::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio)
+        }
+        "line, pressed, Maxwell" => |ratio| line::pressed(&Maxwell::new(1.0, 1.0)?, ratio),
+        "line, pressed, 16 branches" => |ratio| line::pressed(&sixteen_branches(), ratio),
+        "line, march, cone on Maxwell" => line::march,
+        "half space, dashpot, stationary" => half_space::power_profile,
+        "half space, three elements, slow" => half_space::slow,
+        "half space, three elements, fast" => half_space::fast,
+        "half space, slender paraboloid" => half_space::slender,
+        "half space, pressed, Kelvin–Voigt" => {
+            |ratio| half_space::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio)
+        }
+        "half space, pressed, Maxwell" => {
+            |ratio| half_space::pressed(&Maxwell::new(1.0, 1.0)?, ratio)
+        }
+        "half space, pressed, 16 branches" => {
+            |ratio| half_space::pressed(&sixteen_branches(), ratio)
+        }
+        "half space, march on Maxwell" => half_space::march_on_maxwell,
+        "half space, march on three elements" => half_space::march_on_solid,
+        "theorem, ends of numbers" => line::theorem_under,
+        "line, ends of numbers" => line::line_under,
+        "half space, ends of numbers" => half_space::half_space_under,
+        _ => bail!("nothing is computed of {family}"),
+    })
 }

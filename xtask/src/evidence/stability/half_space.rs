@@ -16,11 +16,11 @@ use numerics::{Estimate, InvalidParameter};
 use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
 
 use super::case::{Row, compare, refused};
-use super::line::on_dashpot;
+use super::line::{on_dashpot, under};
 use crate::scene::{Scene, solid};
 
 /// Enough unknowns for all of these cases, and seconds at most.
-pub(super) const OPTIONS: RefinementOptions = RefinementOptions {
+const OPTIONS: RefinementOptions = RefinementOptions {
     relative_error: 1e-2,
     aspect: 0.5,
     max_unknowns: 40_000,
@@ -40,7 +40,7 @@ fn judged(
 }
 
 /// A body beside the table of s(p) for the scene of the profile that it is nearly, from which its shape differs by `part`.
-pub(super) fn beside_table(body: &dyn Surface, scene: &Scene, part: f64) -> Result<Row> {
+fn beside_table(body: &dyn Surface, scene: &Scene, part: f64) -> Result<Row> {
     let expected = half_space_power_friction(&scene.body, &scene.material, &scene.load)?;
     judged(body, &scene.material, &scene.load, expected, part)
 }
@@ -204,4 +204,13 @@ pub(super) fn march_on_maxwell(ratio: f64) -> Result<Row> {
 pub(super) fn march_on_solid(ratio: f64) -> Result<Row> {
     let modulus = if ratio < 1.0 { 1.1 } else { 0.1 };
     beside_limit(&solid(0.1)?, &Elastic::new(modulus)?, ratio, modulus)
+}
+
+/// The smallest force leaves no depth.
+pub(super) fn half_space_under(force: f64) -> Result<Row> {
+    let scene = under(force)?;
+    if force < 1e-320 {
+        return refused!(scene.friction(&OPTIONS) => BemError::InvalidParameter(_));
+    }
+    beside_table(&scene.body, &scene, 0.0)
 }

@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_2_PI;
 use anyhow::Result;
 use casebook::prony;
 use friction_analytic::{
-    SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
-    kelvin_voigt_sliding, maxwell_sliding, power_indentation_after_impulse,
+    FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
+    kelvin_voigt_sliding, maxwell_sliding, power_indentation_after_impulse, power_sliding,
 };
 use indenters::{Axisymmetric, Control, EquivalentLine, PowerProfile, PressingLoad, SlidingLoad};
 use mdr_core::{MdrError, SlideOptions, SteadySliding, indent, slide_on_grid, steady};
@@ -17,7 +17,7 @@ use super::cone_on_solid::cone_on_solid;
 use crate::scene::Scene;
 
 /// What the stationary solver is asked for by default.
-pub(super) const ASKED: f64 = 1e-8;
+const ASKED: f64 = 1e-8;
 
 /// A profile on a dashpot, where the depth (12) is 0.1 m.
 pub(super) fn on_dashpot(body: PowerProfile) -> Result<Scene> {
@@ -37,8 +37,16 @@ pub(super) fn sixteen_branches() -> Prony {
     prony([0.1, 0.0], &branches)
 }
 
+pub(super) fn cone() -> Result<PowerProfile> {
+    Ok(PowerProfile::cone(0.1)?)
+}
+
+pub(super) fn paraboloid() -> Result<PowerProfile> {
+    Ok(PowerProfile::paraboloid(0.1)?)
+}
+
 /// The stationary state.
-pub(super) fn state(
+fn state(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &SlidingLoad,
@@ -120,7 +128,7 @@ pub(super) fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Ro
 
 /// Under a constant force 8 ∫ x h̃' dx = F J(t) at any time; the same as on a dashpot of 1 Pa s after the impulse F J(t).
 pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
-    let profile = PowerProfile::cone(0.1)?;
+    let profile = cone()?;
     let last = material.creep_compliance(time)?;
     // A force under which the contact has the radius of about one.
     let force = 1.0 / last;
@@ -138,7 +146,7 @@ const MARCHED: usize = 400;
 /// The load of an element is held over a step in which the cone moves by one element, so that the state is that of a
 /// contact moved by a part of an element: first order in 1/n.
 pub(super) fn march(velocity: f64) -> Result<Row> {
-    let profile = PowerProfile::cone(0.1)?;
+    let profile = cone()?;
     let material = Maxwell::new(1.0, 1.0)?;
     let expected = maxwell_sliding(&profile, &material, contact(velocity))?;
     let load = SlidingLoad::new(expected.normal_force, velocity)?;
@@ -147,4 +155,52 @@ pub(super) fn march(velocity: f64) -> Result<Row> {
     let got = slide_on_grid(&line, &material, &load, &options)?.last;
     let tolerance = 4.0 / MARCHED as f64;
     compare!(got, expected, within tolerance; friction_coefficient, indentation_depth)
+}
+
+/// A paraboloid on a dashpot; all numbers but the force are one.
+pub(super) fn under(force: f64) -> Result<Scene> {
+    let (body, material) = (PowerProfile::paraboloid(1.0)?, Viscous::new(1.0)?);
+    let load = SlidingLoad::new(force, 1.0)?;
+    Ok(Scene {
+        body,
+        material,
+        load,
+    })
+}
+
+/// Depth and friction beside Eqs. (12) and (22) as the paper prints them, in an order that neither overflows nor underflows.
+fn beside_paper([depth, friction]: [f64; 2], force: f64, tolerance: f64) -> Result<Row> {
+    let expected = 0.25 * force;
+    // A depth below the normal numbers has fewer digits.
+    let tolerance = tolerance + f64::from_bits(1) / expected;
+    compare!(within tolerance;
+        "depth" => depth, expected;
+        "friction coefficient" => friction, 4.0 / 3.0 * 2.0_f64.sqrt() * expected.sqrt())
+}
+
+/// The smallest force leaves no depth.
+pub(super) fn theorem_under(force: f64) -> Result<Row> {
+    let scene = under(force)?;
+    let got = power_sliding(&scene.body, &scene.material, &scene.load);
+    if force < 1e-320 {
+        return refused!(got => FrictionError::OutOfRange { .. });
+    }
+    let got = got?;
+    beside_paper(
+        [got.indentation_depth, got.friction_coefficient],
+        force,
+        1e-12,
+    )
+}
+
+/// Small forces leave a depth with fewer digits than others have.
+pub(super) fn line_under(force: f64) -> Result<Row> {
+    let scene = under(force)?;
+    let got = state(&scene.body, &scene.material, &scene.load);
+    if force < 1e-300 {
+        return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
+    }
+    let got = got?;
+    let [depth, friction] = [got.indentation_depth, got.friction_coefficient];
+    beside_paper([depth.value, friction.value], force, ASKED)
 }

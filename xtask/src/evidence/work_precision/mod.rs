@@ -1,46 +1,60 @@
 //! Error against run time of every method on every benchmark scene.
+//!
+//! `scenes.toml` holds the scenes, and by which methods and in which resolutions each is solved.
 
-mod contacts;
+mod measured;
 mod picture;
-mod scenes;
-mod series;
 
 use anyhow::Result;
-use serde::Serialize;
+use bem_halfspace::ContactState;
+use benches::{ContactScene, rough_heights};
+use casebook::{HERTZ_DEPTH, deviation};
+use serde::{Deserialize, Serialize};
+use viscofriction::scene::{Accuracy, Method, Model, Scene};
 
 use super::fit::clear_exponent;
+use super::request::{Request, presses};
 use super::{Report, Table};
 use crate::output::{markdown_table, points};
 use crate::tasks::in_turn;
-use scenes::{QUICK_SCENES, SCENES, Scene};
-use series::{Measured, Row};
+use measured::{DEPTH, Found, Measured, Row};
 
-/// How much is measured.
-struct Extent {
-    scenes: &'static [Scene],
-    /// Runs of each method, from the coarsest on.
-    runs: usize,
-    timed_once: bool,
-    /// Elements along the edges of the grids of the Hertz contact, and of the rough surface.
-    edges: &'static [usize],
-    rough_edge: usize,
+/// What `scenes.toml` holds.
+#[derive(Deserialize)]
+struct Cases {
+    /// By which methods a scene is solved that slides, and one that does not.
+    sliding: Vec<Series>,
+    pressed: Vec<Series>,
+    case: Vec<Case>,
 }
 
-const FULL: Extent = Extent {
-    scenes: &SCENES,
-    runs: usize::MAX,
-    timed_once: false,
-    edges: &[128, 256, 512, 1024, 2048],
-    rough_edge: 512,
-};
+/// Resolutions of one method, from coarse to fine: relative errors or elements along the contact.
+#[derive(Deserialize)]
+struct Series {
+    model: Model,
+    method: Method,
+    #[serde(default)]
+    errors: Vec<f64>,
+    #[serde(default)]
+    elements: Vec<usize>,
+}
 
-const QUICK: Extent = Extent {
-    scenes: &QUICK_SCENES,
-    runs: 3,
-    timed_once: true,
-    edges: &[32, 64, 128],
-    rough_edge: 64,
-};
+#[derive(Deserialize)]
+struct Case {
+    name: String,
+    #[serde(default)]
+    is_quick: bool,
+    scene: Scene,
+}
+
+impl Series {
+    fn requests(&self, runs: usize) -> impl Iterator<Item = Request> {
+        let errors = self.errors.iter().copied().map(Accuracy::RelativeError);
+        let all = errors.chain(self.elements.iter().copied().map(Accuracy::Elements));
+        let request = |accuracy| Request::new(self.model, self.method, accuracy);
+        all.take(runs).map(request)
+    }
+}
 
 /// Relative errors whose time is printed, and their names.
 const PRINTED: [(f64, &str); 5] = [
@@ -53,10 +67,9 @@ const PRINTED: [(f64, &str); 5] = [
 
 /// Measures on one thread; a quick run takes a few scenes at coarse resolutions only, each timed once.
 pub(super) fn report(quick: bool) -> Result<Report> {
-    let extent = if quick { QUICK } else { FULL };
     // On one thread processor time is the time on an idle machine.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let Measured { rows, refused, .. } = pool.install(|| measure(&extent))?;
+    let Measured { rows, refused, .. } = pool.install(|| measure(quick))?;
     let series = || rows.chunk_by(Row::is_of_series);
     let fits: Vec<Fit> = series().map(Fit::of).collect();
     let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.slides());
@@ -75,23 +88,103 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     })
 }
 
-fn measure(extent: &Extent) -> Result<Measured> {
+/// Runs of each method in a quick measurement, from the coarsest on.
+const QUICK_RUNS: usize = 3;
+/// Elements along the edges of the grids of the Hertz contact, and of the rough surface.
+const EDGES: [usize; 5] = [128, 256, 512, 1024, 2048];
+const QUICK_EDGES: [usize; 3] = [32, 64, 128];
+const ROUGH_EDGE: usize = 512;
+const QUICK_ROUGH_EDGE: usize = 64;
+
+fn measure(quick: bool) -> Result<Measured> {
+    let Cases {
+        sliding,
+        pressed,
+        case: mut cases,
+    } = toml::from_str(include_str!("scenes.toml"))?;
+    cases.retain(|case| case.is_quick || !quick);
     let mut measured = Measured {
-        once: extent.timed_once,
+        is_once: quick,
         ..Measured::default()
     };
-    in_turn("work and precision", extent.scenes, |scene| {
-        measured.add_scene(scene, extent.runs)
-    })?;
-    contacts::hertz(&mut measured, extent.edges);
-    contacts::rough(&mut measured, extent.rough_edge)?;
+    in_turn(
+        "work and precision",
+        &cases,
+        |Case { name, scene, .. }| {
+            let series = if presses(scene) { &pressed } else { &sliding };
+            let runs = if quick { QUICK_RUNS } else { usize::MAX };
+            let requests = series.iter().flat_map(|series| series.requests(runs));
+            measured.add_scene(name, scene, &requests.collect::<Vec<_>>())
+        },
+    )?;
+    hertz(&mut measured, if quick { &QUICK_EDGES } else { &EDGES });
+    rough(
+        &mut measured,
+        if quick { QUICK_ROUGH_EDGE } else { ROUGH_EDGE },
+    )?;
     Ok(measured)
+}
+
+/// Tolerance of the Hertz contact, far below the error of its grids.
+const TOLERANCE: f64 = 1e-9;
+/// Tolerances on the rough surface.
+const TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
+const REFERENCE_TOLERANCE: f64 = 1e-12;
+
+/// The depth of the Hertz contact on grids with these edges; the convolution is made in the time that is measured.
+fn hertz(measured: &mut Measured, edges: &[usize]) {
+    for &edge in edges {
+        let run = Row {
+            // All such contacts are similar.
+            scene: "Hertz".to_owned(),
+            quantity: DEPTH,
+            resolution_kind: "elements",
+            resolution: Some(edge as f64),
+            reference: "closed form".to_owned(),
+            reference_error: f64::EPSILON,
+            ..Row::of_one_instant()
+        };
+        measured.add(run, || {
+            let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(TOLERANCE)?;
+            Ok(found(&state, &[contact.indentation_depth], &[HERTZ_DEPTH]))
+        });
+    }
+}
+
+/// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
+fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
+    let scene = ContactScene::periodic(rough_heights(edge, 0)?)?;
+    let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
+    for tolerance in TOLERANCES {
+        let run = Row {
+            scene: "rough surface".to_owned(),
+            quantity: "pressure",
+            resolution_kind: "tolerance",
+            resolution: Some(tolerance),
+            reference: format!("the same grid to {REFERENCE_TOLERANCE:e}"),
+            reference_error: contact.residual.max(REFERENCE_TOLERANCE),
+            ..Row::of_one_instant()
+        };
+        measured.add(run, || {
+            let (_, state) = scene.solve(tolerance)?;
+            Ok(found(&state, state.pressure(), exact.pressure()))
+        });
+    }
+    Ok(())
+}
+
+fn found(state: &ContactState, values: &[f64], exact: &[f64]) -> Found {
+    Found {
+        error: deviation(values, exact),
+        error_bar: None,
+        unknowns: state.pressure().len(),
+    }
 }
 
 /// How one method converges on one scene, and what that costs.
 #[derive(Debug, Clone, Serialize)]
 struct Fit {
-    scene: &'static str,
+    scene: String,
     model: &'static str,
     method: String,
     resolution_kind: &'static str,
@@ -110,7 +203,6 @@ struct Fit {
 impl Fit {
     /// The fit of the runs of one series, of which there is one at least.
     fn of(rows: &[Row]) -> Self {
-        let first = &rows[0];
         let resolved = rows.iter().filter(|row| row.is_resolved());
         let errors = resolved.filter_map(|row| Some([row.fineness()?, row.error]));
         let errors: Vec<[f64; 2]> = errors.collect();
@@ -118,10 +210,11 @@ impl Fit {
         let unknowns = |row: &&Row| row.unknowns as f64;
         let costs = points(&numerical, unknowns, |row| row.processor_seconds);
         let [order, cost] = [clear_exponent(&errors), clear_exponent(&costs)];
+        let first = rows[0].clone();
         Self {
             scene: first.scene,
             model: first.model,
-            method: first.method.clone(),
+            method: first.method,
             resolution_kind: first.resolution_kind,
             runs_fitted: errors.len(),
             order: order.map(|order| order.value),
@@ -137,13 +230,16 @@ fn table<'a>(series: impl Iterator<Item = (&'a Fit, &'a [Row])>) -> comfy_table:
     let header = ["scene", "model", "method", "over", "order", "cost exponent"];
     let header = header.into_iter().chain(PRINTED.map(|(_, name)| name));
     let rows = series.map(|(fit, rows)| {
+        let [model, kind] = [fit.model, fit.resolution_kind].map(str::to_owned);
+        let order = exponent(fit.order.zip(fit.order_error));
+        let cost = exponent(fit.cost_exponent.zip(fit.cost_exponent_error));
         let cells = [
-            fit.scene.to_owned(),
-            fit.model.to_owned(),
+            fit.scene.clone(),
+            model,
             fit.method.clone(),
-            fit.resolution_kind.to_owned(),
-            exponent(fit.order, fit.order_error),
-            exponent(fit.cost_exponent, fit.cost_exponent_error),
+            kind,
+            order,
+            cost,
         ];
         let times = PRINTED.map(|(error, _)| time_to(rows, error));
         cells.into_iter().chain(times).collect::<Vec<_>>()
@@ -151,17 +247,17 @@ fn table<'a>(series: impl Iterator<Item = (&'a Fit, &'a [Row])>) -> comfy_table:
     markdown_table(header, rows)
 }
 
-fn exponent(value: Option<f64>, error: Option<f64>) -> String {
-    value.zip(error).map_or_else(String::new, |(value, error)| {
-        format!("{value:.2} ± {error:.2}")
-    })
+fn exponent(known: Option<(f64, f64)>) -> String {
+    let text = known.map(|(value, error)| format!("{value:.2} ± {error:.2}"));
+    text.unwrap_or_default()
 }
 
 /// The time of the coarsest run from which on all finer ones are as exact, because one alone may be so by chance.
 fn time_to(rows: &[Row], error: f64) -> String {
     let bad = rows.iter().rposition(|row| row.visible_error() > error);
-    rows.get(bad.map_or(0, |bad| bad + 1))
-        .map_or_else(String::new, |row| duration(row.processor_seconds))
+    let good = rows.get(bad.map_or(0, |bad| bad + 1));
+    good.map(|row| duration(row.processor_seconds))
+        .unwrap_or_default()
 }
 
 fn duration(seconds: f64) -> String {

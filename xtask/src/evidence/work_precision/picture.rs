@@ -2,10 +2,10 @@
 
 use viscofriction::scene::{Method, Model};
 
-use super::series::Row;
-use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
+
+use super::measured::Row;
+use crate::picture::{chart as chart_of, guide};
 
 /// Errors of references that are drawn; smaller ones do not matter.
 const VISIBLE: f64 = 1e-9;
@@ -35,8 +35,7 @@ fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
     series.extend(models.filter_map(|rows| floor(rows, x)));
     Chart {
         title: rows.first().map(title),
-        legend: LegendPlace::Below,
-        ..Chart::new(x.clone(), y.clone(), series)
+        ..chart_of(x.clone(), y.clone(), series)
     }
 }
 
@@ -82,7 +81,6 @@ fn visible_floor(row: &Row) -> Option<f64> {
 fn floor(rows: &[&Row], x: &Axis) -> Option<Series> {
     let first = rows.first()?;
     let error = visible_floor(first)?;
-    let points = x.range.map(|time| [time, error]).to_vec();
-    let line = Series::line(points, Line::thin(Dash::Dotted), Colour::Black);
+    let line = guide(x.range.map(|time| [time, error]), Dash::Dotted);
     Some(line.labelled(format!("reference, {}", first.model)))
 }

@@ -3,9 +3,8 @@
 use anyhow::Result;
 use casebook::deviation;
 use serde::Serialize;
-use viscofriction::scene::{self, Method, Model};
+use viscofriction::scene::{Method, Model, Scene};
 
-use super::scenes::{Scene, requests};
 use crate::evidence::request::{Reference, Request, first_reached, presses};
 use crate::meter::{measure, measure_median};
 
@@ -33,7 +32,7 @@ pub(super) struct Found {
 /// One run in the table.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Row {
-    pub(super) scene: &'static str,
+    pub(super) scene: String,
     pub(super) model: &'static str,
     pub(super) quantity: &'static str,
     pub(super) method: String,
@@ -54,6 +53,37 @@ pub(super) struct Row {
 }
 
 impl Row {
+    /// Of the half space at one instant.
+    pub(super) fn of_one_instant() -> Self {
+        let (model, method) = (Model::HalfSpace.name(), "bem contact".to_owned());
+        Self {
+            model,
+            method,
+            ..Self::default()
+        }
+    }
+
+    /// Of a request, without its results.
+    fn of_request(request: &Request, name: &str, scene: &Scene, reference: &Reference) -> Self {
+        let is_closed = request.method == Method::Analytic;
+        // The stationary half space may be asked for an error or given its elements.
+        let both = request.method == Method::BemSteady && request.is_by_elements();
+        let kind = if both { ", elements" } else { "" };
+        let (asked, number) = request.asked();
+        Self {
+            scene: name.to_owned(),
+            model: request.model.name(),
+            quantity: if presses(scene) { DEPTH } else { FRICTION },
+            method: format!("{}{kind}", request.method.name()),
+            resolution_kind: if is_closed { "closed form" } else { asked },
+            resolution: (!is_closed).then_some(number),
+            reference: reference.source.clone(),
+            reference_error: reference.known.error / reference.known.value.abs(),
+            solver: Some(request.method),
+            ..Self::default()
+        }
+    }
+
     /// Whether the error comes from the resolution, and not from rounding or from the reference.
     pub(super) fn is_resolved(&self) -> bool {
         self.error > self.reference_error.max(ROUNDING)
@@ -71,7 +101,7 @@ impl Row {
 
     /// Whether another run differs in its resolution only.
     pub(super) fn is_of_series(&self, other: &Self) -> bool {
-        let key = |row: &Self| (row.scene, row.model, row.method.clone());
+        let key = |row: &Self| (row.scene.clone(), row.model, row.method.clone());
         key(self) == key(other)
     }
 
@@ -91,7 +121,7 @@ impl Row {
 #[derive(Debug, Default)]
 pub(super) struct Measured {
     /// Whether each run is timed once, for no more than a hint, and not by the median of several.
-    pub(super) once: bool,
+    pub(super) is_once: bool,
     pub(super) rows: Vec<Row>,
     /// One line for each run and each reference that could not be computed.
     pub(super) refused: String,
@@ -100,7 +130,7 @@ pub(super) struct Measured {
 impl Measured {
     /// Times a run, which is described by a row without its results.
     pub(super) fn add(&mut self, run: Row, solve: impl Fn() -> Result<Found>) {
-        let timed = if self.once {
+        let timed = if self.is_once {
             let (found, cost) = measure(&solve);
             found.map(|found| (found, cost))
         } else {
@@ -127,27 +157,21 @@ impl Measured {
         self.refused += &format!("\nrefused: {what}: {error:#}");
     }
 
-    /// Times the methods on a scene, each in at most `runs` runs; a model whose reference is not reached is refused.
-    pub(super) fn add_scene(&mut self, scene: &Scene, runs: usize) -> Result<()> {
-        let mut file: scene::Scene = scene.text.parse()?;
-        file.load.velocity = scene.velocity.or(file.load.velocity);
-        let requests = requests(presses(&file), runs);
-        for of_model in requests.chunk_by(|one, other| one.model == other.model) {
-            let reference = match reference(&file, &of_model[0]) {
+    /// Times what is asked of a scene; a model whose reference is not reached is refused.
+    pub(super) fn add_scene(&mut self, name: &str, scene: &Scene, asked: &[Request]) -> Result<()> {
+        for of_model in asked.chunk_by(|one, other| one.model == other.model) {
+            let reference = match reference(scene, &of_model[0]) {
                 Ok(reference) => reference,
                 Err(error) => {
-                    let (name, model) = (scene.name, of_model[0].model.name());
+                    let model = of_model[0].model.name();
                     self.refuse(&format!("{name}, reference of the {model}"), &error);
                     continue;
                 }
             };
             for request in of_model {
-                if request.is_offered(&file)? {
-                    let run = Row {
-                        scene: scene.name,
-                        ..row(request, &file, &reference)
-                    };
-                    self.add(run, || found(request, &file, &reference));
+                if request.is_offered(scene)? {
+                    let run = Row::of_request(request, name, scene, &reference);
+                    self.add(run, || found(request, scene, &reference));
                 }
             }
         }
@@ -158,7 +182,7 @@ impl Measured {
 /// The closed form; without one the stationary solver of the model with a far smaller error.
 ///
 /// On the half space the table of s(p) is no closed form: it is measured too.
-fn reference(scene: &scene::Scene, closed_form: &Request) -> Result<Reference> {
+fn reference(scene: &Scene, closed_form: &Request) -> Result<Reference> {
     let model = closed_form.model;
     let may_be_closed = model == Model::Line || presses(scene);
     if may_be_closed && closed_form.is_offered(scene)? {
@@ -171,30 +195,7 @@ fn reference(scene: &scene::Scene, closed_form: &Request) -> Result<Reference> {
     first_reached(scene, model, errors)
 }
 
-/// The row of a request without its results.
-fn row(request: &Request, scene: &scene::Scene, reference: &Reference) -> Row {
-    let is_closed = request.method == Method::Analytic;
-    // The stationary half space may be asked for an error or given its elements.
-    let both = request.method == Method::BemSteady && request.is_by_elements();
-    let kind = if both { ", elements" } else { "" };
-    Row {
-        model: request.model.name(),
-        quantity: if presses(scene) { DEPTH } else { FRICTION },
-        method: format!("{}{kind}", request.method.name()),
-        resolution_kind: if is_closed {
-            "closed form"
-        } else {
-            request.kind()
-        },
-        resolution: (!is_closed).then(|| request.number()),
-        reference: reference.source.clone(),
-        reference_error: reference.known.error / reference.known.value.abs(),
-        solver: Some(request.method),
-        ..Row::default()
-    }
-}
-
-fn found(request: &Request, scene: &scene::Scene, reference: &Reference) -> Result<Found> {
+fn found(request: &Request, scene: &Scene, reference: &Reference) -> Result<Found> {
     let answer = request.solve(scene)?;
     let known = answer.requested_quantity();
     Ok(Found {

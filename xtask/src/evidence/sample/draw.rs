@@ -1,0 +1,289 @@
+//! What is drawn for a random scene: numbers by the names that they have in `recipes.toml`, load, motion and what is asked.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use anyhow::Result;
+use toml::{Table, Value};
+use viscofriction::Files;
+use viscofriction::scene::{Branch, Edges, LoadPoint, Model, Scene, Shift, ShiftLaw, Term};
+use viscofriction::solve::{Body, body, half_space};
+
+use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, read};
+use crate::random::Random;
+
+/// Relative errors that are asked for.
+const ERRORS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
+/// Of materials that know their shift law, \[°C].
+const TEMPERATURES: [f64; 2] = [10.0, 40.0];
+
+/// A scene that is drawn.
+pub(super) struct Sample<'a> {
+    pub(super) random: &'a mut Random,
+    /// Units in which the numbers of the scene are moderate, \[m], \[Pa], \[s].
+    pub(super) length: f64,
+    pub(super) stress: f64,
+    pub(super) time: f64,
+    /// Half the length of the contact, and the time in which the body slides over it or is pressed.
+    pub(super) contact: f64,
+    pub(super) contact_time: f64,
+    pub(super) lengths: Option<Lengths>,
+    /// Numbers and other values by their names in the recipes.
+    pub(super) drawn: Table,
+}
+
+impl Sample<'_> {
+    /// Adds values under the names between blanks.
+    fn draw<V: Into<Value>, const N: usize>(&mut self, names: &str, values: [V; N]) {
+        let names = names.split(' ').map(str::to_owned);
+        self.drawn.extend(names.zip(values.map(Into::into)));
+    }
+
+    pub(super) fn draw_body(&mut self, kind: &str) -> Result<()> {
+        let slope = 10_f64.powf(self.random.between([-2.5, -0.3]));
+        let radius = self.length * 10_f64.powf(self.random.between([0.3, 1.5]));
+        let tip = self.contact * 10_f64.powf(self.random.between([-1.0, 0.3]));
+        let values = [slope, radius, tip, 0.5 / radius, self.contact];
+        self.draw("slope radius tip curvature contact", values);
+        match kind {
+            "power" => {
+                let exponents = [1.0, 2.0, self.random.between([0.55, 5.0])];
+                let exponent = self.random.choice(&exponents);
+                let coefficient = slope * self.length.powf(1.0 - exponent);
+                self.draw("coefficient exponent", [coefficient, exponent]);
+            }
+            "superposition" => {
+                let exponents = [[0.7, 2.0], [2.0, 4.0]].map(|range| self.random.between(range));
+                let terms = exponents.map(|exponent| Term {
+                    coefficient: slope * self.length.powf(1.0 - exponent),
+                    exponent,
+                });
+                self.draw("terms", [Value::try_from(terms)?]);
+            }
+            "table" => self.draw_table(slope),
+            "height-map" => self.draw_height_map(slope)?,
+            "self-affine" => self.draw_self_affine(),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A smooth profile, or one with a kink, straight between some radii.
+    fn draw_table(&mut self, slope: f64) {
+        let exponent = self.random.between([1.0, 3.0]);
+        let count = self.random.choice(&[4, 12, 40]);
+        let row = |row: i32| {
+            let part = 4.0 * f64::from(row) / f64::from(count);
+            [part, slope * part.powf(exponent)].map(|value| value * self.length)
+        };
+        self.lengths = Some(Lengths {
+            file: PROFILE,
+            columns: 2,
+            values: (0..=count).flat_map(row).collect(),
+        });
+    }
+
+    /// A rippled dome, or a wavy surface that repeats itself.
+    fn draw_height_map(&mut self, slope: f64) -> Result<()> {
+        let edges = [Edges::Wall, Edges::Periodic, Edges::Mirrored];
+        let edges = self.random.choice(&edges);
+        let counts = [(); 2].map(|()| self.random.choice(&[15_u32, 16, 22, 27, 32]));
+        let waves: Vec<[f64; 3]> = (0..5).map(|_| self.wave(slope)).collect();
+        let (dome, ripple) = match edges {
+            Edges::Wall => (0.25 * slope, 0.02),
+            _ => (0.0, 1.0),
+        };
+        let gap = |place: [u32; 2]| {
+            let [x, y] = [0, 1].map(|axis| f64::from(place[axis]) / f64::from(counts[axis]));
+            let wave = |[amplitude, along, across]: &[f64; 3]| {
+                amplitude * (TAU * (along * x + across * y + amplitude / slope)).cos()
+            };
+            let waves: f64 = waves.iter().map(wave).sum();
+            let from_middle = [x, y].map(|part| (4.0 * (part - 0.5)).powi(2));
+            self.length * (dome * from_middle.iter().sum::<f64>() + ripple * waves)
+        };
+        let [columns, rows] = counts;
+        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+        let values = places.map(gap).collect();
+        let spacing = counts.map(|count| 4.0 * self.length / f64::from(count));
+        let file = self.random.choice(&HEIGHTS);
+        self.lengths = Some(Lengths {
+            file,
+            columns: columns as usize,
+            values,
+        });
+        let values = [
+            file.into(),
+            spacing.to_vec().into(),
+            Value::try_from(edges)?,
+        ];
+        self.draw("file spacing edges", values);
+        Ok(())
+    }
+
+    /// Amplitude, and how many times it fits into the map along and across.
+    fn wave(&mut self, slope: f64) -> [f64; 3] {
+        let counts = [1.0, 2.0, 3.0, 4.0];
+        let [along, across] = [(); 2].map(|()| self.random.choice(&counts));
+        let across = self.random.choice(&[across, -across, 0.0]);
+        [slope * self.random.between([0.1, 1.0]) / TAU, along, across]
+    }
+
+    fn draw_self_affine(&mut self) {
+        let longest = self.length * self.random.choice(&[1.0, 0.5]);
+        let period = vec![self.length, self.length * self.random.choice(&[1.0, 1.5])];
+        let hurst_exponent = self.random.between([0.2, 0.95]);
+        let shortest = longest / self.random.choice(&[2.0, 4.0, 6.0]);
+        let seed = self.random.choice(&[1_i64, 2, 3, 4, 5, 6, 7, 8]);
+        let numbers = [hurst_exponent, longest, shortest];
+        self.draw(
+            "hurst_exponent longest_wavelength shortest_wavelength",
+            numbers,
+        );
+        self.draw("period seed", [Value::from(period), seed.into()]);
+    }
+
+    pub(super) fn draw_material(&mut self, kind: &str) -> Result<()> {
+        let compressible = self.random.between([-0.9, 0.5]);
+        let poisson_ratio = self.random.choice(&[0.5, compressible]);
+        let (stress, time) = (self.stress, self.time);
+        let viscosity = stress * time * self.random.decades(1.0);
+        let maxwell_modulus = stress * self.random.decades(2.5);
+        let time_range = [1e-3, 1e3].map(|ratio| ratio * self.contact_time);
+        let order = self.random.between([0.05, 0.95]);
+        let equilibrium_modulus = self.random.choice(&[0.0, stress]);
+        self.draw(
+            "stress time poisson_ratio viscosity",
+            [stress, time, poisson_ratio, viscosity],
+        );
+        self.draw(
+            "maxwell_modulus maxwell_viscosity",
+            [maxwell_modulus, maxwell_modulus * time],
+        );
+        let quasi_property = stress * time.powf(order);
+        let fractional = [order, quasi_property, equilibrium_modulus];
+        self.draw("order quasi_property equilibrium_modulus", fractional);
+        self.draw("time_range", [time_range.to_vec()]);
+        if ["prony", "file"].contains(&kind) {
+            self.draw_prony()?;
+        }
+        if kind == "file" {
+            let law = ShiftLaw::Wlf([[2.0, 20.0], [40.0, 200.0]].map(|c| self.random.between(c)));
+            let shift = Shift {
+                temperature: self.random.between(TEMPERATURES),
+                temperature_range: TEMPERATURES,
+                law,
+            };
+            self.draw("shift", [Value::try_from(shift)?]);
+            let other = self.random.between(TEMPERATURES);
+            if let Some(other) = self.random.choice(&[None, Some(other)]) {
+                self.draw("temperature", [other]);
+            }
+        }
+        Ok(())
+    }
+
+    /// A solid, a rubber that flows, or a liquid, with up to eight branches.
+    fn draw_prony(&mut self) -> Result<()> {
+        let count = self.random.choice(&[1, 2, 3, 8]);
+        let branch = |_| Branch {
+            modulus: self.stress * self.random.decades(2.0),
+            relaxation_time: self.time * self.random.decades(3.0),
+        };
+        let branches: Vec<Branch> = (0..count).map(branch).collect();
+        let viscosity = self.stress * self.time * self.random.decades(2.0);
+        let lowest = self.random.decades(2.0) / self.contact_time;
+        let highest = lowest * 10_f64.powf(self.random.between([0.5, 4.0]));
+        let modulus = self.random.choice(&[self.stress, self.stress, 0.0]);
+        let viscosity = self.random.choice(&[0.0, 0.0, viscosity]);
+        self.draw("lone_modulus lone_viscosity", [modulus, viscosity]);
+        self.draw("branches", [Value::try_from(branches)?]);
+        if self.random.choice(&[false, true]) {
+            self.draw("window", [vec![lowest, highest]]);
+        }
+        Ok(())
+    }
+
+    /// Load, motion, model and what is asked.
+    pub(super) fn motion(&mut self, scene: &mut Scene, range: &Range, folder: &Path) -> Result<()> {
+        let files = Files::of(scene, folder, read)?;
+        let body = body(&scene.indenter, &files)?.body;
+        let [force, depth] = self.load(scene, &body, &files)?;
+        let is_round = matches!(body, Body::Revolution(_)) && scene.layer.is_none();
+        if is_round && self.random.uniform() < 0.25 {
+            scene.solve.model = Some(Model::Line);
+        }
+        scene.solve.relative_error = Some(self.random.choice(&ERRORS));
+        scene.solve.max_memory = Some(range.memory.clone());
+        let at_depth = self.random.uniform() < range.depths;
+        let motion = self.random.choice(&range.motions);
+        if let Body::Periodic(surface) = &body {
+            let area: f64 = surface.period().iter().product();
+            scene.load.mean_pressure = Some(force / area);
+        } else if motion == Motion::History {
+            scene.load.history = Some(self.history((!at_depth).then_some(force), depth));
+            return Ok(());
+        } else if at_depth {
+            scene.load.indentation_depth = Some(depth);
+        } else {
+            scene.load.normal_force = Some(force);
+        }
+        let velocity = 2.0 * self.contact / self.contact_time;
+        let lengths = 3.0 * self.random.decades(range.distances);
+        let slides = !matches!(motion, Motion::Pressed | Motion::History);
+        scene.load.velocity = Some(if slides { velocity } else { 0.0 });
+        match motion {
+            Motion::Stationary => {}
+            Motion::SlidingForTime => scene.solve.duration = Some(lengths * self.contact_time),
+            Motion::SlidingOverDistance => {
+                scene.solve.sliding_distance = Some(lengths * self.contact);
+            }
+            Motion::Pressed | Motion::History => scene.solve.duration = Some(self.contact_time),
+        }
+        Ok(())
+    }
+
+    /// Force \[N] and depth \[m] of a contact of about the length that was drawn: D = h(a) = 2 (1 − ν) F J(t)/(4 a).
+    fn load(&mut self, scene: &Scene, body: &Body, files: &Files<'_>) -> Result<[f64; 2]> {
+        let material = half_space(&scene.material, files)?.material;
+        let compliance =
+            material.half_space_factor() * material.creep_compliance(self.contact_time)?;
+        let depth = match body {
+            Body::Revolution(body) => match body.profile_height(self.contact) {
+                height if height > 0.0 => height,
+                _ => 0.02 * self.contact,
+            },
+            Body::Periodic(surface) => {
+                let area: f64 = surface.period().iter().product();
+                let pressure = surface.rms_slope() * 10_f64.powf(self.random.between([-2.0, 0.5]));
+                return Ok([pressure * area / compliance, 0.0]);
+            }
+            Body::Cylinder(cylinder) => {
+                // F' J(t) 2 (1 − ν) = π a²/R.
+                let force = self.contact * self.contact / cylinder.radius() / compliance;
+                return Ok([force, 0.01 * self.contact]);
+            }
+            Body::HeightMap(_) => 0.02 * self.contact,
+        };
+        Ok([4.0 * self.contact * depth / compliance, depth])
+    }
+
+    /// Up to six points that rise and fall, with dwells and jumps, of a force or, without one, of a depth.
+    fn history(&mut self, force: Option<f64>, depth: f64) -> Vec<LoadPoint> {
+        let count = self.random.choice(&[2, 3, 4, 6]);
+        let (mut time, mut level) = (0.0, 0.0);
+        let mut points = Vec::new();
+        for _ in 0..count {
+            points.push(LoadPoint {
+                time,
+                normal_force: force.map(|force| force * level),
+                indentation_depth: force.is_none().then_some(depth * level),
+            });
+            let step = self.contact_time * self.random.decades(1.0);
+            time += self.random.choice(&[step, step, step, step, 0.0]);
+            let next = self.random.uniform();
+            level = self.random.choice(&[next, next, next, level, 0.0]);
+        }
+        points
+    }
+}

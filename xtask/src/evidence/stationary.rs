@@ -1,0 +1,266 @@
+//! How far the stationary solver can be trusted, and what it costs: time and memory over the number of elements in contact, and
+//! error bars against the deviation from much finer solutions.
+
+use std::iter::successors;
+
+use anyhow::{Context, Result, ensure};
+use bem_halfspace::steady::{SteadySliding, steady_refined};
+use benches::memory;
+use clap::{Args, ValueEnum};
+use indenters::Surface;
+use numerics::Estimate;
+use serde::{Deserialize, Serialize};
+use viscofriction::scene::{self, Indenter};
+use viscofriction::solve::Problem;
+
+use super::fit::exponent;
+use super::{Report, Table};
+use crate::meter::{measure, median};
+use crate::output::{WrongInput, points};
+use crate::scene::{Scene, as_far_as_reached, refined_to};
+use crate::tasks::in_turn;
+
+/// What is measured, and how far.
+#[derive(Debug, Default, Args)]
+pub(super) struct Options {
+    /// Elements in contact on the largest grid of the table of growth, between 2e3 and 1e7 [default: 1e5, quick 4e3].
+    #[arg(long, value_name = "N")]
+    largest: Option<f64>,
+    /// Table to make; may be given several times [default: all].
+    #[arg(long = "table", value_enum, value_name = "TABLE")]
+    tables: Vec<Part>,
+}
+
+/// One of the tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// Time and memory over the size of the grid.
+    Growth,
+    /// Error bars against much finer solutions.
+    ErrorBars,
+}
+
+/// Elements in contact on the largest grid, and on that of a quick run.
+const LARGEST: f64 = 1e5;
+const QUICK_LARGEST: f64 = 4e3;
+
+/// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
+pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+    let usual = if quick { QUICK_LARGEST } else { LARGEST };
+    let largest = options.largest.unwrap_or(usual);
+    let wrong = format!("--largest must be between 2e3 and 1e7, but is {largest}");
+    ensure!((2e3..=1e7).contains(&largest), WrongInput(wrong));
+    let (mut tables, mut summaries) = (Vec::new(), Vec::new());
+    // Growth comes first, because the memory that it reports is the largest that the process has had.
+    for part in [Part::Growth, Part::ErrorBars] {
+        if !options.tables.is_empty() && !options.tables.contains(&part) {
+            continue;
+        }
+        let (table, summary) = match part {
+            Part::Growth => growth(largest)?,
+            Part::ErrorBars => error_bars(quick)?,
+        };
+        tables.push(table);
+        summaries.push(summary);
+    }
+    Ok(Report {
+        name: "stationary",
+        tables,
+        summary: summaries.join("\n\n"),
+        ..Report::default()
+    })
+}
+
+/// Elements in contact on the smallest grid.
+const SMALLEST: f64 = 1e3;
+/// Δy/Δx, as the stationary solver has it unless told otherwise.
+const ASPECT: f64 = 0.5;
+/// Residual in contact relative to F_N/(4ηv), as the stationary solver has it for a relative error of 1e-3.
+const TOLERANCE: f64 = 1e-7;
+/// Smaller grids are left out of the exponent of growth where larger ones suffice for it.
+const FITTED_FROM: f64 = 9e3;
+/// Elements along the contact length on the grid that the area of the contact is taken from.
+const COARSE: f64 = 40.0;
+/// Relative error of the friction coefficient that the others are compared with.
+const REFERENCE_ERROR: f64 = 1e-4;
+
+/// One grid, from a cold start; coarser grids that the solver starts from are in its cost.
+#[derive(Debug, Clone, Serialize)]
+struct Grid {
+    elements_in_contact: f64,
+    unknowns: usize,
+    contact_sets: usize,
+    seconds: f64,
+    processor_seconds: f64,
+    /// Most memory resident up to here.
+    peak_memory_mib: Option<f64>,
+    /// Of the friction coefficient on this one grid, from the extrapolated one.
+    relative_deviation: f64,
+}
+
+/// A paraboloid on grids from the smallest to the largest, √10 times as many elements each.
+fn growth(largest: f64) -> Result<(Table, String)> {
+    let scene = Scene::unit(2.0)?;
+    let limit = scene.friction(&refined_to(REFERENCE_ERROR, ASPECT))?;
+    let limit = limit.friction_coefficient.value;
+    let solve = |spacing: f64| -> Result<SteadySliding> {
+        scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
+    };
+    let area = solve(scene.theory()?.contact_length() / COARSE)?.contact_area;
+    let steps = (2.0 * (largest / SMALLEST).log10()).round().max(1.0);
+    let ratio = (largest / SMALLEST).powf(1.0 / steps);
+    let sizes = successors(Some(SMALLEST), |size| Some(size * ratio));
+    let sizes: Vec<f64> = sizes.take_while(|size| *size < 1.01 * largest).collect();
+    let rows = in_turn("growth", &sizes, |size| {
+        let (solution, cost) = measure(|| solve((area / (size * ASPECT)).sqrt()));
+        let solution = solution.with_context(|| format!("{size:.0} elements in contact"))?;
+        let [dx, dy] = solution.pressure.grid.spacing();
+        Ok(Grid {
+            elements_in_contact: (solution.contact_area / dx / dy).round(),
+            unknowns: solution.unknowns,
+            contact_sets: solution.iterations,
+            seconds: cost.seconds,
+            processor_seconds: cost.processor_seconds,
+            peak_memory_mib: memory("VmHWM:").map(|bytes| bytes / (1 << 20) as f64),
+            relative_deviation: solution.friction_coefficient / limit - 1.0,
+        })
+    })?;
+    let elements = |row: &Grid| row.elements_in_contact;
+    let mut points = points(&rows, elements, |row| row.processor_seconds);
+    if points.iter().filter(|point| point[0] > FITTED_FROM).count() > 1 {
+        points.retain(|point| point[0] > FITTED_FROM);
+    }
+    let table = Table::new("growth", &rows)?;
+    let columns = "elements_in_contact unknowns contact_sets seconds processor_seconds \
+                   peak_memory_mib relative_deviation";
+    let summary = format!(
+        "{}\nexponent of growth of the processor time over the last {} grids: {:.2}",
+        table.markdown(columns)?,
+        points.len(),
+        exponent(&points).value
+    );
+    Ok((table, summary))
+}
+
+/// From this exponent on the contact is a narrow crescent, for which narrow elements are no help.
+const CRESCENT: f64 = 4.0;
+/// Up to the first and from the second exponent on a small error costs a minute or more.
+const COSTLY: [f64; 2] = [0.7, 12.0];
+/// Relative errors asked for, and those of the references over them.
+const ASKED: f64 = 1e-3;
+const ASKED_WHERE_COSTLY: f64 = 3e-3;
+const FINER: f64 = 0.1;
+const FINER_WHERE_COSTLY: f64 = 0.2;
+/// Shapes of the elements.
+const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
+/// What is asked of the bars: the fraction that holds, and how much wider than needed they may be at the median.
+const NEEDED_FRACTION: f64 = 0.95;
+const WIDEST_MEDIAN: f64 = 30.0;
+/// Cases with the largest deviations that are printed even if their bars hold.
+const WORST: usize = 8;
+
+/// What `stationary.toml` holds.
+#[derive(Deserialize)]
+struct Cases {
+    /// Of which the cases have other bodies.
+    scene: scene::Scene,
+    case: Vec<Case>,
+}
+
+/// A body, in a scene whose depth scale F_N/(4ηv) is 1.
+#[derive(Deserialize)]
+struct Case {
+    name: String,
+    /// p of a power profile.
+    exponent: Option<f64>,
+    #[serde(default)]
+    is_quick: bool,
+    indenter: Indenter,
+}
+
+/// One bar. Friction coefficients belong to F_N/(4ηv) = 1 and bodies of the size 1.
+#[derive(Debug, Clone, Serialize)]
+struct Bar {
+    case: String,
+    /// Of a power profile.
+    exponent: Option<f64>,
+    aspect: f64,
+    relative_error_asked: f64,
+    friction: f64,
+    error_bar: f64,
+    reference_friction: f64,
+    reference_error: f64,
+    deviation: f64,
+    deviation_over_bar: f64,
+    /// Whether the deviation is within the bar and the error of the reference.
+    holds: bool,
+}
+
+impl Case {
+    /// A bar for each shape of the elements; a quick run asks for less.
+    fn bars(&self, scene: &scene::Scene, quick: bool) -> Result<Vec<Bar>> {
+        let mut scene = scene.clone();
+        scene.indenter = self.indenter.clone();
+        let problem = Problem::try_from(&scene)?;
+        let body = problem.body().surface().context("a body that ends")?;
+        let is = |of: fn(f64) -> bool| self.exponent.is_some_and(of);
+        let is_costly = is(|p| p <= COSTLY[0] || p >= COSTLY[1]);
+        let is_coarse = quick || is_costly;
+        let asked = if is_coarse { ASKED_WHERE_COSTLY } else { ASKED };
+        let finer = if is_costly { FINER_WHERE_COSTLY } else { FINER };
+        let aspect = if is(|p| p >= CRESCENT) { 1.0 } else { 0.5 };
+        let reference = self.solve(body, finer * asked, aspect)?;
+        let bar = |aspect| {
+            let friction = self.solve(body, asked, aspect)?;
+            let deviation = (friction.value - reference.value).abs();
+            Ok(Bar {
+                case: self.name.clone(),
+                exponent: self.exponent,
+                aspect,
+                relative_error_asked: asked,
+                friction: friction.value,
+                error_bar: friction.error,
+                reference_friction: reference.value,
+                reference_error: reference.error,
+                deviation,
+                deviation_over_bar: deviation / friction.error,
+                holds: deviation <= friction.error + reference.error,
+            })
+        };
+        ASPECTS.into_iter().map(bar).collect()
+    }
+
+    fn solve(&self, body: &dyn Surface, relative_error: f64, aspect: f64) -> Result<Estimate> {
+        let Scene { material, load, .. } = Scene::unit(1.0)?;
+        let options = refined_to(relative_error, aspect);
+        let reached = as_far_as_reached(steady_refined(body, &material, &load, &options));
+        reached.with_context(|| format!("{}, {options:?}", self.name))
+    }
+}
+
+/// Judges the bars of all bodies, or of a few: how many hold, how wide they are, and the cases that fail or come closest to it.
+fn error_bars(quick: bool) -> Result<(Table, String)> {
+    let Cases {
+        scene,
+        case: mut cases,
+    } = toml::from_str(include_str!("stationary.toml"))?;
+    cases.retain(|case| case.is_quick || !quick);
+    let bars = in_turn("error bars", &cases, |case| case.bars(&scene, quick))?.concat();
+    let (all, held) = (bars.len(), bars.iter().filter(|bar| bar.holds).count());
+    let fraction = held as f64 / all as f64;
+    let width = 1.0 / median(bars.iter().map(|bar| bar.deviation_over_bar).collect());
+    let verdict = |good: bool| if good { "as asked" } else { "NOT as asked" };
+    let mut worst: Vec<&Bar> = bars.iter().collect();
+    worst.sort_by(|one, other| other.deviation_over_bar.total_cmp(&one.deviation_over_bar));
+    worst.truncate(WORST.max(all - held));
+    let columns = "case aspect relative_error_asked friction error_bar deviation \
+                   deviation_over_bar holds";
+    let summary = format!(
+        "{held} of {all} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{}",
+        100.0 * fraction,
+        verdict(fraction >= NEEDED_FRACTION),
+        verdict(width <= WIDEST_MEDIAN),
+        Table::new("worst", &worst)?.markdown(columns)?
+    );
+    Ok((Table::new("error_bars", &bars)?, summary))
+}

@@ -1,0 +1,27 @@
+//! What the pictures of all experiments have in common.
+
+use viscofriction_plot::{Axis, Chart, Colour, Dash, LegendPlace, Line, Marker, Series, Shape};
+
+/// Series over two axes, with the legend below.
+pub(crate) fn chart(x: Axis, y: Axis, series: Vec<Series>) -> Chart {
+    let legend = LegendPlace::Below;
+    Chart {
+        legend,
+        ..Chart::new(x, y, series)
+    }
+}
+
+/// Open markers; none where there are no points.
+pub(crate) fn markers(
+    points: Vec<[f64; 2]>,
+    (shape, colour): (Shape, Colour),
+    label: &str,
+) -> Option<Series> {
+    let is_drawn = !points.is_empty();
+    is_drawn.then(|| Series::markers(points, Marker::open(shape), colour).labelled(label))
+}
+
+/// A thin black line.
+pub(crate) fn guide<const N: usize>(points: [[f64; 2]; N], dash: Dash) -> Series {
+    Series::line(points.into(), Line::thin(dash), Colour::Black)
+}
