@@ -38,7 +38,7 @@ mod stepping;
 mod substrate;
 mod transform;
 
-pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
+pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Patch, solve_contact};
 pub use elements::footprint::Footprint;
 pub use elements::grid::Grid;
 pub use elements::resolution::GridOptions;

@@ -232,6 +232,7 @@ impl<'a> March<'a> {
             convolution: &self.convolution,
             separation: &self.separation,
             compliance: self.factor * self.step.response(),
+            largest_pressure: f64::INFINITY,
             control: Control::NormalForce(mean_pressure * area),
         };
         let contact = solve_contact(&problem, &mut self.state, options)?;
