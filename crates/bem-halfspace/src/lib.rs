@@ -1,4 +1,5 @@
-//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space, or a [`Layer`] of it.
+//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space, a [`Layer`] of it or a
+//! [`Substrate`] of one's own.
 //!
 //! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
 //! coefficients by fast convolution; the contact conditions are solved to a stated tolerance. A surface, a material, a load
@@ -61,7 +62,8 @@ pub use periodic::{
 pub use slide::{PressureField, slide_on_grid};
 pub use stationary::{periodic, steady};
 pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
+pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;
-pub use substrate::layer::{Elastomer, Layer, layer_factor};
+pub use substrate::layer::{Layer, layer_factor};
 pub use transform::convolution::{Convolution, ConvolutionWorkspace};
 pub use transform::pressure_spectrum::line_spectrum;

@@ -23,6 +23,7 @@ mod periodic_march;
 mod periodic_sliding;
 mod pressure_spectrum;
 mod stationary_state;
+mod substrates;
 mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;

@@ -17,7 +17,7 @@ pub(super) fn check_depth(depth: f64, heights: &[f64], sliding: &Sliding) -> Res
     let n = heights.len() as f64;
     let mean = heights.iter().sum::<f64>() / n;
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
-    let deepest = if sliding.is_on_layer() {
+    let deepest = if sliding.is_on_rigid_base() {
         f64::INFINITY
     } else {
         0.0

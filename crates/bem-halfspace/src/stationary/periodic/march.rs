@@ -23,10 +23,9 @@ use crate::parallel::reductions::{add, dot};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicLoad, area_fraction, check_surface};
-use crate::substrate::layer::Base;
 use crate::transform::plane_transform::ZERO;
 use crate::{
-    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
+    Base, BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
     ConvolutionWorkspace, Elastomer, Grid, PressureField, solve_contact,
 };
 
