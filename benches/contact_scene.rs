@@ -53,6 +53,7 @@ impl ContactScene {
             convolution: &self.convolution,
             separation: &self.heights,
             compliance: COMPLIANCE,
+            largest_pressure: f64::INFINITY,
             control: Control::NormalForce(self.force),
         };
         let options = ContactOptions {

@@ -109,6 +109,16 @@ pub enum BemError {
         /// Tolerance asked for.
         tolerance: f64,
     },
+    /// The elements do not bear the force below their largest pressure.
+    #[error(
+        "the grid bears less than {limit} N below the largest pressure, but the normal force is {normal_force} N"
+    )]
+    ForceNotBorne {
+        /// Force asked for, \[N].
+        normal_force: f64,
+        /// The largest pressure times the area of all elements with a body, \[N].
+        limit: f64,
+    },
     /// The friction coefficient still changes at the end of the sliding distance.
     #[error(
         "no stationary state after sliding {sliding_distance} m: the friction coefficient still changes by {drift:e} of \

@@ -1,4 +1,5 @@
-//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space, or a [`Layer`] of it.
+//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space, a [`Layer`] of it or a
+//! [`Substrate`] of one's own.
 //!
 //! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
 //! coefficients by fast convolution; the contact conditions are solved to a stated tolerance. A surface, a material, a load
@@ -45,7 +46,7 @@ struct ReadMe;
 
 /// The crates whose types are arguments and results, so that no other dependency is needed.
 pub use ::{indenters, numerics, rheology};
-pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
+pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Patch, solve_contact};
 pub use elements::footprint::Footprint;
 pub use elements::grid::Grid;
 pub use elements::resolution::GridOptions;
@@ -64,7 +65,8 @@ pub use periodic::{
 pub use slide::{PressureField, slide_along, slide_on_grid};
 pub use stationary::{periodic, steady};
 pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
+pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;
-pub use substrate::layer::{Elastomer, Layer, layer_factor};
+pub use substrate::layer::{Layer, layer_factor};
 pub use transform::convolution::{Convolution, ConvolutionWorkspace};
 pub use transform::pressure_spectrum::line_spectrum;

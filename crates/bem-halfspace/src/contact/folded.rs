@@ -4,24 +4,27 @@
 //! front of the plane determines them all. Of an element through whose centre the plane passes, half the load is in front.
 
 use crate::BemError;
+use crate::contact::hardness::solve_below;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
-use crate::contact::{Accuracy, ContactState, Solved, map_force, solve_loads};
+use crate::contact::{Accuracy, ContactState, Solved, map_force};
 use crate::elements::mirror::{Mirror, NO_MIRRORS, images};
 use crate::parallel::bands::Bands;
+use crate::parallel::chunks::in_pool;
 use crate::transform::convolution::{Convolution, Surroundings};
 
 /// Solves the contact on the part of the grid that the mirrors of separation and first guess leave.
 pub(super) fn solve_in_front_of_mirrors(
     problem: LoadProblem,
+    largest_load: f64,
     state: &mut ContactState,
     accuracy: &Accuracy,
 ) -> Result<Solved, BemError> {
     let convolution = problem.convolution;
     let mirrors = find_mirrors(convolution, [problem.separation, &state.load]);
     if mirrors == NO_MIRRORS {
-        return solve_loads(problem, state, accuracy);
+        return solve_below(largest_load, problem, state, accuracy);
     }
     let mut front = match state.front.take() {
         Some(front) if front.convolution.mirrors == mirrors => front,
@@ -32,7 +35,20 @@ pub(super) fn solve_in_front_of_mirrors(
     MirrorWeights::of(&front.convolution).apply(&mut front.state.load);
     let images = images(mirrors);
     let control = map_force(problem.control, |total| total / images);
-    let solved = front.solve(control, accuracy);
+    let ContactBox {
+        convolution,
+        separation,
+        state: part,
+        bounds,
+    } = &mut *front;
+    let problem = LoadProblem {
+        convolution,
+        separation,
+        control,
+    };
+    let solved = in_pool(bounds.n_elements(), || {
+        solve_below(largest_load, problem, part, accuracy)
+    });
     front.unfold([&mut state.load, &mut state.displacement], whole);
     state.front = Some(front);
     solved.map(|solved| Solved {

@@ -22,7 +22,7 @@ use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
-const PATIENCE: usize = 10;
+pub(super) const PATIENCE: usize = 10;
 
 /// The active set changes when its violations are this many times the residual: earlier, the directions start anew too
 /// often, and later, they converge on a wrong set. The number of iterations alone depends on it.
@@ -33,6 +33,8 @@ pub(super) struct Iteration<'a> {
     separation: &'a [f64],
     control: Control,
     tolerance: f64,
+    /// See [`Accuracy`].
+    given_deflection: f64,
     /// That of the list when it was last [written](Self::write_load); zero outside the contact.
     load: &'a mut [f64],
     displacement: &'a mut [f64],
@@ -58,6 +60,7 @@ impl<'a> Iteration<'a> {
             separation: problem.separation,
             control: problem.control,
             tolerance: 0.0,
+            given_deflection: 0.0,
             load: &mut state.load,
             displacement: &mut state.displacement,
             workspace: state
@@ -77,6 +80,7 @@ impl<'a> Iteration<'a> {
     }
 
     pub(super) fn run(mut self, accuracy: &Accuracy) -> Result<Solved, BemError> {
+        self.given_deflection = accuracy.given_deflection;
         self.start();
         let mut iterations = 0;
         loop {

@@ -1,19 +1,22 @@
 //! Contact at one instant.
 //!
 //! ```text
-//! gap = separation + α/(4π) K P − d,        P ≥ 0,  gap ≥ 0,  P · gap = 0
+//! gap = separation + α/(4π) K P − d,        0 ≤ P ≤ P_max,        gap ≥ 0 where P = 0,  gap = 0 between,  gap ≤ 0 where P = P_max
 //! ```
 //!
 //! The separation is the height of the rigid surface plus the displacement of the half space before the step, α the
 //! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
-//! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
+//! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round. Without a largest pressure
+//! P_max, the hardness, nothing yields: the gap vanishes wherever there is pressure.
 
 pub(crate) mod active_set;
 mod far_loads;
 mod fields;
 mod folded;
+mod hardness;
 mod iteration;
 mod mirror_weights;
+mod patches;
 mod preconditioner;
 mod problem;
 mod solve;
@@ -27,9 +30,9 @@ use crate::{BemError, Convolution};
 use folded::solve_in_front_of_mirrors;
 use indenters::Control;
 use numerics::{InvalidParameter, finite, in_range, positive};
+pub use patches::Patch;
 use problem::LoadProblem;
 pub(crate) use problem::{Accuracy, Solved};
-use solve::solve_loads;
 pub(crate) use state::ContactBox;
 pub use state::ContactState;
 
@@ -43,6 +46,9 @@ pub struct ContactProblem<'a> {
     pub separation: &'a [f64],
     /// Compliance α of the half space in this step, \[1/Pa].
     pub compliance: f64,
+    /// Largest pressure that the surface bears, its hardness, \[Pa]; infinite where nothing yields. Under it an element
+    /// is indented for good: the gap below zero is the depth of the imprint.
+    pub largest_pressure: f64,
     /// Force or depth.
     pub control: Control,
 }
@@ -78,6 +84,11 @@ pub struct Contact {
     pub normal_force: f64,
     /// Number of elements in contact.
     pub n_contact: usize,
+    /// Number of those at the largest pressure.
+    pub n_at_limit: usize,
+    /// Whether an element at the edge of a grid that is not periodic is in contact: unless the body ends there, the
+    /// contact may go on beyond, and a larger grid is needed.
+    pub reaches_edge: bool,
     /// Iterations made, of one convolution each.
     pub iterations: usize,
     /// Residual reached, in the sense of [`ContactOptions::tolerance`].
@@ -95,8 +106,9 @@ const MAX_TOLERANCE: f64 = 1e-2;
 /// iterates is in `docs/theory/contact.md`.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a force that is not finite and
+/// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a largest pressure that is not positive, a force that is not finite and
 /// non-negative, a depth that is not finite or, on a periodic half space, not below the mean of the separation;
+/// [`BemError::ForceNotBorne`] for a force that all elements together do not bear below the largest pressure;
 /// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::ContactNotConverged`] with the residual
 /// reached.
 pub fn solve_contact(
@@ -118,17 +130,28 @@ pub fn solve_contact(
     let solved = in_pool(grid.n_elements(), || {
         state.prepare_for(problem.convolution);
         state.take_guess(grid, load_per_pressure);
-        let solved = solve_in_front_of_mirrors(loads, state, &options.into());
+        let largest_load = problem.largest_pressure * load_per_pressure;
+        let solved = solve_in_front_of_mirrors(loads, largest_load, state, &options.into());
         let pressure_per_load = 1.0 / load_per_pressure;
-        state.for_each_load(grid, |load| load * pressure_per_load);
+        state.for_each_load(grid, |load| {
+            if load < largest_load {
+                // The product may round to more.
+                problem.largest_pressure.min(load * pressure_per_load)
+            } else {
+                problem.largest_pressure
+            }
+        });
         solved
     });
     state.list_contact();
     let solved = solved?;
+    let at_limit = |&&element: &&usize| state.pressure()[element] >= problem.largest_pressure;
     Ok(Contact {
         indentation_depth: solved.indentation_depth,
         normal_force: solved.total_load * area / load_per_pressure,
         n_contact: state.contact().len(),
+        n_at_limit: state.contact().iter().filter(at_limit).count(),
+        reaches_edge: problem.reaches_edge(state),
         iterations: solved.iterations,
         residual: solved.residual,
     })
@@ -154,10 +177,22 @@ impl ContactOptions {
 fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
     let (grid, heights) = (problem.convolution.grid(), problem.separation);
     positive("compliance", problem.compliance)?;
+    let limit = problem.largest_pressure;
+    in_range("largest_pressure", limit, limit > 0.0, "greater than 0")?;
     check_length("separation", heights.len(), grid.n_elements())?;
     check_length("pressure", state.pressure().len(), grid.n_elements())?;
     check_heights("separation", (heights, grid.shape()[1]), [0; 2])?;
     check_control(problem.control)?;
+    if let Control::NormalForce(normal_force) = problem.control {
+        let n_elements = heights.iter().filter(|height| height.is_finite()).count();
+        let limit = limit * grid.element_area() * n_elements as f64;
+        if normal_force >= limit {
+            return Err(BemError::ForceNotBorne {
+                normal_force,
+                limit,
+            });
+        }
+    }
     if let Control::IndentationDepth(value) = problem.control
         && problem.convolution.surroundings == Surroundings::Periodic
     {

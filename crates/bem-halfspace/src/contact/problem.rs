@@ -30,6 +30,8 @@ pub(crate) struct Accuracy {
     /// The residual must also fall to this part of what the first guess leaves; `∞` where that does not matter.
     pub(super) part_of_first: f64,
     pub(super) max_iterations: usize,
+    /// Largest displacement under loads that are given and not sought, to which the tolerance relates as well, \[m].
+    pub(super) given_deflection: f64,
 }
 
 impl Accuracy {
@@ -41,6 +43,7 @@ impl Accuracy {
         tolerance: 1e-3,
         part_of_first: 0.1,
         max_iterations: 100,
+        given_deflection: 0.0,
     };
 
     /// The residual at which to end, from that of the first guess.
@@ -55,6 +58,7 @@ impl From<&ContactOptions> for Accuracy {
             tolerance: options.tolerance,
             part_of_first: f64::INFINITY,
             max_iterations: options.max_iterations,
+            given_deflection: 0.0,
         }
     }
 }

@@ -7,7 +7,6 @@ use numerics::{InvalidParameter, positive};
 
 use crate::elements::grid::elements_along;
 use crate::stationary::steady::depth_scale_of_surface;
-use crate::substrate::layer::Base;
 use crate::{BemError, Elastomer};
 
 /// Heights up to this many depth scales may touch, as under a cusp.
@@ -79,8 +78,8 @@ impl Footprint {
         elastomer: &(impl Elastomer + ?Sized),
         height: f64,
     ) -> Result<f64, BemError> {
-        let base = Base::of(elastomer);
-        if !base.is_layer() {
+        let base = elastomer.base();
+        if base.is_half_space() {
             return Ok(height);
         }
         let half_length = |height| -> Result<f64, BemError> {

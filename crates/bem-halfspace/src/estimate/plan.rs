@@ -87,7 +87,7 @@ impl GridPlan {
     ) -> Result<Self, BemError> {
         let mut shortest = plan(depth)?;
         let risen = plan(Footprint::risen(surface, elastomer, depth)?)?.coarsest_spacing;
-        let longest = THICKNESSES * elastomer.thickness();
+        let longest = THICKNESSES * elastomer.base().thickness();
         shortest.coarsest_spacing = shortest.coarsest_spacing.max(risen.min(longest));
         Ok(shortest)
     }

@@ -28,7 +28,6 @@ use crate::contact::{ContactBox, check_heights};
 use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
-use crate::substrate::layer::Base;
 use crate::{BemError, Elastomer, GridOptions};
 pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};
@@ -84,7 +83,9 @@ impl<'a> March<'a> {
             0 => route.without_memory(),
             _ => route,
         };
-        let base = Base::of(elastomer).in_units_of(dx)?;
+        let base = elastomer.base().in_units_of(dx)?;
+        base.check_flow(creep.fluidity())?;
+        let sinks = creep.fluidity() > 0.0 && base.is_half_space();
         let n_rows = route.rows_from(0, layout.followed()[0]).end;
         let window = Window::new(n_rows, &layout, dy / dx, (step.n_fields(), base))?;
         let mut march = Self {
@@ -92,7 +93,7 @@ impl<'a> March<'a> {
             options: *options,
             layout,
             scale: 0.0,
-            sinks: creep.fluidity() > 0.0 && !elastomer.thickness().is_finite(),
+            sinks,
             creep,
             half_space_factor: elastomer.material().half_space_factor(),
             route,

@@ -11,8 +11,7 @@ use std::ops::Range;
 use rheology::ExponentialStep;
 
 use crate::elements::resolution::Layout;
-use crate::substrate::layer::Base;
-use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
+use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.
 pub(super) struct Window {

@@ -11,7 +11,7 @@ use rustfft::num_complex::Complex;
 
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, ZERO};
-use crate::{Elastomer, PressureField, layer_factor};
+use crate::{Elastomer, PressureField};
 
 /// The period that stands for an unbounded surface, over the contact: twice its lengths would do for the square of the
 /// transform, and along x the bands are an eighth of the contact's own wave wide.
@@ -26,9 +26,9 @@ pub fn line_spectrum(
     velocity: f64,
 ) -> Vec<StressBand> {
     let material = elastomer.material();
-    let thickness = elastomer.thickness();
+    let base = elastomer.base();
     material.creep().bands_along(pressure, velocity, |wave| {
-        layer_factor(wave * thickness, material.poisson_ratio()) / wave
+        base.ratio(wave * base.thickness()) / wave
     })
 }
 
@@ -120,8 +120,7 @@ impl PressureField {
         elastomer: &(impl Elastomer + ?Sized),
     ) -> impl Fn([usize; 2]) -> f64 {
         let [a, b] = self.wave_steps(period);
-        let thickness = elastomer.thickness();
-        let ratio = elastomer.material().poisson_ratio();
+        let base = elastomer.base();
         let inverse_of_longest = 2.0 * (a * (b / a).asinh() + b * (a / b).asinh()) / (a * b);
         move |[along, across]| {
             let length = (along as f64 * a).hypot(across as f64 * b);
@@ -130,7 +129,7 @@ impl PressureField {
             } else {
                 inverse_of_longest
             };
-            layer_factor(thickness / inverse, ratio) * inverse
+            base.ratio(base.thickness() / inverse) * inverse
         }
     }
 }

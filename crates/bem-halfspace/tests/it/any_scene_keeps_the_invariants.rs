@@ -67,6 +67,7 @@ impl Rough {
         Pressing {
             convolution: kinds[usize::from(self.periodic)](&grid),
             heights: self.heights.iter().map(|height| height * length).collect(),
+            largest_pressure: f64::INFINITY,
             compliance: 1.0 / stress,
             options: TIGHT,
         }

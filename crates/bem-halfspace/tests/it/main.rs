@@ -10,6 +10,7 @@ mod contacts;
 mod cylinders;
 mod ends_of_the_speed_range;
 mod error_bars;
+mod hardness;
 mod indentation_follows_lee_radok_and_ting;
 mod invariance;
 mod kernels;
@@ -22,6 +23,7 @@ mod periodic_march;
 mod periodic_sliding;
 mod pressure_spectrum;
 mod stationary_state;
+mod substrates;
 mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;

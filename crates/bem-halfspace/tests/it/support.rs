@@ -28,6 +28,7 @@ pub(crate) struct Pressing {
     pub(crate) convolution: Convolution,
     pub(crate) heights: Vec<f64>,
     pub(crate) compliance: f64,
+    pub(crate) largest_pressure: f64,
     pub(crate) options: ContactOptions,
 }
 
@@ -40,6 +41,7 @@ impl Pressing {
             heights: (0..rows * columns).map(at).collect(),
             convolution,
             compliance: 1.0,
+            largest_pressure: f64::INFINITY,
             options: TIGHT,
         }
     }
@@ -63,6 +65,7 @@ impl Pressing {
             convolution: &self.convolution,
             separation: &self.heights,
             compliance: self.compliance,
+            largest_pressure: self.largest_pressure,
             control,
         };
         solve_contact(&problem, state, &self.options)

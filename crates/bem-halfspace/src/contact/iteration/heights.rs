@@ -134,6 +134,7 @@ impl Iteration<'_> {
         let inside = contact.bands.fold(residual, in_band, Violations::worst);
         Violations {
             penetration: (depth - self.heights.lowest_outside).max(0.0),
+            deflection: larger(inside.deflection, self.given_deflection),
             ..inside
         }
     }
@@ -148,7 +149,7 @@ pub(super) struct Violations {
     pub(super) tension: f64,
     /// Largest penetration outside the contact.
     pub(super) penetration: f64,
-    /// Largest displacement in the contact.
+    /// Largest displacement in the contact, or under given loads.
     pub(super) deflection: f64,
 }
 

@@ -16,7 +16,7 @@ use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
 use crate::stepping::{March, Motion};
-use crate::{BemError, Elastomer, GridOptions, Layer};
+use crate::{Base, BemError, Elastomer, GridOptions, Layer};
 
 /// Elements along the contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 512;
@@ -181,7 +181,7 @@ pub fn indent_on_grid(
 pub(super) struct Spring {
     /// With the compliance 2 (1 − ν)/G = 1, and the Poisson ratio of the material.
     unit: Compressible,
-    thickness: f64,
+    base: Base,
     /// 2 (1 − ν) J, or its inverse where the depth is given, \[1/Pa].
     compliance: f64,
     /// Whether its pressure is that of the material too.
@@ -208,14 +208,14 @@ impl Spring {
         let spring = Elastic::new(material.half_space_factor())?;
         Ok(Self {
             unit: Compressible::new(&spring, material.poisson_ratio())?,
-            thickness: elastomer.thickness(),
+            base: elastomer.base(),
             compliance,
             has_pressure,
         })
     }
 
-    fn layer(&self) -> Result<Layer<'_, Compressible>, BemError> {
-        Ok(Layer::new(&self.unit, self.thickness)?)
+    fn layer(&self) -> Layer<'_, Compressible> {
+        Layer::over(&self.unit, self.base.clone())
     }
 
     pub(super) fn plan(
@@ -223,7 +223,7 @@ impl Spring {
         surface: &dyn Surface,
         control: Control,
     ) -> Result<GridPlan, BemError> {
-        GridPlan::pressed(surface, &self.layer()?, self.scaled(control)?)
+        GridPlan::pressed(surface, &self.layer(), self.scaled(control)?)
     }
 
     pub(super) fn after(
@@ -270,7 +270,7 @@ impl Spring {
             position: 0.0,
             control: self.scaled(control)?,
         };
-        let mut march = March::new(surface, &self.layer()?, &[motion], options)?;
+        let mut march = March::new(surface, &self.layer(), &[motion], options)?;
         let row = march.first()?;
         check_contact_elements(march.elements_across())?;
         let [contact_x, contact_y] = march.contact_edges();

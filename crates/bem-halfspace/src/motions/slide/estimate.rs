@@ -334,8 +334,9 @@ fn memory_of(elastomer: &(impl Elastomer + ?Sized), load: &SlidingLoad) -> f64 {
     let elements = creep.elements().iter();
     let times = elements.map(|element| element.retardation_time);
     let memory = load.velocity() * times.fold(0.0, f64::max);
-    if creep.fluidity() > 0.0 && elastomer.thickness().is_finite() {
-        memory.max(elastomer.thickness())
+    let base = elastomer.base();
+    if creep.fluidity() > 0.0 && base.is_rigid() {
+        memory.max(base.thickness())
     } else {
         memory
     }

@@ -78,7 +78,7 @@ fn check_depth(depth: f64, surface: &Surface) -> Result<f64, BemError> {
     let n = heights.len() as f64;
     let mean = heights.iter().sum::<f64>() / n;
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
-    let deepest = if surface.sliding.is_on_layer() {
+    let deepest = if surface.sliding.is_on_rigid_base() {
         f64::INFINITY
     } else {
         0.0

@@ -15,8 +15,7 @@ use rheology::{CreepSpectrum, Material as _};
 use rustfft::num_complex::Complex;
 
 use crate::stationary::periodic::waves::Waves;
-use crate::substrate::layer::Base;
-use crate::{BemError, Elastomer, Grid};
+use crate::{Base, BemError, Elastomer, Grid};
 
 /// A material under a surface that slides.
 #[derive(Debug, Clone)]
@@ -45,7 +44,7 @@ impl Sliding {
                 )?,
             creep,
             velocity,
-            base: Base::of(elastomer),
+            base: elastomer.base(),
         })
     }
 
@@ -61,12 +60,12 @@ impl Sliding {
             creep: spring,
             factor: 0.5 * elastomer.material().half_space_factor(),
             velocity: 0.0,
-            base: Base::of(elastomer),
+            base: elastomer.base(),
         })
     }
 
-    pub(super) const fn is_on_layer(&self) -> bool {
-        self.base.is_layer()
+    pub(super) fn is_on_rigid_base(&self) -> bool {
+        self.base.is_rigid()
     }
 
     /// Largest pressure of a wave along x of this length that lifts a half space by an amplitude, \[Pa].

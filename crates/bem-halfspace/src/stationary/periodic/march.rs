@@ -22,10 +22,9 @@ use crate::parallel::reductions::{add, dot};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicLoad, area_fraction, check_surface};
-use crate::substrate::layer::Base;
 use crate::transform::plane_transform::ZERO;
 use crate::{
-    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
+    Base, BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
     ConvolutionWorkspace, Elastomer, Grid, PressureField, solve_contact,
 };
 
@@ -236,6 +235,7 @@ impl<'a> PeriodicMarch<'a> {
             convolution: &self.convolution,
             separation: &self.separation,
             compliance: self.factor * self.step.response(),
+            largest_pressure: f64::INFINITY,
             control: Control::NormalForce(mean_pressure * area),
         };
         let contact = solve_contact(&problem, &mut self.state, options)?;

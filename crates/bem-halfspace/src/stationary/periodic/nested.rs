@@ -7,9 +7,8 @@ use rustfft::num_complex::Complex;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::search::{self, PeriodicContact, Solved};
 use crate::stationary::periodic::waves::Waves;
-use crate::substrate::layer::Base;
 use crate::transform::plane_transform::ZERO;
-use crate::{BemError, Grid};
+use crate::{Base, BemError, Grid};
 
 /// Grids with fewer elements along an edge are not made coarser.
 const SMALLEST_EDGE: usize = 32;

@@ -4,10 +4,9 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::Grid;
 use crate::parallel::bands::{copies, for_each_row};
-use crate::substrate::layer::Base;
 use crate::transform::plane_transform::{PlaneTransform, Workspace};
+use crate::{Base, Grid};
 
 /// The waves that fit on a grid, with buffers for their transforms.
 pub(super) struct Waves {
@@ -19,7 +18,7 @@ pub(super) struct Waves {
     unit_y: f64,
     /// That of the longest wave, which stands for the mean, \[rad/m].
     longest: f64,
-    /// |q|/M of all waves by column and row of the transform, on a layer only.
+    /// |q|/M of all waves by column and row of the transform, where M is not 1.
     stiffness: Option<Vec<f64>>,
 }
 
@@ -36,7 +35,7 @@ impl Waves {
         };
         let along_x: Vec<f64> = (0..rows).map(number).collect();
         let longest = unit_x.min(unit_y);
-        let stiffness = base.is_layer().then(|| {
+        let stiffness = (!base.is_half_space()).then(|| {
             let n_columns = columns / 2 + 1;
             let mut stiffness = copies(0.0, n_columns * rows);
             for_each_row(&mut stiffness, rows, |column, values| {

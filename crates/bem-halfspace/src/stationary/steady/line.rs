@@ -132,7 +132,7 @@ pub fn steady_line<'w>(
         watch: request.watch,
     };
     let is_elastic = elastomer.material().creep().is_elastic();
-    let has_depth = creep.base().is_layer();
+    let has_depth = creep.base().is_rigid();
     let of_line = |known| {
         let mut found = of_line(known, force);
         if is_elastic {

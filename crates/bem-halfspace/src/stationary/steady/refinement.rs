@@ -278,7 +278,7 @@ impl Grids<'_> {
     fn depth(&self, refinements: &[Refinement]) -> Option<Estimate> {
         let Loading { creep, strip, .. } = &self.problem.loading;
         let [_, given] = bars::given(self.problem.loading.control);
-        let has_depth = strip.is_none() || creep.base().is_layer();
+        let has_depth = strip.is_none() || creep.base().is_rigid();
         given.or_else(|| {
             has_depth.then(|| self.limit(refinements, self.order, |r| r.indentation_depth))
         })

@@ -9,10 +9,10 @@
 
 use std::collections::VecDeque;
 
+use crate::Base;
 use crate::parallel::reductions::dot;
 use crate::stationary::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
 use crate::stationary::steady::sliding_creep::ElementCreep;
-use crate::substrate::layer::Base;
 
 /// Distance from the edges of the loaded element, in panel lengths, from which a rule of so many points gives eleven
 /// digits.
@@ -305,8 +305,8 @@ mod tests {
     use rheology::Elastic;
 
     use super::*;
-    use crate::Layer;
     use crate::stationary::steady::sliding_creep::Delay;
+    use crate::{Elastomer, Layer};
 
     /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
     fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2], base: &Base) -> f64 {
@@ -353,7 +353,7 @@ mod tests {
         let creep = ElementCreep {
             shift,
             delays: vec![delay],
-            base: Base::of(&layer),
+            base: layer.base(),
             ..ElementCreep::default()
         };
         let first = 130.0 + shift;
@@ -367,7 +367,7 @@ mod tests {
             for column in [0, 1, 3] {
                 let y = f64::from(column) * aspect;
                 let by = |base| reference(rate, [x, y], [1.0, aspect], &base);
-                let expected = by(Base::of(&layer));
+                let expected = by(layer.base());
                 // A layer leaves little of it far away.
                 let of_half_space = if thickness.is_finite() {
                     by(Base::default())

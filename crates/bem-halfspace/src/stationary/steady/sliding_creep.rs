@@ -12,8 +12,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 use numerics::positive;
 use rheology::{CreepSpectrum, Material as _};
 
-use crate::substrate::layer::Base;
-use crate::{BemError, Elastomer};
+use crate::{Base, BemError, Elastomer};
 
 /// Rate of the retardation element that stands for a flow behind which the load is not felt without end.
 const SLOWEST: f64 = 1e-100;
@@ -67,12 +66,14 @@ impl SlidingCreep {
         elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
-        let material = elastomer.material();
+        let (material, base) = (elastomer.material(), elastomer.base());
+        let spectrum = material.creep();
+        base.check_flow(spectrum.fluidity())?;
         Ok(Self {
-            spectrum: material.creep(),
+            spectrum,
             half_space_factor: positive("half-space factor", material.half_space_factor())?,
             velocity: positive("velocity", velocity)?,
-            base: Base::of(elastomer),
+            base,
         })
     }
 
@@ -88,10 +89,10 @@ impl SlidingCreep {
         self.spectrum.fluidity() == 0.0 && self.spectrum.elements().is_empty()
     }
 
-    /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a layer, where a load is not felt far ahead, so that the surface does
+    /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a rigid base, where a load is not felt far ahead, so that the surface does
     /// not sink without limit.
-    pub(super) const fn fluidity(&self) -> f64 {
-        if self.base.is_layer() {
+    pub(super) fn fluidity(&self) -> f64 {
+        if self.base.is_rigid() {
             0.0
         } else {
             self.spectrum.fluidity()
@@ -108,7 +109,7 @@ impl SlidingCreep {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
         let memory = self.velocity * times.fold(0.0, f64::max);
-        if self.spectrum.fluidity() > 0.0 && self.base.is_layer() {
+        if self.spectrum.fluidity() > 0.0 && self.base.is_rigid() {
             memory.max(self.base.reach())
         } else {
             memory
@@ -144,7 +145,7 @@ impl SlidingCreep {
         }
         parts.shift = self.shift(spacing)?;
         parts.base = self.base.in_units_of(spacing)?;
-        if parts.base.is_layer() && parts.flow > 0.0 {
+        if parts.base.is_rigid() && parts.flow > 0.0 {
             // The slowest element there is.
             let (rate, share) = (SLOWEST, parts.flow);
             parts.delays.push(Delay { rate, share });

@@ -12,10 +12,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::elements::mirror::{Mirror, NO_MIRRORS};
-use crate::substrate::layer::Base;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, Workspace};
-use crate::{Elastomer, Grid};
+use crate::{Base, Elastomer, Grid};
 
 /// What surrounds the elements of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +58,7 @@ impl Convolution {
     /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
     /// grid.
     pub fn on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
-        Self::free(grid, Base::of(elastomer))
+        Self::free(grid, elastomer.base())
     }
 
     pub(crate) fn free(grid: &Grid, base: Base) -> Self {
@@ -82,7 +81,7 @@ impl Convolution {
     /// The same on what is given, see [`on`](Self::on). A layer gives way to the mean pressure too, and its displacements are
     /// those from the surface at rest.
     pub fn periodic_on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
-        Self::repeated(grid, Base::of(elastomer))
+        Self::repeated(grid, elastomer.base())
     }
 
     fn repeated(grid: &Grid, base: Base) -> Self {

@@ -1,0 +1,110 @@
+//! What is read off a solved contact when it is asked for: gaps, patches, and whether it ends on its grid.
+
+use crate::BemError;
+use crate::contact::{Contact, ContactProblem, ContactState, check_length};
+use crate::transform::convolution::Surroundings;
+
+/// Elements in contact that hang together by their edges, on a periodic grid across its boundary too.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Patch {
+    /// The elements, increasing.
+    pub elements: Vec<usize>,
+    /// Their area, \[m²].
+    pub area: f64,
+    /// Their part of the normal force, \[N].
+    pub normal_force: f64,
+}
+
+impl ContactProblem<'_> {
+    /// The gap between the surfaces after a solve, \[m], one value per element: zero in the contact within the tolerance,
+    /// below zero where the largest pressure acts, and `+∞` where no contact is possible.
+    ///
+    /// # Errors
+    /// [`BemError::LengthMismatch`] for the state of another grid.
+    pub fn gaps(&self, contact: &Contact, state: &ContactState) -> Result<Vec<f64>, BemError> {
+        self.check_state(state)?;
+        let heights = self.separation.iter().zip(state.displacement());
+        Ok(heights
+            .map(|(height, displacement)| height + displacement - contact.indentation_depth)
+            .collect())
+    }
+
+    /// The patches of the contact in a state, in the order of their first elements.
+    ///
+    /// # Errors
+    /// [`BemError::LengthMismatch`] for the state of another grid.
+    pub fn patches(&self, state: &ContactState) -> Result<Vec<Patch>, BemError> {
+        self.check_state(state)?;
+        let mut is_left = vec![false; state.pressure().len()];
+        for &element in state.contact() {
+            is_left[element] = true;
+        }
+        let mut patches = Vec::new();
+        for &element in state.contact() {
+            if is_left[element] {
+                let elements = self.take_patch(element, &mut is_left);
+                let area = self.convolution.grid().element_area();
+                let pressures = elements.iter().map(|&element| state.pressure()[element]);
+                patches.push(Patch {
+                    area: elements.len() as f64 * area,
+                    normal_force: pressures.sum::<f64>() * area,
+                    elements,
+                });
+            }
+        }
+        Ok(patches)
+    }
+
+    /// Takes the elements that hang together with one out of those left.
+    fn take_patch(&self, element: usize, is_left: &mut [bool]) -> Vec<usize> {
+        is_left[element] = false;
+        let mut elements = vec![element];
+        let mut done = 0;
+        while let Some(&element) = elements.get(done) {
+            done += 1;
+            for neighbour in self.neighbours(element) {
+                if is_left[neighbour] {
+                    is_left[neighbour] = false;
+                    elements.push(neighbour);
+                }
+            }
+        }
+        elements.sort_unstable();
+        elements
+    }
+
+    /// The elements that share an edge with one.
+    fn neighbours(&self, element: usize) -> impl Iterator<Item = usize> {
+        let shape = self.convolution.grid().shape();
+        let place = [element / shape[1], element % shape[1]];
+        let is_periodic = self.convolution.surroundings == Surroundings::Periodic;
+        let beside = move |axis: usize| {
+            let (index, n) = (place[axis], shape[axis]);
+            let before = index.checked_sub(1).or(is_periodic.then_some(n - 1));
+            let ahead = Some(index + 1).filter(|next| *next < n);
+            [before, ahead.or(is_periodic.then_some(0))]
+        };
+        let along_x = beside(0).map(|row| row.map(|row| row * shape[1] + place[1]));
+        let along_y = beside(1).map(|column| column.map(|column| place[0] * shape[1] + column));
+        along_x.into_iter().chain(along_y).flatten()
+    }
+
+    /// Whether an element at the edge of a grid that is not periodic is in contact.
+    pub(super) fn reaches_edge(&self, state: &ContactState) -> bool {
+        let [rows, columns] = self.convolution.grid().shape();
+        let is_at_edge = |element: &usize| {
+            let (row, column) = (element / columns, element % columns);
+            row == 0 || row + 1 == rows || column == 0 || column + 1 == columns
+        };
+        self.convolution.surroundings == Surroundings::Free
+            && state.contact().iter().any(is_at_edge)
+    }
+
+    fn check_state(&self, state: &ContactState) -> Result<(), BemError> {
+        let n_elements = self.convolution.grid().n_elements();
+        check_length("pressure", state.pressure().len(), n_elements)?;
+        check_length("separation", self.separation.len(), n_elements)
+    }
+}
