@@ -4,7 +4,7 @@ use std::path::Path;
 
 use viscofriction::WrongInput;
 use viscofriction::indenters::topography::Topography;
-use viscofriction::scene::{Source, profile};
+use viscofriction::scene::{Source, in_file, profile};
 use viscofriction::solve::{plan_of, problem_of};
 
 use crate::input::read_input;
@@ -44,7 +44,7 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
             let extension = file.extension().unwrap_or_default().to_string_lossy();
             let spacing = (!Topography::has_spacing(&extension)).then_some([1.0; 2]);
             let surface = Topography::read(&extension, contents, spacing, u64::MAX);
-            let wrong = |error| WrongInput(format!("{}: {error}", file.display()));
+            let wrong = |error| WrongInput(in_file(file, &error));
             surface
                 .and_then(|surface| surface.body())
                 .map(drop)

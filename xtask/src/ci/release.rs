@@ -92,7 +92,8 @@ impl Release {
         run(cargo.env("CARGO_TARGET_DIR", &self.workspace.target_directory))
     }
 
-    /// The wheel and the source distribution, each installed into an environment of its own, where a program runs.
+    /// The source distribution, and the wheel that is built from it, which is installed into an environment of its own, where a
+    /// program runs.
     fn python(&self) -> Result<()> {
         let made = self.out.join("python");
         let builder = self.environment("builder", "maturin>=1.16,<2")?;
@@ -109,18 +110,13 @@ impl Release {
             .arg(&made)
             .current_dir(workspace_root());
         run(maturin.env("CARGO_TARGET_DIR", &self.workspace.target_directory))?;
-        for entry in fs::read_dir(made)? {
-            let file = entry?.path();
-            let name = file
-                .extension()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
-            let installed = self.environment(&name, &file.display().to_string())?;
-            let mut python = Command::new(installed.join("python"));
-            run(python.args(["-I", "-c", PROGRAM]).current_dir(&self.out))?;
-        }
-        Ok(())
+        let entries = fs::read_dir(made)?.collect::<Result<Vec<_>, _>>()?;
+        let files = entries.iter().map(fs::DirEntry::path);
+        let mut wheels = files.filter(|file| file.extension().is_some_and(|end| end == "whl"));
+        let wheel = wheels.next().context("there is no wheel")?;
+        let installed = self.environment("installed", &wheel.display().to_string())?;
+        let mut python = Command::new(installed.join("python"));
+        run(python.args(["-I", "-c", PROGRAM]).current_dir(&self.out))
     }
 
     /// A new virtual environment with one thing installed; the folder of its programs.
@@ -129,8 +125,7 @@ impl Release {
         run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
         let programs = folder.join(if cfg!(windows) { "Scripts" } else { "bin" });
         let mut pip = Command::new(programs.join("python"));
-        pip.args(["-m", "pip", "install", "--quiet", installed]);
-        run(pip.env("CARGO_TARGET_DIR", &self.workspace.target_directory))?;
+        run(pip.args(["-m", "pip", "install", "--quiet", installed]))?;
         Ok(programs)
     }
 

@@ -98,6 +98,15 @@ impl TryFrom<toml::Table> for HeightMapTable {
     }
 }
 
+/// What is wrong with a file of heights, with its place.
+pub fn in_file(file: &Path, error: &TopographyError) -> String {
+    let file = file.display();
+    match error {
+        TopographyError::Line { line, problem } => format!("{file}:{line}: {problem}"),
+        other => format!("{file}: {other}"),
+    }
+}
+
 impl HeightMapTable {
     /// The surface as the file holds it, of which these are the contents; beside them it takes at most so much `memory` \[bytes].
     ///
@@ -112,15 +121,10 @@ impl HeightMapTable {
         let extension = file.extension().unwrap_or_default().to_string_lossy();
         let found = Topography::read(&extension, contents, self.spacing, memory);
         found.map_err(|error| {
-            let [key, problem] = match error {
-                TopographyError::Spacing { problem } => ["spacing", problem].map(str::to_owned),
-                TopographyError::Line { line, problem } => {
-                    let problem = format!("{}:{line}: {problem}", file.display());
-                    ["file".to_owned(), problem]
-                }
-                other => ["file".to_owned(), format!("{}: {other}", file.display())],
-            };
-            SceneError::at(format!("indenter.height-map.{key}"), problem)
+            if let TopographyError::Spacing { problem } = error {
+                return SceneError::at("indenter.height-map.spacing", problem);
+            }
+            SceneError::at("indenter.height-map.file", in_file(file, &error))
         })
     }
 

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
 pub use files::profile;
-pub use height_map::{HeightMapTable, HeightsAre, LengthUnit};
+pub use height_map::{HeightMapTable, HeightsAre, LengthUnit, in_file};
 pub use indenter::{Edges, Indenter, IndenterKind, SelfAffineSurface, Term};
 pub use indenters::Control;
 pub use load::{Load, LoadPoint};

@@ -1,5 +1,8 @@
 //! What a scene asks, and what comes back; one binary, one module per claim.
-
+#![expect(
+    clippy::disallowed_methods,
+    reason = "scenes name files, which these tests write and read for the library"
+)]
 #![expect(
     clippy::disallowed_methods,
     reason = "scenes of tests are files, which only the library does not read"
