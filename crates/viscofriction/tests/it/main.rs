@@ -3,10 +3,6 @@
     clippy::disallowed_methods,
     reason = "scenes name files, which these tests write and read for the library"
 )]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "scenes of tests are files, which only the library does not read"
-)]
 
 mod answers_agree;
 mod explained_omissions;
