@@ -21,7 +21,8 @@ pub struct Solve {
     /// given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<f64>,
-    /// Number of elements along the contact, from 8 to 100000, instead of a relative error.
+    /// Number of elements along the contact, or along the longer edge of a period in elements, from 8 to 100000, instead of a
+    /// relative error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,
     /// Time from first touch to the state that is asked for, \[s]; without it the stationary state.

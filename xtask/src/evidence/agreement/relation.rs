@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use strum::{EnumIter, IntoEnumIterator as _, IntoStaticStr};
 use toml::{Table, Value};
 use viscofriction::scene::{
-    Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method, Model, Scene,
+    Approximation, Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method, Model, Scene,
 };
 use viscofriction::solve::{Answer, plan};
 
@@ -24,6 +24,8 @@ pub(super) enum Relation {
     OtherMethod,
     /// A quarter of the error.
     QuarterOfTheError,
+    /// On a given number of elements.
+    GivenElements,
     /// The force at the depth that was found, or the depth under the force.
     OtherControl,
     /// A layer that is a million times as thick as the contact is a half space.
@@ -36,6 +38,8 @@ pub(super) enum Relation {
     OtherName,
     /// Branches split in two and in another order.
     SplitBranches,
+    /// Moduli that are off by as much as they are said to be.
+    OtherSeries,
     /// A height map mirrored across the motion.
     Mirrored,
     /// A height map whose file holds the heights of the surface instead of gaps, seen from the other end.
@@ -74,6 +78,12 @@ const DIFFERENCE: f64 = 1e-5;
 const VAGUE: f64 = 0.01;
 /// Factor of the load that is larger.
 const MORE: f64 = 1.5;
+/// Elements along a contact, and along a period.
+const ELEMENTS: usize = 40;
+const ELEMENTS_OF_PERIOD: usize = 256;
+/// Relative error of another series, and by how many times the times for which it holds go beyond its own.
+const SERIES_ERROR: f64 = 1e-4;
+const SERIES_RANGE: f64 = 1e12;
 /// Largest power of two of a unit.
 const POWERS: f64 = 12.0;
 
@@ -140,7 +150,17 @@ impl Relation {
     fn change(self, scene: &mut Scene, answer: &Answer) -> Option<()> {
         match self {
             Self::QuarterOfTheError => *scene.solve.relative_error.as_mut()? *= 0.25,
+            Self::GivenElements => {
+                let elements = if is_periodic(&scene.indenter) {
+                    ELEMENTS_OF_PERIOD
+                } else {
+                    ELEMENTS
+                };
+                scene.solve.relative_error.take()?;
+                scene.solve.elements = Some(elements);
+            }
             Self::OtherControl => other_control(scene, answer)?,
+            Self::OtherSeries => other_series(&mut scene.material)?,
             Self::MoreLoad => {
                 let load = &mut scene.load;
                 let given = [&mut load.normal_force, &mut load.indentation_depth];
@@ -187,14 +207,18 @@ fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
 fn thick_layer(case: &mut Case) -> Option<()> {
     let thickness = THICK * case.contact;
     let scene = &mut case.scene;
-    let is_periodic = match &scene.indenter {
-        Indenter::SelfAffine(_) => true,
-        Indenter::HeightMap(map) => map.edges != Edges::Wall,
-        _ => false,
-    };
+    let is_periodic = is_periodic(&scene.indenter);
     let is_half_space = scene.layer.is_none() && scene.solve.model.is_none();
     scene.layer = (is_half_space && !is_periodic).then_some(Layer { thickness });
     scene.layer.map(|_| ())
+}
+
+fn is_periodic(indenter: &Indenter) -> bool {
+    match indenter {
+        Indenter::SelfAffine(_) => true,
+        Indenter::HeightMap(map) => map.edges != Edges::Wall,
+        _ => false,
+    }
 }
 
 /// How much softer the material is for waves as long as a thick layer than for those of the contact that slides over it; 1 at
@@ -343,6 +367,33 @@ fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable
         *shift = None;
     }
     Some(material)
+}
+
+/// Another Prony series, which stands for the same material with an error that it states: every other term is too large.
+fn other_series(material: &mut MaterialTable) -> Option<()> {
+    let MaterialTable::Prony {
+        equilibrium_modulus,
+        viscosity,
+        branches,
+        approximation: approximation @ None,
+        ..
+    } = material
+    else {
+        return None;
+    };
+    let times = branches.iter().map(|branch| branch.relaxation_time);
+    let shortest = times.clone().reduce(f64::min)?;
+    let longest = times.fold(shortest, f64::max);
+    let moduli = branches.iter_mut().map(|branch| &mut branch.modulus);
+    let terms = moduli.chain([equilibrium_modulus, viscosity]);
+    for (nth, term) in terms.enumerate() {
+        *term *= 1.0 + if nth % 2 == 0 { SERIES_ERROR } else { -SERIES_ERROR };
+    }
+    *approximation = Some(Approximation {
+        relative_error: SERIES_ERROR,
+        time_range: [shortest / SERIES_RANGE, longest * SERIES_RANGE],
+    });
+    Some(())
 }
 
 /// Each branch as a quarter and three quarters, in the opposite order.
