@@ -43,12 +43,11 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         InputKind::HeightMap => {
             let extension = file.extension().unwrap_or_default().to_string_lossy();
             let spacing = (!Topography::has_spacing(&extension)).then_some([1.0; 2]);
-            let surface = Topography::read(&extension, contents, spacing, u64::MAX);
-            let wrong = |error| WrongInput(in_file(file, &error));
-            surface
-                .and_then(|surface| surface.body())
-                .map(drop)
-                .map_err(wrong)
+            let surface = Topography::read(&extension, contents, spacing, u64::MAX)
+                .map_err(|error| WrongInput(in_file(file, &error)))?;
+            // All of the surface is wrong.
+            let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
+            surface.body().map(drop).map_err(wrong)
         }
         InputKind::Moduli => check_table(file, contents),
         InputKind::SweepRows => RowTable::new(file, contents).map(drop),

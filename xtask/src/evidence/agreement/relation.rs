@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use strum::{EnumIter, IntoEnumIterator as _, IntoStaticStr};
 use toml::{Table, Value};
 use viscofriction::scene::{
-    Approximation, Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method, Model, Scene,
+    Approximation, Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method,
+    Model, Scene,
 };
 use viscofriction::solve::{Answer, plan};
 
@@ -387,7 +388,12 @@ fn other_series(material: &mut MaterialTable) -> Option<()> {
     let moduli = branches.iter_mut().map(|branch| &mut branch.modulus);
     let terms = moduli.chain([equilibrium_modulus, viscosity]);
     for (nth, term) in terms.enumerate() {
-        *term *= 1.0 + if nth % 2 == 0 { SERIES_ERROR } else { -SERIES_ERROR };
+        *term *= 1.0
+            + if nth % 2 == 0 {
+                SERIES_ERROR
+            } else {
+                -SERIES_ERROR
+            };
     }
     *approximation = Some(Approximation {
         relative_error: SERIES_ERROR,
