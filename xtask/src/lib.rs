@@ -25,7 +25,10 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 // Only for their features: see Cargo.toml.
-use {approx as _, either as _, matrixmultiply as _, zerocopy as _};
+use {
+    approx as _, bitflags as _, either as _, matrixmultiply as _, measurements as _,
+    once_cell as _, zerocopy as _,
+};
 
 pub use output::WrongInput;
 

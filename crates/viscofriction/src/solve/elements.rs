@@ -208,9 +208,9 @@ fn of_rough<S>(
     }
 }
 
-/// The theory, which is that of the half space.
+/// The theory, which is that of the half space; its numbers have no bar for a series that stands for another material.
 fn persson(problem: &Problem, rough: Rough) -> Result<Option<Persson>> {
-    if problem.thickness().is_finite() {
+    if problem.thickness().is_finite() || problem.expansion().is_some() {
         return Ok(None);
     }
     let surface = rough.surface;

@@ -194,15 +194,28 @@ impl<'a, M: Elastomer + ?Sized> PlannedSlide<'a, M> {
                 estimate.error_parts = ErrorParts::NONE;
             }
             if self.load.sliding_distance().is_none() {
-                let rest = depth_that_is_left(&estimate.finest.rows);
-                let depth = estimate
-                    .indentation_depth
-                    .filter(|_| self.creep.fluidity() <= 0.0);
-                estimate.indentation_depth =
-                    depth.map(|depth| Estimate::new(depth.value, depth.error + rest));
+                self.with_what_is_left(&mut estimate);
             }
             Ok(estimate)
         })
+    }
+
+    /// Depth, area and ends of the contact come to rest more slowly than friction, by which a march ends.
+    fn with_what_is_left(&self, estimate: &mut SlideEstimate) {
+        let left = |of: &dyn Fn(&SlideRow) -> f64| left_to_go(&estimate.finest.rows, of);
+        let [depth, area] = [
+            left(&|row| row.indentation_depth),
+            left(&|row| row.contact_area),
+        ];
+        let ends = [0, 1].map(|end| {
+            let along = left(&|row| row.contact_x[end]);
+            along.max(left(&|row| row.contact_y[end]))
+        });
+        let known = estimate.indentation_depth;
+        let known = known.filter(|_| self.creep.fluidity() <= 0.0);
+        estimate.indentation_depth = known.map(|known| known.widened(depth));
+        estimate.contact_area = estimate.contact_area.widened(area);
+        estimate.contact_box_error += ends[0].max(ends[1]);
     }
 
     /// At a depth the body reaches the boundary of its footprint.
@@ -321,11 +334,12 @@ fn over_distance(
     Ok((transient, friction, None))
 }
 
-/// Change of the depth over the second half of a march, \[m]: the track behind the body misses what is beyond its beginning,
-/// which is felt in inverse proportion to the distance. So depth comes to rest more slowly than friction, by which a march ends.
-fn depth_that_is_left(rows: &[SlideRow]) -> f64 {
+/// What is left of a quantity's way to the stationary state, at most: twice its change over the second half of a march. The track
+/// behind the body misses what is beyond its beginning, which is felt in inverse proportion to the distance, so that as much
+/// is left as has changed; on a material that flows the front comes to rest more slowly.
+fn left_to_go(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
     let [last, half] = [rows.len(), rows.len().div_ceil(2)].map(|count| &rows[count - 1]);
-    (last.indentation_depth - half.indentation_depth).abs()
+    2.0 * (of(last) - of(half)).abs()
 }
 
 /// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
