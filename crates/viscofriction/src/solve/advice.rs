@@ -24,7 +24,9 @@ const UNITS: &str = "; check the units of indenter, material and load, from whic
 pub(super) const fn of_half_space(error: &BemError) -> &'static str {
     match error {
         BemError::GridTooLarge { .. } | BemError::TooManySteps { .. } => FEWER,
-        BemError::GridTooCoarse { .. } | BemError::SlopeNotResolved { .. } => FINER,
+        BemError::GridTooCoarse { .. }
+        | BemError::PeriodTooCoarse { .. }
+        | BemError::SlopeNotResolved { .. } => FINER,
         BemError::ContactNotConverged { .. } => OTHER_ELEMENTS,
         BemError::NotReached { .. } | BemError::TimeNotResolved { .. } => LARGER_ERROR,
         BemError::ContactReachesBoundary { .. } => LESS_LOAD,

@@ -53,9 +53,23 @@ pub enum SolveError {
     /// No method was asked.
     #[error(transparent)]
     NotOffered(#[from] NotOffered),
-    /// The error asked for was not reached on the finest resolution.
-    #[error(transparent)]
-    TooCoarse(#[from] numerics::NotReached),
+    /// The error of the series that stands for the material is too large for the error asked for.
+    #[error(
+        "the relative error {asked:e} was not reached, because the series of the material is off by {series:.1e}: the value is \
+         {} with an error of {:.1e}; give a larger solve.relative_error, or a material with a smaller relative_error",
+        InWords(*value),
+        InWords(*error)
+    )]
+    SeriesTooCoarse {
+        /// Relative error asked for.
+        asked: f64,
+        /// Relative error of the series.
+        series: f64,
+        /// Value that was found.
+        value: f64,
+        /// Its absolute error.
+        error: f64,
+    },
     /// A quantity that no number can hold.
     #[error(
         "{quantity} is {} in units of SI; check the units of indenter, material and load, from which it follows",

@@ -1,6 +1,6 @@
 //! The error of a series that stands for another law, as a part of all bars.
 
-use numerics::{NotReached, ValueWithError};
+use numerics::ValueWithError;
 
 use super::answer::Answer;
 use super::body::Body;
@@ -88,19 +88,17 @@ impl Problem {
     /// That the bar with the error of the moduli is larger than what was asked.
     pub(crate) fn missed(&self, answer: &Answer) -> Option<SolveError> {
         let ValueWithError { value, error } = *answer.requested_quantity();
+        let series = self.expansion()?.relative_error;
         match self.accuracy() {
             Accuracy::RelativeError(asked)
-                if self.expansion().is_some()
-                    && !matches!(self.motion(), Motion::History(_))
-                    && error > asked * value.abs() =>
+                if !matches!(self.motion(), Motion::History(_)) && error > asked * value.abs() =>
             {
-                Some(SolveError::TooCoarse(NotReached {
-                    quantity: 0,
+                Some(SolveError::SeriesTooCoarse {
                     asked,
+                    series,
                     value,
                     error,
-                    elements: answer.unknowns,
-                }))
+                })
             }
             _ => None,
         }
