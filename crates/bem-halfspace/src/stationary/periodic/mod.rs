@@ -47,7 +47,7 @@ use kernel::Sliding;
 pub use load::{PeriodicControl, PeriodicLoad};
 pub use march::{PeriodicRow, PeriodicTransient, slide_on_grid};
 #[cfg(feature = "rough")]
-pub use refinement::{elements_along, elements_for_bars, largest_grid, memory};
+pub use refinement::{elements_for_bars, largest_grid, memory};
 
 /// When the solver stops.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -80,7 +80,7 @@ pub(super) fn first_shape(
     let Accuracy::Elements(elements) = accuracy else {
         return Ok(first);
     };
-    let along = elements_along(surface.largest_numbers());
+    let along = fewest_along(surface.largest_numbers());
     if elements < along {
         let needed = along;
         return Err(BemError::PeriodTooCoarse { elements, needed });
@@ -98,7 +98,7 @@ fn first_elements(number: usize) -> usize {
 
 /// Elements along the edge that has more of them, of the last of the three grids without which there are no error bars, of a
 /// surface with so many waves at most in its periods along x and y.
-pub fn elements_along(largest_numbers: [usize; 2]) -> usize {
+fn fewest_along(largest_numbers: [usize; 2]) -> usize {
     let first = largest_numbers.map(first_elements);
     THREE_GRIDS * first[0].max(first[1])
 }
