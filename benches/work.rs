@@ -153,7 +153,7 @@ fn transform_pair(edge: usize) -> Result<f64, Failure> {
     let mut spent = 0.0;
     // Longer than the steps in which the system counts.
     while spent < 0.2 {
-        convolution.apply(&mut workspace, (&values, 0..edge), (&mut result, 0..edge));
+        convolution.apply(&mut workspace, &values, &mut result);
         pairs += 1.0;
         spent = start.elapsed().as_secs_f64();
     }

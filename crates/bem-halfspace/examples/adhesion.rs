@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [mut pull, mut raised] = [(); 2].map(|()| vec![0.0; N * N]);
     let mut held = f64::NEG_INFINITY;
     let contact = loop {
-        convolution.apply(&mut work, (&pull, 0..N), (&mut raised, 0..N));
+        convolution.apply(&mut work, &pull, &mut raised);
         let height = |index| ball(index) - compliance / (4.0 * PI) * raised[index];
         let problem = ContactProblem {
             convolution: &convolution,

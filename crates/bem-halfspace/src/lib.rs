@@ -68,5 +68,5 @@ pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
 pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;
 pub use substrate::layer::{Layer, layer_factor};
-pub use transform::convolution::{Convolution, ConvolutionWorkspace};
+pub use transform::convolution::{Convolution, ConvolutionWorkspace, Rows};
 pub use transform::pressure_spectrum::line_spectrum;

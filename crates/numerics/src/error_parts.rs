@@ -18,6 +18,9 @@ pub struct ErrorParts {
     /// Of the distance that is left to the stationary state.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub truncation: Option<f64>,
+    /// Of a series of branches that stands for another law.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub material: Option<f64>,
 }
 
 impl ErrorParts {
@@ -27,6 +30,7 @@ impl ErrorParts {
         iteration: None,
         time_stepping: None,
         truncation: None,
+        material: None,
     };
 
     /// An error of elements only.
@@ -43,12 +47,13 @@ impl ErrorParts {
     }
 
     /// The parts by their names in JSON and CSV.
-    pub const fn named(&self) -> [(&'static str, Option<f64>); 4] {
+    pub const fn named(&self) -> [(&'static str, Option<f64>); 5] {
         [
             ("discretisation", self.discretisation),
             ("iteration", self.iteration),
             ("time_stepping", self.time_stepping),
             ("truncation", self.truncation),
+            ("material", self.material),
         ]
     }
 
@@ -82,6 +87,7 @@ impl ErrorParts {
             iteration: joined(self.iteration, other.iteration),
             time_stepping: joined(self.time_stepping, other.time_stepping),
             truncation: joined(self.truncation, other.truncation),
+            material: joined(self.material, other.material),
         }
     }
 }
@@ -104,7 +110,11 @@ mod tests {
         };
         assert_eq!(got, expected, "1, and {truncated:?}");
         let halves = got.times(0.5).named().map(|(_, part)| part);
-        assert_eq!(halves, [Some(1.5), None, None, Some(2.0)], "of {got:?}");
+        assert_eq!(
+            halves,
+            [Some(1.5), None, None, Some(2.0), None],
+            "of {got:?}"
+        );
         let known = [got, ErrorParts::NONE].map(|parts| parts.is_none());
         assert_eq!(known, [false, true], "no part");
     }

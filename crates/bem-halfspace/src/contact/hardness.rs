@@ -127,7 +127,7 @@ impl<'a> Limited<'a> {
         }
         self.total = self.load.iter().sum();
         let convolution = self.problem.convolution;
-        convolution.apply_to_all(&mut self.workspace, &self.load, &mut self.displacement);
+        convolution.apply(&mut self.workspace, &self.load, &mut self.displacement);
         let heights = self.problem.separation.iter().zip(&self.displacement);
         let separations = self.separation.iter_mut().zip(&self.at_limit).zip(heights);
         for ((separation, at_limit), (height, displacement)) in separations {

@@ -103,7 +103,7 @@ impl Preconditioner {
     ) {
         self.spread(contact, residual, field);
         self.blocks
-            .apply_to_all(&mut self.workspace, &self.means, &mut self.images);
+            .apply(&mut self.workspace, &self.means, &mut self.images);
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
         let result = [contact.list(result)];

@@ -1,6 +1,5 @@
 //! Where to iterate, and from which first guess.
 
-use crate::BemError;
 use crate::contact::iteration::Iteration;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::{Accuracy, LoadProblem, Solved};
@@ -10,6 +9,7 @@ use crate::elements::bounds::Bounds;
 use crate::parallel::bands::for_each_row;
 use crate::parallel::chunks::in_pool;
 use crate::transform::convolution::Surroundings;
+use crate::{BemError, Rows};
 
 /// A box is used where it has fewer elements than this part of the grid: with its margin and the product on the whole grid
 /// at its end, a larger one takes as long as the grid.
@@ -80,10 +80,14 @@ fn check_around(
     let convolution = problem.convolution;
     let [rows, columns] = convolution.grid().shape();
     let workspace = &mut state.workspace;
-    convolution.apply(
+    convolution.apply_in(
+        &Rows {
+            loaded: bounds.rows(),
+            wanted: 0..rows,
+        },
         workspace.get_or_insert_with(|| convolution.workspace()),
-        (&state.load, bounds.rows()),
-        (&mut state.displacement, 0..rows),
+        &state.load,
+        &mut state.displacement,
     );
     // The box and the grid round differently, so the tolerance of the box would be too sharp here.
     let highest = solved.indentation_depth - 2.0 * accuracy.tolerance * solved.deflection;

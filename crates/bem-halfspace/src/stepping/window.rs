@@ -11,7 +11,7 @@ use std::ops::Range;
 use rheology::ExponentialStep;
 
 use crate::elements::resolution::Layout;
-use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid};
+use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid, Rows};
 
 /// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.
 pub(super) struct Window {
@@ -82,8 +82,13 @@ impl Window {
         for ([row, column], load) in loaded {
             self.load[(row + first_row) * columns + column] = load;
         }
-        let (load, increment) = ((&self.load[..], rows), (&mut self.increment[..], wanted));
-        self.convolution.apply(&mut self.workspace, load, increment);
+        let rows = Rows {
+            loaded: rows,
+            wanted,
+        };
+        let (load, increment) = (&self.load, &mut self.increment);
+        self.convolution
+            .apply_in(&rows, &mut self.workspace, load, increment);
     }
 
     /// A step without load.

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::steady::wake_influence;
-use bem_halfspace::{Convolution, Grid, influence};
+use bem_halfspace::{Convolution, Grid, Rows, influence};
 use casebook::group;
 
 use crate::support::{assert_close, assert_near, difference};
@@ -110,9 +110,7 @@ fn convolution_equals_the_sum_over_pairs() {
         let convolution = Convolution::new(&grid);
         let pressure = pressure(grid.n_elements());
         let mut actual = vec![0.0; grid.n_elements()];
-        let (mut workspace, rows) = (convolution.workspace(), 0..shape[0]);
-        let (pressed, moved) = ((&pressure[..], rows.clone()), (&mut actual[..], rows));
-        convolution.apply(&mut workspace, pressed, moved);
+        convolution.apply(&mut convolution.workspace(), &pressure, &mut actual);
         // Rounding of transforms of a few hundred values.
         let error = difference(&actual, &sum_over_pairs(&grid, &pressure));
         assert!(error < 1e-14, "{shape:?}: off by {error:e}");
@@ -128,8 +126,12 @@ fn rows_that_are_left_out_change_nothing() {
     loaded[70..].fill(0.0);
     let mut workspace = convolution.workspace();
     let (mut all, mut some) = (vec![0.0; 120], vec![f64::NAN; 120]);
-    convolution.apply(&mut workspace, (&loaded, 0..12), (&mut all, 0..12));
-    convolution.apply(&mut workspace, (&loaded, 3..7), (&mut some, 5..9));
+    convolution.apply(&mut workspace, &loaded, &mut all);
+    let rows = Rows {
+        loaded: 3..7,
+        wanted: 5..9,
+    };
+    convolution.apply_in(&rows, &mut workspace, &loaded, &mut some);
     let wanted = 50..90;
     assert_eq!(all[wanted.clone()], some[wanted.clone()], "to the last bit");
     let others = [&some[..50], &some[90..]].concat();

@@ -125,7 +125,7 @@ fn a_coating_moves_under_a_smooth_pressure_as_quadrature_has_it() {
             let convolution = Convolution::on(&layer, &grid);
             let mut moved = vec![0.0; n * n];
             let mut workspace = convolution.workspace();
-            convolution.apply(&mut workspace, (&pressure, 0..n), (&mut moved, 0..n));
+            convolution.apply(&mut workspace, &pressure, &mut moved);
             moved[n * n / 2] / expected - 1.0
         });
         let order = (coarse / fine).abs().ln() / (127.0_f64 / 63.0).ln();

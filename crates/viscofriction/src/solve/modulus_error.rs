@@ -36,6 +36,16 @@ impl Problem {
 
     /// The answer with the error of the moduli in its bars, unless it needs the material at other times.
     pub(crate) fn with_modulus_error(&self, answer: Answer) -> Result<Answer> {
+        let without = answer.requested_quantity().error;
+        let mut answer = self.with_wider_bars(answer)?;
+        let part = answer.requested_quantity().error - without;
+        if part > 0.0 {
+            answer.error_parts.material = Some(part);
+        }
+        Ok(answer)
+    }
+
+    fn with_wider_bars(&self, answer: Answer) -> Result<Answer> {
         let Some(expansion) = self.expansion() else {
             return Ok(answer);
         };

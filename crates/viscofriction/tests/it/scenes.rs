@@ -55,6 +55,8 @@ fn each_method_names_the_parts_that_it_has() {
     let folder = Folder::new("parts-of-bars");
     let maxwell = "paraboloid; maxwell; normal_force = 1, velocity = 0.05; elements = 64";
     folder.write("maxwell.toml", scene(maxwell));
+    let springpot = "paraboloid; springpot; normal_force = 1, velocity = 0.05; model = \"line\"";
+    folder.write("springpot.toml", scene(springpot));
     for [line, expected] in table("parts of bars") {
         let result = folder.json(&line);
         assert_bar_is_its_parts(&result);

@@ -11,7 +11,7 @@ impl Iteration<'_> {
         let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
         let image = &mut self.fields.image;
         self.convolution
-            .apply_to_all(self.workspace, &self.fields.spread, image);
+            .apply(self.workspace, &self.fields.spread, image);
         let direction = &listed.direction;
         let energy = contact.bands.fold(
             [contact.list(&mut listed.image)],

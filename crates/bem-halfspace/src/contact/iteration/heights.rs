@@ -49,7 +49,7 @@ impl Iteration<'_> {
     pub(super) fn refresh(&mut self) {
         self.write_load();
         self.convolution
-            .apply_to_all(self.workspace, self.load, self.displacement);
+            .apply(self.workspace, self.load, self.displacement);
         let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
         let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
         let separation = &listed.separation;

@@ -253,7 +253,7 @@ impl<'a> PeriodicMarch<'a> {
     fn remember(&mut self) {
         let pressure = self.state.pressure();
         self.convolution
-            .apply_to_all(&mut self.workspace, pressure, &mut self.input);
+            .apply(&mut self.workspace, pressure, &mut self.input);
         let per_load = self.factor / (4.0 * PI);
         self.input.iter_mut().for_each(|value| *value *= per_load);
         self.step.advance(&self.input, &mut self.memory);

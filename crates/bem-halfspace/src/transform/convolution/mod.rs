@@ -47,6 +47,15 @@ pub struct Convolution {
 #[derive(Debug, Clone)]
 pub struct ConvolutionWorkspace(Workspace);
 
+/// Rows of a grid that matter in a product.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rows {
+    /// With a pressure.
+    pub loaded: Range<usize>,
+    /// Of the displacement that is asked for.
+    pub wanted: Range<usize>,
+}
+
 impl Convolution {
     /// Influence on a half space that is free of load outside the grid.
     ///
@@ -161,24 +170,12 @@ impl Convolution {
         &self.grid
     }
 
-    /// Buffers for [`apply`](Self::apply). With the feature `rayon`, for the threads of the current pool.
+    /// Buffers for a product. With the feature `rayon`, for the threads of the current pool.
     pub fn workspace(&self) -> ConvolutionWorkspace {
         ConvolutionWorkspace(Workspace::new(&self.transform, self.grid.shape()))
     }
 
     /// Computes `K P` on the whole grid.
-    pub(crate) fn apply_to_all(
-        &self,
-        workspace: &mut ConvolutionWorkspace,
-        pressure: &[f64],
-        result: &mut [f64],
-    ) {
-        let rows = self.grid.shape()[0];
-        self.apply(workspace, (pressure, 0..rows), (result, 0..rows));
-    }
-
-    /// Computes `K P` in the rows `wanted` of `result` from the rows `loaded` of `pressure`; the pressure outside
-    /// these rows is taken as zero and the other rows of the result are left as they are.
     ///
     /// Both fields have one value per element of the grid, row-major; the result has the unit of the pressure times
     /// metre. Does not allocate.
@@ -188,18 +185,38 @@ impl Convolution {
     pub fn apply(
         &self,
         workspace: &mut ConvolutionWorkspace,
-        (pressure, loaded): (&[f64], Range<usize>),
-        (result, wanted): (&mut [f64], Range<usize>),
+        pressure: &[f64],
+        result: &mut [f64],
+    ) {
+        let all = 0..self.grid.shape()[0];
+        let rows = Rows {
+            loaded: all.clone(),
+            wanted: all,
+        };
+        self.apply_in(&rows, workspace, pressure, result);
+    }
+
+    /// The same for a pressure that is zero outside some rows, and a displacement that is wanted in some rows; the other
+    /// rows of the pressure are not read, and those of the result are left as they are.
+    ///
+    /// # Panics
+    /// When a field, the rows or the workspace does not belong to this grid.
+    pub fn apply_in(
+        &self,
+        Rows { loaded, wanted }: &Rows,
+        workspace: &mut ConvolutionWorkspace,
+        pressure: &[f64],
+        result: &mut [f64],
     ) {
         let elements = self.grid.n_elements();
         assert_eq!(pressure.len(), elements, "one pressure per element");
         assert_eq!(result.len(), elements, "one displacement per element");
         let (transform, workspace) = (&self.transform, &mut workspace.0);
-        transform.load(workspace, pressure, &loaded);
-        transform.pass(workspace, (&loaded, &wanted), |column, values| {
+        transform.load(workspace, pressure, loaded);
+        transform.pass(workspace, (loaded, wanted), |column, values| {
             transform.multiply_even(&self.spectrum, column, values);
         });
-        transform.read(workspace, result, &wanted);
+        transform.read(workspace, result, wanted);
     }
 }
 
@@ -238,7 +255,7 @@ mod tests {
 
     fn displacement(convolution: &Convolution, pressure: &[f64]) -> Vec<f64> {
         let mut result = vec![0.0; pressure.len()];
-        convolution.apply_to_all(&mut convolution.workspace(), pressure, &mut result);
+        convolution.apply(&mut convolution.workspace(), pressure, &mut result);
         result
     }
 
