@@ -1,6 +1,7 @@
 //! Pressure and buffers of a contact solve, on a grid and on a part of it.
 
 use crate::contact::fields::Fields;
+use crate::elements::area;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::Mirror;
 use crate::parallel::bands::for_each_row;
@@ -157,6 +158,11 @@ impl ContactBox {
             let load = &self.state.load[row * width..][..width];
             values[self.bounds.columns()].copy_from_slice(load);
         });
+    }
+
+    /// Area of the elements with load and of their images, in elements; the field begins at its mirrors.
+    pub(crate) fn area(&self, mirrors: [Mirror; 2]) -> f64 {
+        area::in_elements(&self.state.load, &self.bounds, mirrors)
     }
 
     /// Elements with load, as [row, column] of the field in which the box lies, and their load.

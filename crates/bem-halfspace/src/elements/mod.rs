@@ -1,5 +1,6 @@
-//! The elements: where they are, boxes of them, their mirrors, and the pressure on them.
+//! The elements: where they are, boxes of them, their mirrors, their area and the pressure on them.
 
+pub(crate) mod area;
 pub(crate) mod bounds;
 pub(crate) mod footprint;
 pub(crate) mod grid;

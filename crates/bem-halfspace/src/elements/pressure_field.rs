@@ -2,7 +2,9 @@
 
 use numerics::whole_part;
 
+use crate::elements::area;
 use crate::elements::bounds::Bounds;
+use crate::elements::mirror::NO_MIRRORS;
 use crate::{BemError, Grid};
 
 /// Pressure over the contact at the end of a simulation.
@@ -35,6 +37,17 @@ impl PressureField {
             origin,
             pressure,
         })
+    }
+
+    /// Area of the contact: that of the elements with pressure, less their mean excess at its outline (Yastrebov, Anciaux &
+    /// Molinari 2017), \[m²].
+    pub fn contact_area(&self) -> f64 {
+        let bounds = Bounds {
+            lower: [0; 2],
+            upper: self.grid.shape(),
+        };
+        let elements = area::in_elements(&self.pressure, &bounds, NO_MIRRORS);
+        elements * self.grid.element_area()
     }
 
     /// Largest pressure of an element, \[Pa].

@@ -59,7 +59,7 @@ pub struct Refinement {
     /// Depth after the sliding distance of the load, or the
     /// [reference depth](crate::stationary::steady::SinkingDepth::reference_depth) without one, \[m].
     pub indentation_depth: Average,
-    /// Area of the elements in contact, \[m²].
+    /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: Average,
     /// Largest pressure of an element, \[Pa].
     pub peak_pressure: Average,

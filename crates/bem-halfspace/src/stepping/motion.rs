@@ -29,7 +29,7 @@ pub struct MotionRow {
     pub tangential_force: f64,
     /// The same with the slope at the end of the step, \[N].
     pub tangential_force_end_of_step: f64,
-    /// Area of the elements in contact, \[m²].
+    /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m]; none without contact.
     pub contact_x: Option<[f64; 2]>,

@@ -76,7 +76,7 @@ fn friction_and_area_are_those_of_the_casebook() {
         let holds = best < 5e-3 && best < difference.abs() + 1e-3;
         assert!(holds && solved.products < 60, "{}: {solved:?}", case.id);
         // Five elements per shortest asperity in contact, of which the counted area is 15 % too large.
-        assert_close(&case.id, solved.area_fraction, case.area, 0.06);
+        assert_close(&case.id, solved.area_fraction, case.area, 0.065);
     }
 }
 

@@ -47,7 +47,7 @@ pub struct PressSolution {
     pub indentation_depth: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
-    /// Area of the elements in contact, \[m²].
+    /// [Area](PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
     /// Ends of the contact along x relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -284,7 +284,7 @@ impl Spring {
                 Control::NormalForce(force) => force,
                 Control::IndentationDepth(_) => row.normal_force / self.compliance,
             },
-            contact_area: row.n_contact as f64 * pressure.grid.element_area(),
+            contact_area: row.contact_area,
             contact_x,
             contact_y,
             n_contact: row.n_contact,

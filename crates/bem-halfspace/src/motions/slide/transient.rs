@@ -25,7 +25,7 @@ pub struct SlideRow {
     /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term on a
     /// dashpot.
     pub friction_coefficient_end_of_step: f64,
-    /// Area of the elements in contact, \[m²].
+    /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],

@@ -36,6 +36,7 @@ use std::cell::RefCell;
 use numerics::{InvalidParameter, in_range, positive};
 
 use crate::contact::check_length;
+use crate::elements::area;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
@@ -81,8 +82,8 @@ pub struct PeriodicSliding {
     /// The same from the power that the material dissipates. On a finer grid both are the same; their difference says how
     /// well this one resolves the contact.
     pub friction_from_dissipation: f64,
-    /// Part of the period in contact: the elements in contact, less 0.12 elements for each of their edges to one that is
-    /// not, by which counted areas are too large.
+    /// Part of the period in contact: the elements in contact, less their mean excess at their edges to others (Yastrebov,
+    /// Anciaux & Molinari 2017).
     pub area_fraction: f64,
     /// Depth of the mean plane of the surface, \[m]: below the mean of the deformed half space, which the mean pressure moves
     /// without limit, or below the surface of a layer at rest; negative in light contact.
@@ -163,9 +164,6 @@ fn solve_here(
     })
 }
 
-/// Part of an element by which counted areas are too large for each edge between an element in contact and one that is not.
-const EXCESS_PER_EDGE: f64 = 0.12;
-
 /// The part of the elements in contact, less the excess at its edges.
 fn area_fraction(columns: usize, pressure: &[f64]) -> f64 {
     let n = pressure.len();
@@ -178,8 +176,7 @@ fn area_fraction(columns: usize, pressure: &[f64]) -> f64 {
         let differs = |other: &usize| inside(*other) != inside(element);
         edges += neighbours.into_iter().filter(differs).count();
     }
-    let corrected = count as f64 - EXCESS_PER_EDGE * edges as f64;
-    corrected.max(0.0) / n as f64
+    area::less_excess(count, edges) / n as f64
 }
 
 impl PeriodicOptions {

@@ -37,7 +37,7 @@ pub struct SteadySliding {
     pub normal_force: f64,
     /// Depth of the lowest point, which depends on the distance slid where the material flows.
     pub depth: SinkingDepth,
-    /// Area of the elements in contact, \[m²].
+    /// [Area](PressureField::contact_area) of the contact; in plane strain that of its elements, \[m²].
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -146,7 +146,11 @@ impl SteadySliding {
             mean_slope,
             normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
-            contact_area: loaded.len() as f64 * pressure.grid.element_area(),
+            contact_area: if mesh.loading.is_strip {
+                loaded.len() as f64 * pressure.grid.element_area()
+            } else {
+                pressure.contact_area()
+            },
             contact_x: edges[0],
             contact_y: edges[1],
             unknowns: solution.loads.len(),
