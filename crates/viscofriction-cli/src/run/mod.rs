@@ -13,7 +13,8 @@ use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::Method;
 use viscofriction::solve::{
-    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, with_fields,
+    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of, sensitivities,
+    with_fields,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -38,6 +39,10 @@ pub(crate) struct Run {
     /// Say which parts of the method the scene did not need, why, and what leaving them out saves.
     #[arg(long)]
     explain: bool,
+    /// Say how much the answer depends on every modulus, time, ratio, load, speed and length of the scene: d ln(quantity) by
+    /// d ln(number), with error bars.
+    #[arg(long)]
+    sensitivity: bool,
     /// Also write result.json, fields (NPY and CSV) and pictures (SVG and PNG) into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -74,13 +79,23 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let started = Instant::now();
     let answer = progress::during(task, |watch| in_pool(plan, problem.threads(), watch));
     let seconds = started.elapsed().as_secs_f64();
-    let (mut answer, missed) = match answer {
+    let (mut answer, mut missed) = match answer {
         Ok(answer) => (answer, None),
         Err(error) => match error.downcast_ref().and_then(SolveError::reached) {
             Some(reached) => (reached.clone(), Some(error)),
             None => return Err(error.context(path.to_string())),
         },
     };
+    if options.sensitivity && missed.is_none() {
+        let scene = scene_of(&source, options.method)?;
+        let files = (source.folder(), read_input as _);
+        let task = format!("derivatives of {path}");
+        let found = progress::during(task, |_| sensitivities(&scene, files, &problem, &answer));
+        match found {
+            Ok(found) => answer.sensitivity = found,
+            Err(error) => missed = Some(error.into()),
+        }
+    }
     if out.is_some() {
         let task = format!("fields of {path}");
         answer = progress::during(task, |_| with_fields(&problem, answer));
@@ -126,6 +141,9 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             print_line(&table::table(answer))?;
             if let Some(parts) = table::parts(&answer.error_parts) {
                 print_line(&format!("error bar: {parts}"))?;
+            }
+            if !answer.sensitivity.is_empty() {
+                print_line(&format!("\n{}\n", table::sensitivity(answer)))?;
             }
             if let Some(why) = &answer.not_reached {
                 print_line(&format!("not reached: {why}"))?;

@@ -1,5 +1,7 @@
 //! An answer for a person.
 
+use std::iter;
+
 use comfy_table::Table;
 use viscofriction::scene::Model;
 use viscofriction::solve::{Answer, Problem};
@@ -54,6 +56,37 @@ fn short(value: f64) -> String {
         return format!("{value:.9}");
     }
     format!("{value:.8e}")
+}
+
+/// One row per number of the scene, with the derivatives that are known of any.
+pub(super) fn sensitivity(answer: &Answer) -> Table {
+    let all = &answer.sensitivity;
+    let names = all
+        .first()
+        .map_or([""; 4], |first| first.named().map(|(name, _)| name));
+    let is_known = |column: &usize| all.iter().any(|one| one.named()[*column].1.is_some());
+    let columns: Vec<usize> = (0..names.len()).filter(is_known).collect();
+    let heads = columns
+        .iter()
+        .map(|&column| format!("d ln {}", names[column].replace('_', " ")));
+    let heads: Vec<String> = iter::once("by d ln".to_owned()).chain(heads).collect();
+    let mut table = markdown(&heads.join(" | "));
+    for one in all {
+        let known = columns.iter().map(|&column| one.named()[column].1);
+        let cells = known.map(|known| known.map_or_else(String::new, |known| with_bar(&known)));
+        table.add_row(iter::once(one.parameter.clone()).chain(cells));
+    }
+    table
+}
+
+fn with_bar(known: &Estimate) -> String {
+    // What rounds to nothing has no sign.
+    let value = if known.value.abs() < 5e-7 {
+        0.0
+    } else {
+        known.value
+    };
+    format!("{value:.6} ± {:.1e}", known.error)
 }
 
 /// What the error bar consists of; nothing of a method without parts.

@@ -1,6 +1,7 @@
 //! What a method answers: quantities in SI, each with its error.
 
 use bem_halfspace::slide::PressureField;
+use bem_halfspace::steady::{LineOptions, SteadyOptions};
 use numerics::{ErrorParts, Estimate, ValueWithError};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
@@ -12,6 +13,7 @@ use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
+use super::sensitivity::Sensitivity;
 use crate::scene::{Method, Model};
 
 /// One result in SI; what a method does not know is left out.
@@ -58,8 +60,12 @@ pub struct Answer {
     pub not_modelled: Vec<&'static str>,
     /// Parts of the method that the scene did not need.
     pub left_out: Vec<Omission>,
+    /// How much it depends on the numbers of its scene, where [they](super::sensitivities()) were asked for.
+    pub sensitivity: Vec<Sensitivity>,
     /// The finest boundary elements.
     pub(crate) grid: Option<Grid>,
+    /// Those of a stationary contact.
+    pub(crate) stationary: Option<StationaryGrid>,
     /// Fields and histories.
     pub fields: Fields,
 }
@@ -109,6 +115,13 @@ pub(crate) struct Grid {
     pub(crate) footprint: [[usize; 2]; 2],
     /// Whether the contact was factorised.
     pub(crate) factorised: bool,
+}
+
+/// The finest grid of a stationary contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum StationaryGrid {
+    Contact(SteadyOptions),
+    Line(LineOptions),
 }
 
 /// Fields and histories behind an answer; what a method does not have is empty.
@@ -168,6 +181,8 @@ impl Answer {
             not_reached: None,
             not_modelled: Vec::new(),
             left_out: Vec::new(),
+            sensitivity: Vec::new(),
+            stationary: None,
             grid: None,
             fields: Fields::default(),
         }
@@ -354,6 +369,9 @@ impl Serialize for Answer {
         }
         if !self.fields.curve.times.is_empty() {
             self.fields.curve.serialize_into(&mut map)?;
+        }
+        if !self.sensitivity.is_empty() {
+            map.serialize_entry("sensitivity", &self.sensitivity)?;
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;

@@ -12,7 +12,7 @@ use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
 
-use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer, StationaryGrid};
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::cut_off::WithoutShortestOctave;
 use super::error::Result;
@@ -53,6 +53,7 @@ fn of_steady(estimate: SteadyEstimate) -> Result<Answer> {
             footprint: options.footprint.elements(options.spacing)?,
             factorised: finest.is_factorised(),
         }),
+        stationary: Some(StationaryGrid::Contact(*options)),
         ..answer(&estimate, Method::BemSteady, ends)
     };
     answer.fields.pressure = Some(estimate.finest.pressure);
@@ -78,6 +79,7 @@ fn of_line(estimate: LineEstimate) -> Answer {
         contact_box: Some(contact),
         unknowns: finest.unknowns,
         iterations: finest.iterations,
+        stationary: Some(StationaryGrid::Line(estimate.options)),
         ..answer(&estimate, Method::BemSteady, [finest.contact; 2])
     };
     answer.fields.line_pressure = estimate.finest.pressure;

@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::advice::{of_body, of_closed_form, of_half_space, of_line};
 use super::answer::Answer;
+use super::sensitivity::EXACT;
 use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.
@@ -69,6 +70,16 @@ pub enum SolveError {
         value: f64,
         /// Its absolute error.
         error: f64,
+    },
+    /// An answer whose derivatives are not known.
+    #[error(
+        "{} knows no derivatives of this answer; stationary sliding of a single body or a cylinder has some by bem-steady, and \
+         what closed forms and mdr-steady know to {EXACT:e}",
+        method.name()
+    )]
+    NoSensitivity {
+        /// The method of the answer.
+        method: Method,
     },
     /// A quantity that no number can hold.
     #[error(

@@ -19,6 +19,7 @@ mod modulus_error;
 mod omission;
 mod plan;
 mod problem;
+mod sensitivity;
 mod validity;
 mod with_fields;
 mod work;
@@ -34,8 +35,9 @@ pub use half_space::{HalfSpace, half_space};
 pub use heights::{Advice as AdviceOnHeights, body_of_heights, warnings as warnings_of_heights};
 use memory::Limited;
 pub use omission::Omission;
-pub use plan::{Plan, plan, plan_of, problem_of};
+pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
+pub use sensitivity::{Sensitivity, sensitivities};
 pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;

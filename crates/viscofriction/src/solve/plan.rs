@@ -7,7 +7,7 @@ use super::memory::check_memory;
 use super::problem::Problem;
 use super::work::{Work, work};
 use crate::files::ReadFile;
-use crate::scene::{Method, Model, SceneError, Source, scene_file};
+use crate::scene::{Method, Model, Scene, SceneError, Source, scene_file};
 use crate::text::WrongInput;
 
 /// The methods from cheap to expensive.
@@ -106,13 +106,20 @@ pub fn problem_of(
     method: Option<Method>,
     read: ReadFile,
 ) -> Result<Problem, WrongInput> {
+    let scene = scene_of(source, method)?;
+    let problem = Problem::new(&scene, source.folder(), read);
+    problem.map_err(|error| source.locate(&error))
+}
+
+/// The scene of a file, with the method given in the place of its own.
+///
+/// # Errors
+/// [`WrongInput`] with the place where the scene is wrong.
+pub fn scene_of(source: &Source, method: Option<Method>) -> Result<Scene, WrongInput> {
     let table = source.table()?;
-    let problem = || {
-        let mut scene = scene_file(table)?;
-        scene.solve.method = method.or(scene.solve.method);
-        Problem::new(&scene, source.folder(), read)
-    };
-    problem().map_err(|error| source.locate(&error))
+    let mut scene = scene_file(table).map_err(|error| source.locate(&error))?;
+    scene.solve.method = method.or(scene.solve.method);
+    Ok(scene)
 }
 
 /// The plan of a problem from a file, which has the memory that it needs.

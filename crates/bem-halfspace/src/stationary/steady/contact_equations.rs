@@ -23,7 +23,7 @@ const FACTORISED: f64 = 5e3;
 /// Larger matrices take too much memory.
 const LARGEST_MATRIX: usize = 4000;
 /// Directions tried before the iteration gives up; a preconditioned contact needs some tens.
-const MOST_DIRECTIONS: usize = 150;
+pub(super) const MOST_DIRECTIONS: usize = 150;
 
 /// Loads of the elements of a contact and the depth, in the units of the mesh.
 pub(super) struct EquationSolution {
@@ -50,7 +50,7 @@ pub(super) fn solve_equations(
 }
 
 /// Whether so many unknowns in a box of so many elements are factorised.
-fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
+pub(super) fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
     let work = (n_unknowns as f64).powi(3);
     n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
 }

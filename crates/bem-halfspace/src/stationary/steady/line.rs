@@ -184,13 +184,7 @@ pub fn steady_line_on_grid(
     let profile: &dyn Surface = &profile;
     let loading = Loading::per_length(profile, elastomer, load, options.footprint)?;
     let strip = Strip::new(profile, &loading);
-    let footprint = strip.footprint(options.footprint);
-    let grid = SteadyOptions {
-        phase: [options.phase, 0.0],
-        tolerance: options.tolerance,
-        max_iterations: options.max_iterations,
-        ..SteadyOptions::new([options.spacing, strip.length], footprint)
-    };
+    let grid = options.on_strip(&strip);
     let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
     Ok(LineSliding::of(&state))
 }
@@ -216,6 +210,17 @@ fn with_elements(
 }
 
 impl LineOptions {
+    /// The grid of a strip.
+    pub(super) fn on_strip(&self, strip: &Strip) -> SteadyOptions {
+        let footprint = strip.footprint(self.footprint);
+        SteadyOptions {
+            phase: [self.phase, 0.0],
+            tolerance: self.tolerance,
+            max_iterations: self.max_iterations,
+            ..SteadyOptions::new([self.spacing, strip.length], footprint)
+        }
+    }
+
     const fn of(grid: &SteadyOptions) -> Self {
         Self {
             spacing: grid.spacing[0],
@@ -247,13 +252,13 @@ impl LineSliding {
 }
 
 /// A profile that is as long along y as one element.
-struct Strip<'a> {
+pub(super) struct Strip<'a> {
     profile: &'a dyn Surface,
     length: f64,
 }
 
 impl<'a> Strip<'a> {
-    fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
+    pub(super) fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,
             length: loading.strip.unwrap_or(f64::INFINITY),

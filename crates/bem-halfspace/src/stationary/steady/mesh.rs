@@ -187,11 +187,22 @@ impl Mesh {
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
+        self.by_offset(rows, to, from)
+    }
+
+    fn by_offset(&self, rows: isize, to: &Element, from: &Element) -> f64 {
         let direct = self.table.at(rows, to.column.abs_diff(from.column));
         if !self.has_image(from) {
             return direct;
         }
         direct + self.table.at(rows, to.column - self.image(from.column))
+    }
+
+    /// The same where everything moves the other way.
+    pub(super) fn reversed(&self, to: usize, from: usize) -> f64 {
+        let [to, from] = [&self.elements[to], &self.elements[from]];
+        let rows = from.row.cast_signed() - to.row.cast_signed();
+        self.by_offset(rows, to, from)
     }
 
     /// Row and column of an element and of its mirror image; itself where it has none.
@@ -226,7 +237,8 @@ impl Mesh {
         first..last
     }
 
-    fn aspect(&self) -> f64 {
+    /// Δy/Δx.
+    pub(super) fn aspect(&self) -> f64 {
         self.options.spacing[1] / self.options.spacing[0]
     }
 

@@ -32,6 +32,7 @@ mod plans;
 mod refinement;
 mod region;
 mod retarded_potential;
+pub mod sensitivity;
 mod sliding_creep;
 mod solution;
 mod wake_table;
@@ -50,6 +51,7 @@ pub use kernel::wake_influence;
 pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_on_grid};
 use loading::Loading;
 use mesh::Mesh;
+use pivoting::Solution;
 use plans::Plans;
 pub use refinement::RefinementOptions;
 pub use solution::{SteadyEstimate, SteadySliding};
@@ -131,6 +133,16 @@ fn solve(
     options: &SteadyOptions,
     reuse: &mut Reuse,
 ) -> Result<SteadySliding, BemError> {
+    let (mesh, solution) = solve_on_mesh(surface, loading, options, reuse)?;
+    SteadySliding::new(&mesh, &solution)
+}
+
+fn solve_on_mesh(
+    surface: &dyn Surface,
+    loading: &Loading,
+    options: &SteadyOptions,
+    reuse: &mut Reuse,
+) -> Result<(Mesh, Solution), BemError> {
     positive("max_iterations", options.max_iterations as f64)?;
     between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
@@ -156,7 +168,7 @@ fn solve(
     };
     let plans = &mut reuse.plans;
     let solution = in_pool(mesh.n_elements(), || pivoting::solve(&mesh, plans, guess))?;
-    SteadySliding::new(&mesh, &solution)
+    Ok((mesh, solution))
 }
 
 /// The loaded elements of another solution, seen on this mesh.

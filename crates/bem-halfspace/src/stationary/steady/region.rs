@@ -21,6 +21,16 @@ impl Region {
         }
     }
 
+    /// The same box and elements turned about across the motion.
+    pub(super) fn turned(&self) -> Self {
+        let [rows, columns] = self.shape;
+        let turn = |place: usize| (rows - 1 - place / columns) * columns + place % columns;
+        Self {
+            shape: self.shape,
+            places: self.places.iter().map(|both| both.map(turn)).collect(),
+        }
+    }
+
     pub(super) fn n_places(&self) -> usize {
         self.shape[0] * self.shape[1]
     }

@@ -250,6 +250,11 @@ impl RetardedPotential {
         self.values[column..].iter().step_by(self.n_columns).sum()
     }
 
+    /// The part of one of them, by column.
+    pub(super) fn of_delay(&self, index: usize) -> &[f64] {
+        &self.values[index * self.n_columns..][..self.n_columns]
+    }
+
     /// The part of it that comes from the last element passed.
     pub(super) fn increment(&self, column: usize) -> f64 {
         let increments = self.increments[column..].iter();

@@ -15,7 +15,7 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::{Base, BemError, Elastomer};
 
 /// Rate of the retardation element that stands for a flow behind which the load is not felt without end.
-const SLOWEST: f64 = 1e-100;
+pub(super) const SLOWEST: f64 = 1e-100;
 
 /// A material at a sliding speed.
 pub(super) struct SlidingCreep {
@@ -47,6 +47,17 @@ pub(super) struct Delay {
     pub(super) rate: f64,
     /// Part of J (1 − e^(−Δx/(vλ))).
     pub(super) share: f64,
+}
+
+/// The creep compliance, times 2 (1 − ν), over the length that a load has moved.
+#[derive(Debug, Clone)]
+pub(super) struct MovingCreep {
+    /// At once, \[1/Pa].
+    pub(super) instant: f64,
+    /// [1/(Pa m)].
+    pub(super) flow_per_length: f64,
+    /// Compliance \[1/Pa] and memory \[m] of each retardation element.
+    pub(super) delays: Vec<[f64; 2]>,
 }
 
 impl Delay {
@@ -113,6 +124,20 @@ impl SlidingCreep {
             memory.max(self.base.reach())
         } else {
             memory
+        }
+    }
+
+    /// The creep over lengths.
+    pub(super) fn moving(&self) -> MovingCreep {
+        let elements = self.spectrum.elements().iter();
+        let delays = elements.map(|element| {
+            let memory = self.velocity * element.retardation_time;
+            [self.half_space_factor * element.compliance, memory]
+        });
+        MovingCreep {
+            instant: self.half_space_factor * self.spectrum.instantaneous_compliance(),
+            flow_per_length: self.flow_per_length(),
+            delays: delays.collect(),
         }
     }
 

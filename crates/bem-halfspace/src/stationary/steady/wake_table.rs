@@ -45,6 +45,11 @@ impl WakeTable {
         *table = Arc::new(Self::new(creep, aspect, reach, table));
     }
 
+    /// The table of a creep up to `reach`.
+    pub(super) fn of(creep: &ElementCreep, aspect: f64, reach: [usize; 2]) -> Self {
+        Self::new(creep, aspect, reach, &Self::default())
+    }
+
     /// The table up to `reach`; what a `smaller` one of the same kind has is not computed again where that is simple.
     fn new(creep: &ElementCreep, aspect: f64, reach: [usize; 2], smaller: &Self) -> Self {
         let n_values = (2 * reach[0] + 1) * (reach[1] + 1);

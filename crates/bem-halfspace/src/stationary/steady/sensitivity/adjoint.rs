@@ -1,0 +1,57 @@
+//! Adjoint loads: solutions with the transposed kernel, which is that of the motion in the opposite direction.
+//!
+//! A contact that is turned about across the motion has the transposed equations as its own, so that the kernel and the
+//! preconditioner of the contact serve both.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::stationary::conjugate_residuals::{minimise, norm};
+use crate::stationary::steady::contact_equations::{MOST_DIRECTIONS, is_factorised};
+use crate::stationary::steady::filter::Product;
+use crate::stationary::steady::mesh::Mesh;
+use crate::stationary::steady::plans::Plans;
+use crate::stationary::steady::wiener_hopf::WienerHopf;
+
+/// Residual of the adjoint equations over their right side.
+const TOLERANCE: f64 = 1e-9;
+
+/// The loads on a contact that solve `Kᵀ y = r` for each of the right sides, in the units of the mesh; none where their
+/// iteration does not end.
+pub(super) fn solve_transposed<const N: usize>(
+    mesh: &Mesh,
+    plans: &mut Plans,
+    contact: &[usize],
+    right: [Vec<f64>; N],
+) -> Option<[Vec<f64>; N]> {
+    let region = mesh.region(contact.iter().copied());
+    let n = contact.len();
+    if is_factorised(n, region.n_places()) {
+        let entry = |row: usize, column: usize| mesh.reversed(contact[row], contact[column]);
+        let factors = DMatrix::from_fn(n, n, entry).lu();
+        let solved = right.map(|right| factors.solve(&DVector::from_vec(right)));
+        let is_solved = solved.iter().all(Option::is_some);
+        return is_solved
+            .then(|| solved.map(|one| one.map_or_else(Vec::new, |one| one.data.into())));
+    }
+    let region = region.turned();
+    let mut product = Product::new(plans.kernel(region.shape), &region);
+    let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
+    let mut has_ended = true;
+    let solved = right.map(|right| {
+        let allowed = TOLERANCE * norm(&right);
+        let mut loads = vec![0.0; n];
+        let mut residual: Vec<f64> = right.iter().map(|value| -value).collect();
+        let unknowns = [&mut loads[..], &mut residual[..]];
+        let most = [MOST_DIRECTIONS; 2];
+        minimise::<f64>(unknowns, &vec![1.0; n], most, |residual, from| {
+            (norm(residual) > allowed).then(|| {
+                let direction = preconditioner.loads(from, &region);
+                let moved = product.apply(0, &direction, &region);
+                [direction, moved]
+            })
+        });
+        has_ended &= norm(&residual) <= allowed;
+        loads
+    });
+    has_ended.then_some(solved)
+}

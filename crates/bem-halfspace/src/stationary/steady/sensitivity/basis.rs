@@ -1,0 +1,175 @@
+//! What a quantity asks of the creep: its derivative by the kernel, summed over each part of the creep once.
+
+use crate::parallel::reductions::dot;
+use crate::stationary::steady::mesh::Mesh;
+use crate::stationary::steady::retarded_potential::RetardedPotential;
+use crate::stationary::steady::sensitivity::offsets::Offsets;
+use crate::stationary::steady::sliding_creep::{
+    Delay, ElementCreep, MovingCreep, SLOWEST, SlidingCreep,
+};
+use crate::stationary::steady::wake_table::WakeTable;
+use crate::{Base, BemError};
+
+/// Relative step of the differences by the length of a memory; their error is its square.
+const STEP: f64 = 1e-3;
+
+/// Sums of the kernels of all parts of the creep with the weights of a quantity, per compliance of an element.
+#[derive(Debug)]
+pub(super) struct Basis {
+    offsets: Offsets,
+    kernel: Kernel,
+    creep: MovingCreep,
+    instant: f64,
+    flow: f64,
+    delays: Vec<OfDelay>,
+}
+
+/// What is common to all kernels of a grid.
+#[derive(Debug, Clone)]
+struct Kernel {
+    spacing: f64,
+    aspect: f64,
+    shift: f64,
+    base: Base,
+    /// Compliance over the length of an element, \[1/Pa].
+    compliance: f64,
+}
+
+#[derive(Debug)]
+struct OfDelay {
+    by_compliance: f64,
+    /// By the logarithm of its memory, per compliance.
+    by_memory: f64,
+}
+
+impl Basis {
+    /// One for each quantity; the kernels are computed once for all.
+    pub(super) fn of_all(
+        quantities: Vec<Offsets>,
+        creep: &SlidingCreep,
+        mesh: &Mesh,
+    ) -> Result<Vec<Self>, BemError> {
+        let spacing = mesh.options.spacing[0];
+        let on_grid = &mesh.loading.creep;
+        let kernel = Kernel {
+            spacing,
+            aspect: mesh.aspect(),
+            shift: on_grid.shift,
+            base: on_grid.base.clone(),
+            compliance: creep.compliance(spacing)?,
+        };
+        let creep = creep.moving();
+        let steps = [1.0, 1.0 + STEP, 1.0 - STEP];
+        let memories = creep.delays.iter().map(|[_, memory]| *memory);
+        let rates = memories.flat_map(|memory| steps.map(|step| spacing / (memory * step)));
+        let recovering = kernel.recovering(&quantities, &rates.collect::<Vec<f64>>());
+        let flows = creep.flow_per_length > 0.0;
+        let bases = quantities
+            .into_iter()
+            .zip(recovering)
+            .map(|(offsets, sums)| {
+                let delays = sums[1..].chunks_exact(steps.len());
+                let delays = delays.map(|sums| OfDelay {
+                    by_compliance: sums[0],
+                    by_memory: (sums[1] - sums[2]) / (2.0 * STEP),
+                });
+                Self {
+                    instant: sums[0],
+                    flow: if flows { kernel.flow(&offsets) } else { 0.0 },
+                    delays: delays.collect(),
+                    kernel: kernel.clone(),
+                    creep: creep.clone(),
+                    offsets,
+                }
+            });
+        Ok(bases.collect())
+    }
+
+    /// The change from one creep to another on the same base, to first order; of as many delays as here.
+    pub(super) fn between_creeps(&self, [from, to]: [&MovingCreep; 2]) -> f64 {
+        let instant = self.instant * (to.instant - from.instant);
+        let flow = self.flow * self.kernel.spacing * (to.flow_per_length - from.flow_per_length);
+        let ends = from.delays.iter().zip(&to.delays);
+        let delays = ends.zip(&self.creep.delays).zip(&self.delays);
+        let delayed = delays.map(|(((from, to), [compliance, _]), of)| {
+            of.by_compliance * (to[0] - from[0])
+                + of.by_memory * compliance * (to[1] / from[1]).ln()
+        });
+        (instant + flow + delayed.sum::<f64>()) / self.kernel.compliance
+    }
+
+    pub(super) fn has_delays_of(&self, creep: &MovingCreep) -> bool {
+        creep.delays.len() == self.delays.len()
+    }
+
+    /// The change from one creep on its base to another.
+    pub(super) fn between_elastomers(&self, ends: [&SlidingCreep; 2]) -> Result<f64, BemError> {
+        let kernel = &self.kernel;
+        let value = |creep: &SlidingCreep| -> Result<f64, BemError> {
+            let mut part = creep.over(kernel.spacing)?;
+            part.shift = kernel.shift;
+            let compliance = creep.compliance(kernel.spacing)?;
+            Ok(compliance / kernel.compliance * kernel.sum_of(&self.offsets, &part))
+        };
+        Ok(value(ends[1])? - value(ends[0])?)
+    }
+}
+
+/// A retardation element of unit compliance.
+fn unit_delay(rate: f64) -> Delay {
+    let share = -(-rate).exp_m1();
+    Delay { rate, share }
+}
+
+impl Kernel {
+    /// The sums of each quantity with the kernels of what recovers at once, and of retardation elements of unit compliance.
+    fn recovering(&self, quantities: &[Offsets], rates: &[f64]) -> Vec<Vec<f64>> {
+        let mut sums = vec![vec![0.0; 1 + rates.len()]; quantities.len()];
+        let Some([rows, columns]) = quantities.first().map(Offsets::reach) else {
+            return sums;
+        };
+        let part = ElementCreep {
+            delays: rates.iter().copied().map(unit_delay).collect(),
+            ..self.part()
+        };
+        let offset = |row: usize| row as f64 - rows as f64 + self.shift;
+        let first = [offset(2 * rows), self.aspect];
+        let mut retarded = RetardedPotential::new(&part, first, columns + 1);
+        for row in (0..=2 * rows).rev() {
+            retarded.step(offset(row));
+            let at_once: Vec<f64> = (0..=columns).map(|column| retarded.here(column)).collect();
+            for (sums, offsets) in sums.iter_mut().zip(quantities) {
+                sums[0] += dot(offsets.row(row), &at_once);
+                for (delay, sum) in sums[1..].iter_mut().enumerate() {
+                    *sum += dot(offsets.row(row), retarded.of_delay(delay));
+                }
+            }
+        }
+        sums
+    }
+
+    /// The part of the creep that nothing has been put into.
+    fn part(&self) -> ElementCreep {
+        ElementCreep {
+            shift: self.shift,
+            base: self.base.clone(),
+            ..ElementCreep::default()
+        }
+    }
+
+    fn flow(&self, offsets: &Offsets) -> f64 {
+        let mut part = self.part();
+        if self.base.is_rigid() {
+            let (rate, share) = (SLOWEST, 1.0);
+            part.delays.push(Delay { rate, share });
+        } else {
+            part.flow = 1.0;
+        }
+        self.sum_of(offsets, &part)
+    }
+
+    /// The sum with the kernel of a part of the creep.
+    fn sum_of(&self, offsets: &Offsets, part: &ElementCreep) -> f64 {
+        offsets.with_kernel(&WakeTable::of(part, self.aspect, offsets.reach()))
+    }
+}

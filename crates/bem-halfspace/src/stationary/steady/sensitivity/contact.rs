@@ -1,0 +1,143 @@
+//! The contact on one grid, and the adjoint loads of its friction and its depth.
+
+use crate::BemError;
+use crate::elements::bounds::Bounds;
+use crate::stationary::steady::filter::Product;
+use crate::stationary::steady::mesh::Mesh;
+use crate::stationary::steady::pivoting::Solution;
+use crate::stationary::steady::plans::Plans;
+use crate::stationary::steady::region::Region;
+use crate::stationary::steady::sensitivity::adjoint::solve_transposed;
+use crate::stationary::steady::sensitivity::offsets::{Field, Offsets};
+
+/// The loads of a contact in the units of the mesh.
+pub(super) struct Contact<'mesh> {
+    pub(super) mesh: &'mesh Mesh,
+    pub(super) elements: Vec<usize>,
+    pub(super) loads: Vec<f64>,
+    /// Sum of all loads.
+    pub(super) total: f64,
+    bounds: Bounds,
+}
+
+/// Solutions `Kᵀ y = r` in the units of the mesh.
+pub(super) struct Adjoint {
+    /// For the derivative of the friction by the loads.
+    pub(super) friction: Vec<f64>,
+    /// For a unit depth.
+    pub(super) depth: Vec<f64>,
+}
+
+impl<'mesh> Contact<'mesh> {
+    pub(super) fn new(mesh: &'mesh Mesh, solution: &Solution) -> Self {
+        let (elements, loads): (Vec<usize>, Vec<f64>) = solution.loads.iter().copied().unzip();
+        let places = elements.iter().flat_map(|&element| mesh.places(element));
+        Self {
+            total: mesh.total_load(solution.loads.iter().copied()),
+            bounds: Bounds::of(places).unwrap_or(Bounds::EMPTY),
+            mesh,
+            elements,
+            loads,
+        }
+    }
+
+    /// Sum over the whole contact.
+    pub(super) fn sum(&self, loads: &[f64]) -> f64 {
+        let elements = self.elements.iter().copied();
+        self.mesh.total_load(elements.zip(loads.iter().copied()))
+    }
+
+    /// Loads on the whole contact.
+    fn field(&self, loads: &[f64]) -> Field {
+        let elements = self.elements.iter().copied();
+        let whole: Vec<(usize, f64)> = elements.zip(loads.iter().copied()).collect();
+        Field::new(&self.bounds, self.mesh.loaded(&whole).into_iter())
+    }
+
+    /// The weights of the kernel for a quantity with these adjoint loads.
+    pub(super) fn offsets(&self, adjoint: &[f64]) -> Offsets {
+        Offsets::of(&self.field(adjoint), &self.field(&self.loads))
+    }
+
+    /// The same for the mean slope of the displacements under the load.
+    pub(super) fn offsets_of_slope(&self) -> Offsets {
+        self.offsets(&self.loads).of_slope(self.total.recip())
+    }
+
+    /// The friction, in units of the depth scale over the length of an element, and the adjoint loads.
+    pub(super) fn adjoint(
+        &self,
+        slopes: &Slopes,
+        plans: &mut Plans,
+    ) -> Result<(f64, Adjoint), BemError> {
+        let pairs = self.loads.iter().zip(&slopes.at_elements);
+        let weights = self
+            .elements
+            .iter()
+            .map(|&element| self.mesh.weight(element));
+        let mean = pairs
+            .zip(weights)
+            .map(|((load, slope), weight)| weight * load * slope);
+        let mean = mean.sum::<f64>() / self.total;
+        let by_loads = slopes.at_elements.iter().zip(&slopes.by_others);
+        let by_loads = by_loads.map(|(here, others)| (here + others - mean) / self.total);
+        let right = [by_loads.collect(), vec![1.0; self.elements.len()]];
+        let solved = solve_transposed(self.mesh, plans, &self.elements, right);
+        let [friction, depth] = solved.ok_or(BemError::ContactNotConverged {
+            iterations: 1,
+            residual: f64::NAN,
+            tolerance: self.mesh.options.tolerance,
+        })?;
+        Ok((mean, Adjoint { friction, depth }))
+    }
+
+    /// The slopes of the body alone.
+    pub(super) fn slopes_of_body(&self, own: Vec<f64>) -> Slopes {
+        Slopes {
+            by_others: vec![0.0; own.len()],
+            at_elements: own,
+        }
+    }
+
+    /// The slopes of the displacements, with what those of the body are over them.
+    pub(super) fn slopes_of_surface(&self, own: &[f64], plans: &mut Plans) -> Slopes {
+        let n = self.elements.len();
+        let places = || {
+            self.elements
+                .iter()
+                .map(|&element| self.mesh.places(element))
+        };
+        let moved = |step: fn(usize) -> usize| {
+            places().map(move |both| both.map(|[row, column]| [step(row), column]))
+        };
+        // Where two are the same the last one counts.
+        let all = moved(|row| row + 1)
+            .chain(moved(|row| row - 1))
+            .chain(places());
+        let region = Region::around(all.collect::<Vec<_>>().iter().copied());
+        let loads = [&vec![0.0; 2 * n], &self.loads[..]].concat();
+        let mut differences = |region: &Region| -> Vec<f64> {
+            let mut product = Product::new(plans.kernel(region.shape), region);
+            let moved = product.apply(0, &loads, region);
+            (0..n)
+                .map(|element| 0.5 * (moved[element] - moved[n + element]))
+                .collect()
+        };
+        let [under, turned] = [differences(&region), differences(&region.turned())];
+        Slopes {
+            at_elements: own
+                .iter()
+                .zip(&under)
+                .map(|(own, under)| own - under)
+                .collect(),
+            by_others: turned,
+        }
+    }
+}
+
+/// The slope under each element, of which the friction is the mean, and its derivative by the load of another one, summed
+/// over the loads of all.
+pub(super) struct Slopes {
+    at_elements: Vec<f64>,
+    by_others: Vec<f64>,
+}

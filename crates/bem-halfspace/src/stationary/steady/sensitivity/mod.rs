@@ -1,0 +1,223 @@
+//! How a stationary contact changes with what it was solved for, to first order: one adjoint solution for each quantity.
+//!
+//! With the loads x of the contact, the kernel K, the heights h and the depth δ the contact solves `K x + h − δ = 0`, and for
+//! a quantity J(x) the adjoint loads λ solve
+//!
+//! ```text
+//! Kᵀ λ = η − ∂J/∂x,      Σ λ = 0 under a force, η = 0 at a depth,      dJ/dθ = ∂J/∂θ + λᵀ (∂K/∂θ x + ∂h/∂θ)
+//! ```
+//!
+//! (Tardieu & Constantinescu 2000). The contact itself moves, but where the pressure vanishes at its edge its motion counts in
+//! second order only. Everything that is asked for afterwards is a sum: over the offsets between elements for the material,
+//! over the elements for the body.
+
+mod adjoint;
+mod basis;
+mod contact;
+mod offsets;
+mod state;
+
+use indenters::{Control, SlidingLoad, Surface};
+use numerics::{Estimate, in_range};
+use rheology::Material;
+
+use crate::stationary::steady::line::Strip;
+use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::sliding_creep::SlidingCreep;
+use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
+use crate::{BemError, Elastomer};
+use state::State;
+
+/// Spacing of the grids whose derivatives are compared with those of the finest.
+const COARSER: f64 = std::f64::consts::SQRT_2;
+/// Shifts of the grids that are averaged.
+const PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
+const PHASES_OF_STRIP: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
+/// Error of the fine grids over their difference from the coarse ones, if it falls in proportion to the elements.
+const WEIGHT: f64 = 2.5;
+/// Where a depth has derivatives.
+const AT_A_DEPTH: &str = "0 on a half space at a depth, which otherwise belongs to a distance";
+
+/// The change of a stationary state to first order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[must_use]
+pub struct Change<T> {
+    /// Of the friction coefficient.
+    pub friction_coefficient: T,
+    /// Of the indentation depth under a force, \[m]; none in plane strain, and where the half space flows.
+    pub indentation_depth: Option<T>,
+    /// Of the normal force at a depth, \[N].
+    pub normal_force: Option<T>,
+}
+
+/// A stationary contact with its adjoint loads, on grids whose difference gives the bars.
+#[derive(Debug)]
+#[must_use]
+pub struct SteadySensitivity {
+    fine: Vec<State>,
+    coarse: Vec<State>,
+}
+
+impl SteadySensitivity {
+    /// Around the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one that is
+    /// coarser by √2.
+    ///
+    /// # Errors
+    /// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] at a depth on a half space that
+    /// flows, which belongs to a distance.
+    pub fn new(
+        surface: &(impl Surface + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        options: &SteadyOptions,
+    ) -> Result<Self, BemError> {
+        let loading = Loading::new(&surface, elastomer, load, &options.footprint)?;
+        let given = matches!(loading.control, Control::IndentationDepth(_));
+        let fluidity = loading.creep.fluidity();
+        in_range("fluidity", fluidity, !given || fluidity <= 0.0, AT_A_DEPTH)?;
+        Self::of(&surface, &loading, options, PHASES)
+    }
+
+    /// The same in plane strain, as of [`steady_line`](super::steady_line()).
+    ///
+    /// # Errors
+    /// As for [`steady_line_on_grid`](super::steady_line_on_grid).
+    pub fn of_line(
+        profile: &(impl Surface + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        options: &LineOptions,
+    ) -> Result<Self, BemError> {
+        let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
+        let strip = Strip::new(&profile, &loading);
+        Self::of(&strip, &loading, &options.on_strip(&strip), PHASES_OF_STRIP)
+    }
+
+    fn of(
+        surface: &dyn Surface,
+        loading: &Loading,
+        options: &SteadyOptions,
+        phases: [[f64; 2]; 2],
+    ) -> Result<Self, BemError> {
+        let mut reuse = Reuse::default();
+        let mut states = |factor: f64| -> Result<Vec<State>, BemError> {
+            let grids = phases.map(|phase| SteadyOptions {
+                spacing: loading.scaled(options.spacing, factor),
+                phase,
+                ..*options
+            });
+            let state = |options| State::new(surface, loading, options, &mut reuse);
+            grids.into_iter().map(state).collect()
+        };
+        let coarse = states(COARSER)?;
+        Ok(Self {
+            fine: states(1.0)?,
+            coarse,
+        })
+    }
+
+    /// The change from one body to another, both near that of the state.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] where a height in the contact is not finite.
+    pub fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Change<Estimate>, BemError> {
+        self.change(|state| state.between_bodies(bodies))
+    }
+
+    /// The change from one material and velocity to another, both near those of the state, on the same base; fast where all
+    /// have as many retardation elements.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for a velocity out of range, and [`BemError::Material`].
+    pub fn between_materials(
+        &self,
+        materials: [&dyn Material; 2],
+        velocities: [f64; 2],
+    ) -> Result<Change<Estimate>, BemError> {
+        let [from, to] = [0, 1].map(|end| SlidingCreep::new(materials[end], velocities[end]));
+        let ends = [from?, to?];
+        self.change(|state| state.between_materials(ends.each_ref()))
+    }
+
+    /// The same with a base each, as layers of other thicknesses or Poisson ratios have.
+    ///
+    /// # Errors
+    /// As for [`between_materials`](Self::between_materials).
+    pub fn between_elastomers(
+        &self,
+        elastomers: [&dyn Elastomer; 2],
+        velocities: [f64; 2],
+    ) -> Result<Change<Estimate>, BemError> {
+        let [from, to] = [0, 1].map(|end| SlidingCreep::new(elastomers[end], velocities[end]));
+        let ends = [from?, to?];
+        self.change(|state| state.between_elastomers(ends.each_ref()))
+    }
+
+    /// The friction coefficient on these grids.
+    pub fn friction_coefficient(&self) -> Estimate {
+        let of = |states: &[State]| {
+            let change = |state: &State| Change {
+                friction_coefficient: state.friction_coefficient,
+                indentation_depth: None,
+                normal_force: None,
+            };
+            mean(states.iter().map(change).collect())
+        };
+        compared(of(&self.fine), of(&self.coarse)).friction_coefficient
+    }
+
+    /// The derivative by the normal force, per newton, or by the depth, per metre, whichever is given.
+    pub fn by_load(&self) -> Change<Estimate> {
+        let of = |states: &[State]| mean(states.iter().map(State::by_load).collect());
+        compared(of(&self.fine), of(&self.coarse))
+    }
+
+    fn change(
+        &self,
+        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
+    ) -> Result<Change<Estimate>, BemError> {
+        let mean_of = |states: &[State]| -> Result<Mean, BemError> {
+            let changes = states.iter().map(&of).collect::<Result<_, _>>()?;
+            Ok(mean(changes))
+        };
+        Ok(compared(mean_of(&self.fine)?, mean_of(&self.coarse)?))
+    }
+}
+
+/// A mean over shifted grids, and how far they are apart.
+type Mean = Change<[f64; 2]>;
+
+fn mean(changes: Vec<Change<f64>>) -> Mean {
+    let of = |values: Vec<f64>| {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let apart = values.iter().map(|value| (value - mean).abs());
+        [mean, apart.fold(0.0, f64::max)]
+    };
+    let optional = |quantity: fn(&Change<f64>) -> Option<f64>| {
+        let values: Option<Vec<f64>> = changes.iter().map(quantity).collect();
+        values.map(of)
+    };
+    Change {
+        friction_coefficient: of(changes.iter().map(|one| one.friction_coefficient).collect()),
+        indentation_depth: optional(|one| one.indentation_depth),
+        normal_force: optional(|one| one.normal_force),
+    }
+}
+
+fn compared(fine: Mean, coarse: Mean) -> Change<Estimate> {
+    let estimate = |[value, apart]: [f64; 2], [other, _]: [f64; 2]| {
+        Estimate::new(value, WEIGHT * (value - other).abs() + apart)
+    };
+    let both = |fine: Option<[f64; 2]>, coarse: Option<[f64; 2]>| {
+        fine.zip(coarse)
+            .map(|(fine, coarse)| estimate(fine, coarse))
+    };
+    Change {
+        friction_coefficient: estimate(fine.friction_coefficient, coarse.friction_coefficient),
+        indentation_depth: both(fine.indentation_depth, coarse.indentation_depth),
+        normal_force: both(fine.normal_force, coarse.normal_force),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,209 @@
+//! Derivatives against differences of solutions on one and the same grid, whose contact does not change.
+
+use indenters::{FlatCone, PowerProfile, Surface};
+use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
+
+use super::*;
+use crate::stationary::steady::SteadySliding;
+use crate::{Footprint, Layer};
+
+/// Relative step of the differences.
+const STEP: f64 = 1e-6;
+
+fn prony(scale: f64, time: f64, poisson_ratio: f64) -> Compressible {
+    let branch = |modulus, relaxation_time| RelaxationBranch {
+        modulus,
+        relaxation_time,
+    };
+    let branches = vec![branch(3.0 * scale, time), branch(2.0, 1.0)];
+    let spectrum = RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum");
+    let material = Prony::new(spectrum).expect("a material");
+    Compressible::new(&material, poisson_ratio).expect("a material")
+}
+
+/// Factors of the numbers of a problem: curvature, a modulus, its time, Poisson ratio, thickness, load, velocity.
+type Factors = [f64; 7];
+
+struct Case {
+    name: &'static str,
+    body: fn(f64) -> Box<dyn Surface>,
+    thickness: f64,
+    control: Control,
+    flows: bool,
+}
+
+impl Case {
+    fn material(&self, factors: &Factors) -> Compressible {
+        if self.flows {
+            let viscous = Viscous::new(factors[1]).expect("a material");
+            return Compressible::new(&viscous, 0.3 * factors[3]).expect("a material");
+        }
+        prony(factors[1], 0.3 * factors[2], 0.3 * factors[3])
+    }
+
+    fn load(&self, factors: &Factors) -> SlidingLoad {
+        let velocity = 2.0 * factors[6];
+        let load = match self.control {
+            Control::NormalForce(force) => SlidingLoad::new(force * factors[5], velocity),
+            Control::IndentationDepth(depth) => SlidingLoad::at_depth(depth * factors[5], velocity),
+        };
+        load.expect("a load")
+    }
+
+    fn state(
+        &self,
+        factors: &Factors,
+        options: SteadyOptions,
+        start: Option<&SteadySliding>,
+    ) -> (State, SteadySliding) {
+        let (surface, material) = ((self.body)(factors[0]), self.material(factors));
+        let layer = Layer::new(&material, self.thickness * factors[4]).expect("a layer");
+        let loading = Loading::new(&*surface, &layer, &self.load(factors), &options.footprint);
+        let mut reuse = Reuse {
+            solution: start.cloned(),
+            ..Reuse::default()
+        };
+        let state = State::new(&*surface, &loading.expect("a loading"), options, &mut reuse);
+        (state.expect("a state"), reuse.solution.expect("a solution"))
+    }
+
+    /// Friction, and depth or force.
+    fn solved(&self, factors: &Factors, options: SteadyOptions, start: &SteadySliding) -> [f64; 2] {
+        let (state, found) = self.state(factors, options, Some(start));
+        let other = match self.control {
+            Control::NormalForce(_) => found.depth.at(None),
+            Control::IndentationDepth(_) => found.normal_force,
+        };
+        [state.friction_coefficient, other]
+    }
+}
+
+/// What of a problem a factor changes.
+const NAMES: [&str; 7] = [
+    "curvature",
+    "modulus",
+    "time",
+    "ratio",
+    "thickness",
+    "load",
+    "velocity",
+];
+
+fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
+    let ends = [-STEP, STEP].map(|step| {
+        let mut factors = [1.0; 7];
+        factors[index] += step;
+        factors
+    });
+    let materials = ends.map(|factors| case.material(&factors));
+    let change = match NAMES[index] {
+        "curvature" => {
+            let bodies = ends.map(|factors| (case.body)(factors[0]));
+            state.between_bodies(bodies.each_ref().map(|body| &**body))
+        }
+        "load" => {
+            let [Control::NormalForce(given) | Control::IndentationDepth(given)] = [case.control];
+            let by_load = state.by_load();
+            let times = |value: f64| 2.0 * STEP * given * value;
+            Ok(Change {
+                friction_coefficient: times(by_load.friction_coefficient),
+                indentation_depth: by_load.indentation_depth.map(times),
+                normal_force: by_load.normal_force.map(times),
+            })
+        }
+        name => {
+            let creeps = [0, 1].map(|end| {
+                let thickness = case.thickness * ends[end][4];
+                let layer = Layer::new(&materials[end], thickness).expect("a layer");
+                SlidingCreep::new(&layer, case.load(&ends[end]).velocity()).expect("a creep")
+            });
+            match name {
+                "ratio" | "thickness" => state.between_elastomers(creeps.each_ref()),
+                _ => state.between_materials(creeps.each_ref()),
+            }
+        }
+    };
+    change.expect("a change")
+}
+
+/// The place of the gap in an element follows material and velocity, and the derivatives leave that out, which vanishes with
+/// the elements.
+#[test]
+fn derivatives_are_those_of_the_equations_on_the_grid() {
+    let paraboloid =
+        |factor| Box::new(PowerProfile::paraboloid(factor).expect("a body")) as Box<dyn Surface>;
+    let cone =
+        |factor| Box::new(PowerProfile::cone(0.3 * factor).expect("a body")) as Box<dyn Surface>;
+    let flat =
+        |factor| Box::new(FlatCone::new(0.3, 0.3 * factor).expect("a body")) as Box<dyn Surface>;
+    let case = |name, body, control| Case {
+        name,
+        body,
+        thickness: f64::INFINITY,
+        control,
+        flows: false,
+    };
+    let force = Control::NormalForce(4.0);
+    let cases = [
+        case("paraboloid", paraboloid, force),
+        case("cone", cone, Control::IndentationDepth(0.3)),
+        Case {
+            thickness: 0.8,
+            ..case("layer", paraboloid, force)
+        },
+        Case {
+            flows: true,
+            ..case("dashpot", paraboloid, force)
+        },
+        case("flat cone", flat, Control::NormalForce(1.0)),
+    ];
+    let side = [-1.7, 1.7];
+    let mut options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
+    options.tolerance = 1e-12;
+    for case in cases {
+        let (state, solution) = case.state(&[1.0; 7], options, None);
+        let found = if case.flows {
+            solution.friction_coefficient
+        } else {
+            solution.friction_from_dissipation
+        };
+        let off = (state.friction_coefficient - found).abs();
+        assert!(off < 1e-11, "{}: {off:e}", case.name);
+        let rows = [0, 1, 2, 3, 4, 5, 6].map(|index| {
+            let ends = [-STEP, STEP].map(|step| {
+                let mut factors = [1.0; 7];
+                factors[index] += step;
+                case.solved(&factors, options, &solution)
+            });
+            let change = changed(&case, &state, index);
+            let other = change.indentation_depth.or(change.normal_force);
+            let got = [Some(change.friction_coefficient), other];
+            [0, 1].map(|quantity| {
+                let expected = (ends[1][quantity] - ends[0][quantity]) / STEP;
+                [
+                    expected,
+                    got[quantity].map_or(expected, |change| change / STEP),
+                ]
+            })
+        });
+        for quantity in 0..2 {
+            let largest = rows
+                .iter()
+                .map(|row| row[quantity][0].abs())
+                .fold(0.0, f64::max);
+            for (row, name) in rows.iter().zip(NAMES) {
+                let [expected, got] = row[quantity];
+                let allowed = if ["modulus", "time", "velocity"].contains(&name) {
+                    6e-3
+                } else {
+                    2e-6
+                };
+                assert!(
+                    (got - expected).abs() < allowed * largest,
+                    "{}, {name}, {quantity}: {got:e} instead of {expected:e}, largest {largest:e}",
+                    case.name
+                );
+            }
+        }
+    }
+}

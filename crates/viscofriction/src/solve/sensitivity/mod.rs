@@ -1,0 +1,89 @@
+//! How much an answer depends on each number of its scene.
+
+mod adjoint;
+mod differences;
+mod parameters;
+
+use std::path::Path;
+
+use numerics::Estimate;
+use serde::ser::{Serialize, SerializeMap as _, Serializer};
+
+use super::answer::Answer;
+use super::error::{Result, SolveError};
+use super::problem::{Motion, Problem};
+use crate::files::ReadFile;
+use crate::scene::{Method, Scene};
+use parameters::Numbers;
+
+/// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
+/// one-dimensional model.
+pub(super) const EXACT: f64 = 1e-9;
+
+/// Derivatives of the quantities of an answer by one number of its scene: d ln(quantity)/d ln(number).
+///
+/// What is given, or has no derivative by the method, is left out.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Sensitivity {
+    /// The path of the number in the scene, such as `material.prony.branches[0].modulus`.
+    pub parameter: String,
+    /// Of the friction coefficient.
+    pub friction_coefficient: Option<Estimate>,
+    /// Of the normal force, where the depth is given.
+    pub normal_force: Option<Estimate>,
+    /// Of the depth, where the force is given.
+    pub indentation_depth: Option<Estimate>,
+    /// Of the contact area; of closed forms only.
+    pub contact_area: Option<Estimate>,
+}
+
+/// The derivatives of an answer by all numbers of its scene that are moduli, times, ratios, loads, speeds or lengths.
+///
+/// # Errors
+/// [`SolveError::NoSensitivity`] for methods and motions without.
+pub fn sensitivities(
+    scene: &Scene,
+    (folder, read): (&Path, ReadFile),
+    problem: &Problem,
+    answer: &Answer,
+) -> Result<Vec<Sensitivity>> {
+    let numbers = Numbers::new(scene, folder, read)?;
+    let asked = answer.requested_quantity();
+    let is_exact = asked.error <= EXACT * asked.value.abs();
+    match (answer.method, problem.motion()) {
+        (Method::BemSteady, Motion::Sliding(load)) => {
+            adjoint::sensitivities(&numbers, problem, &load, answer)
+        }
+        (Method::Analytic | Method::MdrSteady, _) if is_exact => {
+            differences::sensitivities(&numbers, answer.method, answer)
+        }
+        (method, _) => Err(SolveError::NoSensitivity { method }),
+    }
+}
+
+impl Sensitivity {
+    /// The derivatives by their names in JSON.
+    pub const fn named(&self) -> [(&'static str, Option<Estimate>); 4] {
+        [
+            ("friction_coefficient", self.friction_coefficient),
+            ("normal_force", self.normal_force),
+            ("indentation_depth", self.indentation_depth),
+            ("contact_area", self.contact_area),
+        ]
+    }
+}
+
+impl Serialize for Sensitivity {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("parameter", &self.parameter)?;
+        for (name, known) in self.named() {
+            if let Some(known) = known {
+                map.serialize_entry(name, &known.value)?;
+                map.serialize_entry(&format!("{name}_error"), &known.error)?;
+            }
+        }
+        map.end()
+    }
+}
