@@ -14,6 +14,7 @@ mod malformed;
 mod own_materials;
 mod rough_scenes;
 mod scenes;
+mod sensitivities;
 mod shared;
 mod support;
 mod windows;

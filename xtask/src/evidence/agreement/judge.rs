@@ -13,6 +13,7 @@ use viscofriction::scene::Method;
 use viscofriction::solve::{Answer, SolveError, plan};
 use viscofriction::{Estimate, Watch};
 
+use super::derivatives;
 use super::relation::{Answered, Derived, Relation, has_powers};
 use crate::evidence::request::presses;
 use crate::evidence::sample::{Case, Source, sample};
@@ -135,7 +136,9 @@ fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
     while rows.len() <= TRIED && !relations.is_empty() {
         let place = random.choice(&(0..relations.len()).collect::<Vec<_>>());
         let relation = relations.swap_remove(place);
-        if let Some(derived) = relation.derive(first, random)? {
+        if relation == Relation::Derivatives {
+            rows.extend(added_up(first)?);
+        } else if let Some(derived) = relation.derive(first, random)? {
             let (row, cost) = measure(|| compared(relation, first, &derived));
             let seconds = cost.seconds;
             rows.push(Row { seconds, ..row? });
@@ -263,7 +266,7 @@ fn relative(known: &Estimate) -> f64 {
 }
 
 /// All numbers with their errors; those of theories are exact, and those of the corners of a contact share one.
-fn quantities(answer: &Answer) -> Vec<(String, Estimate)> {
+pub(super) fn quantities(answer: &Answer) -> Vec<(String, Estimate)> {
     let numbers = answer.numbers();
     let find = |name: &str| numbers.iter().find(|(other, _)| other == name)?.1;
     let is_error = |name: &str| name.ends_with("_error") || name.starts_with("error_");
@@ -275,6 +278,26 @@ fn quantities(answer: &Answer) -> Vec<(String, Estimate)> {
         Some((name.clone(), Estimate::new((*value)?, error)))
     });
     known.collect()
+}
+
+/// The sum of derivatives that is farthest from what it must be.
+fn added_up(first: Answered) -> Result<Option<Row>> {
+    let (sums, cost) = measure(|| derivatives::sums(first));
+    let mut row = Row::of(Relation::Derivatives.into());
+    row.method = first.answer.method.name().to_owned();
+    row.seconds = cost.seconds;
+    for sum in sums? {
+        let part = (sum.value - sum.expected).abs() / sum.allowed;
+        if row.part.is_none_or(|worst| part > worst) {
+            row.part = Some(part.min(f64::MAX));
+            (row.value, row.other_value) = (Some(sum.value), Some(sum.expected));
+            (row.allowed, row.quantity) = (Some(sum.allowed), sum.quantity);
+        }
+    }
+    if row.part.is_some_and(|part| part > 1.0) {
+        row.verdict = Verdict::Differs;
+    }
+    Ok(row.part.is_some().then_some(row))
 }
 
 /// Solves the other scene, and compares all that both know.

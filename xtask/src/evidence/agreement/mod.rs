@@ -1,5 +1,6 @@
 //! Do answers contradict each other? Random scenes over all that a scene can be, and relations that their answers must obey.
 
+mod derivatives;
 mod judge;
 mod relation;
 mod units;

@@ -45,6 +45,8 @@ pub(super) enum Relation {
     Mirrored,
     /// A height map whose file holds the heights of the surface instead of gaps, seen from the other end.
     OtherFile,
+    /// Derivatives of the same scene in other units.
+    Derivatives,
     /// One thread and three.
     OtherThreads,
     /// A history that begins later, after a time without load.

@@ -55,6 +55,7 @@ pub fn sensitivities(
         (Method::BemSteady, Motion::Sliding(load)) => {
             adjoint::sensitivities(&numbers, problem, &load, answer)
         }
+        (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
         (Method::Analytic | Method::MdrSteady, _) if is_exact => {
             differences::sensitivities(&numbers, answer.method, answer)
         }

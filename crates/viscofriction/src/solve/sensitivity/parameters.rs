@@ -9,10 +9,11 @@ use crate::scene::{Scene, SceneError};
 use crate::solve::problem::Problem;
 
 /// Tables with moduli, times, loads, speeds and lengths.
-const TABLES: [&str; 4] = ["indenter", "material", "layer", "load"];
+const TABLES: [&str; 5] = ["indenter", "material", "layer", "load", "solve"];
 /// Keys below them that are none of these: ranges of the material, and what chooses rather than describes.
-const OTHERS: [&str; 6] = [
+const OTHERS: [&str; 7] = [
     "approximation",
+    "relative_error",
     "shortest_wavelength",
     "seed",
     "temperature",
@@ -126,6 +127,6 @@ impl Number {
             Step::Index(_) => None,
         });
         let first = keys.next().unwrap_or_default();
-        [first, keys.last().unwrap_or_default()]
+        [first, keys.next_back().unwrap_or_default()]
     }
 }

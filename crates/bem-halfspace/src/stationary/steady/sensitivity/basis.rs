@@ -128,6 +128,16 @@ impl Kernel {
         let Some([rows, columns]) = quantities.first().map(Offsets::reach) else {
             return sums;
         };
+        if rates.is_empty() {
+            let part = ElementCreep {
+                instant: 1.0,
+                ..self.part()
+            };
+            for (sums, offsets) in sums.iter_mut().zip(quantities) {
+                sums[0] = self.sum_of(offsets, &part);
+            }
+            return sums;
+        }
         let part = ElementCreep {
             delays: rates.iter().copied().map(unit_delay).collect(),
             ..self.part()

@@ -99,13 +99,8 @@ impl State {
         &self,
         [from, to]: [&dyn Surface; 2],
     ) -> Result<Change<f64>, BemError> {
-        let difference = |of: &dyn Fn(&dyn Surface) -> Result<Vec<f64>, BemError>| {
-            let (from, to) = (of(from)?, of(to)?);
-            let pairs = to.iter().zip(&from);
-            Ok::<_, BemError>(pairs.map(|(to, from)| to - from).collect::<Vec<f64>>())
-        };
-        let heights = difference(&|body| self.points.heights(body))?;
-        let slopes = difference(&|body| self.points.own_slopes(body))?;
+        let heights = differences(self.points.heights(from)?, &self.points.heights(to)?);
+        let slopes = differences(self.points.own_slopes(from)?, &self.points.own_slopes(to)?);
         let mut change = self.change(|gradient| Ok(weighted(&gradient.by_height, &heights)))?;
         change.friction_coefficient += self.points.slope_unit() * weighted(&self.shares, &slopes);
         Ok(change)
@@ -164,6 +159,13 @@ impl State {
     }
 }
 
+fn differences(mut from: Vec<f64>, to: &[f64]) -> Vec<f64> {
+    from.iter_mut()
+        .zip(to)
+        .for_each(|(from, to)| *from = to - *from);
+    from
+}
+
 fn weighted(weights: &[f64], values: &[f64]) -> f64 {
     let pairs = weights.iter().zip(values);
     pairs.map(|(weight, value)| weight * value).sum()
@@ -216,13 +218,9 @@ impl Points {
     /// What the slope of the body adds to that of which the friction is the mean, in units of the depth scale over the length
     /// of an element.
     fn own_slopes(&self, surface: &dyn Surface) -> Result<Vec<f64>, BemError> {
-        let rise = |from: f64, to: f64| {
-            let (from, to) = (
-                self.heights_at(surface, from)?,
-                self.heights_at(surface, to)?,
-            );
-            let pairs = to.iter().zip(&from);
-            Ok::<_, BemError>(pairs.map(|(to, from)| to - from).collect::<Vec<f64>>())
+        let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
+            let behind = self.heights_at(surface, from)?;
+            Ok(differences(behind, &self.heights_at(surface, to)?))
         };
         match self.slope {
             Slope::OfBody => rise(-0.5, 0.5),

@@ -126,10 +126,7 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
     change.expect("a change")
 }
 
-/// The place of the gap in an element follows material and velocity, and the derivatives leave that out, which vanishes with
-/// the elements.
-#[test]
-fn derivatives_are_those_of_the_equations_on_the_grid() {
+fn cases() -> [Case; 5] {
     let paraboloid =
         |factor| Box::new(PowerProfile::paraboloid(factor).expect("a body")) as Box<dyn Surface>;
     let cone =
@@ -144,7 +141,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
         flows: false,
     };
     let force = Control::NormalForce(4.0);
-    let cases = [
+    [
         case("paraboloid", paraboloid, force),
         case("cone", cone, Control::IndentationDepth(0.3)),
         Case {
@@ -156,11 +153,35 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
             ..case("dashpot", paraboloid, force)
         },
         case("flat cone", flat, Control::NormalForce(1.0)),
-    ];
+    ]
+}
+
+/// Derivatives of friction, and of depth or force, by differences and by the adjoint loads.
+fn compared(case: &Case, index: usize, options: SteadyOptions) -> [[f64; 2]; 2] {
+    let (state, solution) = case.state(&[1.0; 7], options, None);
+    let ends = [-STEP, STEP].map(|step| {
+        let mut factors = [1.0; 7];
+        factors[index] += step;
+        case.solved(&factors, options, &solution)
+    });
+    let change = changed(case, &state, index);
+    let other = change.indentation_depth.or(change.normal_force);
+    let got = [Some(change.friction_coefficient), other];
+    [0, 1].map(|quantity| {
+        let expected = (ends[1][quantity] - ends[0][quantity]) / STEP;
+        let got = got[quantity].map_or(expected, |change| change / STEP);
+        [expected, got]
+    })
+}
+
+/// The place of the gap in an element follows material and velocity, and the derivatives leave that out, which vanishes with
+/// the elements.
+#[test]
+fn derivatives_are_those_of_the_equations_on_the_grid() {
     let side = [-1.7, 1.7];
     let mut options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
     options.tolerance = 1e-12;
-    for case in cases {
+    for case in cases() {
         let (state, solution) = case.state(&[1.0; 7], options, None);
         let found = if case.flows {
             solution.friction_coefficient
@@ -169,35 +190,14 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
         };
         let off = (state.friction_coefficient - found).abs();
         assert!(off < 1e-11, "{}: {off:e}", case.name);
-        let rows = [0, 1, 2, 3, 4, 5, 6].map(|index| {
-            let ends = [-STEP, STEP].map(|step| {
-                let mut factors = [1.0; 7];
-                factors[index] += step;
-                case.solved(&factors, options, &solution)
-            });
-            let change = changed(&case, &state, index);
-            let other = change.indentation_depth.or(change.normal_force);
-            let got = [Some(change.friction_coefficient), other];
-            [0, 1].map(|quantity| {
-                let expected = (ends[1][quantity] - ends[0][quantity]) / STEP;
-                [
-                    expected,
-                    got[quantity].map_or(expected, |change| change / STEP),
-                ]
-            })
-        });
+        let rows = [0, 1, 2, 3, 4, 5, 6].map(|index| compared(&case, index, options));
         for quantity in 0..2 {
-            let largest = rows
-                .iter()
-                .map(|row| row[quantity][0].abs())
-                .fold(0.0, f64::max);
+            let sizes = rows.iter().map(|row| row[quantity][0].abs());
+            let largest = sizes.fold(0.0, f64::max);
             for (row, name) in rows.iter().zip(NAMES) {
                 let [expected, got] = row[quantity];
-                let allowed = if ["modulus", "time", "velocity"].contains(&name) {
-                    6e-3
-                } else {
-                    2e-6
-                };
+                let moves = ["modulus", "time", "velocity"].contains(&name);
+                let allowed = if moves { 6e-3 } else { 2e-6 };
                 assert!(
                     (got - expected).abs() < allowed * largest,
                     "{}, {name}, {quantity}: {got:e} instead of {expected:e}, largest {largest:e}",

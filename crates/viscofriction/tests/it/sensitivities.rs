@@ -1,0 +1,111 @@
+//! Derivatives of answers by the numbers of their scenes.
+
+use std::path::Path;
+
+use numerics::Estimate;
+use viscofriction::solve::{Sensitivity, sensitivities};
+use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
+
+fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+    Err(WrongInput(format!("{}: no file", path.display())))
+}
+
+fn answered(text: &str) -> (Answer, Result<Vec<Sensitivity>, SolveError>) {
+    let scene: Scene = text.parse().expect("a scene");
+    let problem = Problem::try_from(&scene).expect("a problem");
+    let answer = solve(&problem).expect("an answer");
+    let known = sensitivities(&scene, (Path::new(""), no_file), &problem, &answer);
+    (answer, known)
+}
+
+fn of<'a>(known: &'a [Sensitivity], parameter: &str) -> &'a Sensitivity {
+    let mut all = known.iter();
+    let one = all.find(|one| one.parameter == parameter);
+    one.unwrap_or_else(|| panic!("{parameter} is not in {known:?}"))
+}
+
+/// d³ ∝ F² k/G² and A³ ∝ F²/(G² k²) (Hertz 1881); ν is the largest there is.
+#[test]
+fn a_pressed_sphere_has_the_powers_of_its_closed_form() {
+    let text = "indenter.paraboloid.curvature = 5.0\nmaterial.elastic = { shear_modulus = 1e6, poisson_ratio = 0.5 }\n\
+                load = { normal_force = 2.0, velocity = 0.0 }\nsolve.duration = 1.0";
+    let (_, known) = answered(text);
+    let known = known.expect("derivatives");
+    for (parameter, [depth, area]) in [
+        ("load.normal_force", [2.0, 2.0]),
+        ("material.elastic.shear_modulus", [-2.0, -2.0]),
+        ("material.elastic.poisson_ratio", [-2.0, -2.0]),
+        ("indenter.paraboloid.curvature", [1.0, -2.0]),
+        ("solve.duration", [0.0, 0.0]),
+    ] {
+        let one = of(&known, parameter);
+        for (known, expected) in [(one.indentation_depth, depth), (one.contact_area, area)] {
+            let known = known.expect("a derivative");
+            let off = (known.value - expected / 3.0).abs();
+            assert!(
+                off <= known.error && known.error < 2e-3,
+                "{parameter}: {known:?}"
+            );
+        }
+    }
+}
+
+/// The mean of the derivatives at both ends of a step is the slope over it, to the third order.
+#[test]
+fn derivatives_are_the_slopes_between_answers() {
+    const STEP: f64 = 0.2;
+    let scene = |load: &str, number: f64, value: f64| {
+        format!(
+            "indenter.sphere.radius = 5e-3\nlayer.thickness = 2e-3\nmaterial.standard-solid = {{ equilibrium_modulus = 1e6, \
+             maxwell_modulus = {:?}, viscosity = 1e4 }}\nload = {{ {load} = {value:?}, velocity = 0.05 }}\n{}",
+            number * 1e7,
+            "solve.relative_error = 1e-3"
+        )
+    };
+    for (load, value) in [("normal_force", 2.0), ("indentation_depth", 5e-5)] {
+        let factor = STEP.exp();
+        for (parameter, ends) in [
+            (
+                "material.standard-solid.maxwell_modulus",
+                [[1.0, 1.0], [factor, 1.0]],
+            ),
+            (&format!("load.{load}")[..], [[1.0, 1.0], [1.0, factor]]),
+        ] {
+            let found = ends
+                .map(|[modulus, load_factor]| answered(&scene(load, modulus, load_factor * value)));
+            let quantities: [fn(&Answer) -> Estimate; 2] = [
+                |answer| answer.friction_coefficient.expect("a friction"),
+                |answer| match answer.indentation_depth {
+                    Some(depth) if depth.error > 0.0 => depth,
+                    _ => answer.normal_force,
+                },
+            ];
+            for (index, quantity) in quantities.into_iter().enumerate() {
+                let [from, to] = found.each_ref().map(|(answer, _)| quantity(answer));
+                let slope = (to.value / from.value).ln() / STEP;
+                let of_answers = (from.error / from.value + to.error / to.value) / STEP;
+                let derivatives = found.each_ref().map(|(_, known)| {
+                    let one = of(known.as_ref().expect("derivatives"), parameter);
+                    let other = one.indentation_depth.or(one.normal_force);
+                    [one.friction_coefficient, other][index].expect("a derivative")
+                });
+                let mean = 0.5 * (derivatives[0].value + derivatives[1].value);
+                let bars = 0.5 * (derivatives[0].error + derivatives[1].error);
+                let off = (mean - slope).abs();
+                assert!(
+                    off <= bars + of_answers + 1e-3 && bars < 0.06,
+                    "{parameter}, {load}, {index}: {mean} ± {bars} instead of {slope} ± {of_answers}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn answers_without_derivatives_say_where_there_are_some() {
+    let text = "indenter.sphere.radius = 5e-3\nmaterial.viscous.viscosity = 1e4\n\
+                load = { normal_force = 2.0, velocity = 0.05 }\nsolve = { sliding_distance = 0.05, elements = 8 }";
+    let (_, known) = answered(text);
+    let error = known.expect_err("a march has none").to_string();
+    assert!(error.contains("bem-steady"), "{error}");
+}

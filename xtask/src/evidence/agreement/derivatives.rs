@@ -1,0 +1,117 @@
+//! Derivatives of an answer by all numbers of its scene must add up to nothing: in other units of length, stress or time the
+//! scene and its answer are the same.
+
+use std::path::Path;
+
+use anyhow::{Context as _, Result};
+use toml::Value;
+use viscofriction::Estimate;
+use viscofriction::WrongInput;
+use viscofriction::solve::{Answer, Sensitivity, SolveError, sensitivities};
+
+use super::judge::quantities;
+use super::relation::Answered;
+use super::units::Powers;
+
+/// Rounding of the sums, relative to that of their moduli.
+const ROUNDING: f64 = 1e-6;
+
+/// A sum over the derivatives of a quantity.
+pub(super) struct Sum {
+    pub(super) quantity: String,
+    pub(super) value: f64,
+    pub(super) expected: f64,
+    pub(super) allowed: f64,
+}
+
+/// The sums of all quantities in three units; none of a scene with files, whose lengths no derivative is by, and where there are
+/// no derivatives.
+pub(super) fn sums(first: Answered) -> Result<Vec<Sum>> {
+    let case = first.case;
+    if case.lengths.is_some() || case.material.is_some() {
+        return Ok(Vec::new());
+    }
+    let problem = case.problem(first.folder)?;
+    let known = match sensitivities(
+        &case.scene,
+        (Path::new(""), no_file),
+        &problem,
+        first.answer,
+    ) {
+        Ok(known) => known,
+        Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
+        Err(error) => return Err(error.into()),
+    };
+    let one = Powers::default();
+    let units = [
+        Powers { length: 1, ..one },
+        Powers { stress: 1, ..one },
+        Powers { time: 1, ..one },
+    ];
+    let mut sums = Vec::new();
+    for unit in units {
+        let mut other = case.clone();
+        unit.apply(&mut other)?;
+        let scenes = [&case.scene, &other.scene].map(Value::try_from);
+        let [here, there] = scenes;
+        sums.extend(sums_in(&known, [here?, there?], unit, first.answer)?);
+    }
+    Ok(sums)
+}
+
+fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+    Err(WrongInput(format!("{}: no file", path.display())))
+}
+
+fn sums_in(
+    known: &[Sensitivity],
+    [here, there]: [Value; 2],
+    unit: Powers,
+    answer: &Answer,
+) -> Result<Vec<Sum>> {
+    let factors = unit.factors(answer.is_per_length)?;
+    let mut sums = Vec::new();
+    for (name, _) in quantities(answer) {
+        let (mut sum, mut moduli) = (Estimate::exact(0.0), 0.0);
+        let mut terms = 0;
+        for one in known {
+            let derivatives = one.named();
+            let derivative = derivatives.iter().find(|(other, _)| *other == name);
+            let Some(derivative) = derivative.and_then(|(_, known)| *known) else {
+                continue;
+            };
+            let [from, to] = [&here, &there].map(|scene| number(scene, &one.parameter));
+            let change = (to.context("no number")? / from.context("no number")?).ln();
+            sum = Estimate::new(
+                sum.value + derivative.value * change,
+                sum.error + derivative.error * change.abs(),
+            );
+            moduli += (derivative.value * change).abs();
+            terms += 1;
+        }
+        if terms > 0 {
+            let factor = factors
+                .get(&name)
+                .with_context(|| format!("{name} has no unit"))?;
+            sums.push(Sum {
+                quantity: name,
+                value: sum.value,
+                expected: factor.ln(),
+                allowed: sum.error + ROUNDING * moduli,
+            });
+        }
+    }
+    Ok(sums)
+}
+
+/// The number at a path such as `material.prony.branches[0].modulus`.
+fn number(scene: &Value, path: &str) -> Option<f64> {
+    let steps = path.split(['.', '[']);
+    let place = steps.fold(Some(scene), |place, step| {
+        match step.strip_suffix(']').map(str::parse::<usize>) {
+            Some(index) => place?.get(index.ok()?),
+            None => place?.get(step),
+        }
+    });
+    place?.as_float()
+}
