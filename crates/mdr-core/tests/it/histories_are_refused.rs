@@ -14,7 +14,7 @@ fn follow(
     on: &str,
     history: &[HistoryPoint],
 ) -> Result<Vec<CurvePoint>, MdrError> {
-    indent_along(body, &material(on), history, &Follow::default())
+    indent_along(&body, &material(on), history, &Follow::default())
 }
 
 #[test]

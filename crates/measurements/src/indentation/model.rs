@@ -119,7 +119,7 @@ impl<'a> Model<'a> {
         let tilt = parameters[place + 2..].first().copied().unwrap_or_default();
         let history = self.history(contact_point);
         let material = Compressible::new(&Prony::new(spectrum.clone())?, self.poisson_ratio)?;
-        let found = force_derivatives(self.body, &material, &history)?;
+        let found = force_derivatives(&self.body, &material, &history)?;
         let sides = self.curve.depth.iter().map(|depth| depth - self.middle);
         let sides: Vec<f64> = sides.collect();
         let pairs = found.normal_force.iter().zip(&sides);

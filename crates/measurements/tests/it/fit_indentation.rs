@@ -68,7 +68,7 @@ impl Case {
             control: Control::IndentationDepth(depth - CONTACT_POINT),
         });
         let history: Vec<HistoryPoint> = history.collect();
-        let exact = indent_along(&*self.body, &self.material, &history, &Follow::default());
+        let exact = indent_along(&self.body, &self.material, &history, &Follow::default());
         let exact = exact.expect("a curve").into_iter().zip(&depth);
         let force =
             exact.map(|(point, d)| point.normal_force.value + BASELINE + TILT * (d - 0.75e-6));
