@@ -19,11 +19,11 @@ use rheology::layer_deficit;
 
 use crate::FrictionError;
 
-/// Where 1 − M is below rounding.
-const SHORTEST_WAVE: f64 = 24.0;
+/// Where 1 − M is below 1e-12.
+const SHORTEST_WAVE: f64 = 17.0;
 /// Points of the integral over ξ, and more of them for each thickness of the radius; of q; and of a piece of the line. With
 /// these, twice as many change the depth and the force of a punch by less than 1e-9 up to a hundred thicknesses.
-const WAVES: [f64; 2] = [60.0, 16.0];
+const WAVES: [f64; 2] = [45.0, 11.5];
 const NODES: [f64; 2] = [16.0, 4.0];
 const HEIGHTS: [f64; 2] = [30.0, 6.0];
 

@@ -27,6 +27,7 @@ const LEFT_OUT: f64 = 2e-8;
 /// A contact on a layer is less than three times as wide as on a half space at the same depth, on a film; how it is sought.
 const WIDER: f64 = 3.0;
 const STEP: f64 = 1.25;
+const ENOUGH: f64 = 1.02;
 /// A map with this σ is hardly bent.
 const STRAIGHT: f64 = 10.0;
 /// Powers by which a map is denser at its beginning; the second for bodies of several powers, as r + r^1.3.
@@ -271,8 +272,19 @@ impl<B: Axisymmetric + ?Sized> OnLayer<'_, B> {
 
     /// A radius between two others at which a depth is reached; the second one where it is not.
     fn radius_at(&self, depth: f64, [mut radius, widest]: [f64; 2]) -> Result<f64, FrictionError> {
-        while radius < widest && self.contact(radius)?[1] < depth {
+        let [mut before, mut here] = [[0.0; 2], [radius, self.contact(radius)?[1]]];
+        while here[0] < widest && here[1] < depth {
+            before = here;
             radius = (STEP * radius).min(widest);
+            here = [radius, self.contact(radius)?[1]];
+        }
+        // The equations take longer by the cube of the radius, so that not much more than the depth is worth a step.
+        let part = (ENOUGH * depth / before[1]).ln() / (here[1] / before[1]).ln();
+        if before[1] > 0.0 && part < 1.0 {
+            radius = before[0] * (here[0] / before[0]).powf(part);
+            if self.contact(radius)?[1] < depth {
+                radius = here[0];
+            }
         }
         Ok(radius)
     }
