@@ -171,6 +171,9 @@ pub fn fit_indentation(
     options: &FitOptions,
 ) -> Result<IndentationFit, MeasurementError> {
     crate::moduli::shear_per_tension(options.poisson_ratio)?;
+    if let Thickness::Known(thickness) = options.thickness {
+        numerics::positive("thickness", thickness)?;
+    }
     let n = curve.time.len();
     for (name, other) in [("depths", &curve.depth), ("forces", &curve.force)] {
         let holds = other.len() == n;
