@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use measurements::indentation::{
-    CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, fit_indentation,
+    CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness,
+    fit_indentation,
     indentation_curve,
 };
 use numpy::{IntoPyArray as _, PyReadonlyArray1};
@@ -31,12 +32,31 @@ pub(crate) struct Curve<'py> {
     material: String,
     branches: Option<usize>,
     poisson_ratio: f64,
+    /// A number, or "fit".
+    thickness: Option<ThicknessOf>,
     tilt: bool,
     before_retraction: bool,
     profile: bool,
 }
 
+#[derive(FromPyObject)]
+enum ThicknessOf {
+    Known(f64),
+    Fitted(String),
+}
+
 impl Curve<'_> {
+    fn thickness(&self) -> PyResult<Thickness> {
+        match &self.thickness {
+            None => Ok(Thickness::Infinite),
+            Some(ThicknessOf::Known(thickness)) => Ok(Thickness::Known(*thickness)),
+            Some(ThicknessOf::Fitted(word)) if word == "fit" => Ok(Thickness::Fitted),
+            Some(ThicknessOf::Fitted(other)) => Err(wrong(format!(
+                "thickness must be a number [m] or \"fit\", but is {other:?}"
+            ))),
+        }
+    }
+
     fn measured(&self) -> PyResult<IndentationCurve> {
         if let Some([time, depth, force]) = &self.columns {
             let [time, depth, force] = [time, depth, force].map(|one| one.as_array().to_vec());
@@ -68,6 +88,7 @@ impl Curve<'_> {
             rheology,
             branches: self.branches,
             poisson_ratio: self.poisson_ratio,
+            thickness: self.thickness()?,
             tilt: self.tilt,
             before_retraction: self.before_retraction,
             profile: self.profile,

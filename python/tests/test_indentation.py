@@ -45,16 +45,57 @@ def test_a_history_is_that_of_the_program(program: Callable[..., str], tmp_path:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth d [µm]", "normal force F [nN]")
 
 
-def test_elements_follow_the_same_history_on_a_thick_layer() -> None:
-    time, depth = [0.0, 1.0, 1.8], [0.0, 1e-6, 0.2e-6]
-    exact = vf.indent(vf.Sphere(5e-6), GEL, time=time, indentation_depth=depth, work=True)
-    layer = vf.indent(vf.Sphere(5e-6), GEL, time=time, indentation_depth=depth, thickness=5e-3)
-    assert np.abs(layer.normal_force - exact.normal_force).max() <= layer.normal_force_error
-    assert layer.normal_force_error < 1e-3 * exact.normal_force.max()
-    assert layer.contact_radius is None and layer.contact_area is not None and exact.contact_radius is not None
-    assert layer.contact_area[1] == pytest.approx(np.pi * exact.contact_radius[1] ** 2, abs=layer.contact_area_error)
-    # What is dissipated, and left in the surface.
-    assert exact.work is not None and 0.0 < exact.work[2] < exact.work[1]
+def test_a_history_on_a_thick_layer_is_that_on_the_half_space() -> None:
+    # Pressed again, where elements follow it on a layer.
+    for time, depth, error in (
+        ([0.0, 1.0, 1.8], [0.0, 1e-6, 0.2e-6], 1e-6),
+        ([0.0, 1.0, 1.5, 2.0], [0.0, 1e-6, 0.7e-6, 0.9e-6], 1e-3),
+    ):
+        exact = vf.indent(vf.Sphere(5e-6), GEL, time=time, indentation_depth=depth, work=True)
+        layer = vf.indent(vf.Sphere(5e-6), GEL, time=time, indentation_depth=depth, thickness=5e-3, work=True)
+        # At 5 mm a layer is stiffer by 5e-4.
+        off = np.abs(layer.normal_force - exact.normal_force).max()
+        assert off <= layer.normal_force_error + 6e-4 * exact.normal_force.max()
+        assert layer.normal_force_error < error * exact.normal_force.max()
+        assert exact.contact_radius is not None
+        if layer.contact_radius is None:
+            assert error == 1e-3 and layer.contact_area is not None
+            area = np.pi * exact.contact_radius[1] ** 2
+            assert layer.contact_area[1] == pytest.approx(area, abs=layer.contact_area_error + 1e-3 * area)
+        else:
+            assert layer.contact_radius[1] == pytest.approx(exact.contact_radius[1], rel=1e-3)
+            assert layer.work is not None and layer.work[1] == pytest.approx(exact.work[1], rel=1e-3)
+        # What is dissipated, and left in the surface.
+        assert exact.work is not None and 0.0 < exact.work[2] < exact.work[1]
+
+
+def test_a_thin_sample_is_fitted_with_its_thickness() -> None:
+    ball, thickness = vf.Sphere(5e-5), 6e-6
+    depth = 1e-6 * np.interp(TIME, [0.0, 0.3, 1.0, 2.0], [-0.3, 0.0, 1.0, 0.5])
+    force = vf.indent(ball, GEL, time=TIME, indentation_depth=depth, thickness=thickness).normal_force
+    measured = force + 0.003 * force.max() * np.random.default_rng(1).standard_normal(TIME.size)
+    known, found = (
+        vf.fit_indentation(TIME, depth, measured, body=ball, thickness=given, profile=False)
+        for given in (thickness, "fit")
+    )
+    thick = vf.fit_indentation(TIME, depth, measured, body=ball, profile=False)
+    modulus = thick.findings["G_inf"].value
+    low, high = known.findings["G_inf"].interval
+    assert low is not None and high is not None and low < 2e3 < high
+    assert modulus is not None and modulus > 3 * high, "taken for a half space"
+    low, high = found.findings["thickness"].interval
+    assert low is not None and high is not None and low < thickness < high and "thickness" not in known.findings
+    wrong = {
+        "finite and greater than 0, but is 0": 0.0,
+        "but is not a number": float("nan"),
+        "but is 'thin'": "thin",
+    }
+    for reason, given in wrong.items():
+        with pytest.raises(ValueError, match="thickness must be") as refused:
+            vf.fit_indentation(TIME, depth, measured, body=ball, thickness=given)
+        assert reason in str(refused.value) or reason.replace("'", '"') in str(refused.value)
+    with pytest.raises(ValueError, match="body of revolution"):
+        vf.fit_indentation(TIME, depth, measured, body=vf.Pyramid(1.0), thickness=thickness)
 
 
 def test_a_depth_follows_from_a_force() -> None:

@@ -34,13 +34,13 @@ class Indentation(Compared):
     #: Absolute errors that hold at every point.
     normal_force_error: float
     indentation_depth_error: float
-    #: Radius of the contact [m] of a body of revolution on a half space.
+    #: Radius of the contact [m] of a body of revolution on a half space, and on a layer where the contact grows and shrinks once.
     contact_radius: Numbers | None = None
     contact_radius_error: float | None = None
     #: Work since the first point [J], of the same.
     work: Numbers | None = None
     work_error: float | None = None
-    #: Area of the contact [m²] of other bodies, and on layers.
+    #: Area of the contact [m²] of other bodies and histories.
     contact_area: Numbers | None = None
     contact_area_error: float | None = None
     #: Sentences about the validity of the answer.
@@ -152,8 +152,9 @@ def indent(
     Times [s] ≥ 0 that do not decrease, and at each either the depth [m] of the lowest point, negative above the surface, or the
     force [N] ≥ 0; straight from point to point, from an undeformed surface. Of bodies of revolution on a half space all is
     exact up to rounding but the depth under a force that falls, of which ``relative_error`` is asked; with ``work`` that since
-    the first point is there too, to 1e-4 of its largest value. Height maps, and all bodies on a layer of a ``thickness`` [m], are followed with boundary elements, to a ``relative_error`` of the
-    largest force or depth.
+    the first point is there too, to 1e-4 of its largest value. So it is on a layer of a ``thickness`` [m], bonded to a rigid base,
+    as long as the contact grows once and then shrinks once. Other histories on a layer, and height maps, are followed with
+    boundary elements, to a ``relative_error`` of the largest force or depth.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
     """
@@ -238,6 +239,7 @@ def fit_indentation(
     material: str = "standard-solid",
     branches: int | None = None,
     poisson_ratio: float = 0.5,
+    thickness: float | str | None = None,
     tilt: bool = True,
     before_retraction: bool = False,
     profile: bool = True,
@@ -254,6 +256,9 @@ def fit_indentation(
     Or a curve with named columns in SI, as ``afmformats.load_data(file)[0]`` reads it from the files of many microscopes:
     "time", "force", and "depth", "tip position" or "height (measured)", with the spring constant that it knows.
 
+    ``thickness`` [m] is that of a sample bonded to a rigid base, under a body of revolution; "fit" finds it with the material, and
+    says where the curve does not determine it; without it the sample is a half space.
+
     ``material`` is "standard-solid", "prony" with ``branches`` (or as many as the curve tells apart) or "power-law".
     ``before_retraction`` leaves the way back out, on which most bodies stick. ``profile`` takes all intervals from the profile
     likelihood; without it only those that a covariance cannot give, which is faster for maps of many curves. The
@@ -261,6 +266,8 @@ def fit_indentation(
 
     Raises ValueError for wrong input and for a damaged curve, with the reason.
     """
+    if thickness is not None and isinstance(body, Pyramid):
+        raise ValueError("thickness needs a body of revolution, and a Pyramid is none; take the Cone that is closest")
     request: dict[str, Any] = {
         "body": _of_revolution(body),
         "file": None,
@@ -271,6 +278,7 @@ def fit_indentation(
         "material": material,
         "branches": count("branches", branches),
         "poisson_ratio": poisson_ratio,
+        "thickness": thickness,
         "tilt": tilt,
         "before_retraction": before_retraction,
         "profile": profile,

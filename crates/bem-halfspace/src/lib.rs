@@ -62,11 +62,12 @@ pub use periodic::PeriodicEstimate;
 pub use periodic::{
     PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
 };
+pub use rheology::layer_factor;
 pub use slide::{PressureField, slide_along, slide_on_grid};
 pub use stationary::{periodic, steady};
 pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
 pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;
-pub use substrate::layer::{Layer, layer_factor};
+pub use substrate::layer::Layer;
 pub use transform::convolution::{Convolution, ConvolutionWorkspace, Rows};
 pub use transform::pressure_spectrum::line_spectrum;

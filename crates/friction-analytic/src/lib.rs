@@ -15,6 +15,8 @@
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
 //!   on any material.
+//! - On a [layer](BondedLayer) of any thickness that is bonded to a rigid base: the elastic contact of any body of revolution,
+//!   and the [profile](LayerProfile) with which springs side by side have its force at all depths, on any material.
 //! - On [thin layers](ThinLayer): the Winkler foundation, in plane strain [for sliding too](winkler_line_force), and the film
 //!   of an incompressible one.
 //! - Rough surfaces in partial contact: Persson's theory, from a [spectrum](persson_of_spectrum) or from
@@ -48,6 +50,7 @@ mod cylinder;
 mod elastic_limit;
 mod error;
 mod indentation;
+mod layer;
 mod line;
 mod persson;
 mod pieces;
@@ -81,6 +84,7 @@ pub use indentation::{
     Indentation, cylinder_half_width_after_impulse, impulse_to_depth, indentation_after_impulse,
     indentation_pressure, power_indentation_after_impulse, power_peak_pressure,
 };
+pub use layer::{BondedLayer, LayerContact, LayerProfile};
 pub use line::line_sliding;
 pub use numerics::InvalidParameter;
 pub use persson::{

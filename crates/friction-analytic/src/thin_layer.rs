@@ -47,7 +47,7 @@ impl ThinLayer {
 
     /// Pressure over depth of the Winkler foundation, 2G (1 − ν)/((1 − 2ν) t), \[Pa/m]: every point of a thin compressible
     /// layer gives way to the pressure on it alone (Johnson 1985, eq. 5.69). Relative to the layer the force at a depth is
-    /// off in proportion to t/a.
+    /// off like (t/a)², and the radius like t/a.
     ///
     /// # Errors
     /// [`InvalidParameter`] for an incompressible layer, which does not give way so.

@@ -158,6 +158,15 @@ pub enum MdrError {
         /// When, \[s].
         time: f64,
     },
+    /// Elements that were left are touched again, and the profile stands for a surface whose elements are not independent.
+    #[error(
+        "at time {time} s the contact grows again after it has shrunk, and only on a half space its force is that of springs \
+         side by side: follow it with boundary elements"
+    )]
+    TouchedAgain {
+        /// When, \[s].
+        time: f64,
+    },
     /// Too few elements are in contact at the end for the result to mean anything.
     #[error(
         "at least {needed} elements must be in contact at spacing {spacing}, but only {n_contact} are"

@@ -1,5 +1,6 @@
 //! Why a table or a curve is refused.
 
+use friction_analytic::FrictionError;
 use mdr_core::MdrError;
 use numerics::InvalidParameter;
 use thiserror::Error;
@@ -22,6 +23,9 @@ pub enum MeasurementError {
     /// The forward model refuses the curve.
     #[error(transparent)]
     Model(#[from] MdrError),
+    /// The body is none whose force on a sample of finite thickness is known.
+    #[error(transparent)]
+    Sample(FrictionError),
     /// No start leads to a minimum.
     #[error("no material of this kind has a force like that of the curve")]
     NotConverged,
@@ -30,4 +34,13 @@ pub enum MeasurementError {
         "the curve does not determine any quantity of the material: are depth, force and the size of the body right?"
     )]
     NotDetermined,
+}
+
+impl From<FrictionError> for MeasurementError {
+    fn from(error: FrictionError) -> Self {
+        match error {
+            FrictionError::InvalidParameter(refused) => Self::InvalidParameter(refused),
+            other => Self::Sample(other),
+        }
+    }
 }

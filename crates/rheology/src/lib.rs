@@ -31,6 +31,7 @@ mod error;
 #[cfg(feature = "fit")]
 pub mod fit;
 mod fractional;
+mod layer;
 mod material;
 mod materials;
 mod shift;
@@ -49,6 +50,7 @@ pub use error::RheologyError;
 pub use fractional::PronyExpansion;
 pub use fractional::fractional_maxwell::{FractionalMaxwell, FractionalMaxwellParameters};
 pub use fractional::springpot::Springpot;
+pub use layer::{layer_deficit, layer_factor};
 pub use material::Material;
 pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
 pub use materials::generalised::{Compressible, Prony};

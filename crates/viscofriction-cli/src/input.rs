@@ -100,7 +100,7 @@ fn unread(path: &Path, error: &io::Error) -> WrongInput {
 }
 
 /// Parameters of the libraries, and the options that give them.
-const OPTIONS: [(&str, &str); 12] = [
+const OPTIONS: [(&str, &str); 13] = [
     ("n_branches", "--branches"),
     ("branches", "--branches"),
     ("tolerance", "--parsimony"),
@@ -113,6 +113,7 @@ const OPTIONS: [(&str, &str); 12] = [
     ("spring_constant", "--spring-constant"),
     ("sensitivity", "--sensitivity"),
     ("ramp_rate", "--ramp-rate"),
+    ("thickness", "--thickness"),
 ];
 
 /// The option that gave what a library refuses.

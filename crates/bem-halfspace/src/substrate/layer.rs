@@ -3,9 +3,9 @@
 //! A wave of pressure moves its surface by `û = 2 p̂ M(|q|t)/(|q| E*)`, with E* as for the half space, where M is 1.
 
 use numerics::{InvalidParameter, in_range};
-use rheology::Material;
+use rheology::{Material, layer_deficit, layer_factor};
 
-use crate::substrate::correction::{REACH, SHORTEST_WAVE};
+use crate::substrate::correction::REACH;
 use crate::{Base, Elastomer, Substrate};
 
 /// A layer of a material on a rigid base, or on a [`Substrate`] of one's own.
@@ -72,7 +72,7 @@ impl Substrate for Rigid {
     }
 
     fn excess(&self, s: f64, poisson_ratio: f64) -> f64 {
-        deficit(s, poisson_ratio)
+        -layer_deficit(s, poisson_ratio)
     }
 
     fn mean(&self, thickness: f64, poisson_ratio: f64) -> f64 {
@@ -82,42 +82,4 @@ impl Substrate for Rigid {
     fn reach(&self) -> f64 {
         REACH
     }
-}
-
-/// Ratio M(s) of the compliance of a layer on a rigid base to that of the half space, for a wave of pressure with s = |q|t ≥ 0
-/// and −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
-pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
-    if s > SHORTEST_WAVE {
-        return 1.0 + deficit(s.min(1e3), poisson_ratio);
-    }
-    let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
-    // Times 2 e^(−2s), so that nothing overflows; the difference sinh 2s − 2s is a series where it would cancel.
-    let excess = if s < 0.5 {
-        let square = 4.0 * s * s;
-        let series = (1..=10).rev().fold(0.0, |sum, n| {
-            square / f64::from(2 * n * (2 * n + 1)) * (1.0 + sum)
-        });
-        4.0 * s * series * decay
-    } else {
-        1.0 - decay * decay - 4.0 * s * decay
-    };
-    let numerator = 8.0 * s * decay * (1.0 - 2.0 * poisson_ratio) + kappa * excess;
-    numerator / denominator(s, poisson_ratio)
-}
-
-/// 2 e^(−2s) times the denominator of M.
-fn denominator(s: f64, poisson_ratio: f64) -> f64 {
-    let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
-    2.0 * decay * (constant(poisson_ratio) + 2.0 * s * s) + kappa * (1.0 + decay * decay)
-}
-
-fn constant(poisson_ratio: f64) -> f64 {
-    5.0 - 4.0 * poisson_ratio * (3.0 - 2.0 * poisson_ratio)
-}
-
-/// M(s) − 1 without cancellation.
-fn deficit(s: f64, poisson_ratio: f64) -> f64 {
-    let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
-    let rest = kappa * decay + 2.0 * s * (1.0 + s) + constant(poisson_ratio);
-    -2.0 * decay * rest / denominator(s, poisson_ratio)
 }

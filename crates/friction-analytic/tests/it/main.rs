@@ -5,6 +5,7 @@ mod cylinders_slide_in_closed_form;
 mod divergence_is_reported;
 mod elastic_limits_match;
 mod impulse_decides_indentation;
+mod layers_of_any_thickness;
 mod leading_edge_carries_the_load;
 mod other_materials_have_closed_forms;
 mod persson_theory;

@@ -12,7 +12,7 @@
 mod edge;
 mod sums;
 
-use indenters::Axisymmetric;
+use indenters::EquivalentProfile;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
 use super::Measured;
@@ -25,7 +25,7 @@ use edge::Edge;
 /// A body that follows a path, from one point to the next.
 #[derive(Clone)]
 pub(super) struct Contact<'a> {
-    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) body: &'a dyn EquivalentProfile,
     pub(super) path: Path,
     pub(super) radii: Radii,
     /// Rings in contact, from the centre outwards.
@@ -63,7 +63,7 @@ const LEFT: f64 = 1e-10;
 
 impl<'a> Contact<'a> {
     /// A body at the first point of a path, which will not be deeper than its radii are known.
-    pub(super) fn new(body: &'a dyn Axisymmetric, path: Path, radii: Radii) -> Self {
+    pub(super) fn new(body: &'a dyn EquivalentProfile, path: Path, radii: Radii) -> Self {
         let nothing = vec![0.0; path.n_branches()];
         Self {
             body,
@@ -257,7 +257,7 @@ impl<'a> Contact<'a> {
         let radius = radius.max(self.radius().next_up());
         match self.elements().follow(radius, &self.legs) {
             State::Free(free) => self.elements().gap(&free, at),
-            _ => self.body.line_height(radius) - self.path.depth(at),
+            _ => self.body.height_at(radius) - self.path.depth(at),
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! At the edge of a contact that shrinks w = 0, so that they are those of the closed form at constant t₁.
 
-use indenters::{Axisymmetric, Control, HistoryPoint};
+use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{in_range, positive};
 use rheology::Material;
 
@@ -46,7 +46,7 @@ pub struct ForceDerivatives {
 /// # Errors
 /// Like [`indent_along`](super::indent_along); [`MdrError::InvalidParameter`] for a force, too.
 pub fn force_derivatives(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn EquivalentProfile,
     material: &(impl Material + ?Sized),
     history: &[HistoryPoint],
 ) -> Result<ForceDerivatives, MdrError> {
@@ -68,7 +68,7 @@ pub fn force_derivatives(
         points.iter().for_each(|_| result.push(None, 0.0));
         return Ok(result);
     }
-    let mut approach = Approach::new(Radii::new(&body, deepest)?, &spectrum, points.len(), true);
+    let mut approach = Approach::new(Radii::new(body, deepest)?, &spectrum, points.len(), true);
     approach.start(points[0]);
     let factor = 8.0 / material.half_space_factor();
     for (index, point) in points.iter().enumerate() {

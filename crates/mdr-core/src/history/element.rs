@@ -7,7 +7,7 @@
 //! ```
 //! The last line is the expansion of u in the poles of 1/(s Ĝ(s)), with what the branches hold at the moment s.
 
-use indenters::Axisymmetric;
+use indenters::EquivalentProfile;
 use numerics::bracketed_root;
 
 use super::path::{Instant, Mode, Path, fading};
@@ -60,7 +60,7 @@ pub(super) enum State {
 
 /// Elements of one line under one path.
 pub(super) struct Elements<'a> {
-    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) body: &'a dyn EquivalentProfile,
     pub(super) path: &'a Path,
 }
 
@@ -69,7 +69,7 @@ impl Elements<'_> {
     pub(super) fn follow(&self, radius: f64, legs: &[Leg]) -> State {
         let inside = |leg: &&Leg| leg.inner < radius && radius <= leg.outer;
         // Beyond the end of a body is only what rounding of its radius puts there.
-        let height = self.body.line_height(radius.min(self.body.max_radius()));
+        let height = self.body.height_at(radius.min(self.body.end()));
         let mut state = State::Untouched;
         for leg in legs.iter().filter(inside) {
             state = match (leg.motion, state) {

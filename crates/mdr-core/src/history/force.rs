@@ -6,7 +6,7 @@
 //! After that the depth is taken as straight over parts of each segment, at whose ends the force is as given; the parts are
 //! halved until that does not matter, and extrapolated in their length.
 
-use indenters::{Axisymmetric, IndenterError};
+use indenters::{EquivalentProfile, IndenterError};
 use numerics::{Estimate, NotReached, finite, positive, try_bracketed_root};
 use rheology::{CreepSpectrum, Material};
 
@@ -27,7 +27,7 @@ const QUADRATURE: f64 = 1e-3;
 
 /// A body under a force.
 pub(super) struct Pressed<'a> {
-    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) body: &'a dyn EquivalentProfile,
     pub(super) material: &'a dyn Material,
     pub(super) options: Follow,
     /// Times and forces; the last force of a time holds from there on.
@@ -169,7 +169,7 @@ impl Pressed<'_> {
                 creep.instantaneous_compliance() * force + delayed.iter().sum::<f64>();
             let depth = radii.depth_of_area((recoverable + flown) / factor);
             // Only a flat end has a contact before it is deeper than the surface.
-            let is_flat = self.body.profile_exponent() == f64::INFINITY;
+            let is_flat = self.body.apex_exponent() == f64::INFINITY;
             let touches = depth > 0.0 || (is_flat && force > 0.0);
             let radius = if touches {
                 radii.at([depth; 2])[0]
@@ -225,7 +225,7 @@ impl Pressed<'_> {
         contact.tolerance = QUADRATURE * self.options.relative_error;
         let mut curve = Vec::with_capacity(self.points.len());
         // A flat end keeps its disc.
-        let lifts = self.body.profile_exponent().is_finite();
+        let lifts = self.body.apex_exponent().is_finite();
         let mut pressed = true;
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
             let was_pressed = std::mem::replace(&mut pressed, force > 0.0 || !lifts);
@@ -300,7 +300,7 @@ fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, [step, rise]: [f6
 const PLACES: i32 = 24;
 
 /// The radii up to a depth, or as far as the line of the body rises; then this is the depth.
-fn known_up_to(body: &dyn Axisymmetric, deepest: &mut f64) -> Result<Radii, MdrError> {
+fn known_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {
     let available = match Radii::new(body, *deepest) {
         Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,
         Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {

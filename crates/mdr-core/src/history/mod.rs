@@ -17,7 +17,7 @@ mod path;
 mod radius;
 mod work;
 
-use indenters::{Axisymmetric, Control, HistoryPoint};
+use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{Estimate, between_zero_and_one, finite, in_range, not_negative, positive};
 use rheology::Material;
 
@@ -71,7 +71,8 @@ impl Default for Follow {
 ///
 /// The surface is at rest before the first point, to which a body jumps that is below the surface there, or pressed. At a
 /// depth everything is exact up to rounding; between two points the edge of the contact may turn once. So is the depth
-/// under a force as long as the contact does not shrink; without force the body touches.
+/// under a force as long as the contact does not shrink; without force the body touches. A profile that is exact only for a
+/// contact that grows once and shrinks once, as that of a body on a layer, is followed so far.
 ///
 /// ```
 /// use mdr_core::indenters::{Control, HistoryPoint, PowerProfile};
@@ -98,9 +99,9 @@ impl Default for Follow {
 /// body turns down or ends before the largest depth; [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical
 /// edge, as the equator of a sphere, and [`MdrError::ForceBeyondEdge`] when it would under a force, or the line turns down or
 /// ends; [`MdrError::NotADisc`] when a part of the contact would open inside
-/// it, or close outside; [`MdrError::HistoryNotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
+/// it, or close outside; [`MdrError::TouchedAgain`] on such a profile; [`MdrError::HistoryNotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
 pub fn indent_along(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn EquivalentProfile,
     material: &(impl Material + ?Sized),
     history: &[HistoryPoint],
     options: &Follow,
@@ -111,8 +112,8 @@ pub fn indent_along(
     if points.iter().all(|[_, value]| *value <= 0.0) {
         return Ok(points.into_iter().map(free).collect());
     }
-    // As a pointer to it, a body of any size is one that can be an object.
-    let (body, material): (&dyn Axisymmetric, &dyn Material) = (&body, &material);
+    // As a pointer to it, a material of any size is one that can be an object.
+    let material: &dyn Material = &material;
     let curve = match history[0].control {
         Control::IndentationDepth(_) => along_depth(body, material, &points, options)?,
         Control::NormalForce(_) => Pressed {
@@ -121,7 +122,8 @@ pub fn indent_along(
             options: *options,
             points,
         }
-        .curve()?,
+        .curve()
+        .and_then(|curve| grown_and_shrunk(body, curve))?,
     };
     for point in &curve {
         let (force, depth) = (point.normal_force, point.indentation_depth);
@@ -168,7 +170,7 @@ fn checked(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
 }
 
 fn along_depth(
-    body: &dyn Axisymmetric,
+    body: &dyn EquivalentProfile,
     material: &dyn Material,
     points: &[[f64; 2]],
     options: &Follow,
@@ -194,6 +196,9 @@ fn along_depth(
     for point in points {
         approach.follow(*point);
         if approach.is_touched_again {
+            if !body.is_exact_where_touched_again() {
+                return Err(MdrError::TouchedAgain { time: point[0] });
+            }
             bars.largest = 0.0;
             return touched_again(body, material, points, radii, bars);
         }
@@ -202,9 +207,37 @@ fn along_depth(
     Ok(curve)
 }
 
+/// Refuses a contact under a force that grows again after it has shrunk, unless that is exact too.
+fn grown_and_shrunk(
+    body: &dyn EquivalentProfile,
+    curve: Vec<CurvePoint>,
+) -> Result<Vec<CurvePoint>, MdrError> {
+    let mut widest = 0.0;
+    let mut has_shrunk = false;
+    let mut before = Estimate::exact(0.0);
+    for CurvePoint {
+        time,
+        contact_radius,
+        ..
+    } in &curve
+    {
+        let differs = |radius: f64| radius > contact_radius.error + before.error;
+        if has_shrunk
+            && differs(contact_radius.value - before.value)
+            && !body.is_exact_where_touched_again()
+        {
+            return Err(MdrError::TouchedAgain { time: *time });
+        }
+        has_shrunk |= differs(widest - contact_radius.value);
+        widest = contact_radius.value.max(widest);
+        before = *contact_radius;
+    }
+    Ok(curve)
+}
+
 /// A contact that grows again over elements which it left.
 fn touched_again(
-    body: &dyn Axisymmetric,
+    body: &dyn EquivalentProfile,
     material: &dyn Material,
     points: &[[f64; 2]],
     radii: Radii,

@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use indenters::{Axisymmetric, contact_radius};
+use indenters::EquivalentProfile;
 use numerics::bracketed_root;
 
 use crate::MdrError;
@@ -40,26 +40,23 @@ struct Piece {
 
 impl Radii {
     /// For a body whose line rises up to the largest depth > 0.
-    pub(super) fn new(body: &dyn Axisymmetric, deepest: f64) -> Result<Self, MdrError> {
+    pub(super) fn new(body: &dyn EquivalentProfile, deepest: f64) -> Result<Self, MdrError> {
         let mut radii = Self {
             pieces: Vec::new(),
             area_error: 0.0,
         };
-        let largest = match body.closed_radius(deepest) {
-            Some(radius) => radius,
-            None => contact_radius(body, deepest)?,
-        };
-        let end = body.max_radius();
+        let largest = body.position(deepest)?;
+        let end = body.end();
         let edge = (1.0 - EDGE) * end;
-        if largest > edge && body.line_height(end) == f64::INFINITY {
+        if largest > edge && body.height_at(end) == f64::INFINITY {
             return Err(MdrError::DepthBeyondEdge {
                 position: end,
-                available: body.line_height(edge),
+                available: body.height_at(edge),
                 indentation_depth: deepest,
             });
         }
         let negligible = NEGLIGIBLE * deepest * largest;
-        let exponent = body.profile_exponent();
+        let exponent = body.apex_exponent();
         // cos(order · angle) at the angles π (2 node + 1)/(2 n).
         let cosine = |n: usize| (0.5 * PI * n as f64 / ORDER as f64).cos();
         let table: [f64; 4 * ORDER] = std::array::from_fn(cosine);
@@ -206,7 +203,7 @@ impl Piece {
 
     /// Interpolates at the zeros of the Chebyshev polynomial T_n; the size of the last two terms tells how well.
     fn fitted(
-        body: &dyn Axisymmetric,
+        body: &dyn EquivalentProfile,
         depths: [f64; 2],
         [inner, outer]: [f64; 2],
         cosines: &[[f64; ORDER]; ORDER],
@@ -259,8 +256,8 @@ fn sum_of_rows(factors: &[f64; ORDER], rows: &[[f64; ORDER]; ORDER]) -> [f64; OR
 
 /// The radius between two others at which the line has a height; the outer one where it is lower up to there, as a punch
 /// is.
-fn radius(body: &dyn Axisymmetric, height: f64, [inner, outer]: [f64; 2]) -> f64 {
-    let closed = body.closed_radius(height);
-    let excess = |x: f64| body.line_height(x) - height;
+fn radius(body: &dyn EquivalentProfile, height: f64, [inner, outer]: [f64; 2]) -> f64 {
+    let closed = body.closed_position(height);
+    let excess = |x: f64| body.height_at(x) - height;
     closed.unwrap_or_else(|| bracketed_root(excess, [inner, outer]).unwrap_or(outer))
 }

@@ -1,6 +1,6 @@
 //! The work that is done on the material along a history.
 
-use indenters::{Axisymmetric, Control, HistoryPoint};
+use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{Estimate, NotReached};
 use rheology::Material;
 
@@ -25,7 +25,7 @@ const MOST_PARTS: usize = 1 << 13;
 /// # Errors
 /// As for [`indent_along`], and [`MdrError::NotReached`].
 pub fn work_along(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn EquivalentProfile,
     material: &(impl Material + ?Sized),
     history: &[HistoryPoint],
     options: &Follow,

@@ -25,7 +25,7 @@ fn force(shape: &str, parameters: &[f64], path: &[HistoryPoint]) -> Vec<f64> {
         Control::NormalForce(_) => panic!("{point:?} has no depth"),
     });
     let path = history(shifted, Control::IndentationDepth);
-    let curve = force_derivatives(&*stretched(shape, parameters[0]), &material, &path);
+    let curve = force_derivatives(&stretched(shape, parameters[0]), &material, &path);
     curve.expect("a curve").normal_force
 }
 
@@ -62,7 +62,7 @@ fn derivatives_are_those_of_differences() {
         let path = path(&knots, &(0..48).map(time).collect::<Vec<f64>>());
         let case = format!("{name}, {shape}, {along}");
         let (body, material) = (body(shape), material(name));
-        let exact = force_derivatives(&*body, &material, &path).expect("a curve");
+        let exact = force_derivatives(&body, &material, &path).expect("a curve");
         assert_eq!(exact.exact_until, path.len(), "{case}: one approach");
         assert_same(&exact, &follow(&*body, &material, &path), &case);
         let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
@@ -132,7 +132,7 @@ fn a_dip_in_a_dwell_is_wrong_in_second_order() {
         knots[3][1] -= dip;
         let times: Vec<f64> = (1..80).map(|n| 0.05 * f64::from(n)).collect();
         let path = path(&knots, &times);
-        let fast = force_derivatives(&*body, &material("solid"), &path).expect("a curve");
+        let fast = force_derivatives(&body, &material("solid"), &path).expect("a curve");
         let begins = path[fast.exact_until].time;
         let is_seen = (begins - 2.15).abs() < 1e-12 || dip < 1e-4;
         assert!(is_seen, "touched again at {begins}");
@@ -151,11 +151,11 @@ fn forces_are_not_differentiated_and_a_body_above_has_none() {
     let body = body("paraboloid");
     let held = |value, control| history([[0.0, value], [1.0, value]], control);
     let forces = held(1.0, Control::NormalForce);
-    let refused = force_derivatives(&*body, &material("solid"), &forces);
+    let refused = force_derivatives(&body, &material("solid"), &forces);
     let named = matches!(&refused, Err(MdrError::InvalidParameter(refused)) if refused.parameter == "control");
     assert!(named, "{refused:?}");
     let above = held(-1e-3, Control::IndentationDepth);
-    let above = force_derivatives(&*body, &material("solid"), &above).expect("a curve");
+    let above = force_derivatives(&body, &material("solid"), &above).expect("a curve");
     let forces = [&above.normal_force, &above.depth, &above.moduli[0]];
     assert_eq!(forces, [&vec![0.0; 2]; 3], "no contact");
 }

@@ -1,7 +1,8 @@
 //! Histories that cannot be followed are refused by name.
 
 use casebook::{assert_matches, superposition};
-use indenters::{Axisymmetric, Control, HistoryPoint, Sphere};
+use friction_analytic::{BondedLayer, LayerProfile};
+use indenters::{Axisymmetric, Control, HistoryPoint, PowerProfile, Sphere};
 use mdr_core::{CurvePoint, Follow, MdrError, indent_along};
 
 use crate::histories_match_quadrature::{body, material};
@@ -14,7 +15,7 @@ fn follow(
     on: &str,
     history: &[HistoryPoint],
 ) -> Result<Vec<CurvePoint>, MdrError> {
-    indent_along(body, &material(on), history, &Follow::default())
+    indent_along(&body, &material(on), history, &Follow::default())
 }
 
 #[test]
@@ -60,4 +61,25 @@ fn a_body_is_not_pressed_where_its_line_turns_down_or_beyond_its_equator() {
         result,
         Err(MdrError::ForceBeyondEdge { normal_force: 10.0, available, .. }) if available < 1e-4
     );
+}
+
+/// A profile which stands for a surface whose elements are not independent is followed while the contact grows once and shrinks once.
+#[test]
+fn a_profile_of_a_layer_is_not_pressed_again() {
+    let ball = PowerProfile::paraboloid(0.5).expect("a ball");
+    let layer = BondedLayer::new(0.2, 0.5).expect("a layer");
+    let profile = LayerProfile::new(&ball, &layer, 0.05).expect("a profile");
+    let solid = material("solid");
+    let follow = |points: &[[f64; 2]], control| {
+        let history = history(points.iter().copied(), control);
+        indent_along(&profile, &solid, &history, &Follow::default())
+    };
+    let once = [[0.0, 0.0], [1.0, 0.02], [2.0, 0.02], [3.0, 0.0]];
+    let again = [[0.0, 0.0], [1.0, 0.02], [1.2, 0.01], [3.0, 0.01]];
+    for control in [IndentationDepth, NormalForce] {
+        let curve = follow(&once, control).expect("a curve");
+        assert!(curve[1].contact_radius.value > 0.1, "{:?}", curve[1]);
+        let refused = follow(&again, control);
+        assert_matches!(refused, Err(MdrError::TouchedAgain { time: 3.0 }));
+    }
 }

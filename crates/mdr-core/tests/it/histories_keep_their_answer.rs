@@ -21,7 +21,7 @@ fn follow(
         relative_error: 0.02,
         ..Follow::default()
     };
-    indent_along(body, material, path, &options).expect("a curve")
+    indent_along(&body, material, path, &options).expect("a curve")
 }
 
 /// Two more points in every segment that takes time.

@@ -83,7 +83,7 @@ pub(crate) fn follow(
     material: &dyn Material,
     path: &[HistoryPoint],
 ) -> Vec<CurvePoint> {
-    indent_along(body, material, path, &Follow::default()).expect("a disc")
+    indent_along(&body, material, path, &Follow::default()).expect("a disc")
 }
 
 /// Every bar holds the reference, which has so many digits, and no bar is above 1e-10 of the largest value.
@@ -180,7 +180,7 @@ fn power_laws_come_back_as_theory_says() {
             modulus_error: error,
             ..Follow::default()
         };
-        let curve = indent_along(&*body("paraboloid"), &material, &path, &options);
+        let curve = indent_along(&body("paraboloid"), &material, &path, &options);
         let curve = curve.expect("a disc");
         let peak = curve[1].normal_force;
         for (point, force) in curve[2..].iter().zip(forces) {
@@ -200,7 +200,7 @@ fn under(body: &dyn Axisymmetric, forces: &[[f64; 2]], relative_error: f64) -> V
         relative_error,
         ..Follow::default()
     };
-    indent_along(body, &material("solid"), &history, &options).expect("a depth")
+    indent_along(&body, &material("solid"), &history, &options).expect("a depth")
 }
 
 /// Casebook-2.json, force_control: 14 digits. Both forces jump.
@@ -279,7 +279,7 @@ fn work_is_the_area_under_the_curve() {
             relative_error: 1e-4,
             ..Follow::default()
         };
-        let work = work_along(&*body, &material(solid), &path(&knots(name), &[]), &options);
+        let work = work_along(&body, &material(solid), &path(&knots(name), &[]), &options);
         work.expect("work")
     };
     let times: Vec<f64> = (1..9000).map(|n| 4e-4 * f64::from(n)).collect();

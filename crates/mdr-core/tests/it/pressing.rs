@@ -18,7 +18,7 @@ fn follow(
 ) -> Vec<CurvePoint> {
     let point = |&(time, control): &(f64, Control)| HistoryPoint { time, control };
     let history: Vec<HistoryPoint> = points.iter().map(point).collect();
-    indent_along(body, material, &history, &Follow::default()).expect("a disc")
+    indent_along(&body, material, &history, &Follow::default()).expect("a disc")
 }
 
 /// A control that is there from first touch on, as a history and on springs.

@@ -64,6 +64,11 @@ pub enum Flag {
         "the contact is {0:.1e} times as deep as wide: are the radius of the body and the depth in metres?"
     )]
     Sharp(f64),
+    /// Strains are no longer small.
+    #[error(
+        "the body goes {0:.0} % of the thickness of the sample deep, where strains are not small and linear theory ends"
+    )]
+    DeepInSample(f64),
     /// The body presses again, perhaps on a surface that has not recovered.
     #[error("the body presses again, where the force of the fit need not be exact")]
     PressedAgain,

@@ -8,7 +8,6 @@
 //! noises that are likely, and v, by how much the variance of the parameter is larger than if they were independent. The error
 //! of a smoothed depth is added to both.
 
-use mdr_core::MdrError;
 use numerics::Estimate;
 use numerics::least_squares::{inverse, minimise};
 
@@ -16,6 +15,7 @@ use super::model::{Forces, Kind, Model};
 use super::noise::{Linear, Noise, RIDGE, correlated_points, normal_matrix};
 use super::search::Found;
 use super::{Finding, IndentationCurve};
+use crate::MeasurementError;
 
 /// 95 % of a normal distribution are within so many standard deviations.
 const NORMAL: f64 = 1.959_963_984_540_054;
@@ -39,7 +39,7 @@ pub(super) struct Statistics {
 }
 
 impl Statistics {
-    pub(super) fn of(found: &Found) -> Result<Self, MdrError> {
+    pub(super) fn of(found: &Found) -> Result<Self, MeasurementError> {
         let forces = found.model.forces(&found.parameters)?;
         let n = found.parameters.len();
         let squares = &found.squares;
@@ -89,7 +89,7 @@ impl Statistics {
     }
 
     fn finding(&self, found: &Found, parameter: usize, profile: bool) -> Finding {
-        let is_logarithm = found.model.kind.is_logarithm(parameter);
+        let is_logarithm = found.model.is_logarithm(parameter);
         let [value, deviation] = [found.parameters[parameter], self.deviation(parameter)];
         let wide = is_logarithm && (deviation > WIDE || deviation.is_nan());
         let ends = [-1.0, 1.0].map(|side| {
@@ -109,7 +109,7 @@ impl Statistics {
         };
         let value = shown(value);
         let is_determined = bounds.iter().all(Option::is_some) && error.is_finite();
-        let (name, unit) = name(found.model.kind, parameter);
+        let (name, unit) = name(&found.model, parameter);
         Finding {
             name,
             unit,
@@ -213,7 +213,7 @@ fn of_path(
     forces: &Forces,
     rows: &[Vec<f64>],
     inverse: &[f64],
-) -> Result<(f64, Vec<f64>), MdrError> {
+) -> Result<(f64, Vec<f64>), MeasurementError> {
     let n = rows.len();
     let curve = found.model.curve;
     let Some(path) = &found.measured.path else {
@@ -266,9 +266,13 @@ fn of_path(
 }
 
 /// Name and unit of a parameter.
-fn name(kind: Kind, parameter: usize) -> (String, &'static str) {
+fn name(model: &Model, parameter: usize) -> (String, &'static str) {
+    let kind = model.kind;
     let material = kind.n_parameters();
     let named = |name: &str, unit| (name.to_owned(), unit);
+    if model.thickness() == Some(parameter) {
+        return named("thickness", "m");
+    }
     match (kind, parameter) {
         (Kind::PowerLaw, 0) => named("G_1s", "Pa"),
         (Kind::PowerLaw, 1) => named("beta", ""),

@@ -188,10 +188,11 @@ impl<'a> Judgement<'a> {
 
 /// Whether a curved body is far too large or too small for the depth.
 fn out_of_scale(found: &Found) -> Option<Flag> {
-    let Model { body, curve, .. } = &found.model;
+    let Model { sample, curve, .. } = &found.model;
+    let body = sample.body;
     let depth = ends(&curve.depth)[1] - found.parameters[found.model.contact_point()];
     let is_curved = body.profile_exponent().is_finite();
-    let radius = indenters::contact_radius(*body, depth)
+    let radius = indenters::contact_radius(body, depth)
         .ok()
         .filter(|_| is_curved)?;
     let is_sharp = body.profile_exponent() > 1.0 && depth > SHARP * radius;

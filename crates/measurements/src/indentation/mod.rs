@@ -16,6 +16,7 @@ mod means;
 mod model;
 mod noise;
 mod read;
+mod sample;
 mod search;
 mod start;
 
@@ -72,6 +73,18 @@ pub enum Rheology {
     PowerLaw,
 }
 
+/// How thick a sample is; one of a finite thickness is bonded to a rigid base.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Thickness {
+    /// So thick that it is a half space.
+    #[default]
+    Infinite,
+    /// Greater than 0, \[m].
+    Known(f64),
+    /// Found with the material.
+    Fitted,
+}
+
 /// How a curve is fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitOptions {
@@ -81,6 +94,8 @@ pub struct FitOptions {
     pub branches: Option<usize>,
     /// Poisson ratio ν, −1 < ν ≤ 1/2.
     pub poisson_ratio: f64,
+    /// Thickness of the sample.
+    pub thickness: Thickness,
     /// Whether the force without contact may depend on the depth.
     pub tilt: bool,
     /// Whether the points after the deepest one are left out, where a body may stick.
@@ -90,12 +105,13 @@ pub struct FitOptions {
 }
 
 impl Default for FitOptions {
-    /// A standard solid that is incompressible, with a tilted baseline, from the whole curve.
+    /// A standard solid that is incompressible and thick, with a tilted baseline, from the whole curve.
     fn default() -> Self {
         Self {
             rheology: Rheology::StandardSolid,
             branches: None,
             poisson_ratio: 0.5,
+            thickness: Thickness::Infinite,
             tilt: true,
             before_retraction: false,
             profile: false,
@@ -155,6 +171,9 @@ pub fn fit_indentation(
     options: &FitOptions,
 ) -> Result<IndentationFit, MeasurementError> {
     crate::moduli::shear_per_tension(options.poisson_ratio)?;
+    if let Thickness::Known(thickness) = options.thickness {
+        numerics::positive("thickness", thickness)?;
+    }
     let n = curve.time.len();
     for (name, other) in [("depths", &curve.depth), ("forces", &curve.force)] {
         let holds = other.len() == n;
@@ -167,12 +186,14 @@ pub fn fit_indentation(
     let measured =
         checks::usable(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
     let curve = &measured.curve;
-    let begin = start::start(body, curve, options)?;
+    let sample = sample::Sample::new(body, curve, options)?;
+    let begin = start::start(&sample, curve, options)?;
     checks::before(&measured, &begin).map_err(MeasurementError::Damaged)?;
-    let found = search::search(body, &measured, options, &begin)?;
+    let found = search::search(&sample, &measured, options, &begin)?;
     let statistics = intervals::Statistics::of(&found)?;
     let judgement = judgement::Judgement::new(&found, &begin, &statistics);
-    let flags = judgement.flags().map_err(MeasurementError::Damaged)?;
+    let mut flags = judgement.flags().map_err(MeasurementError::Damaged)?;
+    flags.extend(sample.too_deep(&found));
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
     let findings = statistics.findings(&found, options.profile);

@@ -1,15 +1,18 @@
 //! Forces of a material at the points of a curve, and their derivatives by the parameters of a fit.
 //!
-//! The parameters are the logarithms of moduli and times (of a power law ln G₁ and β), contact point, baseline and tilt.
+//! The parameters are the logarithms of moduli and times (of a power law ln G₁ and β), contact point, baseline and tilt, and
+//! the logarithm of the thickness of the sample, where that is sought.
 
-use indenters::{Axisymmetric, Control, HistoryPoint};
+use indenters::{Control, EquivalentProfile, HistoryPoint};
 use mdr_core::{ForceDerivatives, MdrError, force_derivatives};
 use rheology::{
     Compressible, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, Springpot,
 };
 
 use super::depth::ends;
+use super::sample::Sample;
 use super::{FitOptions, IndentationCurve};
+use crate::MeasurementError;
 
 /// A material with free parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,13 +42,15 @@ const EXPANSION: f64 = 1e-4;
 
 /// Times that differ by less are the same.
 const SAME: f64 = 1e-7;
+/// Step of the logarithm of the thickness, over which a force is straight.
+const THINNER: f64 = 1e-4;
 /// Step of β, over which the nodes of that series stay what they are but for chance.
 const DELTA: f64 = 1e-6;
 
 /// A body that follows the depth of a curve.
 #[derive(Clone)]
 pub(super) struct Model<'a> {
-    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) sample: Sample<'a>,
     pub(super) curve: &'a IndentationCurve,
     pub(super) kind: Kind,
     pub(super) poisson_ratio: f64,
@@ -67,7 +72,7 @@ pub(super) struct Forces {
 
 impl<'a> Model<'a> {
     pub(super) fn new(
-        body: &'a dyn Axisymmetric,
+        sample: &Sample<'a>,
         curve: &'a IndentationCurve,
         kind: Kind,
         options: &FitOptions,
@@ -77,7 +82,7 @@ impl<'a> Model<'a> {
         let shortest = steps.fold(f64::INFINITY, f64::min);
         let [low, high] = ends(&curve.depth);
         Self {
-            body,
+            sample: sample.clone(),
             curve,
             kind,
             poisson_ratio: options.poisson_ratio,
@@ -88,7 +93,17 @@ impl<'a> Model<'a> {
     }
 
     pub(super) const fn n_parameters(&self) -> usize {
-        self.kind.n_parameters() + 2 + self.tilt as usize
+        self.kind.n_parameters() + 2 + self.tilt as usize + self.sample.is_sought() as usize
+    }
+
+    /// The place of the thickness, where it is sought.
+    pub(super) fn thickness(&self) -> Option<usize> {
+        self.sample.is_sought().then(|| self.n_parameters() - 1)
+    }
+
+    /// Whether a parameter is a logarithm.
+    pub(super) fn is_logarithm(&self, parameter: usize) -> bool {
+        self.kind.is_logarithm(parameter) || self.thickness() == Some(parameter)
     }
 
     pub(super) const fn contact_point(&self) -> usize {
@@ -112,25 +127,39 @@ impl<'a> Model<'a> {
         Ok(expansion.spectrum)
     }
 
-    pub(super) fn forces(&self, parameters: &[f64]) -> Result<Forces, MdrError> {
-        let spectrum = self.spectrum(parameters)?;
+    pub(super) fn forces(&self, parameters: &[f64]) -> Result<Forces, MeasurementError> {
+        let spectrum = self.spectrum(parameters).map_err(MdrError::from)?;
         let place = self.contact_point();
         let [contact_point, baseline] = [parameters[place], parameters[place + 1]];
-        let tilt = parameters[place + 2..].first().copied().unwrap_or_default();
+        let tilt = if self.tilt {
+            parameters[place + 2]
+        } else {
+            0.0
+        };
         let history = self.history(contact_point);
-        let material = Compressible::new(&Prony::new(spectrum.clone())?, self.poisson_ratio)?;
-        let found = force_derivatives(self.body, &material, &history)?;
+        let material = Prony::new(spectrum.clone())
+            .and_then(|prony| Compressible::new(&prony, self.poisson_ratio))
+            .map_err(MdrError::from)?;
+        let thickness = self.thickness().map_or(0.0, |place| parameters[place]);
+        let on = |profile: &dyn EquivalentProfile| force_derivatives(profile, &material, &history);
+        let found = on(&*self.sample.profile(thickness)?)?;
         let sides = self.curve.depth.iter().map(|depth| depth - self.middle);
         let sides: Vec<f64> = sides.collect();
         let pairs = found.normal_force.iter().zip(&sides);
         let values = pairs.map(|(force, side)| force + baseline + tilt * side);
         let measured = self.curve.force.iter().zip(values);
         let residuals = measured.map(|(force, value)| force - value).collect();
-        let mut rows = self.material_rows(parameters, &spectrum, &found)?;
+        let rows = self.material_rows(parameters, &spectrum, &found);
+        let mut rows = rows.map_err(MdrError::from)?;
         rows.push(found.depth.iter().map(|slope| -slope).collect());
         rows.push(vec![1.0; sides.len()]);
         if self.tilt {
             rows.push(sides);
+        }
+        if self.sample.is_sought() {
+            let thinner = on(&*self.sample.profile(thickness - THINNER)?)?;
+            let pairs = found.normal_force.iter().zip(&thinner.normal_force);
+            rows.push(pairs.map(|(one, other)| (one - other) / THINNER).collect());
         }
         Ok(Forces {
             residuals,

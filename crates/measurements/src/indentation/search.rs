@@ -1,12 +1,12 @@
 //! The parameters of least squares, from several starts on few points to all points but wild ones.
 
-use indenters::Axisymmetric;
 use numerics::least_squares::{Linearised, Range, minimise};
 
 use super::depth::{BY_MEDIAN, median};
 use super::means::Measured;
 use super::model::{Kind, Model};
 use super::noise::{Linear, Noise, normal_matrix};
+use super::sample::Sample;
 use super::start::Start;
 use super::{FitOptions, IndentationCurve, Rheology};
 use crate::MeasurementError;
@@ -33,7 +33,7 @@ pub(super) struct Found<'a> {
 }
 
 pub(super) fn search<'a>(
-    body: &'a dyn Axisymmetric,
+    sample: &Sample<'a>,
     measured: &'a Measured,
     options: &FitOptions,
     begin: &Start,
@@ -42,7 +42,7 @@ pub(super) fn search<'a>(
     let few = curve.decimated(FEW);
     let of_kind = |kind| {
         fit(
-            Model::new(body, curve, kind, options),
+            Model::new(sample, curve, kind, options),
             measured,
             &few,
             begin,
@@ -68,9 +68,11 @@ pub(super) fn search<'a>(
     };
     found.ok_or_else(|| {
         // Nearly always the whole depth is too large for the body.
-        let elastic = Model::new(body, curve, Kind::Branches(0), options);
-        let refused = elastic.forces(&[0.0, curve.depth[0], 0.0, 0.0]).err();
-        refused.map_or(MeasurementError::NotConverged, MeasurementError::Model)
+        let elastic = Model::new(sample, curve, Kind::Branches(0), options);
+        let mut parameters = vec![0.0, curve.depth[0], 0.0, 0.0];
+        parameters.extend(begin.thickness);
+        let refused = elastic.forces(&parameters).err();
+        refused.unwrap_or(MeasurementError::NotConverged)
     })
 }
 
@@ -174,6 +176,9 @@ fn ranges(model: &Model, begin: &Start) -> Vec<Range> {
     ranges.push(range([depth[0] - width, deepest], 0.1 * width));
     let anything = range([f64::NEG_INFINITY, f64::INFINITY], f64::INFINITY);
     ranges.resize(model.n_parameters(), anything);
+    if let (Some(bounds), Some(last)) = (model.sample.range(), ranges.last_mut()) {
+        *last = range(bounds, 0.5);
+    }
     ranges
 }
 
@@ -197,9 +202,12 @@ fn starts(model: &Model, begin: &Start) -> Vec<Vec<f64>> {
             vec![[each].into_iter().chain(branches).collect()]
         }
     };
-    let others = [begin.contact_point, begin.baseline, 0.0];
-    let n_others = model.n_parameters() - model.kind.n_parameters();
-    let complete = |start: Vec<f64>| [&start, &others[..n_others]].concat();
+    let others = [begin.contact_point, begin.baseline].into_iter();
+    let others = others
+        .chain(model.tilt.then_some(0.0))
+        .chain(begin.thickness);
+    let others: Vec<f64> = others.collect();
+    let complete = |start: Vec<f64>| [start, others.clone()].concat();
     material.into_iter().map(complete).collect()
 }
 

@@ -1,11 +1,9 @@
 //! Where a fit begins: the elastic material that is closest to the approach, with its contact point and baseline.
 
-use indenters::Axisymmetric;
-use mdr_core::MdrError;
-
 use super::depth::{ends, median};
 use super::model::{Kind, Model};
 use super::noise::correlated_points;
+use super::sample::Sample;
 use super::{FitOptions, Flag, IndentationCurve};
 use crate::MeasurementError;
 
@@ -22,6 +20,8 @@ pub(super) struct Start {
     /// The point at the end of the approach, and the time that it takes in contact.
     pub(super) turn: usize,
     pub(super) approach_time: f64,
+    /// Logarithm of the thickness of the sample, where that is sought.
+    pub(super) thickness: Option<f64>,
 }
 
 /// Points that a curve must have.
@@ -38,8 +38,24 @@ const UNCERTAIN: f64 = 5.0;
 /// Part of the depth range at which the approach ends.
 const APPROACH: f64 = 0.98;
 
+/// The best start of all thicknesses with which a search begins.
 pub(super) fn start(
-    body: &dyn Axisymmetric,
+    sample: &Sample,
+    curve: &IndentationCurve,
+    options: &FitOptions,
+) -> Result<Start, MeasurementError> {
+    let starts = sample.starts().into_iter();
+    let found = starts.map(|thickness| start_at(thickness, sample, curve, options));
+    let (starts, refused): (Vec<_>, Vec<_>) = found.partition(Result::is_ok);
+    let best = |one: &Start, other: &Start| one.residual.total_cmp(&other.residual);
+    let found = starts.into_iter().flatten().min_by(best);
+    let refused = refused.into_iter().find_map(Result::err);
+    found.ok_or_else(|| refused.unwrap_or(MeasurementError::NotConverged))
+}
+
+fn start_at(
+    thickness: Option<f64>,
+    sample: &Sample,
     curve: &IndentationCurve,
     options: &FitOptions,
 ) -> Result<Start, MeasurementError> {
@@ -48,12 +64,12 @@ pub(super) fn start(
     let is_deep = |one: &f64| *one >= depth[0] + APPROACH * range;
     let turn = depth.iter().position(is_deep).unwrap_or(depth.len() - 1);
     let few = curve.first((turn + 1).max(FEWEST)).decimated(POINTS);
-    let model = Model::new(body, &few, Kind::Branches(0), options);
+    let model = Model::new(sample, &few, Kind::Branches(0), options);
     if turn == 0 {
         return Err(MeasurementError::Damaged(Flag::WrongSign));
     }
     let fit = |contact_point: f64| {
-        let start = elastic(&model, contact_point).ok()?;
+        let start = elastic(&model, contact_point, thickness).ok()?;
         let touch = depth.iter().position(|depth| *depth > contact_point);
         let approach_time = time[turn] - time[touch.unwrap_or(0).min(turn - 1)];
         Some(Start {
@@ -71,7 +87,7 @@ pub(super) fn start(
     let mut best = match best_of(&mut places) {
         Some(best) => best,
         // All are refused for one reason.
-        None => elastic(&model, depth[0])?,
+        None => elastic(&model, depth[0], thickness)?,
     };
     for halvings in 1..=REFINEMENTS {
         let shift = step * 0.5_f64.powi(halvings);
@@ -139,8 +155,17 @@ fn off_the_line(over: &[f64], values: &[f64]) -> Vec<f64> {
 }
 
 /// Baseline and modulus by linear least squares.
-fn elastic(model: &Model, contact_point: f64) -> Result<Start, MdrError> {
-    let unit = model.forces(&[0.0, contact_point, 0.0, 0.0])?.contact;
+fn elastic(
+    model: &Model,
+    contact_point: f64,
+    thickness: Option<f64>,
+) -> Result<Start, MeasurementError> {
+    let mut parameters = vec![0.0, contact_point];
+    parameters.resize(model.n_parameters(), 0.0);
+    if let (Some(place), Some(thickness)) = (model.thickness(), thickness) {
+        parameters[place] = thickness;
+    }
+    let unit = model.forces(&parameters)?.contact;
     let n = unit.len() as f64;
     let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
     let [unit_mean, force_mean] = [mean(&unit), mean(&model.curve.force)];
@@ -159,5 +184,6 @@ fn elastic(model: &Model, contact_point: f64) -> Result<Start, MdrError> {
         residual: (squares.sum::<f64>() / n).sqrt(),
         turn: 0,
         approach_time: 0.0,
+        thickness,
     })
 }

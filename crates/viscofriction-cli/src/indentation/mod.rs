@@ -8,7 +8,8 @@ use anyhow::{Result, anyhow};
 use clap::Args;
 use measurements::MeasurementError;
 use measurements::indentation::{
-    CurveOptions, Finding, FitOptions, IndentationFit, Rheology, fit_indentation, indentation_curve,
+    CurveOptions, Finding, FitOptions, IndentationFit, Rheology, Thickness, fit_indentation,
+    indentation_curve,
 };
 use rayon::prelude::*;
 use rheology::Material as _;
@@ -44,6 +45,10 @@ pub(crate) struct FitIndentation {
     /// Poisson ratio.
     #[arg(long, default_value_t = 0.5, value_name = "NU")]
     poisson_ratio: f64,
+    /// Thickness of the sample in m, which is bonded to a rigid base, or "fit" to find it with the material [default: so thick
+    /// that it is a half space].
+    #[arg(long, value_name = "THICKNESS", value_parser = thickness)]
+    thickness: Option<Thickness>,
     /// Stiffness of the cantilever in N/m [default: what the table says].
     #[arg(long, value_name = "N/m")]
     spring_constant: Option<f64>,
@@ -116,6 +121,17 @@ impl Body {
     }
 }
 
+/// A number, or "fit".
+fn thickness(text: &str) -> Result<Thickness, String> {
+    if text == "fit" {
+        return Ok(Thickness::Fitted);
+    }
+    let number = text
+        .parse()
+        .map_err(|_| "a number in m, or \"fit\", is needed".to_owned());
+    number.map(Thickness::Known)
+}
+
 fn boxed(shape: impl Axisymmetric + 'static) -> Box<dyn Axisymmetric> {
     Box::new(shape)
 }
@@ -128,6 +144,10 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     if options.branches.is_some() && options.material != Rheology::Prony {
         let problem =
             "--branches is for --material prony; the other materials have no branches to choose";
+        return Err(WrongInput(problem.to_owned()).into());
+    }
+    if options.thickness.is_some() && options.body.pyramid.is_some() {
+        let problem = "--thickness needs a body of revolution, and a --pyramid is none; give the --cone that is closest";
         return Err(WrongInput(problem.to_owned()).into());
     }
     let mut curves = options.curves.iter();
@@ -180,6 +200,7 @@ impl FitIndentation {
             rheology: self.material,
             branches: self.branches,
             poisson_ratio: self.poisson_ratio,
+            thickness: self.thickness.unwrap_or_default(),
             tilt: !self.no_tilt,
             before_retraction: self.before_retraction,
             profile,

@@ -1,6 +1,6 @@
 //! What the one-dimensional model says, as answers.
 
-use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
+use indenters::{Axisymmetric, EquivalentLine, EquivalentProfile, PressingLoad, SlidingLoad};
 use mdr_core::{
     CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along, slide,
     steady,
@@ -97,7 +97,7 @@ pub(crate) fn pressed(
 /// Pressing and letting go along a history; the answer is its last point.
 pub(crate) fn followed(
     problem: &Problem,
-    body: &dyn Axisymmetric,
+    body: &dyn EquivalentProfile,
     method: Method,
     relative_error: f64,
 ) -> Result<Answer> {

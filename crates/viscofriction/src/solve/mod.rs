@@ -12,6 +12,7 @@ mod error;
 mod expansion;
 mod half_space;
 mod heights;
+mod layer;
 mod left_out;
 mod mdr;
 mod memory;
@@ -169,7 +170,7 @@ mod tests {
             panic!("a body of revolution");
         };
         let reached = indent_along(
-            &**body,
+            &&**body,
             problem.material(),
             problem.history(),
             &Follow::default(),

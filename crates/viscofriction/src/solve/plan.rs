@@ -35,7 +35,8 @@ impl fmt::Debug for Plan<'_> {
 
 /// The plan of the method that the scene names, or of the cheapest that answers it.
 ///
-/// Nothing is solved for it; only slow sliding is known to be slow when its terms have been computed, and they are kept.
+/// Nothing is solved for it; only slow sliding is known to be slow, and a contact on a layer to grow once and shrink once, when
+/// they have been computed, and they are kept.
 ///
 /// # Errors
 /// [`NotOffered`], with what is offered instead.

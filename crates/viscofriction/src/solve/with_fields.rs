@@ -11,8 +11,8 @@ use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::curve::{self, CurveColumn};
 use super::half_space::Simple;
-use super::mdr;
 use super::problem::{Motion, Problem};
+use super::{layer, mdr};
 use crate::scene::{Control, Method};
 
 /// Places of the pressure on each side of the middle.
@@ -48,7 +48,10 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
         && answer.method != Method::BemTransient
     {
         let options = mdr::following(problem, WORK);
-        let work = work_along(&**body, problem.material(), problem.history(), &options);
+        let profile = layer::equivalent(problem, body).ok();
+        let work = profile.and_then(|profile| {
+            work_along(&*profile, problem.material(), problem.history(), &options).ok()
+        });
         let column = work.map(|values| CurveColumn {
             name: curve::WORK,
             values,

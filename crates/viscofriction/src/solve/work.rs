@@ -14,7 +14,7 @@ use super::error::{Refusal, Result};
 use super::half_space::Simple;
 use super::problem::Motion::{History, Pressing, Sliding};
 use super::problem::Problem;
-use super::{analytic, elements, mdr};
+use super::{analytic, elements, layer, mdr};
 use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
 use crate::scene::{Accuracy, Control, Model};
 
@@ -25,6 +25,8 @@ type Offer<'a> = Result<Work<'a>, Refusal>;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
+const ONCE: Refusal = "on a layer it follows a contact that grows once and shrinks once, up to a hundred thicknesses wide and not to the \
+     edge of the body; bem-transient follows any";
 const ENDLESS: Refusal = "its elements end, and a cylinder or a periodic surface does not";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 const NO_SHARE: Refusal =
@@ -39,9 +41,11 @@ const NOTHING_SLIDES: Refusal =
 /// The work of a method, whichever method and model the problem names.
 pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     let accuracy = problem.of_the_method();
-    let has_layers = matches!(method, BemSteady | BemTransient);
+    let is_history = matches!(problem.motion(), History(_));
+    let has_layers =
+        matches!(method, BemSteady | BemTransient) || (is_history && method == Analytic);
     require(has_layers || !problem.thickness().is_finite(), NO_LAYER)?;
-    if let History(_) = problem.motion() {
+    if is_history {
         return followed(problem, method, accuracy);
     }
     let is_elastic = problem.simple() == Some(&Simple::Elastic);
@@ -93,7 +97,8 @@ fn has_force(problem: &Problem) -> bool {
     matches!(problem.motion().control(), Control::NormalForce(_))
 }
 
-/// Of a body of revolution the one-dimensional model is exact here, on the half space too.
+/// Of a body of revolution the one-dimensional model is exact here, on the half space too, and on a layer as long as the contact
+/// grows once and shrinks once.
 fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> {
     match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
@@ -105,7 +110,12 @@ fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> 
             let Accuracy::RelativeError(asked) = accuracy else {
                 return Err(NO_ELEMENTS);
             };
-            ready(move |_| mdr::followed(problem, &**body, method, asked))
+            if problem.thickness().is_finite() {
+                let answer = layer::followed(problem, body, asked);
+                let answer = answer.ok().flatten().ok_or(ONCE)?;
+                return ready(move |_| Ok(answer));
+            }
+            ready(move |_| mdr::followed(problem, &&**body, method, asked))
         }
         _ => Err("it needs a body of revolution; bem-transient follows a history with others"),
     }

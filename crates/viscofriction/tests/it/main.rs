@@ -8,6 +8,7 @@ mod answers_agree;
 mod explained_omissions;
 mod height_maps_of_numpy;
 mod histories;
+mod histories_on_layers;
 mod layers;
 mod malformed;
 #[cfg(feature = "fit")]

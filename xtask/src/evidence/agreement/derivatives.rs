@@ -106,11 +106,11 @@ fn sums_in(
 
 /// The number at a path such as `material.prony.branches[0].modulus`.
 fn number(scene: &Value, path: &str) -> Option<f64> {
-    let steps = path.split(['.', '[']);
-    let place = steps.fold(Some(scene), |place, step| {
+    let mut steps = path.split(['.', '[']);
+    let place = steps.try_fold(scene, |place, step| {
         match step.strip_suffix(']').map(str::parse::<usize>) {
-            Some(index) => place?.get(index.ok()?),
-            None => place?.get(step),
+            Some(index) => place.get(index.ok()?),
+            None => place.get(step),
         }
     });
     place?.as_float()

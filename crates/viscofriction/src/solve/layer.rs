@@ -1,0 +1,75 @@
+//! Histories on a layer, as long as the contact grows once and shrinks once.
+
+use friction_analytic::{BondedLayer, FrictionError, LayerProfile, indentation_after_impulse};
+use indenters::{Axisymmetric, Control, EquivalentProfile, HistoryPoint};
+use mdr_core::indent_along;
+use rheology::Viscous;
+
+use super::answer::Answer;
+use super::body::Revolution;
+use super::error::Result;
+use super::mdr::{following, of_curve};
+use super::problem::Problem;
+use crate::scene::Method;
+
+/// The answer along a history; none where contact or material are not among those that the theory knows.
+pub(super) fn followed(problem: &Problem, body: &Revolution, asked: f64) -> Result<Option<Answer>> {
+    let profile = profile(problem, body)?;
+    let mut options = following(problem, asked);
+    options.modulus_error += profile.relative_error();
+    let mut curve = indent_along(&profile, problem.material(), problem.history(), &options)?;
+    for point in &mut curve {
+        point.contact_radius = profile.contact_radius(point.contact_radius);
+    }
+    Ok(of_curve(problem, Method::Analytic, &curve))
+}
+
+/// The profile with which springs side by side have the force of the body, as deep as the history needs.
+fn profile(problem: &Problem, body: &Revolution) -> Result<LayerProfile> {
+    let material = problem.material();
+    let layer = BondedLayer::new(problem.thickness(), material.poisson_ratio())
+        .map_err(FrictionError::from)?;
+    let value = |point: &HistoryPoint| match point.control {
+        Control::IndentationDepth(value) | Control::NormalForce(value) => value,
+    };
+    let largest = problem.history().iter().map(value).fold(0.0, f64::max);
+    let mut depth = largest;
+    if let Control::NormalForce(_) = problem.motion().control() {
+        let duration = problem.durations().into_iter().fold(0.0, f64::max);
+        let compliance = material.creep_compliance(duration)? * material.half_space_factor();
+        depth = depth_of(&**body, &layer, largest * compliance)?;
+    }
+    Ok(LayerProfile::new(&**body, &layer, depth)?)
+}
+
+/// A depth that an impulse on the dashpot of unit viscosity does not exceed.
+fn depth_of(body: &dyn Axisymmetric, layer: &BondedLayer, impulse: f64) -> Result<f64> {
+    let on_half_space = indentation_after_impulse(body, &Viscous::new(1.0)?, impulse)?;
+    let mut radius = on_half_space.contact_radius.min(layer.widest());
+    // A flat punch has no depth of its own.
+    let force = |radius| {
+        layer
+            .press(body, radius)
+            .map_or(0.0, |contact| contact.force_per_modulus)
+    };
+    while force(0.5 * radius) > 0.25 * impulse {
+        radius *= 0.5;
+    }
+    let contact = layer.press(body, radius);
+    // Less by rounding, lest the widest contact be too wide.
+    Ok((1.0 - 1e-6)
+        * contact.map_or(on_half_space.indentation_depth, |contact| {
+            contact.indentation_depth
+        }))
+}
+
+/// What has the force of the body along the history.
+pub(super) fn equivalent<'a>(
+    problem: &Problem,
+    body: &'a Revolution,
+) -> Result<Box<dyn EquivalentProfile + 'a>> {
+    if problem.thickness().is_finite() {
+        return Ok(Box::new(profile(problem, body)?));
+    }
+    Ok(Box::new(&**body))
+}

@@ -1,0 +1,98 @@
+//! A contact that grows once and shrinks once on a layer is answered by theory, any other one by boundary elements.
+
+use viscofriction::numerics::Unwatched;
+use viscofriction::scene::Method;
+use viscofriction::solve::{Answer, plan};
+use viscofriction::{Problem, Scene};
+
+/// A ball on a layer; the history goes through `values` every half second.
+fn scene(poisson_ratio: f64, thickness: f64, quantity: &str, values: &[f64]) -> Scene {
+    let points = values.iter().enumerate();
+    let points =
+        points.map(|(k, value)| format!("{{ time = {}, {quantity} = {value:e} }}", 0.5 * k as f64));
+    let history = points.collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "[indenter.paraboloid]\ncurvature = 1e5\n[material.standard-solid]\nequilibrium_modulus = 1e3\nmaxwell_modulus = 3e3\n\
+         viscosity = 1e3\npoisson_ratio = {poisson_ratio}\n[layer]\nthickness = {thickness:e}\n[load]\nhistory = [{history}]\n\
+         [solve]\nrelative_error = 5e-3"
+    );
+    text.parse().expect("a scene")
+}
+
+fn solved(scene: &Scene, method: Option<Method>) -> Answer {
+    let mut scene = scene.clone();
+    scene.solve.method = method;
+    let problem = Problem::try_from(&scene).expect("a problem");
+    let plan = plan(&problem).expect("a plan");
+    plan.solve(&Unwatched).expect("an answer")
+}
+
+/// Both methods share the factor M(s) and no solution.
+#[test]
+fn theory_and_elements_agree_on_the_way_in_and_back() {
+    let depths = [0.0, 0.6e-6, 1e-6, 1e-6, 0.7e-6, 0.2e-6, -1e-6];
+    let forces = [0.0, 1e-9, 2e-9, 2e-9, 1e-9, 0.0];
+    for (nu, thickness) in [(0.3, 1e-6), (0.45, 1e-5), (0.5, 3e-6)] {
+        for (quantity, values) in [
+            ("indentation_depth", &depths[..]),
+            ("normal_force", &forces),
+        ] {
+            let scene = scene(nu, thickness, quantity, values);
+            let theory = solved(&scene, None);
+            assert_eq!(theory.method, Method::Analytic, "{quantity}");
+            let elements = solved(&scene, Some(Method::BemTransient));
+            for name in ["normal_force", "indentation_depth"] {
+                let [one, other] = [&theory, &elements]
+                    .map(|answer| answer.fields.curve.column(name).expect("a column"));
+                let allowed = one.error() + other.error();
+                for (one, other) in one.values.iter().zip(&other.values) {
+                    let off = (one.value - other.value).abs();
+                    assert!(
+                        off <= allowed,
+                        "{name}: {one:?} and {other:?}, ν = {nu}, t = {thickness}"
+                    );
+                }
+                assert!(one.error() <= 1.01 * 5e-3 * one.largest(), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_presses_again_is_left_to_elements() {
+    for (quantity, values) in [
+        ("indentation_depth", [0.0, 1e-6, 0.5e-6, 1e-6]),
+        ("indentation_depth", [0.0, 1e-6, 0.5e-6, 0.5e-6]),
+        ("normal_force", [0.0, 4e-9, 1e-9, 1e-9]),
+    ] {
+        let scene = scene(0.5, 3e-6, quantity, &values);
+        let problem = Problem::try_from(&scene).expect("a problem");
+        let method = plan(&problem).expect("a plan").method();
+        assert_eq!(method, Method::BemTransient, "{values:?}");
+        let mut named = scene.clone();
+        named.solve.method = Some(Method::Analytic);
+        let problem = Problem::try_from(&named).expect("a problem");
+        let refused = plan(&problem).expect_err("it is refused").to_string();
+        assert!(refused.contains("grows once and shrinks once"), "{refused}");
+    }
+}
+
+/// A layer of a million contacts is the half space.
+#[test]
+fn a_thick_layer_is_the_half_space() {
+    let on = |thickness| scene(0.3, thickness, "indentation_depth", &[0.0, 1e-6, 0.9e-6]);
+    let mut half_space = on(1.0);
+    half_space.layer = None;
+    let [one, other] = [on(3.0), half_space].map(|scene| solved(&scene, None));
+    for name in ["normal_force", "contact_radius"] {
+        let [one, other] =
+            [&one, &other].map(|answer| answer.fields.curve.column(name).expect("a column"));
+        for (one, other) in one.values.iter().zip(&other.values) {
+            let allowed = 2e-6 * other.value;
+            assert!(
+                (one.value - other.value).abs() <= allowed,
+                "{name}: {one:?} and {other:?}"
+            );
+        }
+    }
+}
