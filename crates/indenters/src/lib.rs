@@ -43,6 +43,7 @@ mod inverse_abel;
 mod leading_edge;
 mod line;
 mod load;
+mod moving;
 mod piecewise_linear;
 mod power;
 #[doc(hidden)]
@@ -76,6 +77,7 @@ pub use inverse_abel::inverse_abel;
 pub use leading_edge::{ContactLine, LeadingEdge, contact_line, leading_edge, leading_edge_with};
 pub use line::{EquivalentLine, RigidLine};
 pub use load::{Control, HistoryPoint, PressingLoad, SlidingLoad};
+pub use moving::{MovingLoad, MovingPoint, Shape, Stage, Stroke};
 pub use numerics::InvalidParameter;
 pub use piecewise_linear::PiecewiseLinearProfile;
 pub use power::PowerProfile;

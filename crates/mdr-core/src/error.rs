@@ -5,7 +5,7 @@ use numerics::{InWords, InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
 
-use crate::{CurvePoint, SlideRow, Sliding, SteadySliding};
+use crate::{CurvePoint, Moved, SlideRow, Sliding, SteadySliding};
 
 /// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -130,6 +130,44 @@ pub enum MdrError {
         missed: NotReached,
         /// What was found, with its bars.
         reached: Box<Sliding>,
+    },
+    /// A motion is known less well than asked for on the finest resolution allowed.
+    #[error("{missed}")]
+    MotionNotReached {
+        /// What is not known well enough.
+        missed: NotReached,
+        /// What was found, with its bars.
+        reached: Box<Moved>,
+    },
+    /// A material that flows gives way to and fro without end.
+    #[error(
+        "a material that flows gives way further in every cycle, and no cycle is like the one before: give it an \
+         equilibrium modulus, or a motion through points"
+    )]
+    NoCycle,
+    /// Cycle after cycle still changes.
+    #[error(
+        "after {cycles} cycles of the motion the relative change that may be left is {change:e}, and the tolerance \
+         {tolerance:e}: the material remembers too many cycles"
+    )]
+    NotPeriodic {
+        /// Cycles that were followed.
+        cycles: usize,
+        /// Relative change that may be left.
+        change: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// The path is too long for the contact.
+    #[error(
+        "the motion needs {steps:.0} steps of the length of an element of the contact, and {allowed:.0} are allowed: \
+         shorten its path or stroke, or press harder"
+    )]
+    TooManySteps {
+        /// Steps needed.
+        steps: f64,
+        /// The most steps of a motion, or of one cycle.
+        allowed: f64,
     },
     /// A material that flows has no contact at rest.
     #[error(

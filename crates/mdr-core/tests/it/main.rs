@@ -11,6 +11,7 @@ mod histories_keep_their_answer;
 mod histories_match_quadrature;
 mod leading_edges_carry_the_load;
 mod march_ends_in_the_stationary_state;
+mod motions;
 mod pressing;
 mod stationary_means_converged;
 mod stationary_sliding_matches_references;

@@ -1,0 +1,340 @@
+//! A motion on one resolution.
+
+use std::cell::RefCell;
+
+use indenters::{Control, MovingLoad, RigidLine};
+use rheology::Material;
+
+use super::chain::{Chain, Given, Kept, Stepped};
+use super::cycle::Cycles;
+use super::legs::{Leg, legs};
+use crate::MdrError;
+use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
+use crate::error::enough_elements;
+use crate::steady::Foundation;
+
+/// Duration of the first touch, at rest, relative to that of the first step.
+const TOUCH: f64 = 1e-3;
+
+/// Where the contact may end at first, in lengths of that of the fastest sliding.
+const REACH: f64 = 0.75;
+
+/// One step of a motion; what is not said to belong to its end is a mean, and belongs to its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MotionStep {
+    /// Number of the stage of the motion.
+    pub stage: usize,
+    /// Time in the middle, \[s].
+    pub time: f64,
+    /// Position in the middle, \[m].
+    pub position: f64,
+    /// Force on the body along −x, \[N].
+    pub tangential_force: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Indentation depth d of the lowest point, \[m].
+    pub indentation_depth: f64,
+    /// Rearmost and foremost loaded element at the end, relative to the lowest point, \[m].
+    pub contact: Option<[f64; 2]>,
+    /// Number of loaded elements at the end.
+    pub n_contact: usize,
+}
+
+/// A motion, or its last cycle, on one resolution.
+#[derive(Debug, Clone)]
+pub(super) struct Marched {
+    pub(super) steps: Vec<MotionStep>,
+    /// ∫ F_t dx, \[J].
+    pub(super) work: f64,
+    /// ∫ F_N |dx|, \[J].
+    pub(super) normal_work: f64,
+    /// Energy that the elements have lost, \[J].
+    pub(super) lost: f64,
+    /// Cycles that were followed.
+    pub(super) n_cycles: usize,
+    /// What is left of the way to the cycle: of the friction coefficient, and of the largest forces and depths of all steps.
+    pub(super) rest: [f64; 4],
+    /// Load per length at the end.
+    pub(super) load: Vec<[f64; 2]>,
+    pub(super) spacing: f64,
+}
+
+/// What moves, on what, and how.
+pub(super) struct Problem<'a, L: ?Sized> {
+    pub(super) line: &'a L,
+    pub(super) foundation: Foundation,
+    pub(super) load: &'a MovingLoad,
+    /// Length of the contact that is divided into elements, \[m].
+    pub(super) length: f64,
+    /// The slowest retardation time of the material, \[s]; 0 without any.
+    pub(super) memory: f64,
+    /// Relative error by which cycles may differ.
+    pub(super) tolerance: f64,
+    /// What the cycle on the resolution before remembers, with which the next one begins.
+    pub(super) kept: RefCell<Option<Kept>>,
+}
+
+impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
+    pub(super) fn new(
+        line: &'a L,
+        material: &(impl Material + ?Sized),
+        load: &'a MovingLoad,
+        (length, tolerance): (f64, f64),
+    ) -> Result<Self, MdrError> {
+        let creep = material.creep();
+        if load.is_cycle() && creep.fluidity() > 0.0 {
+            return Err(MdrError::NoCycle);
+        }
+        let times = creep
+            .elements()
+            .iter()
+            .map(|element| element.retardation_time);
+        Ok(Self {
+            line,
+            foundation: Foundation::new(material, 1.0)?,
+            load,
+            length,
+            memory: times.fold(0.0, f64::max),
+            tolerance,
+            kept: RefCell::new(None),
+        })
+    }
+
+    /// Follows the motion with a number of elements along the contact.
+    pub(super) fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<Marched, MdrError> {
+        let spacing = self.length / elements as f64;
+        let legs = legs(self.load, elements as f64, spacing)?;
+        let mut height = match self.load.largest_control() {
+            Control::IndentationDepth(depth) => depth,
+            Control::NormalForce(_) => self.rise(),
+        };
+        loop {
+            let sampled = ElementHeights::below(self.line, spacing, height)?;
+            let range = self.load.range();
+            let n_elements = (range[1] - range[0]) / spacing + sampled.heights.len() as f64;
+            if n_elements > MAX_ELEMENTS as f64 {
+                return Err(MdrError::TooManyElements {
+                    allowed: MAX_ELEMENTS,
+                    spacing,
+                    height,
+                });
+            }
+            if let Some(marched) = self.follow(&sampled, &legs, tell)? {
+                let contacts = marched.steps.iter().map(|step| step.n_contact);
+                enough_elements(contacts.max().unwrap_or(0), spacing)?;
+                return Ok(marched);
+            }
+            height = 2.0 * sampled.ceiling;
+        }
+    }
+
+    /// Height of the line about where a contact may end.
+    fn rise(&self) -> f64 {
+        let lowest = self.line.height(0.0);
+        let sides =
+            [-REACH * self.length, REACH * self.length].map(|x| self.line.height(x) - lowest);
+        let rise = sides[0].min(sides[1]);
+        if rise.is_finite() && rise > 0.0 {
+            rise
+        } else {
+            self.length
+        }
+    }
+
+    /// The motion, or nothing when the chain was not high enough.
+    fn follow(
+        &self,
+        sampled: &ElementHeights,
+        legs: &[Leg],
+        tell: &dyn Fn(f64),
+    ) -> Result<Option<Marched>, MdrError> {
+        let start = self.load.stages()[0].start;
+        let touch = TOUCH * legs[0].duration;
+        let place = [start.time - touch, start.position];
+        let mut chain = Chain::new(
+            self.line,
+            &self.foundation,
+            sampled,
+            self.load.range(),
+            place,
+        )?;
+        let first = self.given(start.control, sampled.spacing);
+        let Some(touched) = chain.advance(touch, start.position, first)? else {
+            return Ok(None);
+        };
+        if self.load.is_cycle() {
+            return Cycles::new(self, chain).settle(legs, tell);
+        }
+        self.pass(&mut chain, legs, touched.depth, tell)
+    }
+
+    fn given(&self, control: Control, spacing: f64) -> Given {
+        match control {
+            Control::IndentationDepth(depth) => Given::Depth(depth),
+            // In this order forces whose square is no number stay in range.
+            Control::NormalForce(force) => {
+                Given::Load(0.25 * force / spacing / self.foundation.unit)
+            }
+        }
+    }
+
+    /// Force of all elements \[N] per what they add up to.
+    pub(super) fn unit(&self, spacing: f64) -> f64 {
+        4.0 * spacing * self.foundation.unit
+    }
+
+    /// All steps once.
+    pub(super) fn pass(
+        &self,
+        chain: &mut Chain<'_, L>,
+        legs: &[Leg],
+        depth: f64,
+        tell: &dyn Fn(f64),
+    ) -> Result<Option<Marched>, MdrError> {
+        let spacing = chain.spacing();
+        let mut marched = Marched {
+            steps: Vec::with_capacity(legs.len()),
+            work: 0.0,
+            normal_work: 0.0,
+            lost: 0.0,
+            n_cycles: 0,
+            rest: [0.0; 4],
+            load: Vec::new(),
+            spacing,
+        };
+        let first = self.load.stages()[0].start;
+        let mut before = (first.position, first.control, depth);
+        for (index, leg) in legs.iter().enumerate() {
+            let given = self.given(leg.end.control, spacing);
+            let Some(stepped) = chain.advance(leg.duration, leg.end.position, given)? else {
+                return Ok(None);
+            };
+            marched.add(leg, &stepped, before, self.unit(spacing));
+            before = (leg.end.position, leg.end.control, stepped.depth);
+            tell((index + 1) as f64 / legs.len() as f64);
+        }
+        marched.load = chain.loads();
+        Ok(Some(marched))
+    }
+}
+
+impl Marched {
+    fn add(
+        &mut self,
+        leg: &Leg,
+        stepped: &Stepped,
+        (position, control, depth): (f64, Control, f64),
+        unit: f64,
+    ) {
+        let force = |impulse: f64| unit * impulse / leg.duration;
+        let moved = leg.end.position - position;
+        let normal_force = match control {
+            Control::NormalForce(force) => force.midpoint(leg.end.control.value()),
+            Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
+        };
+        let tangential_force = force(stepped.sums.tangential_impulse);
+        self.work += tangential_force * moved;
+        self.normal_work += normal_force * moved.abs();
+        self.lost += unit * stepped.sums.lost;
+        self.steps.push(MotionStep {
+            stage: leg.stage,
+            time: leg.end.time - 0.5 * leg.duration,
+            position: position + 0.5 * moved,
+            tangential_force,
+            normal_force,
+            indentation_depth: depth.midpoint(stepped.depth),
+            contact: stepped.contact,
+            n_contact: stepped.sums.n_loaded,
+        });
+    }
+
+    /// By how much a cycle may differ from the last one of all, when it differs so from the one before: the friction
+    /// coefficient, and of all steps the tangential force, the normal force, and the depth.
+    ///
+    /// What changes slowly does so over the whole cycle, and its mean is that many times as far from its end; elements that
+    /// come and go from cycle to cycle change single steps, and no more.
+    pub(super) fn rests(&self, before: &Self, slowness: f64) -> [f64; 4] {
+        let rest = |of: fn(&MotionStep) -> f64| {
+            let pairs = self.steps.iter().zip(&before.steps);
+            let changes = pairs.map(|(now, before)| of(now) - of(before));
+            let (sum, largest) = changes.fold((0.0, 0.0_f64), |(sum, largest), change| {
+                (sum + change, largest.max(change.abs()))
+            });
+            slowness * (sum / self.steps.len() as f64).abs() + largest
+        };
+        [
+            slowness * (self.friction() - before.friction()).abs(),
+            rest(|step| step.tangential_force),
+            rest(|step| step.normal_force),
+            rest(|step| step.indentation_depth),
+        ]
+    }
+
+    /// What these are relative to; without friction the largest coefficient of a step.
+    pub(super) fn sizes(&self) -> [f64; 4] {
+        let largest = |of: fn(&MotionStep) -> f64| {
+            self.steps
+                .iter()
+                .map(|step| of(step).abs())
+                .fold(f64::MIN_POSITIVE, f64::max)
+        };
+        [
+            self.friction().abs(),
+            largest(|step| step.tangential_force),
+            largest(|step| step.normal_force),
+            largest(|step| step.indentation_depth),
+        ]
+    }
+
+    /// Mean friction coefficient ∫ F_t dx / ∫ F_N |dx|; 0 where nothing was pressed on the way.
+    pub(super) fn friction(&self) -> f64 {
+        let friction = self.work / self.normal_work;
+        if self.normal_work > 0.0 {
+            friction
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::{EquivalentLine, Shape, Sphere, Stroke};
+    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+
+    use super::*;
+
+    /// ∮ F_t dx is what the elements lose: to rounding at a depth; under a force ∮ F_N dd of the means over steps is left, which
+    /// vanishes with the square of the step.
+    #[test]
+    fn a_cycle_dissipates_its_work() {
+        let ball = Sphere::new(5e-3).expect("a sphere");
+        let branches = [(1e7, 1e-3), (3e6, 2e-2)].map(|(g, t)| RelaxationBranch::new(g, t));
+        let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches.to_vec()).expect("a spectrum");
+        let material = Prony::new(spectrum).expect("a material");
+        let line = EquivalentLine(&ball);
+        for (control, length, elements, allowed) in [
+            (Control::IndentationDepth(5e-5), 5e-3, 64, 1e-10),
+            (Control::IndentationDepth(5e-5), 5e-5, 64, 1e-10),
+            (Control::NormalForce(2.0), 5e-3, 64, 1e-4),
+            (Control::NormalForce(2.0), 5e-3, 1024, 1e-6),
+        ] {
+            let stroke = Stroke {
+                length,
+                frequency: 5.0,
+                shape: Shape::Sinusoidal,
+            };
+            let load = MovingLoad::reciprocating(control, stroke).expect("a load");
+            let problem = Problem::new(&line, &material, &load, (2e-3, 1e-9)).expect("a problem");
+            let marched = problem.on(elements, &|_| ()).expect("a cycle");
+            let difference = (marched.work / marched.lost - 1.0).abs();
+            assert!(
+                marched.work > 0.0 && difference < allowed,
+                "{control:?}, stroke {length}, {elements} elements: {} and {}, {difference:e}",
+                marched.work,
+                marched.lost
+            );
+        }
+    }
+}
