@@ -36,6 +36,9 @@ pub(super) struct Cycles<'p, 'a, L: ?Sized> {
 }
 
 impl<'p, 'a, L: RigidLine + ?Sized> Cycles<'p, 'a, L> {
+    /// Lists of what all elements remember.
+    pub(super) const COPIES: f64 = 5.0 * (COMBINED + 2) as f64;
+
     pub(super) fn new(problem: &'p Problem<'a, L>, chain: Chain<'p, L>) -> Self {
         Self {
             problem,

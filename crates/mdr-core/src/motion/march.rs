@@ -19,6 +19,10 @@ const TOUCH: f64 = 1e-3;
 /// Where the contact may end at first, in lengths of that of the fastest sliding.
 const REACH: f64 = 0.75;
 
+/// Elements of a chain per element of the contact, at most about, and what each takes besides its memory, \[bytes].
+const FOOTPRINT: f64 = 4.0;
+const PER_ELEMENT: f64 = 200.0;
+
 /// One step of a motion; what is not said to belong to its end is a mean, and belongs to its middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -127,6 +131,28 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             }
             height = 2.0 * sampled.ceiling;
         }
+    }
+
+    /// Memory of all resolutions up to these elements, \[bytes].
+    pub(super) fn memory_on(&self, elements: usize) -> Result<f64, MdrError> {
+        let spacing = self.length / elements as f64;
+        let n_steps = legs(self.load, elements as f64, spacing)?.len() as f64;
+        let [rear, front] = self.load.range();
+        let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
+        let n_slots = self
+            .foundation
+            .branches
+            .len()
+            .max(self.foundation.modes.len());
+        let copies = if self.load.is_cycle() {
+            Cycles::<L>::COPIES
+        } else {
+            1.0
+        };
+        let per_element = copies * (n_slots * size_of::<f64>()) as f64 + PER_ELEMENT;
+        // The values on four resolutions, and a list grows by doubling.
+        let per_step = 4 * size_of::<MotionStep>() + size_of::<Leg>();
+        Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
 
     /// Height of the line about where a contact may end.

@@ -160,6 +160,24 @@ pub fn move_along<'w>(
     }
 }
 
+/// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`move_along`], before anything is followed.
+pub fn move_memory(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &MovingLoad,
+    elements: usize,
+) -> Result<f64, MdrError> {
+    let steady = LineProblem::new(line, material, load.fastest())?;
+    let length = positive(
+        "contact length",
+        steady.contact_span(load.largest_control())?,
+    )?;
+    Problem::new(line, material, load, (length, TOLERANCE_ON_ELEMENTS))?.memory_on(elements)
+}
+
 /// What is known at a point: tangential force, normal force, depth.
 type Row = [f64; OF_ROW];
 

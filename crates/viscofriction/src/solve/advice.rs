@@ -47,6 +47,8 @@ pub(super) const fn of_line(error: &MdrError) -> &'static str {
         MdrError::NotConverged { .. }
         | MdrError::NotReached(_)
         | MdrError::HistoryNotReached { .. }
+        | MdrError::MotionNotReached { .. }
+        | MdrError::NotPeriodic { .. }
         | MdrError::SlidingNotReached { .. }
         | MdrError::TooMuchDetail { .. } => LARGER_ERROR,
         MdrError::DepthBeyondEdge { .. } => LESS_LOAD,

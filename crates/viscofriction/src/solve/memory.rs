@@ -10,7 +10,7 @@ use numerics::{Watch, whole_part};
 
 use super::body::Body;
 use super::error::SolveError;
-use super::problem::Motion::{History, Pressing, Sliding};
+use super::problem::Motion::{History, Moving, Pressing, Sliding};
 use super::problem::Problem;
 use crate::scene::Method::{self, BemSteady, BemTransient, MdrTransient};
 use crate::scene::{Accuracy, SceneError};
@@ -153,6 +153,10 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
         (MdrTransient, Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);
             mdr_core::slide_memory(&line, problem.material(), &load, elements).ok()
+        }
+        (MdrTransient, Moving(_)) => {
+            let line = EquivalentLine(surface.as_axisymmetric()?);
+            mdr_core::move_memory(&line, problem.material(), problem.moving()?, elements).ok()
         }
         _ => None,
     }

@@ -137,6 +137,9 @@ fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer
         SolveError::Line(MdrError::SlidingNotReached { reached, .. }) => {
             Some(mdr::of_march((**reached).clone()))
         }
+        SolveError::Line(MdrError::MotionNotReached { reached, .. }) => {
+            Some(mdr::of_motion((**reached).clone()))
+        }
         SolveError::Line(MdrError::NotConverged { reached, .. }) if method == Method::MdrSteady => {
             Some(mdr::of_steady((**reached).clone()))
         }

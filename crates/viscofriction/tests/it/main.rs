@@ -10,6 +10,7 @@ mod height_maps_of_numpy;
 mod histories;
 mod layers;
 mod malformed;
+mod motions;
 #[cfg(feature = "fit")]
 mod own_materials;
 mod rough_scenes;
