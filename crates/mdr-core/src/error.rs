@@ -1,11 +1,11 @@
 //! Why a problem is refused, or has no solution.
 
-use indenters::IndenterError;
+use indenters::{IndenterError, Moved};
 use numerics::{InWords, InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
 
-use crate::{CurvePoint, Moved, SlideRow, Sliding, SteadySliding};
+use crate::{CurvePoint, SlideRow, Sliding, SteadySliding};
 
 /// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -157,17 +157,6 @@ pub enum MdrError {
         change: f64,
         /// The tolerance.
         tolerance: f64,
-    },
-    /// The path is too long for the contact.
-    #[error(
-        "the motion needs {steps:.0} steps of the length of an element of the contact, and {allowed:.0} are allowed: \
-         shorten its path or stroke, or press harder"
-    )]
-    TooManySteps {
-        /// Steps needed.
-        steps: f64,
-        /// The most steps of a motion, or of one cycle.
-        allowed: f64,
     },
     /// A material that flows has no contact at rest.
     #[error(

@@ -462,26 +462,6 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
             }
         }
     }
-
-    /// Positions relative to the lowest point \[m] and loads per length \[N/m] of the loaded elements, and of one free
-    /// one on each side.
-    pub(super) fn loads(&self) -> Vec<[f64; 2]> {
-        let is_loaded = |touch: &Touch| matches!(touch, Touch::Loaded { .. });
-        let rear = self.touches.iter().position(is_loaded).unwrap_or(1);
-        let front = self.touches.iter().rposition(is_loaded).unwrap_or(0);
-        let load = |element: usize| {
-            let n_branches = self.foundation.branches.len();
-            let stresses = &self.slots[element * self.n_slots..][..n_branches];
-            let carried = match self.touches[element] {
-                Touch::Loaded { displacement } => {
-                    self.foundation.spring * displacement + stresses.iter().sum::<f64>()
-                }
-                _ => 0.0,
-            };
-            [self.along(element), 4.0 * self.foundation.unit * carried]
-        };
-        (rear.saturating_sub(1)..=front + 1).map(load).collect()
-    }
 }
 
 impl Sums {

@@ -2,17 +2,19 @@
 
 use std::cell::RefCell;
 
-use indenters::{Control, MovingLoad, RigidLine};
+use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep, RigidLine};
+use numerics::KEPT_STATES;
 use rheology::Material;
 
 use super::chain::{Chain, Given, Kept, Stepped};
-use super::cycle::Cycles;
-use super::legs::{Leg, legs};
+use super::cycle::cycle;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
 use crate::error::enough_elements;
 use crate::steady::Foundation;
 
+/// Steps of a motion, or of one cycle, after which it is not begun.
+const MOST_STEPS: f64 = 4e6;
 /// Duration of the first touch, at rest, relative to that of the first step.
 const TOUCH: f64 = 1e-3;
 
@@ -22,47 +24,6 @@ const REACH: f64 = 0.75;
 /// Elements of a chain per element of the contact, at most about, and what each takes besides its memory, \[bytes].
 const FOOTPRINT: f64 = 4.0;
 const PER_ELEMENT: f64 = 200.0;
-
-/// One step of a motion; what is not said to belong to its end is a mean, and belongs to its middle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct MotionStep {
-    /// Number of the stage of the motion.
-    pub stage: usize,
-    /// Time in the middle, \[s].
-    pub time: f64,
-    /// Position in the middle, \[m].
-    pub position: f64,
-    /// Force on the body along −x, \[N].
-    pub tangential_force: f64,
-    /// Normal force F_N, \[N].
-    pub normal_force: f64,
-    /// Indentation depth d of the lowest point, \[m].
-    pub indentation_depth: f64,
-    /// Rearmost and foremost loaded element at the end, relative to the lowest point, \[m].
-    pub contact: Option<[f64; 2]>,
-    /// Number of loaded elements at the end.
-    pub n_contact: usize,
-}
-
-/// A motion, or its last cycle, on one resolution.
-#[derive(Debug, Clone)]
-pub(super) struct Marched {
-    pub(super) steps: Vec<MotionStep>,
-    /// ∫ F_t dx, \[J].
-    pub(super) work: f64,
-    /// ∫ F_N |dx|, \[J].
-    pub(super) normal_work: f64,
-    /// Energy that the elements have lost, \[J].
-    pub(super) lost: f64,
-    /// Cycles that were followed.
-    pub(super) n_cycles: usize,
-    /// What is left of the way to the cycle: of the friction coefficient, and of the largest forces and depths of all steps.
-    pub(super) rest: [f64; 4],
-    /// Load per length at the end.
-    pub(super) load: Vec<[f64; 2]>,
-    pub(super) spacing: f64,
-}
 
 /// What moves, on what, and how.
 pub(super) struct Problem<'a, L: ?Sized> {
@@ -106,9 +67,9 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     }
 
     /// Follows the motion with a number of elements along the contact.
-    pub(super) fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<Marched, MdrError> {
+    pub(super) fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, MdrError> {
         let spacing = self.length / elements as f64;
-        let legs = legs(self.load, elements as f64, spacing)?;
+        let legs = self.load.steps(elements, spacing, MOST_STEPS)?;
         let mut height = match self.load.largest_control() {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) => self.rise(),
@@ -124,10 +85,10 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
                     height,
                 });
             }
-            if let Some(marched) = self.follow(&sampled, &legs, tell)? {
-                let contacts = marched.steps.iter().map(|step| step.n_contact);
+            if let Some(record) = self.follow(&sampled, &legs, tell)? {
+                let contacts = record.steps.iter().map(|step| step.n_contact);
                 enough_elements(contacts.max().unwrap_or(0), spacing)?;
-                return Ok(marched);
+                return Ok(record);
             }
             height = 2.0 * sampled.ceiling;
         }
@@ -136,7 +97,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     /// Memory of all resolutions up to these elements, \[bytes].
     pub(super) fn memory_on(&self, elements: usize) -> Result<f64, MdrError> {
         let spacing = self.length / elements as f64;
-        let n_steps = legs(self.load, elements as f64, spacing)?.len() as f64;
+        let n_steps = self.load.steps(elements, spacing, MOST_STEPS)?.len() as f64;
         let [rear, front] = self.load.range();
         let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
         let n_slots = self
@@ -145,13 +106,13 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             .len()
             .max(self.foundation.modes.len());
         let copies = if self.load.is_cycle() {
-            Cycles::<L>::COPIES
+            KEPT_STATES as f64
         } else {
             1.0
         };
         let per_element = copies * (n_slots * size_of::<f64>()) as f64 + PER_ELEMENT;
         // The values on four resolutions, and a list grows by doubling.
-        let per_step = 4 * size_of::<MotionStep>() + size_of::<Leg>();
+        let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
 
@@ -172,9 +133,9 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     fn follow(
         &self,
         sampled: &ElementHeights,
-        legs: &[Leg],
+        legs: &[MovingStep],
         tell: &dyn Fn(f64),
-    ) -> Result<Option<Marched>, MdrError> {
+    ) -> Result<Option<MotionRecord>, MdrError> {
         let start = self.load.stages()[0].start;
         let touch = TOUCH * legs[0].duration;
         let place = [start.time - touch, start.position];
@@ -190,7 +151,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             return Ok(None);
         };
         if self.load.is_cycle() {
-            return Cycles::new(self, chain).settle(legs, tell);
+            return cycle(self, chain, legs, tell);
         }
         self.pass(&mut chain, legs, touched.depth, tell)
     }
@@ -214,21 +175,18 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     pub(super) fn pass(
         &self,
         chain: &mut Chain<'_, L>,
-        legs: &[Leg],
+        legs: &[MovingStep],
         depth: f64,
         tell: &dyn Fn(f64),
-    ) -> Result<Option<Marched>, MdrError> {
+    ) -> Result<Option<MotionRecord>, MdrError> {
         let spacing = chain.spacing();
-        let mut marched = Marched {
+        let unit = self.unit(spacing);
+        let mut record = MotionRecord {
             steps: Vec::with_capacity(legs.len()),
-            work: 0.0,
-            normal_work: 0.0,
-            lost: 0.0,
-            n_cycles: 0,
-            rest: [0.0; 4],
-            load: Vec::new(),
             spacing,
+            ..MotionRecord::default()
         };
+        let mut lost = 0.0;
         let first = self.load.stages()[0].start;
         let mut before = (first.position, first.control, depth);
         for (index, leg) in legs.iter().enumerate() {
@@ -236,91 +194,40 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             let Some(stepped) = chain.advance(leg.duration, leg.end.position, given)? else {
                 return Ok(None);
             };
-            marched.add(leg, &stepped, before, self.unit(spacing));
+            lost += unit * stepped.sums.lost;
+            record.push(
+                step_of(leg, &stepped, before, unit),
+                leg.end.position - before.0,
+            );
             before = (leg.end.position, leg.end.control, stepped.depth);
             tell((index + 1) as f64 / legs.len() as f64);
         }
-        marched.load = chain.loads();
-        Ok(Some(marched))
+        record.imbalance = record.work - lost;
+        Ok(Some(record))
     }
 }
 
-impl Marched {
-    fn add(
-        &mut self,
-        leg: &Leg,
-        stepped: &Stepped,
-        (position, control, depth): (f64, Control, f64),
-        unit: f64,
-    ) {
-        let force = |impulse: f64| unit * impulse / leg.duration;
-        let moved = leg.end.position - position;
-        let normal_force = match control {
-            Control::NormalForce(force) => force.midpoint(leg.end.control.value()),
-            Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
-        };
-        let tangential_force = force(stepped.sums.tangential_impulse);
-        self.work += tangential_force * moved;
-        self.normal_work += normal_force * moved.abs();
-        self.lost += unit * stepped.sums.lost;
-        self.steps.push(MotionStep {
-            stage: leg.stage,
-            time: leg.end.time - 0.5 * leg.duration,
-            position: position + 0.5 * moved,
-            tangential_force,
-            normal_force,
-            indentation_depth: depth.midpoint(stepped.depth),
-            contact: stepped.contact,
-            n_contact: stepped.sums.n_loaded,
-        });
-    }
-
-    /// By how much a cycle may differ from the last one of all, when it differs so from the one before: the friction
-    /// coefficient, and of all steps the tangential force, the normal force, and the depth.
-    ///
-    /// What changes slowly does so over the whole cycle, and its mean is that many times as far from its end; elements that
-    /// come and go from cycle to cycle change single steps, and no more.
-    pub(super) fn rests(&self, before: &Self, slowness: f64) -> [f64; 4] {
-        let rest = |of: fn(&MotionStep) -> f64| {
-            let pairs = self.steps.iter().zip(&before.steps);
-            let changes = pairs.map(|(now, before)| of(now) - of(before));
-            let (sum, largest) = changes.fold((0.0, 0.0_f64), |(sum, largest), change| {
-                (sum + change, largest.max(change.abs()))
-            });
-            slowness * (sum / self.steps.len() as f64).abs() + largest
-        };
-        [
-            slowness * (self.friction() - before.friction()).abs(),
-            rest(|step| step.tangential_force),
-            rest(|step| step.normal_force),
-            rest(|step| step.indentation_depth),
-        ]
-    }
-
-    /// What these are relative to; without friction the largest coefficient of a step.
-    pub(super) fn sizes(&self) -> [f64; 4] {
-        let largest = |of: fn(&MotionStep) -> f64| {
-            self.steps
-                .iter()
-                .map(|step| of(step).abs())
-                .fold(f64::MIN_POSITIVE, f64::max)
-        };
-        [
-            self.friction().abs(),
-            largest(|step| step.tangential_force),
-            largest(|step| step.normal_force),
-            largest(|step| step.indentation_depth),
-        ]
-    }
-
-    /// Mean friction coefficient ∫ F_t dx / ∫ F_N |dx|; 0 where nothing was pressed on the way.
-    pub(super) fn friction(&self) -> f64 {
-        let friction = self.work / self.normal_work;
-        if self.normal_work > 0.0 {
-            friction
-        } else {
-            0.0
-        }
+/// The step of a leg, from a position, control and depth.
+fn step_of(
+    leg: &MovingStep,
+    stepped: &Stepped,
+    (position, control, depth): (f64, Control, f64),
+    unit: f64,
+) -> MotionStep {
+    let force = |impulse: f64| unit * impulse / leg.duration;
+    let normal_force = match control {
+        Control::NormalForce(force) => force.midpoint(leg.end.control.value()),
+        Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
+    };
+    MotionStep {
+        stage: leg.stage,
+        time: leg.end.time - 0.5 * leg.duration,
+        position: position.midpoint(leg.end.position),
+        tangential_force: force(stepped.sums.tangential_impulse),
+        normal_force,
+        indentation_depth: depth.midpoint(stepped.depth),
+        contact: stepped.contact,
+        n_contact: stepped.sums.n_loaded,
     }
 }
 
@@ -353,13 +260,12 @@ mod tests {
             };
             let load = MovingLoad::reciprocating(control, stroke).expect("a load");
             let problem = Problem::new(&line, &material, &load, (2e-3, 1e-9)).expect("a problem");
-            let marched = problem.on(elements, &|_| ()).expect("a cycle");
-            let difference = (marched.work / marched.lost - 1.0).abs();
+            let record = problem.on(elements, &|_| ()).expect("a cycle");
+            let difference = (record.imbalance / record.work).abs();
             assert!(
-                marched.work > 0.0 && difference < allowed,
-                "{control:?}, stroke {length}, {elements} elements: {} and {}, {difference:e}",
-                marched.work,
-                marched.lost
+                record.work > 0.0 && difference < allowed,
+                "{control:?}, stroke {length}, {elements} elements: {} and {difference:e}",
+                record.work
             );
         }
     }

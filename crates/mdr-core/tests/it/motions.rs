@@ -4,10 +4,10 @@
 use std::f64::consts::PI;
 
 use indenters::{
-    Control, EquivalentLine, MovingLoad, MovingPoint, PowerProfile, RigidLine, Shape, Sphere,
-    Stroke,
+    Control, EquivalentLine, IndenterError, Moved, MovedPoint, MovingLoad, MovingPoint,
+    PowerProfile, RigidLine, Shape, Sphere, Stroke,
 };
-use mdr_core::{MdrError, Moved, move_along, steady};
+use mdr_core::{MdrError, move_along, steady};
 use numerics::Accuracy;
 use rheology::{Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum};
 
@@ -48,7 +48,7 @@ fn to_and_fro(length: f64, frequency: f64, control: Control) -> MovingLoad {
 
 /// Of the last point of the stage that ends at a time.
 fn force_at(moved: &Moved, time: f64) -> numerics::Estimate {
-    let at = |point: &&mdr_core::MovedPoint| (point.time - time).abs() < 1e-9 * time;
+    let at = |point: &&MovedPoint| (point.time - time).abs() < 1e-9 * time;
     moved
         .points
         .iter()
@@ -225,7 +225,13 @@ fn what_cannot_move_so_is_refused() {
         "a fluid once"
     );
     let far = move_along(&line, &rubber(1), &to_and_fro(1e4, 1.0, control), 1e-2);
-    assert!(matches!(far, Err(MdrError::TooManySteps { .. })), "{far:?}");
+    assert!(
+        matches!(
+            far,
+            Err(MdrError::Indenter(IndenterError::TooManySteps { .. }))
+        ),
+        "{far:?}"
+    );
     let deep = move_along(
         &line,
         &rubber(1),

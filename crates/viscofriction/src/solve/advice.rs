@@ -28,7 +28,9 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         | BemError::PeriodTooCoarse { .. }
         | BemError::SlopeNotResolved { .. } => FINER,
         BemError::ContactNotConverged { .. } => OTHER_ELEMENTS,
-        BemError::NotReached { .. } | BemError::TimeNotResolved { .. } => LARGER_ERROR,
+        BemError::NotReached { .. }
+        | BemError::TimeNotResolved { .. }
+        | BemError::NotPeriodic { .. } => LARGER_ERROR,
         BemError::ContactReachesBoundary { .. } => LESS_LOAD,
         BemError::VerticalWall { .. } => NO_WALL,
         BemError::SlidingDistanceMissing { .. } => DISTANCE,

@@ -1,9 +1,11 @@
 //! What the one-dimensional model says, as answers.
 
-use indenters::{Axisymmetric, EquivalentLine, MovingLoad, PressingLoad, SlidingLoad};
+use indenters::{
+    Axisymmetric, EquivalentLine, Moved, MovedPoint, MovingLoad, PressingLoad, SlidingLoad,
+};
 use mdr_core::{
-    CurvePoint, Follow, MdrError, Moved, MovedPoint, SlideRow, Sliding, SteadySliding, indent,
-    indent_along, move_along, slide, steady,
+    CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along,
+    move_along, slide, steady,
 };
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
@@ -84,11 +86,11 @@ pub(crate) fn moved(
     request: Request,
 ) -> Result<Answer> {
     let found = move_along(&EquivalentLine(body), material, load, request)?;
-    Ok(of_motion(found))
+    Ok(of_motion(Method::MdrTransient, Model::Line, found))
 }
 
 /// The answer of a motion: of its whole, and of its last point.
-pub(crate) fn of_motion(found: Moved) -> Answer {
+pub(crate) fn of_motion(method: Method, model: Model, found: Moved) -> Answer {
     let last = found.points.last();
     let force = last.map_or(Estimate::exact(0.0), |point| point.normal_force);
     let mut answer = Answer {
@@ -100,7 +102,7 @@ pub(crate) fn of_motion(found: Moved) -> Answer {
         contact_box: found.ends.map(contact_box),
         unknowns: found.steps.last().map_or(0, |step| step.n_contact),
         iterations: found.steps.len() * found.n_cycles.max(1),
-        ..Answer::new(Method::MdrTransient, Model::Line, force)
+        ..Answer::new(method, model, force)
     };
     let columns: [OfPoint<MovedPoint>; 4] = [
         (POSITION, |point| Estimate::exact(point.position)),
@@ -112,7 +114,6 @@ pub(crate) fn of_motion(found: Moved) -> Answer {
     let steps = found.steps.iter();
     let steps = steps.map(|step| [step.time, step.position, step.tangential_force]);
     answer.fields.motion_steps = steps.collect();
-    answer.fields.line_load = found.load;
     answer
 }
 

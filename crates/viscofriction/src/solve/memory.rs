@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use bem_halfspace::indent::{indent_along_memory, indent_memory};
-use bem_halfspace::{periodic, slide::slide_memory, steady::steady_memory};
+use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
 use indenters::rough::PeriodicSurface;
 use numerics::{Watch, whole_part};
@@ -154,9 +154,12 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
             let line = EquivalentLine(surface.as_axisymmetric()?);
             mdr_core::slide_memory(&line, problem.material(), &load, elements).ok()
         }
+        (BemTransient, Moving(_)) => {
+            move_along_memory(surface, &elastomer, problem.moving()?, elements).ok()
+        }
         (MdrTransient, Moving(_)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);
-            mdr_core::move_memory(&line, problem.material(), problem.moving()?, elements).ok()
+            mdr_core::move_along_memory(&line, problem.material(), problem.moving()?, elements).ok()
         }
         _ => None,
     }

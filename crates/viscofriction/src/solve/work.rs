@@ -35,7 +35,6 @@ const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: i
      edge, so that its friction would be that of the edge alone; a flat-cone or a truncated-paraboloid has a flat end and a front";
 const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
-const NOT_YET: Refusal = "the half space does not follow a motion yet; solve.model = \"line\" does";
 const NO_TRACK: Refusal = "it knows no track on which the body comes back; mdr-steady does, of the one-dimensional model (solve.model = \"line\")";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
@@ -137,8 +136,13 @@ fn moved<'a>(
             let material = problem.material();
             ready(move |watch| mdr::moved(&**body, material, load, Request { accuracy, watch }))
         }
-        (MdrTransient, _) => Err("it needs a body of revolution"),
-        (BemTransient, _) => Err(NOT_YET),
+        (MdrTransient, _) => {
+            Err("it needs a body of revolution; bem-transient takes height maps too")
+        }
+        (BemTransient, body) => {
+            let surface = body.surface().ok_or(ENDLESS)?;
+            ready(move |watch| elements::moved(problem, surface, load, Request { accuracy, watch }))
+        }
     }
 }
 

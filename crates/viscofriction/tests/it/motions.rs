@@ -82,6 +82,28 @@ fn points_with_forces_of_their_own_lift_the_body() {
     assert!(lifted > 2, "{forces:?}");
 }
 
+/// The one-dimensional model dissipates more than the half space, and both as much as they should.
+#[test]
+fn the_half_space_follows_motions_too() {
+    let load = "normal_force = 2.0\nstroke = 2e-3\nfrequency = 2.0";
+    let half_space = answer(load, "elements = 8").expect("an answer");
+    let friction = |answer: &Answer| answer.friction_coefficient.expect("friction");
+    let [got, on_line] = [friction(&half_space), friction(&line(load, 1e-2))];
+    assert!(got.error < 0.1 * got.value, "{got:?}");
+    let ratio = on_line.value / got.value;
+    assert!((1.0..2.0).contains(&ratio), "{on_line:?} over {got:?}");
+    let refused = answer(
+        load,
+        "relative_error = 1e-3\nmethod = \"mdr-transient\"\nmodel = \"half-space\"",
+    );
+    assert!(
+        refused
+            .expect_err("another model")
+            .contains("one-dimensional model"),
+        "named"
+    );
+}
+
 #[test]
 fn what_no_motion_serves_is_refused_by_name() {
     let stroke = "normal_force = 2.0\nstroke = 5e-3\nfrequency = 2.0";
