@@ -218,6 +218,33 @@ impl Foundation {
         mode.compliance * (pulls.sum::<f64>() - self.spring * displacement)
     }
 
+    /// A free surface that recovers to where it was before all loads, of which so much is left in each mode.
+    pub(super) fn recovering(&self, left: &[f64]) -> Recovery {
+        Recovery {
+            displacement: -left.iter().sum::<f64>(),
+            amplitudes: left.to_vec(),
+            distance: 0.0,
+        }
+    }
+
+    /// What is left in each mode of a free surface, a distance after where it is now.
+    pub(super) fn left_after(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
+        let xi = recovery.distance + distance;
+        let amplitude = |k: usize| recovery.amplitudes.get(k).copied().unwrap_or(0.0);
+        let modes = self.modes.iter().enumerate();
+        modes
+            .map(|(k, mode)| amplitude(k) * (-xi / mode.length).exp())
+            .collect()
+    }
+
+    /// The longest distance of recovery, \[m]; 0 without any.
+    pub(super) fn longest_recovery(&self) -> f64 {
+        self.modes
+            .iter()
+            .map(|mode| mode.length)
+            .fold(0.0, f64::max)
+    }
+
     /// Displacement of a free surface, a distance after where it is now, in depths.
     pub(super) fn free_displacement(&self, recovery: &Recovery, distance: f64) -> f64 {
         let xi = recovery.distance + distance;

@@ -16,6 +16,7 @@ mod pressing;
 mod stationary_means_converged;
 mod stationary_sliding_matches_references;
 mod support;
+mod tracks;
 mod transient_follows_the_exact_solution;
 mod units_do_not_matter;
 mod waves_of_the_load;

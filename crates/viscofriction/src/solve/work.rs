@@ -35,6 +35,7 @@ const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: i
      edge, so that its friction would be that of the edge alone; a flat-cone or a truncated-paraboloid has a flat end and a front";
 const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
+const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
 const NO_TRACK: Refusal = "it knows no track on which the body comes back; mdr-steady does, of the one-dimensional model (solve.model = \"line\")";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
@@ -126,10 +127,7 @@ fn moved<'a>(
     method: Method,
     accuracy: Accuracy,
 ) -> Offer<'a> {
-    require(
-        problem.expansion().is_none(),
-        "of a motion the series that stands for the material has no bar; give a material of finitely many elements",
-    )?;
+    require(problem.expansion().is_none(), NO_BAR)?;
     match (method, problem.body()) {
         (Analytic | MdrSteady | BemSteady, _) => Err(ONLY_STEADY),
         (MdrTransient, Body::Revolution(body)) => {
@@ -299,7 +297,9 @@ fn one_dimensional<'a>(
                     "it chooses its polynomials itself; give relative_error instead of elements",
                 );
             };
-            ready(move |_| mdr::stationary(body, material, &load, error))
+            let track = problem.track();
+            require(track.is_none() || problem.expansion().is_none(), NO_BAR)?;
+            ready(move |_| mdr::stationary(body, material, &load, track, error))
         }
         (MdrSteady, Pressing(_)) | (_, History(_) | Moving(_)) => Err(NOTHING_SLIDES),
         (_, Sliding(load)) => {

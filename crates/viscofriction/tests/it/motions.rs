@@ -105,6 +105,41 @@ fn the_half_space_follows_motions_too() {
 }
 
 #[test]
+fn on_a_track_the_body_meets_what_it_has_left() {
+    let straight = line("normal_force = 2.0\nvelocity = 0.1", 1e-3);
+    let depth = |answer: &Answer| answer.indentation_depth.expect("a depth").value;
+    let mut before = depth(&straight);
+    for track in [0.03, 0.01, 3e-3] {
+        let load = format!("normal_force = 2.0\nvelocity = 0.1\ntrack = {track}");
+        let again = depth(&line(&load, 1e-3));
+        assert!(again > before, "{track}: {again} after {before}");
+        before = again;
+    }
+    let load = "normal_force = 2.0\nvelocity = 0.1\ntrack = 0.03";
+    for (load, solved, said) in [
+        (load, "relative_error = 0.01", "track"),
+        (
+            load,
+            "model = \"line\"\nmethod = \"mdr-transient\"",
+            "mdr-steady does",
+        ),
+        (
+            "normal_force = 2.0\nvelocity = 0.1\ntrack = 1e-3",
+            "model = \"line\"",
+            "give a longer load.track",
+        ),
+        (
+            load,
+            "model = \"line\"\nsliding_distance = 1.0",
+            "load.track",
+        ),
+    ] {
+        let refused = answer(load, solved).expect_err(load);
+        assert!(refused.contains(said), "{load} with {solved}: {refused}");
+    }
+}
+
+#[test]
 fn what_no_motion_serves_is_refused_by_name() {
     let stroke = "normal_force = 2.0\nstroke = 5e-3\nfrequency = 2.0";
     for (load, solved, said) in [
