@@ -36,6 +36,7 @@ const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: i
 const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
 const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
+const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle or pass, and none is like the one before; give it an equilibrium modulus";
 const NO_TRACK: Refusal = "it knows no track on which the body comes back; mdr-steady does, of the one-dimensional model (solve.model = \"line\")";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
@@ -128,6 +129,8 @@ fn moved<'a>(
     accuracy: Accuracy,
 ) -> Offer<'a> {
     require(problem.expansion().is_none(), NO_BAR)?;
+    let flows = problem.material().creep().fluidity() > 0.0;
+    require(!(load.is_cycle() && flows), NO_CYCLE)?;
     match (method, problem.body()) {
         (Analytic | MdrSteady | BemSteady, _) => Err(ONLY_STEADY),
         (MdrTransient, Body::Revolution(body)) => {
@@ -299,6 +302,8 @@ fn one_dimensional<'a>(
             };
             let track = problem.track();
             require(track.is_none() || problem.expansion().is_none(), NO_BAR)?;
+            let flows = material.creep().fluidity() > 0.0;
+            require(track.is_none() || !flows, NO_CYCLE)?;
             ready(move |_| mdr::stationary(body, material, &load, track, error))
         }
         (MdrSteady, Pressing(_)) | (_, History(_) | Moving(_)) => Err(NOTHING_SLIDES),
