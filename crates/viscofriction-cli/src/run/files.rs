@@ -89,7 +89,11 @@ fn write_motion(answer: &Answer, out: &OutputFolder) -> Result<()> {
     let steps = &answer.fields.motion_steps;
     let force = "tangential force F_t [N]";
     let over = |x: &str, axis: usize| {
-        let points = steps.iter().map(|step| [step[axis], step[2]]);
+        // A cycle ends where it begins; its time goes on.
+        let closes = axis == 1 && answer.dissipated_energy.is_some();
+        let first = steps.first().filter(|_| closes);
+        let points = steps.iter().chain(first);
+        let points = points.map(|step| [step[axis], step[2]]);
         pictures::curve(x, force, points.collect())
     };
     out.draw("motion", &over("position x [m]", 1))?;
