@@ -114,47 +114,19 @@ impl Load {
         } else {
             Some(control()?)
         };
-        let key = |index: usize, name: &str| match (key, name) {
-            ("load.motion_file", _) => key.to_owned(),
-            (_, "") => format!("{key}[{index}]"),
-            _ => format!("{key}[{index}].{name}"),
-        };
         let mut before = f64::NEG_INFINITY;
         let moving = |(index, point): (usize, &MotionPoint)| {
-            let number = |name: &'static str, value: f64, holds: bool, allowed: &'static str| {
-                let wrong = |refused| SceneError::value(key(index, name), refused);
-                in_range(name, value, holds && value.is_finite(), allowed).map_err(wrong)
-            };
+            let place = Place { key, index };
+            let later = point.time >= 0.0 && point.time > before;
             let allowed = "finite, at least 0, and after the time of the point before";
-            let time = number(
-                "time",
-                point.time,
-                point.time >= 0.0 && point.time > before,
-                allowed,
-            )?;
-            before = time;
-            let position = number("position", point.position, true, "finite")?;
-            let control = match (held, point.normal_force, point.indentation_depth) {
-                (Some(control), ..) => control,
-                (None, Some(force), None) => {
-                    let allowed = "finite and at least 0";
-                    Control::NormalForce(number("normal_force", force, force >= 0.0, allowed)?)
-                }
-                (None, None, Some(depth)) => {
-                    Control::IndentationDepth(number("indentation_depth", depth, true, "finite")?)
-                }
-                _ => {
-                    let problem = "either normal_force or indentation_depth is needed, at all points or at none";
-                    return Err(SceneError::at(key(index, ""), problem));
-                }
+            before = place.number("time", point.time, later, allowed)?;
+            let control = match held {
+                Some(control) => control,
+                None => place.control(point, &points[0])?,
             };
-            if points[0].normal_force.is_some() != point.normal_force.is_some() {
-                let problem = "all points have a force, or all a depth";
-                return Err(SceneError::at(key(index, ""), problem));
-            }
             Ok(MovingPoint {
-                time,
-                position,
+                time: point.time,
+                position: place.number("position", point.position, true, "finite")?,
                 control,
             })
         };
@@ -165,6 +137,59 @@ impl Load {
     pub(crate) fn checked_track(&self) -> Result<Option<f64>, SceneError> {
         let track = self.track.map(|track| positive("load.track", track));
         Ok(track.transpose()?)
+    }
+}
+
+/// A point of a motion, of the scene or of a file, whose rows count from 0 like an index.
+struct Place<'a> {
+    key: &'a str,
+    index: usize,
+}
+
+impl Place<'_> {
+    fn key(&self, name: &str) -> String {
+        let Self { key, index } = self;
+        match name {
+            _ if *key == "load.motion_file" => (*key).to_owned(),
+            "" => format!("{key}[{index}]"),
+            _ => format!("{key}[{index}].{name}"),
+        }
+    }
+
+    fn number(
+        &self,
+        name: &'static str,
+        value: f64,
+        holds: bool,
+        allowed: &'static str,
+    ) -> Result<f64, SceneError> {
+        let wrong = |refused| SceneError::value(self.key(name), refused);
+        in_range(name, value, holds && value.is_finite(), allowed).map_err(wrong)
+    }
+
+    /// The force or depth of a point, as the first one has it.
+    fn control(&self, point: &MotionPoint, first: &MotionPoint) -> Result<Control, SceneError> {
+        let wrong = |problem| Err(SceneError::at(self.key(""), problem));
+        let control = match (point.normal_force, point.indentation_depth) {
+            (Some(force), None) => {
+                let allowed = "finite and at least 0";
+                self.number("normal_force", force, force >= 0.0, allowed)
+                    .map(Control::NormalForce)?
+            }
+            (None, Some(depth)) => {
+                let depth = self.number("indentation_depth", depth, true, "finite");
+                depth.map(Control::IndentationDepth)?
+            }
+            _ => {
+                return wrong(
+                    "either normal_force or indentation_depth is needed, at all points or at none",
+                );
+            }
+        };
+        if first.normal_force.is_some() != point.normal_force.is_some() {
+            return wrong("all points have a force, or all a depth");
+        }
+        Ok(control)
     }
 }
 
