@@ -59,6 +59,9 @@ fn column(name: &str) -> PyResult<Column> {
         "indentation_depth" => |scene, depth| scene.load.indentation_depth = Some(depth),
         "mean_pressure" => |scene, pressure| scene.load.mean_pressure = Some(pressure),
         "velocity" => |scene, velocity| scene.load.velocity = Some(velocity),
+        "track" => |scene, track| scene.load.track = Some(track),
+        "stroke" => |scene, stroke| scene.load.stroke = Some(stroke),
+        "frequency" => |scene, frequency| scene.load.frequency = Some(frequency),
         "thickness" => |scene, thickness| scene.layer = Some(Layer { thickness }),
         "duration" => |scene, duration| scene.solve.duration = Some(duration),
         "sliding_distance" => |scene, distance| scene.solve.sliding_distance = Some(distance),
@@ -232,6 +235,7 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     }
     let curve = answer.fields.curve;
     if !curve.times.is_empty() {
+        let name = curve.name();
         let [history, errors] = [PyDict::new(py), PyDict::new(py)];
         history.set_item("time", curve.times.into_pyarray(py))?;
         for column in curve.columns {
@@ -240,8 +244,8 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
             let values: Vec<f64> = column.values.iter().map(|known| known.value).collect();
             history.set_item(name, values.into_pyarray(py))?;
         }
-        dictionary.set_item("history", history)?;
-        dictionary.set_item("history_errors", errors)?;
+        dictionary.set_item(name, history)?;
+        dictionary.set_item(format!("{name}_errors"), errors)?;
     }
     for (name, pairs) in [
         ("line_load", &answer.fields.line_load),

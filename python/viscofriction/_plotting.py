@@ -20,6 +20,11 @@ LABELS = {
     "contact_area": "contact area [m²]",
     "peak_pressure": "peak pressure [Pa]",
     "friction_coefficient": "friction coefficient μ",
+    "peak_friction": "peak friction coefficient",
+    "dissipated_energy": "dissipated energy per cycle [J]",
+    "stroke": "stroke [m]",
+    "frequency": "frequency f [1/s]",
+    "track": "track L [m]",
     "duration": "duration t [s]",
     "sliding_distance": "sliding distance s [m]",
     "radius": "radius R [m]",
@@ -172,6 +177,9 @@ def grid(ax: Any, over: list[tuple[str, Numbers]], drawn: tuple[str, Numbers]) -
 def single(answer: Any, ax: Any) -> Any:
     """Pressure on the half space, with the direction of motion; load along a line; pressure across a cylinder; a history."""
     known = answer._single()
+    if "motion" in known:
+        ax.plot(answer.motion["position"], answer.motion["tangential_force"], marker=".")
+        return tidy(ax, "position x [m]", LABELS["tangential_force"], (None, None))
     for name, what in (("line_load", "load per length [N/m]"), ("line_pressure", "pressure [Pa]")):
         if name in known:
             ax.plot(known[name][:, 0], known[name][:, 1])

@@ -29,6 +29,8 @@ QUANTITIES = {
     "mean_pressure": "Pa",
     "area_fraction": "",
     "friction_from_dissipation": "",
+    "peak_friction": "",
+    "dissipated_energy": "J",
 }
 # Rows at the beginning and at the end of a table in a notebook.
 SHOWN = 10
@@ -132,6 +134,26 @@ class Answer(Compared):
         return self._values("peak_pressure_error")
 
     @property
+    def peak_friction(self) -> Values | None:
+        """The largest friction coefficient of a motion to and fro or through points."""
+        return self._values("peak_friction")
+
+    @property
+    def peak_friction_error(self) -> Values | None:
+        """Its absolute error."""
+        return self._values("peak_friction_error")
+
+    @property
+    def dissipated_energy(self) -> Values | None:
+        """Energy that is dissipated in a cycle of a motion to and fro [J]."""
+        return self._values("dissipated_energy")
+
+    @property
+    def dissipated_energy_error(self) -> Values | None:
+        """Its absolute error [J]."""
+        return self._values("dissipated_energy_error")
+
+    @property
     def area_fraction(self) -> Values | None:
         """Part of a periodic surface in contact."""
         return self._values("area_fraction")
@@ -224,6 +246,14 @@ class Answer(Compared):
             raise AttributeError("a history belongs to a single scene with [load] history or history_file")
         history: dict[str, NDArray[np.float64]] = known["history"]
         return history
+
+    @property
+    def motion(self) -> dict[str, NDArray[np.float64]]:
+        """Time [s], position [m], tangential and normal force [N] and depth [m] along the motion of a single scene."""
+        if self.shape != () or "motion" not in (known := self._single()):
+            raise AttributeError("a motion belongs to a single scene with [load] stroke, motion or motion_file")
+        motion: dict[str, NDArray[np.float64]] = known["motion"]
+        return motion
 
     def _single(self) -> dict[str, Any]:
         if self.shape != () or self._answers[0] is None:

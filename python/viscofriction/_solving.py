@@ -12,12 +12,13 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._arrays import columns as checked_columns
 from ._arrays import numbers, text_of, together
 from ._bodies import Body, HeightMap
 from ._materials import Elastic, Material
 from ._results import Answer, not_reached
 
-__all__ = ["press", "slide", "solve"]
+__all__ = ["move", "press", "slide", "solve"]
 
 #: Called with how many scenes are done and how many there are; True shows a bar of tqdm.
 Progress = Callable[[int, int], object] | bool | None
@@ -35,6 +36,7 @@ def slide(
     indentation_depth: ArrayLike | None = None,
     mean_pressure: ArrayLike | None = None,
     sliding_distance: ArrayLike | None = None,
+    track: ArrayLike | None = None,
     thickness: ArrayLike | None = None,
     model: str | None = None,
     method: str | None = None,
@@ -47,7 +49,8 @@ def slide(
 
     Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so are a sliding
     distance [m] from first touch, without which the state is stationary, and the thickness [m] of a layer. ``model="line"`` asks for the one-dimensional
-    model, ``method`` for one of the program's methods. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
+    model, ``method`` for one of the program's methods; it also knows a ``track`` [m], after which the body comes back to the
+    same place. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
     given; ``elements`` is a fixed resolution in its place.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
@@ -58,6 +61,7 @@ def slide(
         indentation_depth=indentation_depth,
         mean_pressure=mean_pressure,
         sliding_distance=sliding_distance,
+        track=track,
         thickness=thickness,
     )
     if not (numbers("velocity", velocity) > 0).all():
@@ -66,6 +70,41 @@ def slide(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     return _solved(body, material, loads, options, progress)
+
+
+def move(
+    body: Body,
+    material: Material,
+    *,
+    stroke: ArrayLike | None = None,
+    frequency: ArrayLike | None = None,
+    shape: str | None = None,
+    time: ArrayLike | None = None,
+    position: ArrayLike | None = None,
+    normal_force: ArrayLike | None = None,
+    indentation_depth: ArrayLike | None = None,
+    model: str | None = None,
+    method: str | None = None,
+    relative_error: float | None = None,
+    elements: int | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Answer:
+    """Friction of a body that moves to and fro, or through positions [m] at times [s] that increase.
+
+    Either a ``stroke`` [m] from end to end and a ``frequency`` [1/s], numbers or arrays that fit together, with ``shape`` "sinusoidal"
+    or "triangular": the answer is the cycle in which the motion ends; or ``time`` and ``position``, straight from point to point, from
+    an undeformed surface on. Force or depth is held. ``.motion`` has the forces over time, ``.mu`` is their mean over the path.
+    Otherwise as ``slide``.
+    """
+    loads = given(stroke=stroke, frequency=frequency, normal_force=normal_force, indentation_depth=indentation_depth)
+    load: dict[str, Any] = given(shape=shape)
+    if time is not None or position is not None:
+        times, places = checked_columns(**given(time=time, position=position))
+        load["motion"] = [{"time": t, "position": x} for t, x in zip(times.tolist(), places.tolist(), strict=True)]
+    options = given(model=model, method=method, relative_error=relative_error, elements=elements, threads=threads)
+    scene = {"indenter": body, "material": material, "load": load, "solve": options}
+    return ask(scene, *together(loads), progress)
 
 
 def press(

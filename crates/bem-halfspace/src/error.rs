@@ -195,6 +195,25 @@ pub enum BemError {
         /// Contact lengths of the longest march.
         limit: f64,
     },
+    /// A material that flows gives way to and fro without end.
+    #[error(
+        "a material that flows gives way further in every cycle, and no cycle is like the one before: give it an \
+         equilibrium modulus, or a motion through points"
+    )]
+    NoCycle,
+    /// Cycle after cycle still changes.
+    #[error(
+        "after {cycles} cycles of the motion the relative change that may be left is {change:e}, and the tolerance \
+         {tolerance:e}: the material remembers too many cycles"
+    )]
+    NotPeriodic {
+        /// Cycles that were followed.
+        cycles: usize,
+        /// Relative change that may be left.
+        change: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
     /// A material that flows has no state long after it was pressed.
     #[error(
         "a material that flows never comes to rest under a load: press it for a duration with `indent`"

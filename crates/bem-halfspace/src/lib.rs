@@ -55,7 +55,7 @@ pub use estimate::bars::ContactEstimate;
 pub use estimate::reached::Reached;
 pub use indent::{indent_along, indent_on_grid, press, press_on_grid};
 pub use indenters::{Control, HistoryPoint, PressingLoad, SlidingLoad};
-pub use motions::{indent, slide};
+pub use motions::{indent, move_along, move_along_memory, slide};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
 pub use periodic::PeriodicEstimate;

@@ -44,6 +44,17 @@ pub enum IndenterError {
         /// The entry before it.
         previous: f64,
     },
+    /// The path is too long for the contact.
+    #[error(
+        "the motion needs {steps:.0} steps of the length of an element of the contact, and {allowed:.0} are allowed: \
+         shorten its path or stroke, or press harder"
+    )]
+    TooManySteps {
+        /// Steps needed.
+        steps: f64,
+        /// The most steps of a motion, or of one cycle.
+        allowed: f64,
+    },
     /// The body does not reach as far as the position asked for.
     #[error(
         "position {} lies outside the body, which reaches from {} to {}",

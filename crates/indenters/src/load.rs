@@ -14,6 +14,22 @@ pub enum Control {
 }
 
 impl Control {
+    /// The force \[N] or the depth, \[m].
+    pub const fn value(self) -> f64 {
+        match self {
+            Self::NormalForce(value) | Self::IndentationDepth(value) => value,
+        }
+    }
+
+    /// Another force instead of a force, or another depth instead of a depth.
+    #[must_use]
+    pub const fn with(self, value: f64) -> Self {
+        match self {
+            Self::NormalForce(_) => Self::NormalForce(value),
+            Self::IndentationDepth(_) => Self::IndentationDepth(value),
+        }
+    }
+
     fn checked(self) -> Result<Self, InvalidParameter> {
         match self {
             Self::NormalForce(force) => positive("normal_force", force).map(Self::NormalForce),

@@ -38,7 +38,7 @@ impl Instant<'_> {
     pub(crate) fn solve(&self, needed: f64, guess: f64) -> Level {
         let guessed = self.level(guess);
         let mut level = self.level(match guessed.n_below {
-            0 => self.touch_depths().fold(f64::INFINITY, f64::min) + needed,
+            0 => self.first_touch() + needed,
             _ => guessed.newton(needed),
         });
         while level.n_below > 0 {
@@ -66,6 +66,11 @@ impl Instant<'_> {
             n_below,
             compression: compression.value(),
         }
+    }
+
+    /// Depth at which the line touches the first element.
+    pub(crate) fn first_touch(&self) -> f64 {
+        self.touch_depths().fold(f64::INFINITY, f64::min)
     }
 
     /// Depth at which the line touches each element.

@@ -1,6 +1,6 @@
 //! Why a problem is refused, or has no solution.
 
-use indenters::IndenterError;
+use indenters::{IndenterError, Moved};
 use numerics::{InWords, InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
@@ -130,6 +130,44 @@ pub enum MdrError {
         missed: NotReached,
         /// What was found, with its bars.
         reached: Box<Sliding>,
+    },
+    /// A motion is known less well than asked for on the finest resolution allowed.
+    #[error("{missed}")]
+    MotionNotReached {
+        /// What is not known well enough.
+        missed: NotReached,
+        /// What was found, with its bars.
+        reached: Box<Moved>,
+    },
+    /// A material that flows gives way to and fro, or pass after pass on a track, without end.
+    #[error(
+        "a material that flows gives way further in every cycle or pass, and none is like the one before: give it an \
+         equilibrium modulus, or a motion through points"
+    )]
+    NoCycle,
+    /// Cycle after cycle still changes.
+    #[error(
+        "after {cycles} cycles of the motion, or passes of the track, the relative change that may be left is {change:e}, and the tolerance \
+         {tolerance:e}: the material remembers too many cycles"
+    )]
+    NotPeriodic {
+        /// Cycles that were followed.
+        cycles: usize,
+        /// Relative change that may be left.
+        change: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// On its track the body would be in two passes at once.
+    #[error(
+        "the track must be longer than the body is where it is below the surface, {} m, but is {} m",
+        InWords(*needed), InWords(*track)
+    )]
+    TrackTooShort {
+        /// Length of the track, \[m].
+        track: f64,
+        /// Length of the line below the surface, \[m].
+        needed: f64,
     },
     /// A material that flows has no contact at rest.
     #[error(

@@ -3,7 +3,8 @@
 //! [`Material`](rheology::Material).
 //!
 //! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the approach to it from first touch, [`indent`](indent())
-//! pressing for a time, [`press`](press()) the contact at rest; each gives its numbers with their errors.
+//! pressing for a time, [`press`](press()) the contact at rest, [`move_along`] any motion, to and fro too; each gives its
+//! numbers with their errors.
 //! [`slide_on_grid`] marches on one stated resolution. A body of revolution is given by its
 //! [`EquivalentLine`](indenters::EquivalentLine), or any other [`RigidLine`](indenters::RigidLine) as it is.
 //!
@@ -33,6 +34,7 @@ mod contact;
 mod element_heights;
 mod error;
 mod history;
+mod motion;
 mod press;
 mod slide;
 mod steady;
@@ -48,7 +50,8 @@ pub use error::MdrError;
 pub use history::{
     CurvePoint, Follow, ForceDerivatives, force_derivatives, indent_along, work_along,
 };
+pub use motion::{move_along, move_along_memory};
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, indent, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};
-pub use steady::{SteadySliding, steady};
+pub use steady::{SteadySliding, steady, steady_on_track};

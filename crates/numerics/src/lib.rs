@@ -27,6 +27,7 @@
 
 mod error_parts;
 mod estimate;
+mod fixed_point;
 mod fourier;
 mod invalid_parameter;
 #[cfg(feature = "least-squares")]
@@ -45,6 +46,7 @@ struct ReadMe;
 
 pub use error_parts::ErrorParts;
 pub use estimate::{Estimate, ValueWithError};
+pub use fixed_point::{KEPT_STATES, Settled, settle};
 pub use fourier::wave_power;
 pub use invalid_parameter::{
     InWords, InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,

@@ -86,7 +86,9 @@ impl Request {
 
 /// Whether nothing slides.
 pub(super) fn presses(scene: &Scene) -> bool {
-    scene.load.velocity.is_none_or(|velocity| velocity <= 0.0)
+    let load = &scene.load;
+    let moves = load.stroke.is_some() || load.motion.is_some() || load.motion_file.is_some();
+    !moves && load.velocity.is_none_or(|velocity| velocity <= 0.0)
 }
 
 /// The stationary state of a model to the first of some relative errors that is reached.

@@ -1,5 +1,7 @@
 //! What was found where the error asked for was not reached.
 
+use indenters::Moved;
+
 use crate::motions::indent::{IndentCurve, PressEstimate};
 use crate::motions::slide::SlideEstimate;
 use crate::stationary::steady::{LineEstimate, SteadyEstimate};
@@ -19,6 +21,8 @@ pub enum Reached {
     Press(PressEstimate),
     /// Of [`indent_along`](crate::indent_along).
     Curve(IndentCurve),
+    /// Of [`move_along`](crate::move_along).
+    Moved(Moved),
     #[cfg(feature = "rough")]
     /// Of [`periodic::steady`](crate::periodic::steady) and [`periodic::indent`](crate::periodic::indent).
     Periodic(PeriodicEstimate<PeriodicSliding>),
@@ -42,6 +46,7 @@ found! {
     SlideEstimate => Slide,
     PressEstimate => Press,
     IndentCurve => Curve,
+    Moved => Moved,
 }
 #[cfg(feature = "rough")]
 found! {

@@ -1,7 +1,9 @@
 //! Motions that are followed in time.
 
 pub mod indent;
+mod moving;
 pub mod slide;
 
 pub use indent::indent;
+pub use moving::{move_along, move_along_memory};
 pub use slide::slide;

@@ -89,6 +89,31 @@ impl<'a> March<'a> {
         )
     }
 
+    /// A march through motions that each take a time \[s], the first of them once and the others again and again.
+    ///
+    /// # Errors
+    /// Like [`new`](Self::new).
+    pub(crate) fn again_and_again(
+        surface: &'a dyn Surface,
+        elastomer: &(impl Elastomer + ?Sized),
+        motions: impl Iterator<Item = (Motion, f64)>,
+        options: &GridOptions,
+    ) -> Result<Self, BemError> {
+        let spacing = positive("spacing along x", options.spacing[0])?;
+        let route = Route::through(motions, spacing)?.repeated();
+        Self::on(route, surface, elastomer, options)
+    }
+
+    /// Goes back to the end of the first motion, where it comes from the last one.
+    pub(crate) const fn begin_again(&mut self) {
+        self.steps_done = 1;
+    }
+
+    /// What all elements remember.
+    pub(crate) fn memory(&mut self) -> &mut [f64] {
+        self.window.whole_memory()
+    }
+
     /// Makes the next step; none after the last.
     ///
     /// # Errors

@@ -69,6 +69,14 @@ impl Route {
         legs.all(|leg| leg.advance == 0.0 && leg.offset == 0.0)
     }
 
+    /// The same path again and again, so that every step may still pass all rows.
+    pub(crate) fn repeated(mut self) -> Self {
+        if let Some(first) = self.spans.first().copied() {
+            self.spans.fill(first);
+        }
+        self
+    }
+
     /// The same path over a half space without memory, so that the elements may move with the indenter.
     pub(crate) fn without_memory(mut self) -> Self {
         for leg in &mut self.legs {

@@ -60,6 +60,11 @@ impl Window {
         &self.memory[rows.start * per_row..rows.end * per_row]
     }
 
+    /// What all elements remember.
+    pub(super) fn whole_memory(&mut self) -> &mut [f64] {
+        &mut self.memory
+    }
+
     /// Displacement at the end of a step without load, from `first_row` on.
     pub(super) fn history(&self, step: &ExponentialStep, first_row: usize, history: &mut [f64]) {
         let columns = self.columns();

@@ -17,6 +17,7 @@ mod kernels;
 mod layers;
 mod memory;
 mod mirrors;
+mod motions;
 mod nested_grids;
 mod periodic_contact;
 mod periodic_march;

@@ -19,27 +19,27 @@ use crate::MdrError;
 const SENSITIVITY: f64 = 8.0;
 
 /// The foundation at one speed; all times are distances.
-pub(super) struct Foundation {
+pub(crate) struct Foundation {
     /// Unit of all stresses, so that their squares stay numbers: the modulus at once, or η₀ v of a lone dashpot over 1 m,
     /// \[Pa].
-    pub(super) unit: f64,
+    pub(crate) unit: f64,
     /// G_∞.
-    spring: f64,
+    pub(crate) spring: f64,
     /// η₀ v, \[m].
-    dashpot: f64,
-    branches: Vec<Branch>,
-    modes: Vec<Mode>,
+    pub(crate) dashpot: f64,
+    pub(crate) branches: Vec<Branch>,
+    pub(crate) modes: Vec<Mode>,
 }
 
-struct Branch {
-    modulus: f64,
-    length: f64,
+pub(crate) struct Branch {
+    pub(crate) modulus: f64,
+    pub(crate) length: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Mode {
+pub(crate) struct Mode {
     compliance: f64,
-    length: f64,
+    pub(crate) length: f64,
 }
 
 /// A boundary layer `amplitude · e^(−ratio (1 + t))`.
@@ -77,7 +77,7 @@ pub(super) struct Recovery {
 
 impl Foundation {
     /// The foundation of a line that moves with `velocity` \[m/s].
-    pub(super) fn new(
+    pub(crate) fn new(
         material: &(impl Material + ?Sized),
         velocity: f64,
     ) -> Result<Self, MdrError> {
@@ -121,11 +121,11 @@ impl Foundation {
         lengths.fold(f64::INFINITY, f64::min)
     }
 
-    pub(super) fn has_dashpot(&self) -> bool {
+    pub(crate) fn has_dashpot(&self) -> bool {
         self.dashpot > 0.0
     }
 
-    pub(super) fn is_elastic(&self) -> bool {
+    pub(crate) fn is_elastic(&self) -> bool {
         self.branches.is_empty() && !self.has_dashpot()
     }
 
@@ -137,7 +137,7 @@ impl Foundation {
     }
 
     /// Compresses the branches at once.
-    pub(super) fn strike(&self, stresses: &mut [f64], compression: f64) {
+    pub(crate) fn strike(&self, stresses: &mut [f64], compression: f64) {
         for (stress, branch) in stresses.iter_mut().zip(&self.branches) {
             *stress += branch.modulus * compression;
         }
@@ -161,7 +161,7 @@ impl Foundation {
     }
 
     /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.
-    pub(super) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
+    pub(crate) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses);
         let stored: f64 = branches.map(|(b, e)| e * (e / b.modulus)).sum();
         0.5 * (self.spring * displacement * displacement + stored)
@@ -203,16 +203,46 @@ impl Foundation {
 
     /// Lets go of a surface with this displacement and these stresses.
     pub(super) fn release(&self, displacement: f64, stresses: &[f64]) -> Recovery {
-        let amplitude = |mode: &Mode| {
-            let pulls = self.branches.iter().zip(stresses);
-            let pulls = pulls.map(|(b, e)| e * (b.length / (mode.length - b.length)));
-            mode.compliance * (pulls.sum::<f64>() - self.spring * displacement)
-        };
+        let amplitude = |mode: &Mode| self.amplitude(mode, displacement, stresses);
         Recovery {
             displacement,
             amplitudes: self.modes.iter().map(amplitude).collect(),
             distance: 0.0,
         }
+    }
+
+    /// β of a mode of a surface that is let go with this displacement and these stresses.
+    pub(crate) fn amplitude(&self, mode: &Mode, displacement: f64, stresses: &[f64]) -> f64 {
+        let pulls = self.branches.iter().zip(stresses);
+        let pulls = pulls.map(|(b, e)| e * (b.length / (mode.length - b.length)));
+        mode.compliance * (pulls.sum::<f64>() - self.spring * displacement)
+    }
+
+    /// A free surface that recovers to where it was before all loads, of which so much is left in each mode.
+    pub(super) fn recovering(&self, left: &[f64]) -> Recovery {
+        Recovery {
+            displacement: -left.iter().sum::<f64>(),
+            amplitudes: left.to_vec(),
+            distance: 0.0,
+        }
+    }
+
+    /// What is left in each mode of a free surface, a distance after where it is now.
+    pub(super) fn left_after(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
+        let xi = recovery.distance + distance;
+        let amplitude = |k: usize| recovery.amplitudes.get(k).copied().unwrap_or(0.0);
+        let modes = self.modes.iter().enumerate();
+        modes
+            .map(|(k, mode)| amplitude(k) * (-xi / mode.length).exp())
+            .collect()
+    }
+
+    /// The longest distance of recovery, \[m]; 0 without any.
+    pub(super) fn longest_recovery(&self) -> f64 {
+        self.modes
+            .iter()
+            .map(|mode| mode.length)
+            .fold(0.0, f64::max)
     }
 
     /// Displacement of a free surface, a distance after where it is now, in depths.
@@ -227,14 +257,18 @@ impl Foundation {
     pub(super) fn free_stresses(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
-        let left = modes.map(|(mode, beta)| (mode.length, beta * (-xi / mode.length).exp()));
-        let left: Vec<(f64, f64)> = left.collect();
-        let stress = |branch: &Branch| {
-            let part =
-                |(length, beta): &(f64, f64)| beta * (branch.length / (length - branch.length));
-            branch.modulus * left.iter().map(part).sum::<f64>()
-        };
+        let left = modes.map(|(mode, beta)| beta * (-xi / mode.length).exp());
+        let left: Vec<f64> = left.collect();
+        let stress = |branch: &Branch| self.free_stress(branch, &left);
         self.branches.iter().map(stress).collect()
+    }
+
+    /// Stress in a branch of a free surface of which `left` β e^(−ξ/L) is left in each mode.
+    pub(crate) fn free_stress(&self, branch: &Branch, left: &[f64]) -> f64 {
+        let modes = self.modes.iter().zip(left);
+        let part =
+            |(mode, beta): (&Mode, &f64)| beta * (branch.length / (mode.length - branch.length));
+        branch.modulus * modes.map(part).sum::<f64>()
     }
 }
 

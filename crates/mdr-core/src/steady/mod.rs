@@ -22,12 +22,14 @@ mod range;
 mod segment;
 mod steep_kinks;
 mod sweep;
+mod track;
 
 use indenters::{RigidLine, SlidingLoad};
-use numerics::{Estimate, between_zero_and_one};
+use numerics::{Estimate, between_zero_and_one, positive};
 use rheology::Material;
 
 use crate::MdrError;
+pub(crate) use foundation::Foundation;
 pub(crate) use problem::LineProblem;
 pub(crate) use steep_kinks::has_steep_kinks;
 
@@ -76,5 +78,50 @@ pub fn steady(
     let control = load.require_stationary()?;
     let problem = LineProblem::new(line, material, load.velocity())?;
     problem.check_kinks(control)?;
+    problem.refine(control, relative_error, |state| state.friction_coefficient)
+}
+
+/// The same on a track, after whose length \[m] the line comes back to the same place, as a ball on a disc does: in front of it
+/// is what is left of the pass before. The curvature of the track is left out.
+///
+/// ```
+/// use mdr_core::indenters::{EquivalentLine, SlidingLoad, Sphere};
+/// use mdr_core::rheology::{StandardSolid, StandardSolidParameters};
+/// use mdr_core::{steady, steady_on_track};
+///
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 1e7,
+///     viscosity: 1e5,
+/// })?;
+/// let (ball, load) = (Sphere::new(5e-3)?, SlidingLoad::new(1.0, 0.1)?);
+/// let line = EquivalentLine(&ball);
+/// // Within a retardation time the body comes back four times.
+/// let [once, again] = [
+///     steady(&line, &rubber, &load, 1e-6)?,
+///     steady_on_track(&line, &rubber, &load, 2.5e-3, 1e-6)?,
+/// ];
+/// assert!(again.friction_coefficient.value < once.friction_coefficient.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`MdrError::NoCycle`] for a material that flows; [`MdrError::TrackTooShort`] where the track is not longer than the line is
+/// below the surface; [`MdrError::NotPeriodic`]; otherwise like [`steady`].
+pub fn steady_on_track(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    track: f64,
+    relative_error: f64,
+) -> Result<SteadySliding, MdrError> {
+    let relative_error = between_zero_and_one("relative_error", relative_error)?;
+    let control = load.require_stationary()?;
+    if material.creep().fluidity() > 0.0 {
+        return Err(MdrError::NoCycle);
+    }
+    let mut problem = LineProblem::new(line, material, load.velocity())?;
+    problem.check_kinks(control)?;
+    problem.track = Some(positive("track", track)?);
     problem.refine(control, relative_error, |state| state.friction_coefficient)
 }

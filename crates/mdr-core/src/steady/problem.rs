@@ -6,11 +6,12 @@ use rheology::Material;
 
 use super::SteadySliding;
 use super::depth::{depth_of_load, polished_depth};
-use super::foundation::Foundation;
+use super::foundation::{Foundation, Recovery};
 use super::profile::{Profile, Resolution};
 use super::range::{Edge, Range, vertical_edge};
 use super::steep_kinks::SteepKink;
 use super::sweep::{Sweep, sweep};
+use super::track::{around, check_length};
 use crate::MdrError;
 use crate::error::finite;
 
@@ -33,7 +34,9 @@ const ROUNDING_OF_ENDS: f64 = 2.4e-7;
 /// A line that moves over a foundation.
 pub(crate) struct LineProblem<'a, L: ?Sized> {
     line: &'a L,
-    foundation: Foundation,
+    pub(super) foundation: Foundation,
+    /// After which the line comes back to the same place, \[m]; none where it never does.
+    pub(super) track: Option<f64>,
 }
 
 impl<'a, L: RigidLine + ?Sized> LineProblem<'a, L> {
@@ -43,7 +46,11 @@ impl<'a, L: RigidLine + ?Sized> LineProblem<'a, L> {
         velocity: f64,
     ) -> Result<Self, MdrError> {
         let foundation = Foundation::new(material, positive("velocity", velocity)?)?;
-        Ok(Self { line, foundation })
+        Ok(Self {
+            line,
+            foundation,
+            track: None,
+        })
     }
 
     /// Solves with more and more polynomials until the quantity that is `sought` is known well enough.
@@ -164,12 +171,18 @@ impl<'a, L: RigidLine + ?Sized> LineProblem<'a, L> {
         };
         let profile = Profile::new(self.line, &range, resolution)?;
         range.check_front(depth * profile.lowest, depth)?;
-        sweep(&self.foundation, &profile, loads)
+        match self.track {
+            None => Ok(sweep(&self.foundation, &profile, Recovery::untouched(), loads)?.0),
+            Some(track) => around(&self.foundation, &profile, track, loads),
+        }
     }
 
     /// The state in SI; the errors of its ends are not known yet.
     fn state(&self, control: Control, tolerance: f64) -> Result<SteadySliding, MdrError> {
         let depth = self.depth(control, tolerance)?;
+        if let Some(track) = self.track {
+            check_length(track, &Range::below(self.line, depth)?)?;
+        }
         let mut sums = self.solve(depth, tolerance)?;
         if let Some(position) = sums.too_steep {
             return Err(MdrError::FrictionDiverges { position });
@@ -194,7 +207,11 @@ impl<'a, L: RigidLine + ?Sized> LineProblem<'a, L> {
         Ok(SteadySliding {
             friction_coefficient: Estimate::new(friction, friction_error),
             indentation_depth: Estimate::new(depth, depth_error),
-            normal_force: Estimate::new(force, force_error),
+            normal_force: match control {
+                // The search ends where rounding on a track leaves it, which the bar of the depth holds.
+                Control::NormalForce(given) if self.track.is_some() => Estimate::exact(given),
+                _ => Estimate::new(force, force_error),
+            },
             ends: ends.map(Estimate::exact),
             contacts: sums.contacts,
             n_pieces: sums.n_pieces,

@@ -61,12 +61,14 @@ enum Surface {
     Loaded { stresses: Vec<f64>, fresh: bool },
 }
 
-/// Lets the line pass over the foundation, and with `loads` begins a list of what it carries.
+/// Lets the line pass over a free surface, and with `loads` begins a list of what it carries; gives also the surface that it
+/// leaves.
 pub(super) fn sweep(
     foundation: &Foundation,
     profile: &Profile,
+    ahead: Recovery,
     loads: Option<Vec<[f64; 2]>>,
-) -> Result<Sweep, MdrError> {
+) -> Result<(Sweep, Recovery), MdrError> {
     let mut march = SurfaceMarch {
         foundation,
         profile,
@@ -75,7 +77,7 @@ pub(super) fn sweep(
             loads,
             ..Sweep::default()
         },
-        surface: Surface::Free(Recovery::untouched()),
+        surface: Surface::Free(ahead),
     };
     for piece in &profile.pieces {
         let whole = &piece.segment;
@@ -243,18 +245,21 @@ impl SurfaceMarch<'_> {
     }
 
     /// The line has passed: what is still loaded springs back.
-    fn end(mut self) -> Sweep {
+    fn end(mut self) -> (Sweep, Recovery) {
         let surface = std::mem::replace(&mut self.surface, Surface::Free(Recovery::untouched()));
-        if let (Surface::Loaded { stresses, .. }, Some(piece)) =
-            (surface, self.profile.pieces.last())
-        {
-            let mut end = piece.segment.end();
-            if end.abs() < LEFT_BY_ROUNDING {
-                end = self.strain(end);
+        let behind = match (surface, self.profile.pieces.last()) {
+            (Surface::Loaded { stresses, .. }, Some(piece)) => {
+                let mut end = piece.segment.end();
+                if end.abs() < LEFT_BY_ROUNDING {
+                    end = self.strain(end);
+                }
+                self.close(end, &stresses, piece.segment.ends[1]);
+                self.foundation.release(end, &stresses)
             }
-            self.close(end, &stresses, piece.segment.ends[1]);
-        }
-        self.sums
+            (Surface::Free(recovery), _) => recovery,
+            (Surface::Loaded { .. }, None) => Recovery::untouched(),
+        };
+        (self.sums, behind)
     }
 }
 

@@ -12,6 +12,7 @@ use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
 pub(super) const NAMES: &str = "result.json history.csv history.svg history.png history_over_time.svg history_over_time.png \
+    motion.csv motion.svg motion.png motion_over_time.svg motion_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
@@ -68,9 +69,8 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
     Ok(())
 }
 
-/// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
-/// and the one that was found over time.
-fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
+/// The columns of a curve, each with its errors.
+fn write_columns(curve: &Curve, out: &OutputFolder) -> Result<()> {
     let Curve { times, columns } = curve;
     let rows = times.iter().enumerate().map(|(index, time)| {
         let known = columns.iter().map(|column| column.values[index]);
@@ -80,7 +80,31 @@ fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
     let names = columns.iter().map(|column| column.name);
     let names = names.map(|[name, unit]| format!(" {name}_{unit} {name}_error_{unit}"));
     let names = format!("time_s{}", names.collect::<String>());
-    out.write("history.csv", &to_csv(&names, rows)?)?;
+    out.write(&format!("{}.csv", curve.name()), &to_csv(&names, rows)?)
+}
+
+/// A motion: its points with their errors, and of all steps the friction force over the position and over time.
+fn write_motion(answer: &Answer, out: &OutputFolder) -> Result<()> {
+    write_columns(&answer.fields.curve, out)?;
+    let steps = &answer.fields.motion_steps;
+    let force = "tangential force F_t [N]";
+    let over = |x: &str, axis: usize| {
+        // A cycle ends where it begins; its time goes on.
+        let closes = axis == 1 && answer.dissipated_energy.is_some();
+        let first = steps.first().filter(|_| closes);
+        let points = steps.iter().chain(first);
+        let points = points.map(|step| [step[axis], step[2]]);
+        pictures::curve(x, force, points.collect())
+    };
+    out.draw("motion", &over("position x [m]", 1))?;
+    out.draw("motion_over_time", &over("time t [s]", 0))
+}
+
+/// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
+/// and the one that was found over time.
+fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
+    write_columns(curve, out)?;
+    let times = &curve.times;
     let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
     let [force, depth] = ["normal_force", "indentation_depth"].map(known);
     let labels = ["normal force F [N]", "depth d [m]"];
@@ -110,6 +134,9 @@ fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
 }
 
 fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
+    if !answer.fields.motion_steps.is_empty() {
+        return write_motion(answer, out);
+    }
     if !answer.fields.curve.times.is_empty() {
         return write_curve(&answer.fields.curve, out);
     }

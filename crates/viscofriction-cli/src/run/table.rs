@@ -19,6 +19,8 @@ pub(super) fn table(answer: &Answer) -> Table {
     };
     let rows = [
         ("friction coefficient", answer.friction_coefficient, ""),
+        ("peak friction", answer.peak_friction, ""),
+        ("dissipated energy", answer.dissipated_energy, "J"),
         ("normal force", Some(answer.normal_force), force),
         ("tangential force", answer.tangential_force(), force),
         ("indentation depth", answer.indentation_depth, "m"),

@@ -322,7 +322,7 @@ const COLOURS: [Colour; 5] = [
 const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
 /// Last parts of keys, with the name, symbol and unit of their quantities.
-const NAMES: [(&str, &str); 18] = [
+const NAMES: [(&str, &str); 21] = [
     ("velocity", "speed v [m/s]"),
     ("normal_force", "normal force F [N]"),
     ("mean_pressure", "mean pressure p [Pa]"),
@@ -339,6 +339,9 @@ const NAMES: [(&str, &str); 18] = [
     ("relaxation_time", "relaxation time τ [s]"),
     ("equilibrium_modulus", "equilibrium modulus G∞ [Pa]"),
     ("poisson_ratio", "Poisson ratio ν"),
+    ("track", "track L [m]"),
+    ("stroke", "stroke s [m]"),
+    ("frequency", "frequency f [1/s]"),
     ("thickness", "thickness h [m]"),
     ("temperature", "temperature T [°C]"),
 ];

@@ -7,7 +7,7 @@ use indenters::{IndenterError, PiecewiseLinearProfile};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use super::load::LoadPoint;
+use super::load::{LoadPoint, MotionPoint};
 use crate::text::RecordLines;
 
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -36,6 +36,45 @@ struct HistoryTableRow {
     time_s: f64,
     normal_force_n: Option<f64>,
     indentation_depth_m: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotionTableRow {
+    time_s: f64,
+    position_m: f64,
+    normal_force_n: Option<f64>,
+    indentation_depth_m: Option<f64>,
+}
+
+/// A motion from the contents of a CSV file with the columns `time_s` and `position_m`, and perhaps `indentation_depth_m` or
+/// `normal_force_n`.
+pub(super) fn motion(file: &Path, contents: &[u8]) -> Result<Vec<MotionPoint>, String> {
+    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let rows = rows::<MotionTableRow>(contents).map_err(wrong)?;
+    let mut before = f64::NEG_INFINITY;
+    let point = |(line, row): (usize, MotionTableRow)| {
+        let controls = [row.normal_force_n, row.indentation_depth_m];
+        let mut numbers = controls
+            .into_iter()
+            .flatten()
+            .chain([row.time_s, row.position_m]);
+        let problem = if numbers.any(|number| !number.is_finite()) {
+            "finite numbers are needed"
+        } else if row.time_s < 0.0 || row.time_s <= before {
+            "time_s must be at least 0, and larger than in the row before"
+        } else {
+            before = row.time_s;
+            return Ok(MotionPoint {
+                time: row.time_s,
+                position: row.position_m,
+                normal_force: row.normal_force_n,
+                indentation_depth: row.indentation_depth_m,
+            });
+        };
+        Err(wrong((line, problem.to_owned())))
+    };
+    rows.into_iter().map(point).collect()
 }
 
 /// A history from the contents of a CSV file with the columns `time_s` and `indentation_depth_m` or `normal_force_n`.

@@ -26,6 +26,44 @@ pub struct Load {
     pub history: Option<Vec<LoadPoint>>,
     /// The same as a CSV file beside the scene file, with the columns time_s and indentation_depth_m or normal_force_n.
     pub history_file: Option<PathBuf>,
+    /// Length > 0 of the track after which the body comes back to the same place, as a ball on a disc does, \[m]; without it
+    /// it never does.
+    pub track: Option<f64>,
+    /// Instead of a speed: distance > 0 from one end to the other of a motion to and fro, \[m].
+    pub stroke: Option<f64>,
+    /// Cycles of the stroke per second > 0, \[1/s].
+    pub frequency: Option<f64>,
+    /// How the body moves over the stroke; like a crank unless given.
+    pub shape: Option<StrokeShape>,
+    /// Instead of a speed: positions over time, straight from point to point.
+    pub motion: Option<Vec<MotionPoint>>,
+    /// The same as a CSV file beside the scene file, with the columns time_s and position_m.
+    pub motion_file: Option<PathBuf>,
+}
+
+/// How a body moves over its stroke.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StrokeShape {
+    /// Like a crank: the position is a cosine of time.
+    #[default]
+    Sinusoidal,
+    /// With constant speed between the ends.
+    Triangular,
+}
+
+/// A point of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MotionPoint {
+    /// Time ≥ 0, \[s]; after that of the point before.
+    pub time: f64,
+    /// Position of the lowest point along x, \[m].
+    pub position: f64,
+    /// Normal force ≥ 0, \[N], of a motion whose points have one each.
+    pub normal_force: Option<f64>,
+    /// Depth of the lowest point below the undeformed surface, \[m], of either sign, of a motion whose points have one each.
+    pub indentation_depth: Option<f64>,
 }
 
 /// A point of a history.

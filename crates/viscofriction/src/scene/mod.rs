@@ -9,6 +9,7 @@ mod history;
 mod indenter;
 mod load;
 mod material;
+mod motion;
 mod solve;
 mod source;
 
@@ -23,7 +24,7 @@ pub use files::profile;
 pub use height_map::{HeightMapTable, HeightsAre, LengthUnit, in_file};
 pub use indenter::{Edges, Indenter, IndenterKind, SelfAffineSurface, Term};
 pub use indenters::Control;
-pub use load::{Load, LoadPoint};
+pub use load::{Load, LoadPoint, MotionPoint, StrokeShape};
 pub use material::{Approximation, Branch, MaterialKind, MaterialTable};
 pub use numerics::Accuracy;
 pub use rheology::{Shift, ShiftLaw};

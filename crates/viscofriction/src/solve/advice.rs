@@ -16,6 +16,7 @@ const LESS_LOAD: &str =
     "; lower load.normal_force or load.indentation_depth, or give a body that reaches further";
 const NO_WALL: &str =
     "; lower load.normal_force or load.indentation_depth, or give a body without a wall there";
+const LONGER_TRACK: &str = "; give a longer load.track";
 const DISTANCE: &str = "; give solve.sliding_distance";
 const DISTANCE_OR_STEADY: &str = "; give solve.method = \"bem-steady\", or solve.sliding_distance";
 const UNITS: &str = "; check the units of indenter, material and load, from which it follows";
@@ -28,7 +29,9 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         | BemError::PeriodTooCoarse { .. }
         | BemError::SlopeNotResolved { .. } => FINER,
         BemError::ContactNotConverged { .. } => OTHER_ELEMENTS,
-        BemError::NotReached { .. } | BemError::TimeNotResolved { .. } => LARGER_ERROR,
+        BemError::NotReached { .. }
+        | BemError::TimeNotResolved { .. }
+        | BemError::NotPeriodic { .. } => LARGER_ERROR,
         BemError::ContactReachesBoundary { .. } => LESS_LOAD,
         BemError::VerticalWall { .. } => NO_WALL,
         BemError::SlidingDistanceMissing { .. } => DISTANCE,
@@ -47,9 +50,12 @@ pub(super) const fn of_line(error: &MdrError) -> &'static str {
         MdrError::NotConverged { .. }
         | MdrError::NotReached(_)
         | MdrError::HistoryNotReached { .. }
+        | MdrError::MotionNotReached { .. }
+        | MdrError::NotPeriodic { .. }
         | MdrError::SlidingNotReached { .. }
         | MdrError::TooMuchDetail { .. } => LARGER_ERROR,
         MdrError::DepthBeyondEdge { .. } => LESS_LOAD,
+        MdrError::TrackTooShort { .. } => LONGER_TRACK,
         MdrError::NotStationary { .. } => DISTANCE,
         MdrError::InvalidParameter(_) | MdrError::NonFinite { .. } => UNITS,
         MdrError::Indenter(error) => of_body(error),

@@ -27,8 +27,12 @@ pub struct Answer {
     pub method: Method,
     /// What the elastomer was taken to be.
     pub model: Model,
-    /// μ = F_h/F_N; none where nothing slides.
+    /// μ = F_h/F_N, of a motion ∫ F_t dx / ∫ F_N |dx|; none where nothing slides.
     pub friction_coefficient: Option<Estimate>,
+    /// The largest |F_t|/F_N of a motion; none of any other.
+    pub peak_friction: Option<Estimate>,
+    /// Energy that is dissipated in a cycle of a motion to and fro, \[J].
+    pub dissipated_energy: Option<Estimate>,
     /// F_N, \[N], or \[N/m] of a cylinder.
     pub normal_force: Estimate,
     /// Depth of the lowest point below the undeformed surface, \[m], and of the mean plane of a periodic surface; none where
@@ -137,8 +141,10 @@ pub struct Fields {
     pub line_pressure: Vec<[f64; 2]>,
     /// From first touch to the state that was asked for.
     pub history: Vec<HistoryRow>,
-    /// The points of the history that was asked for, or [since touch](super::with_fields()).
+    /// The points of the history or motion that was asked for, or [since touch](super::with_fields()).
     pub curve: Curve,
+    /// The steps of a motion: time \[s], position \[m] and tangential force \[N].
+    pub motion_steps: Vec<[f64; 3]>,
 }
 
 /// One step of sliding.
@@ -166,6 +172,8 @@ impl Answer {
             method,
             model,
             friction_coefficient: None,
+            peak_friction: None,
+            dissipated_energy: None,
             normal_force,
             indentation_depth: None,
             error_parts: ErrorParts::NONE,
@@ -208,7 +216,7 @@ impl Answer {
     }
 
     /// Quantities by their names in JSON and CSV, in this order, each with its error.
-    fn quantities(&self) -> [(&str, Option<Estimate>); 9] {
+    fn quantities(&self) -> [(&str, Option<Estimate>); 11] {
         let rough = |of: fn(RoughAnswer) -> Estimate| self.rough.map(of);
         let dissipation = self.rough.and_then(|rough| rough.friction_from_dissipation);
         [
@@ -221,6 +229,8 @@ impl Answer {
             ("mean_pressure", rough(|rough| rough.mean_pressure)),
             ("area_fraction", rough(|rough| rough.area_fraction)),
             ("friction_from_dissipation", dissipation),
+            ("peak_friction", self.peak_friction),
+            ("dissipated_energy", self.dissipated_energy),
         ]
     }
 
@@ -263,7 +273,7 @@ impl Answer {
     ///
     /// On the way to the stationary state a surface that is not its own mirror image may be pulled along.
     pub(crate) fn physical(mut self, problem: &Problem) -> Result<Self> {
-        if matches!(problem.motion(), Motion::History(_)) {
+        if matches!(problem.motion(), Motion::History(_) | Motion::Moving(_)) {
             return Ok(self);
         }
         let may_be_pulled = matches!(problem.body(), Body::HeightMap(_) | Body::Periodic(_));

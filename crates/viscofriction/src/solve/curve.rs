@@ -5,7 +5,7 @@ use std::iter;
 use numerics::Estimate;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// The contact at the points of a history; none where nothing was followed.
+/// The contact at the points of a history, or of a motion; none where nothing was followed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Curve {
     /// Times, \[s].
@@ -29,6 +29,8 @@ pub(crate) const DEPTH: [&str; 2] = ["indentation_depth", "m"];
 pub(crate) const RADIUS: [&str; 2] = ["contact_radius", "m"];
 pub(crate) const AREA: [&str; 2] = ["contact_area", "m2"];
 pub(crate) const WORK: [&str; 2] = ["work", "j"];
+pub(crate) const POSITION: [&str; 2] = ["position", "m"];
+pub(crate) const TANGENTIAL: [&str; 2] = ["tangential_force", "n"];
 
 /// The name of a column, and its value at a point.
 pub(crate) type OfPoint<P> = ([&'static str; 2], fn(&P) -> Estimate);
@@ -51,7 +53,11 @@ impl CurveColumn {
 
 impl Curve {
     /// Columns of the points that a method found.
-    pub(crate) fn of<P>(points: &[P], time: fn(&P) -> f64, columns: [OfPoint<P>; 3]) -> Self {
+    pub(crate) fn of<P, const N: usize>(
+        points: &[P],
+        time: fn(&P) -> f64,
+        columns: [OfPoint<P>; N],
+    ) -> Self {
         let column = |(name, of): OfPoint<P>| CurveColumn {
             name,
             values: points.iter().map(of).collect(),
@@ -60,6 +66,12 @@ impl Curve {
             times: points.iter().map(time).collect(),
             columns: columns.map(column).into(),
         }
+    }
+
+    /// What it is called in JSON.
+    pub fn name(&self) -> &'static str {
+        let moves = self.column(POSITION[0]).is_some();
+        if moves { "motion" } else { "history" }
     }
 
     /// The column of a name; none where it is not known.
@@ -86,8 +98,9 @@ impl Curve {
         });
         let columns = self.columns.iter();
         let errors = columns.map(|column| (column.name[0], column.error()));
-        map.serialize_entry("history", &rows.collect::<Vec<Named>>())?;
-        map.serialize_entry("history_error", &Named(errors.collect()))
+        let name = self.name();
+        map.serialize_entry(name, &rows.collect::<Vec<Named>>())?;
+        map.serialize_entry(&format!("{name}_error"), &Named(errors.collect()))
     }
 }
 

@@ -59,6 +59,10 @@ fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
     let (Some(window), Motion::Sliding(load)) = (problem.window(), problem.motion()) else {
         return None;
     };
+    // On a track waves are those that fit into it.
+    if problem.track().is_some() {
+        return None;
+    }
     let velocity = load.velocity();
     let creep = problem.material().creep();
     if answer.model == Model::Line {

@@ -5,11 +5,11 @@ use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow, slide};
 use bem_halfspace::steady::{LineEstimate, SteadyEstimate};
 use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
-    PeriodicTransient, Reached, indent, periodic, steady, steady_line,
+    PeriodicTransient, Reached, indent, move_along, periodic, steady, steady_line,
 };
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
-use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
+use indenters::{Cylinder, MovingLoad, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer, StationaryGrid};
@@ -17,6 +17,7 @@ use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::cut_off::WithoutShortestOctave;
 use super::error::Result;
 use super::half_space::Simple;
+use super::mdr::of_motion;
 use super::problem::{Motion, Problem};
 use crate::scene::{Method, Model};
 
@@ -282,6 +283,17 @@ fn of_slide(estimate: SlideEstimate) -> Result<Answer> {
     Ok(answer)
 }
 
+/// To and fro, or through points.
+pub(crate) fn moved(
+    problem: &Problem,
+    surface: &dyn Surface,
+    load: &MovingLoad,
+    request: Request,
+) -> Result<Answer> {
+    let found = move_along(surface, &problem.elastomer()?, load, request)?;
+    Ok(of_motion(Method::BemTransient, Model::HalfSpace, found))
+}
+
 /// Pressing without sliding.
 pub(crate) fn pressed(
     problem: &Problem,
@@ -348,6 +360,7 @@ pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -
         Reached::Slide(found) => of_slide(found),
         Reached::Press(found) => of_press(found),
         Reached::Curve(found) => of_curve(&found),
+        Reached::Moved(found) => Ok(of_motion(Method::BemTransient, Model::HalfSpace, found)),
         Reached::Periodic(found) if matches!(problem.motion(), Motion::Pressing(_)) => {
             Ok(of_pressed(problem, rough?, found))
         }

@@ -106,7 +106,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
         // No other method does it.
-        (_, Motion::History(_)) => Vec::new(),
+        (_, Motion::History(_) | Motion::Moving(_)) => Vec::new(),
         (MdrSteady, _) => vec![Some(Omission::TimeSteps)],
         (Analytic | MdrTransient, Pressing(_)) => vec![Some(Omission::HalfSpace)],
         (BemSteady, Sliding(load)) => {

@@ -1,15 +1,18 @@
 //! What the one-dimensional model says, as answers.
 
-use indenters::{Axisymmetric, EquivalentLine, EquivalentProfile, PressingLoad, SlidingLoad};
+use indenters::{
+    Axisymmetric, EquivalentLine, EquivalentProfile, Moved, MovedPoint, MovingLoad, PressingLoad,
+    SlidingLoad,
+};
 use mdr_core::{
-    CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along, slide,
-    steady,
+    CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along,
+    move_along, slide, steady, steady_on_track,
 };
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
-use super::curve::{Curve, DEPTH, FORCE, OfPoint, RADIUS};
+use super::curve::{Curve, DEPTH, FORCE, OfPoint, POSITION, RADIUS, TANGENTIAL};
 use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
@@ -19,10 +22,14 @@ pub(crate) fn stationary(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &SlidingLoad,
+    track: Option<f64>,
     relative_error: f64,
 ) -> Result<Answer> {
-    let state = steady(&EquivalentLine(body), material, load, relative_error)?;
-    Ok(of_steady(state))
+    let line = EquivalentLine(body);
+    Ok(of_steady(match track {
+        None => steady(&line, material, load, relative_error)?,
+        Some(track) => steady_on_track(&line, material, load, track, relative_error)?,
+    }))
 }
 
 /// The answer of a stationary state.
@@ -73,6 +80,45 @@ pub(crate) fn of_march(state: Sliding) -> Answer {
     };
     answer.fields.history = state.finest.rows.iter().map(row).collect();
     answer.fields.line_load = state.finest.load;
+    answer
+}
+
+/// To and fro, or through points.
+pub(crate) fn moved(
+    body: &dyn Axisymmetric,
+    material: &dyn Material,
+    load: &MovingLoad,
+    request: Request,
+) -> Result<Answer> {
+    let found = move_along(&EquivalentLine(body), material, load, request)?;
+    Ok(of_motion(Method::MdrTransient, Model::Line, found))
+}
+
+/// The answer of a motion: of its whole, and of its last point.
+pub(crate) fn of_motion(method: Method, model: Model, found: Moved) -> Answer {
+    let last = found.points.last();
+    let force = last.map_or(Estimate::exact(0.0), |point| point.normal_force);
+    let mut answer = Answer {
+        friction_coefficient: Some(found.friction_coefficient),
+        peak_friction: Some(found.peak_friction),
+        dissipated_energy: found.dissipated_energy,
+        indentation_depth: last.map(|point| point.indentation_depth),
+        error_parts: found.error_parts,
+        contact_box: found.ends.map(contact_box),
+        unknowns: found.steps.last().map_or(0, |step| step.n_contact),
+        iterations: found.steps.len() * found.n_cycles.max(1),
+        ..Answer::new(method, model, force)
+    };
+    let columns: [OfPoint<MovedPoint>; 4] = [
+        (POSITION, |point| Estimate::exact(point.position)),
+        (TANGENTIAL, |point| point.tangential_force),
+        (FORCE, |point| point.normal_force),
+        (DEPTH, |point| point.indentation_depth),
+    ];
+    answer.fields.curve = Curve::of(&found.points, |point| point.time, columns);
+    let steps = found.steps.iter();
+    let steps = steps.map(|step| [step.time, step.position, step.tangential_force]);
+    answer.fields.motion_steps = steps.collect();
     answer
 }
 

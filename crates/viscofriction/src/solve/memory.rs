@@ -3,14 +3,14 @@
 use std::sync::OnceLock;
 
 use bem_halfspace::indent::{indent_along_memory, indent_memory};
-use bem_halfspace::{periodic, slide::slide_memory, steady::steady_memory};
+use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
 use indenters::rough::PeriodicSurface;
 use numerics::{Watch, whole_part};
 
 use super::body::Body;
 use super::error::SolveError;
-use super::problem::Motion::{History, Pressing, Sliding};
+use super::problem::Motion::{History, Moving, Pressing, Sliding};
 use super::problem::Problem;
 use crate::scene::Method::{self, BemSteady, BemTransient, MdrTransient};
 use crate::scene::{Accuracy, SceneError};
@@ -153,6 +153,13 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
         (MdrTransient, Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);
             mdr_core::slide_memory(&line, problem.material(), &load, elements).ok()
+        }
+        (BemTransient, Moving(_)) => {
+            move_along_memory(surface, &elastomer, problem.moving()?, elements).ok()
+        }
+        (MdrTransient, Moving(_)) => {
+            let line = EquivalentLine(surface.as_axisymmetric()?);
+            mdr_core::move_along_memory(&line, problem.material(), problem.moving()?, elements).ok()
         }
         _ => None,
     }

@@ -46,7 +46,7 @@ use self::left_out::left_out;
 use self::memory::check_memory;
 use self::validity::{not_modelled, warnings};
 use self::work::rough;
-use crate::scene::Method;
+use crate::scene::{Method, Model};
 use bem_halfspace::BemError;
 use mdr_core::MdrError;
 use numerics::{Unwatched, Watch};
@@ -139,6 +139,9 @@ fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer
         }
         SolveError::Line(MdrError::SlidingNotReached { reached, .. }) => {
             Some(mdr::of_march((**reached).clone()))
+        }
+        SolveError::Line(MdrError::MotionNotReached { reached, .. }) => {
+            Some(mdr::of_motion(method, Model::Line, (**reached).clone()))
         }
         SolveError::Line(MdrError::NotConverged { reached, .. }) if method == Method::MdrSteady => {
             Some(mdr::of_steady((**reached).clone()))

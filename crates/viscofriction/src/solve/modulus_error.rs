@@ -122,7 +122,7 @@ impl Problem {
                 let lengths = [length, load.sliding_distance()].into_iter().flatten();
                 lengths.map(|length| length / load.velocity()).collect()
             }
-            Motion::Pressing(_) | Motion::History(_) => self.durations(),
+            Motion::Pressing(_) | Motion::History(_) | Motion::Moving(_) => self.durations(),
         };
         let is_outside = |time: &f64| !(shortest..=longest).contains(time);
         match times.into_iter().find(is_outside) {

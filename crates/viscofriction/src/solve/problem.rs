@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use bem_halfspace::{BemError, Layer};
-use indenters::{Control, HistoryPoint, IndenterError, PressingLoad, SlidingLoad};
+use indenters::{Control, HistoryPoint, IndenterError, MovingLoad, PressingLoad, SlidingLoad};
 use numerics::positive;
 use rheology::{Material, RheologyError};
 
@@ -34,6 +34,8 @@ pub struct Problem {
     window: Option<[f64; 2]>,
     motion: Motion,
     history: Vec<HistoryPoint>,
+    moving: Option<MovingLoad>,
+    track: Option<f64>,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -51,6 +53,8 @@ pub enum Motion {
     Pressing(PressingLoad),
     /// Follows [`Problem::history`], which ends with this.
     History(Control),
+    /// Moves as [`Problem::moving`] says, pressed with this at most.
+    Moving(Control),
 }
 
 impl Motion {
@@ -59,7 +63,7 @@ impl Motion {
         match self {
             Self::Sliding(load) => load.control(),
             Self::Pressing(load) => load.control(),
-            Self::History(last) => *last,
+            Self::History(control) | Self::Moving(control) => *control,
         }
     }
 
@@ -67,7 +71,7 @@ impl Motion {
     pub fn sliding_distance(&self) -> Option<f64> {
         match self {
             Self::Sliding(load) => load.sliding_distance(),
-            Self::Pressing(_) | Self::History(_) => None,
+            Self::Pressing(_) | Self::History(_) | Self::Moving(_) => None,
         }
     }
 }
@@ -96,9 +100,12 @@ impl Problem {
         let files = Files::of(scene, folder, read)?;
         let history = scene.load.checked_history(&files)?;
         let history = history.unwrap_or_default();
-        let motion = match history.last() {
-            Some(last) => followed(scene, last)?,
-            None => motion(scene, &body)?,
+        let control = || scene.load.control(body.period_area());
+        let moving = scene.load.checked_motion(control, &files)?;
+        let motion = match (history.last(), &moving) {
+            (Some(last), _) => ended(scene, Motion::History(last.control))?,
+            (_, Some(moving)) => ended(scene, Motion::Moving(moving.largest_control()))?,
+            _ => motion(scene, &body)?,
         };
         let elastomer = half_space(&scene.material, &files)?;
         let thickness = match scene.layer {
@@ -117,6 +124,8 @@ impl Problem {
             window: elastomer.window,
             motion,
             history,
+            moving,
+            track: track(scene, motion)?,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
@@ -181,12 +190,31 @@ impl Problem {
         &self.history
     }
 
+    /// How the body moves along the surface, to and fro or through points; none of any other motion.
+    pub const fn moving(&self) -> Option<&MovingLoad> {
+        self.moving.as_ref()
+    }
+
+    /// Length of the track after which the body comes back to the same place, \[m]; none where it never does.
+    pub const fn track(&self) -> Option<f64> {
+        self.track
+    }
+
     /// How long a force or a depth is held, or the parts of a history between two times take and all of it, \[s]; none of
     /// sliding.
     pub(super) fn durations(&self) -> Vec<f64> {
         match self.motion {
             Motion::Sliding(_) => Vec::new(),
             Motion::Pressing(load) => vec![load.duration()],
+            Motion::Moving(_) => {
+                let stages = self.moving.iter().flat_map(MovingLoad::stages);
+                let each = stages.map(indenters::Stage::duration);
+                let all = self
+                    .moving
+                    .iter()
+                    .map(|load| load.times()[1] - load.times()[0]);
+                each.chain(all).collect()
+            }
             Motion::History(_) => {
                 let between = self.history.windows(2);
                 let between = between.map(|pair| pair[1].time - pair[0].time);
@@ -260,13 +288,39 @@ impl TryFrom<&Scene> for Problem {
     }
 }
 
-fn followed(scene: &Scene, last: &HistoryPoint) -> Result<Motion, SceneError> {
+/// A motion that says itself when it ends.
+fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
     let times = [
         ("solve.duration", scene.solve.duration),
         ("solve.sliding_distance", scene.solve.sliding_distance),
     ];
-    SceneError::none_given(&times, "a history ends with its last point; leave this out")?;
-    Ok(Motion::History(last.control))
+    let problem = match motion {
+        Motion::History(_) => "a history ends with its last point; leave this out",
+        _ => {
+            "a motion ends with its last point, or goes on until its cycles are alike; leave this out"
+        }
+    };
+    SceneError::none_given(&times, problem)?;
+    if let (Motion::History(_), Some(_)) = (motion, scene.load.track) {
+        return Err(SceneError::at("load.track", NO_TRACK));
+    }
+    Ok(motion)
+}
+
+const NO_TRACK: &str =
+    "a track is passed with a speed again and again, and nothing slides so; leave this out";
+
+/// The track of a body that slides without end.
+fn track(scene: &Scene, motion: Motion) -> Result<Option<f64>, SceneError> {
+    let track = scene.load.checked_track()?;
+    match (track, motion) {
+        (Some(_), Motion::Sliding(load)) if load.sliding_distance().is_some() => {
+            let problem = "on a track the stationary state is answered, which has no duration and no sliding_distance";
+            Err(SceneError::at("load.track", problem))
+        }
+        (Some(_), Motion::Sliding(_)) | (None, _) => Ok(track),
+        (Some(_), _) => Err(SceneError::at("load.track", NO_TRACK)),
+    }
 }
 
 fn motion(scene: &Scene, body: &Body) -> Result<Motion, SceneError> {

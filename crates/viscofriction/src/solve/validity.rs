@@ -92,7 +92,7 @@ fn cut_off(body: &Body, answer: &Answer) -> Option<String> {
 
 /// What a measurement has and no method does, of scenes of this kind.
 pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
-    let slides = matches!(problem.motion(), Motion::Sliding(_));
+    let slides = matches!(problem.motion(), Motion::Sliding(_) | Motion::Moving(_));
     let dissipates = problem.simple() != Some(&Simple::Elastic);
     let words = [
         ("adhesion", true),

@@ -3,7 +3,7 @@
 use bem_halfspace::PeriodicLoad;
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::rough::PeriodicSurface;
-use indenters::{Axisymmetric, Cylinder, SlidingLoad, Surface};
+use indenters::{Axisymmetric, Cylinder, MovingLoad, SlidingLoad, Surface};
 use numerics::{Request, Watch};
 
 use super::analytic::{cylinder_pressed, without_friction};
@@ -12,7 +12,7 @@ use super::body::{Body, Revolution};
 use super::elements::Rough;
 use super::error::{Refusal, Result};
 use super::half_space::Simple;
-use super::problem::Motion::{History, Pressing, Sliding};
+use super::problem::Motion::{History, Moving, Pressing, Sliding};
 use super::problem::Problem;
 use super::{analytic, elements, layer, mdr};
 use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
@@ -35,6 +35,11 @@ const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
 const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: its slope is 0 in the contact and infinite at its \
      edge, so that its friction would be that of the edge alone; a flat-cone or a truncated-paraboloid has a flat end and a front";
+const ONLY_STEADY: Refusal =
+    "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
+const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
+const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle or pass, and none is like the one before; give it an equilibrium modulus";
+const NO_TRACK: Refusal = "it knows no track on which the body comes back; mdr-steady does, of the one-dimensional model (solve.model = \"line\")";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
@@ -48,7 +53,12 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     if is_history {
         return followed(problem, method, accuracy);
     }
+    require(problem.track().is_none() || method == MdrSteady, NO_TRACK)?;
     let is_elastic = problem.simple() == Some(&Simple::Elastic);
+    if let Some(load) = problem.moving() {
+        require(is_elastic || has_front(problem.body()), NO_FRONT)?;
+        return moved(problem, load, method, accuracy);
+    }
     let rises = has_front(problem.body()) || (is_elastic && method == Analytic);
     require(rises || !matches!(problem.motion(), Sliding(_)), NO_FRONT)?;
     match (problem.body(), method) {
@@ -118,6 +128,32 @@ fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> 
             ready(move |_| mdr::followed(problem, &&**body, method, asked))
         }
         _ => Err("it needs a body of revolution; bem-transient follows a history with others"),
+    }
+}
+
+/// To and fro, or through points.
+fn moved<'a>(
+    problem: &'a Problem,
+    load: &'a MovingLoad,
+    method: Method,
+    accuracy: Accuracy,
+) -> Offer<'a> {
+    require(problem.expansion().is_none(), NO_BAR)?;
+    let flows = problem.material().creep().fluidity() > 0.0;
+    require(!(load.is_cycle() && flows), NO_CYCLE)?;
+    match (method, problem.body()) {
+        (Analytic | MdrSteady | BemSteady, _) => Err(ONLY_STEADY),
+        (MdrTransient, Body::Revolution(body)) => {
+            let material = problem.material();
+            ready(move |watch| mdr::moved(&**body, material, load, Request { accuracy, watch }))
+        }
+        (MdrTransient, _) => {
+            Err("it needs a body of revolution; bem-transient takes height maps too")
+        }
+        (BemTransient, body) => {
+            let surface = body.surface().ok_or(ENDLESS)?;
+            ready(move |watch| elements::moved(problem, surface, load, Request { accuracy, watch }))
+        }
     }
 }
 
@@ -208,7 +244,7 @@ fn periodic<'a>(
             let request = Request { accuracy, watch };
             elements::periodic_pressed(problem, rough, load.duration(), request)
         }),
-        (_, Pressing(_) | History(_)) => Err(NOTHING_SLIDES),
+        (_, Pressing(_) | History(_) | Moving(_)) => Err(NOTHING_SLIDES),
         (BemSteady, Sliding(load)) => {
             require(load.sliding_distance().is_none(), STATIONARY)?;
             ready(move |watch| elements::periodic(problem, rough, Request { accuracy, watch }))
@@ -237,7 +273,7 @@ fn boundary_elements<'a>(
                 elements::pressed(problem, surface, &load, Request { accuracy, watch })
             });
         }
-        Pressing(_) | History(_) => return Err(NOTHING_SLIDES),
+        Pressing(_) | History(_) | Moving(_) => return Err(NOTHING_SLIDES),
     };
     let has_distance = load.sliding_distance().is_some();
     require(!(is_stationary && has_distance), STATIONARY)?;
@@ -274,9 +310,13 @@ fn one_dimensional<'a>(
                     "it chooses its polynomials itself; give relative_error instead of elements",
                 );
             };
-            ready(move |_| mdr::stationary(body, material, &load, error))
+            let track = problem.track();
+            require(track.is_none() || problem.expansion().is_none(), NO_BAR)?;
+            let flows = material.creep().fluidity() > 0.0;
+            require(track.is_none() || !flows, NO_CYCLE)?;
+            ready(move |_| mdr::stationary(body, material, &load, track, error))
         }
-        (MdrSteady, Pressing(_)) | (_, History(_)) => Err(NOTHING_SLIDES),
+        (MdrSteady, Pressing(_)) | (_, History(_) | Moving(_)) => Err(NOTHING_SLIDES),
         (_, Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
             ready(move |watch| mdr::transient(body, material, &load, Request { accuracy, watch }))
@@ -297,7 +337,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     let (control, material) = (problem.motion().control(), problem.material());
     let pressed = move |duration| analytic::pressed(body, material, control, duration);
     match (problem.motion(), problem.simple(), problem.model()) {
-        (History(_), _, _) => Err(NOTHING_SLIDES),
+        (History(_) | Moving(_), _, _) => Err(NOTHING_SLIDES),
         (Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
         (Sliding(_), Some(Simple::Elastic), _) => {

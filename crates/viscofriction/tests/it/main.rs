@@ -11,6 +11,7 @@ mod histories;
 mod histories_on_layers;
 mod layers;
 mod malformed;
+mod motions;
 #[cfg(feature = "fit")]
 mod own_materials;
 mod rough_scenes;

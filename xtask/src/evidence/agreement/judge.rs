@@ -96,7 +96,10 @@ pub(super) fn judge(seed: u64, number: usize, source: &Source, out: &Path) -> Re
 fn motion(case: &Case) -> String {
     let (load, solve) = (&case.scene.load, &case.scene.solve);
     let motion = match load.velocity {
+        None if load.stroke.is_some() => "to and fro",
+        None if load.motion.is_some() => "through points",
         None => "history",
+        _ if load.track.is_some() => "track",
         Some(velocity) if velocity <= 0.0 => "pressed",
         _ if solve.duration.or(solve.sliding_distance).is_some() => "from first touch",
         _ => "stationary",
@@ -163,7 +166,12 @@ impl Row {
 
     /// On the half space or a layer.
     pub(super) fn slides(&self) -> bool {
-        let slides = ["stationary", "from first touch"];
+        let slides = [
+            "stationary",
+            "from first touch",
+            "to and fro",
+            "through points",
+        ];
         slides.iter().any(|motion| self.motion.starts_with(motion)) && !self.motion.contains("line")
     }
 }
@@ -405,7 +413,12 @@ impl Pair<'_> {
             }
         }
         let curve = &one.fields.curve;
-        for column in &curve.columns {
+        // Between more points a motion is asked for at other times.
+        let columns = match self.relation {
+            Relation::SubdividedMotion => &[][..],
+            _ => &curve.columns[..],
+        };
+        for column in columns {
             let name = column.name[0];
             let Some(of_other) = other.fields.curve.column(name) else {
                 continue;

@@ -8,7 +8,7 @@ use strum::{EnumIter, IntoEnumIterator as _, IntoStaticStr};
 use toml::{Table, Value};
 use viscofriction::scene::{
     Approximation, Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method,
-    Model, Scene,
+    Model, MotionPoint, Scene,
 };
 use viscofriction::solve::{Answer, plan};
 
@@ -49,6 +49,10 @@ pub(super) enum Relation {
     Derivatives,
     /// One thread and three.
     OtherThreads,
+    /// A track that is so long that everything is forgotten is a straight one.
+    LongTrack,
+    /// A motion through more points on the same path.
+    SubdividedMotion,
     /// A history that begins later, after a time without load.
     LaterHistory,
     /// A history with more points on the same path.
@@ -87,6 +91,8 @@ const ELEMENTS_OF_PERIOD: usize = 256;
 /// Relative error of another series, and by how many times the times for which it holds go beyond its own.
 const SERIES_ERROR: f64 = 1e-4;
 const SERIES_RANGE: f64 = 1e12;
+/// Contacts after which everything is forgotten.
+const LONG: f64 = 1e15;
 /// Largest power of two of a unit.
 const POWERS: f64 = 12.0;
 
@@ -106,7 +112,8 @@ impl Relation {
     /// Whether it is the same scene in other words, of which both forms are answered or none.
     pub(super) const fn is_same(self) -> bool {
         use Relation::{LaterHistory, Mirrored, SubdividedHistory};
-        self.is_exact() || matches!(self, LaterHistory | SubdividedHistory | Mirrored)
+        let motions = matches!(self, Self::SubdividedMotion);
+        self.is_exact() || motions || matches!(self, LaterHistory | SubdividedHistory | Mirrored)
     }
 
     /// The other scene; none where the relation says nothing.
@@ -142,6 +149,7 @@ impl Relation {
                 Some(())
             }
             Self::OtherName => renamed(case)?,
+            Self::LongTrack => long_track(case),
             Self::Mirrored => other_map(case, false),
             Self::OtherFile => other_map(case, true),
             _ => self.change(&mut case.scene, first.answer),
@@ -175,6 +183,10 @@ impl Relation {
                     return None;
                 };
                 *branches = split(branches)?;
+            }
+            Self::SubdividedMotion => {
+                let points = scene.load.motion.as_mut()?;
+                *points = with_middles(points);
             }
             Self::LaterHistory => later(scene.load.history.as_mut()?)?,
             Self::SubdividedHistory => {
@@ -214,6 +226,17 @@ fn thick_layer(case: &mut Case) -> Option<()> {
     let is_half_space = scene.layer.is_none() && scene.solve.model.is_none();
     scene.layer = (is_half_space && !is_periodic).then_some(Layer { thickness });
     scene.layer.map(|_| ())
+}
+
+/// A track of a stationary state of the one-dimensional model.
+fn long_track(case: &mut Case) -> Option<()> {
+    let track = LONG * case.contact;
+    let Scene { load, solve, .. } = &mut case.scene;
+    let slides = load.velocity.is_some_and(|velocity| velocity > 0.0);
+    let ends = solve.duration.or(solve.sliding_distance).or(load.track);
+    let is_stationary = slides && ends.is_none() && solve.model == Some(Model::Line);
+    load.track = is_stationary.then_some(track);
+    load.track.map(|_| ())
 }
 
 fn is_periodic(indenter: &Indenter) -> bool {
@@ -269,6 +292,10 @@ fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
         return None;
     }
     let load = &mut scene.load;
+    // A motion has another force at every point of a depth that is held.
+    if load.stroke.is_some() || load.motion.is_some() {
+        return None;
+    }
     let found = |known: f64| (known > 0.0 && known.is_finite()).then_some(known);
     match (load.normal_force.take(), load.indentation_depth.take()) {
         (Some(_), None) => load.indentation_depth = Some(found(answer.indentation_depth?.value)?),
@@ -423,6 +450,20 @@ fn later(points: &mut Vec<LoadPoint>) -> Option<()> {
     points.iter_mut().for_each(|point| point.time += time);
     points.insert(0, LoadPoint { time: 0.0, ..first });
     is_free.then_some(())
+}
+
+/// With the middles of all straight parts.
+fn with_middles(points: &[MotionPoint]) -> Vec<MotionPoint> {
+    let middle = |pair: &[MotionPoint]| {
+        let middle = MotionPoint {
+            time: 0.5 * (pair[0].time + pair[1].time),
+            position: 0.5 * (pair[0].position + pair[1].position),
+            ..pair[0]
+        };
+        [pair[0], middle]
+    };
+    let all = points.windows(2).flat_map(middle);
+    all.chain(points.last().copied()).collect()
 }
 
 /// With the middles of all straight parts that take time.

@@ -6,7 +6,9 @@ use std::path::Path;
 use anyhow::Result;
 use toml::{Table, Value};
 use viscofriction::Files;
-use viscofriction::scene::{Branch, Edges, LoadPoint, Model, Scene, Shift, ShiftLaw, Term};
+use viscofriction::scene::{
+    Branch, Edges, LoadPoint, Model, MotionPoint, Scene, Shift, ShiftLaw, StrokeShape, Term,
+};
 use viscofriction::solve::{Body, body, half_space};
 
 use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, read};
@@ -229,11 +231,16 @@ impl Sample<'_> {
             scene.load.normal_force = Some(force);
         }
         let velocity = 2.0 * self.contact / self.contact_time;
+        if let (Motion::Stroke | Motion::Path, None) = (motion, scene.load.mean_pressure) {
+            self.move_along(scene, velocity);
+            return Ok(());
+        }
         let lengths = 3.0 * self.random.decades(range.distances);
         let slides = !matches!(motion, Motion::Pressed | Motion::History);
         scene.load.velocity = Some(if slides { velocity } else { 0.0 });
         match motion {
-            Motion::Stationary => {}
+            Motion::Track => scene.load.track = Some(10.0 * lengths * self.contact),
+            Motion::Stationary | Motion::Stroke | Motion::Path => {}
             Motion::SlidingForTime => scene.solve.duration = Some(lengths * self.contact_time),
             Motion::SlidingOverDistance => {
                 scene.solve.sliding_distance = Some(lengths * self.contact);
@@ -266,6 +273,38 @@ impl Sample<'_> {
             Body::HeightMap(_) => 0.02 * self.contact,
         };
         Ok([4.0 * self.contact * depth / compliance, depth])
+    }
+
+    /// To and fro over a part of a contact or some, or through up to five points with dwells, of about a speed; elements are
+    /// asked for no more than they reach.
+    fn move_along(&mut self, scene: &mut Scene, velocity: f64) {
+        if scene.solve.model.is_none() {
+            scene.solve.relative_error = Some(ERRORS[0]);
+        }
+        if self.random.choice(&[false, true]) {
+            let stroke = self.contact * 10_f64.powf(self.random.between([-1.5, 0.8]));
+            scene.load.stroke = Some(stroke);
+            scene.load.frequency = Some(0.5 * velocity / stroke);
+            let shapes = [None, Some(StrokeShape::Triangular)];
+            scene.load.shape = self.random.choice(&shapes);
+            return;
+        }
+        let (mut time, mut position) = (0.0, 0.0);
+        let count = self.random.choice(&[2, 3, 5]);
+        let mut points = Vec::new();
+        for number in 0..count {
+            points.push(MotionPoint {
+                time,
+                position,
+                normal_force: None,
+                indentation_depth: None,
+            });
+            let step = self.contact * self.random.between([-3.0, 3.0]);
+            let stops = number > 0 && self.random.uniform() < 0.3;
+            position += if stops { 0.0 } else { step };
+            time += step.abs() / velocity * self.random.decades(0.5);
+        }
+        scene.load.motion = Some(points);
     }
 
     /// Up to six points that rise and fall, with dwells and jumps, of a force or, without one, of a depth.

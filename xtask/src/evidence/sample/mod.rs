@@ -153,6 +153,12 @@ enum Motion {
     SlidingOverDistance,
     Pressed,
     History,
+    /// To and fro.
+    Stroke,
+    /// Through points.
+    Path,
+    /// The stationary state of a body that comes back to the same place.
+    Track,
 }
 
 /// What `recipes.toml` holds.

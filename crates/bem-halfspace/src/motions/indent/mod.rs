@@ -17,6 +17,7 @@ use crate::stepping::{March, Motion};
 use crate::{BemError, Elastomer, GridOptions};
 pub use follow::{IndentCurve, IndentPoint, indent_along, indent_along_memory};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
+pub(crate) use press::footprint_after;
 pub use press::{
     PressEstimate, PressSolution, indent, indent_memory, indent_on_grid, press, press_on_grid,
 };

@@ -16,7 +16,7 @@ use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
 use crate::stepping::{March, Motion};
-use crate::{Base, BemError, Elastomer, GridOptions, Layer};
+use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
 /// Elements along the contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 512;
@@ -175,6 +175,16 @@ pub fn indent_on_grid(
     options: &GridOptions,
 ) -> Result<PressSolution, BemError> {
     Spring::after(elastomer, load)?.solve(&surface, load.control(), options)
+}
+
+/// The rectangle around the contact of a body that was pressed a time ago.
+pub(crate) fn footprint_after(
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &PressingLoad,
+) -> Result<Footprint, BemError> {
+    let plan = Spring::after(elastomer, load)?.plan(surface, load.control())?;
+    Ok(plan.footprint)
 }
 
 /// The spring that stands for a material under a constant control.

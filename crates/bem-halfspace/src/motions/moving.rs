@@ -1,0 +1,295 @@
+//! Any motion along the surface with its error bars: starts, stops, dwells, returns, once or to and fro.
+//!
+//! Steps in time are as long as elements, or grow after a stop, so that both become finer together; the error is of the first
+//! order in their lengths, because force and load are held over a step.
+
+use indenters::{
+    Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
+    SlidingLoad, Surface,
+};
+use numerics::{Accuracy, Goal, KEPT_STATES, Request, Settled, refine, settle};
+use rheology::{CreepSpectrum, Material as _};
+
+use crate::elements::footprint::Footprint;
+use crate::estimate::bars::order_of_friction;
+use crate::estimate::plan::GridPlan;
+use crate::motions::indent::footprint_after;
+use crate::motions::slide::{March, Motion, MotionRow};
+use crate::{BemError, Elastomer, GridOptions, Reached};
+
+/// Elements along the contact after which a motion is given up; a cycle takes about a minute.
+const LARGEST_GRID: usize = 48;
+/// Order of the error, that of a step in time.
+const ORDER: f64 = 1.0;
+/// Of the elements of a path in as many steps as it has along it.
+const WORK: f64 = 3.0;
+/// Steps of a motion, or of one cycle, after which it is not begun, and cycles after which the search is given up.
+const MOST_STEPS: f64 = 1e5;
+const MOST_CYCLES: usize = 100;
+/// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
+const PART_OF_CYCLES: f64 = 0.1;
+const TOLERANCE_ON_ELEMENTS: f64 = 1e-3;
+/// Duration of the first touch, at rest, relative to that of the first step.
+const TOUCH: f64 = 1e-3;
+/// Times of the slowest element after which a body that is pressed rests.
+const MEMORIES: f64 = 30.0;
+/// Memory for an element that is followed, but for what it remembers, and for a step, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 150.0;
+const BYTES_PER_STEP: f64 = 600.0;
+
+/// Moves `surface` over an undeformed half space or layer: through the points of a motion, or to and fro until two cycles are
+/// alike; to an error of the mean friction coefficient relative to its value, or with a number of elements along the contact.
+///
+/// At the beginning the body is pressed at once. The friction force of a motion through points has the same error, relative to
+/// its largest value.
+///
+/// ```
+/// use bem_halfspace::indenters::{Control, MovingLoad, Shape, Sphere, Stroke};
+/// use bem_halfspace::move_along;
+/// use bem_halfspace::numerics::Accuracy;
+/// use bem_halfspace::rheology::{StandardSolid, StandardSolidParameters};
+///
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 1e7,
+///     viscosity: 1e5,
+/// })?;
+/// let ball = Sphere::new(5e-3)?;
+/// let stroke = Stroke { length: 2e-3, frequency: 5.0, shape: Shape::Sinusoidal };
+/// let load = MovingLoad::reciprocating(Control::NormalForce(1.0), stroke)?;
+/// let cycle = move_along(&ball, &rubber, &load, Accuracy::Elements(8))?;
+/// assert!(cycle.friction_coefficient.value > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::NoCycle`] to and fro on a material
+/// that flows; [`BemError::NotPeriodic`]; otherwise like [`slide_on_grid`](crate::slide_on_grid).
+pub fn move_along<'w>(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &MovingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<Moved, BemError> {
+    let request = request.into();
+    let problem = Moving::new(&surface, elastomer, load, request.accuracy)?;
+    let goal = Goal {
+        request,
+        largest: LARGEST_GRID,
+        order: order_of_friction(problem.plan.apex_exponent, ORDER),
+        work: WORK,
+        others: 0.0,
+        selection: 1.0,
+    };
+    let view = MotionView {
+        load,
+        is_elastic: problem.creep.is_elastic(),
+    };
+    let refined = refine(
+        &goal,
+        |elements, tell: &dyn Fn(f64)| problem.on(elements, tell),
+        |record| view.quantities(record),
+        |record, _: &dyn Fn(f64)| Ok::<_, BemError>(view.rests(record)),
+    )?;
+    let found = view.moved(refined.value, &refined.error, refined.parts[0]);
+    let Some(missed) = refined.missed else {
+        return Ok(found);
+    };
+    Err(BemError::NotReached {
+        quantity: MotionView::in_words(missed.quantity),
+        value: missed.value,
+        error: missed.error,
+        relative_error: missed.asked,
+        reached: Box::new(Reached::Moved(found)),
+    })
+}
+
+/// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`move_along`], before anything is followed.
+pub fn move_along_memory(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &MovingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let surface: &dyn Surface = &surface;
+    let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
+    let options = problem.options(elements);
+    let [dx, dy] = options.spacing;
+    let n_steps = load.steps(elements, dx, MOST_STEPS)?.len() as f64;
+    let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
+    let [rear, front] = load.range();
+    let across = (options.footprint.y[1] - options.footprint.y[0]) / dy;
+    let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
+    let passed = (front - rear) / dx * across;
+    let n_elements = followed * (options.footprint.n_elements(options.spacing) + passed);
+    let copies = if load.is_cycle() { KEPT_STATES } else { 1 };
+    let per_element = BYTES_PER_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
+    Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
+}
+
+struct Moving<'a, M: ?Sized> {
+    surface: &'a dyn Surface,
+    elastomer: &'a M,
+    load: &'a MovingLoad,
+    creep: CreepSpectrum,
+    plan: GridPlan,
+    /// Relative error by which cycles may differ.
+    tolerance: f64,
+}
+
+impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
+    fn new(
+        surface: &'a dyn Surface,
+        elastomer: &'a M,
+        load: &'a MovingLoad,
+        accuracy: Accuracy,
+    ) -> Result<Self, BemError> {
+        let creep = elastomer.material().creep();
+        if load.is_cycle() && creep.fluidity() > 0.0 {
+            return Err(BemError::NoCycle);
+        }
+        let control = load.largest_control();
+        let fastest = SlidingLoad::with(control, load.fastest())?;
+        let mut plan = GridPlan::sliding(surface, elastomer, &fastest)?;
+        if let Control::NormalForce(_) = control {
+            let [start, end] = load.times();
+            let memory = MEMORIES * slowest(&creep);
+            let pressed = if load.is_cycle() { memory } else { end - start };
+            let duration = if pressed > 0.0 { pressed } else { end - start };
+            let rest = footprint_after(surface, elastomer, &PressingLoad::new(control, duration)?)?;
+            plan.footprint = around(plan.footprint, rest);
+        }
+        Ok(Self {
+            surface,
+            elastomer,
+            load,
+            creep,
+            plan,
+            tolerance: match accuracy {
+                Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
+                Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
+            },
+        })
+    }
+
+    fn options(&self, elements: usize) -> GridOptions {
+        let spacing = self.plan.length() / elements as f64;
+        GridOptions::new([spacing; 2], self.plan.footprint.widened(spacing))
+    }
+
+    fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+        let options = self.options(elements);
+        let [spacing, _] = options.spacing;
+        let steps = self.load.steps(elements, spacing, MOST_STEPS)?;
+        let start = self.load.stages()[0].start;
+        let touch = TOUCH * steps[0].duration;
+        let first = (start, touch);
+        let all = steps.iter().map(|step| (step.end, step.duration));
+        let motions = std::iter::once(first).chain(all).map(|(point, duration)| {
+            let motion = Motion {
+                time: point.time,
+                position: point.position - start.position,
+                control: point.control,
+            };
+            (motion, duration)
+        });
+        let (surface, elastomer) = (self.surface, self.elastomer);
+        let mut march = March::again_and_again(surface, elastomer, motions, &options)?;
+        march.step()?;
+        if self.load.is_cycle() {
+            return self.cycle(&mut march, &steps, spacing, tell);
+        }
+        self.pass(&mut march, &steps, spacing, tell)
+    }
+
+    /// All steps once.
+    fn pass(
+        &self,
+        march: &mut March<'_>,
+        steps: &[MovingStep],
+        spacing: f64,
+        tell: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
+        let mut record = MotionRecord {
+            spacing,
+            ..MotionRecord::default()
+        };
+        let mut position = self.load.stages()[0].start.position;
+        for step in steps {
+            let Some(row) = march.step()? else {
+                return Ok(record);
+            };
+            record.push(step_of(step, &row), step.end.position - position);
+            position = step.end.position;
+            tell(march.part_done());
+        }
+        Ok(record)
+    }
+
+    /// The cycle that is like the one before.
+    fn cycle(
+        &self,
+        march: &mut March<'_>,
+        steps: &[MovingStep],
+        spacing: f64,
+        tell: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
+        let [start, end] = self.load.times();
+        let slowness = -(-(end - start) / slowest(&self.creep)).exp_m1().recip();
+        let first = march.memory().to_vec();
+        let pass = |from: &[f64]| {
+            march.memory().copy_from_slice(from);
+            march.begin_again();
+            let record = self.pass(march, steps, spacing, &|_| ())?;
+            Ok::<_, BemError>((record, march.memory().to_vec()))
+        };
+        let left = |now: &mut MotionRecord, before: &MotionRecord| {
+            let left = now.rest_after(before, slowness);
+            tell((left.ln() / self.tolerance.ln()).clamp(0.0, 1.0));
+            left
+        };
+        match settle(first, (MOST_CYCLES, self.tolerance), pass, left)? {
+            Settled::Found(record, n_cycles) => Ok(MotionRecord { n_cycles, ..record }),
+            Settled::Missed(change) => Err(BemError::NotPeriodic {
+                cycles: MOST_CYCLES,
+                change,
+                tolerance: self.tolerance,
+            }),
+        }
+    }
+}
+
+/// Force and depth are those at the end of a step.
+fn step_of(step: &MovingStep, row: &MotionRow) -> MotionStep {
+    MotionStep {
+        stage: step.stage,
+        time: step.end.time,
+        position: step.end.position,
+        tangential_force: row.tangential_force,
+        normal_force: row.normal_force,
+        indentation_depth: row.indentation_depth,
+        contact: row.contact_x,
+        n_contact: row.n_contact,
+    }
+}
+
+/// The slowest retardation time, \[s]; 0 without any.
+fn slowest(creep: &CreepSpectrum) -> f64 {
+    let times = creep
+        .elements()
+        .iter()
+        .map(|element| element.retardation_time);
+    times.fold(0.0, f64::max)
+}
+
+/// The rectangle around two.
+fn around(a: Footprint, b: Footprint) -> Footprint {
+    let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+    Footprint {
+        x: both(a.x, b.x),
+        y: both(a.y, b.y),
+    }
+}

@@ -1,0 +1,136 @@
+//! An element that is touched or let go inside a step.
+
+use numerics::bracketed_root;
+
+use super::time_step::{Driven, TimeStep};
+use crate::steady::Foundation;
+
+/// One element in a step of which a part is contact.
+pub(super) struct Event<'a> {
+    pub(super) foundation: &'a Foundation,
+    pub(super) duration: f64,
+    /// Stresses, or amplitudes of recovery.
+    pub(super) slots: &'a mut [f64],
+}
+
+impl Event<'_> {
+    /// Lets go of a loaded element when it carries nothing any more, on the way from one displacement to another; gives
+    /// the displacement to which it recovers. What is stored then is lost while it recovers.
+    pub(super) fn release(self, [from, to]: [f64; 2]) -> (f64, Driven) {
+        let foundation = self.foundation;
+        let n_branches = foundation.branches.len();
+        let rise = to - from;
+        let carried = |part: f64| {
+            let branches = foundation.branches.iter().zip(&self.slots[..n_branches]);
+            let stresses = branches.map(|(branch, stress)| {
+                let a = self.duration / branch.length;
+                let left = (-part * a).exp();
+                stress * left + branch.modulus * rise * ((1.0 - left) / a)
+            });
+            let at_once = foundation.dashpot * rise / self.duration;
+            let spring = foundation.spring * (from + part * rise);
+            spring + at_once + stresses.sum::<f64>()
+        };
+        // With a dashpot the load jumps where the speed does.
+        let part = if carried(0.0) <= 0.0 {
+            0.0
+        } else {
+            bracketed_root(carried, [0.0, 1.0]).unwrap_or(1.0)
+        };
+        let mut driven = Driven::default();
+        if part > 0.0 {
+            let step = TimeStep::new(foundation, part * self.duration);
+            driven = step.drive(from, part * rise, &mut self.slots[..n_branches]);
+        }
+        let displacement = from + part * rise;
+        driven.lost += foundation.stored_energy(displacement, &self.slots[..n_branches]);
+        let rest = (1.0 - part) * self.duration;
+        (self.recover(displacement, rest), driven)
+    }
+
+    /// Lets go of a loaded element at once; gives also what is stored in it.
+    pub(super) fn lift(self, displacement: f64) -> (f64, f64) {
+        let foundation = self.foundation;
+        let n_branches = foundation.branches.len();
+        let stresses = &mut self.slots[..n_branches];
+        let stored = foundation.stored_energy(displacement, stresses);
+        if foundation.has_dashpot() {
+            return (self.recover(displacement, 0.0), stored);
+        }
+        let carried = foundation.spring * displacement + stresses.iter().sum::<f64>();
+        let moduli = foundation.branches.iter().map(|branch| branch.modulus);
+        let back = carried / (foundation.spring + moduli.sum::<f64>());
+        foundation.strike(stresses, -back);
+        (self.recover(displacement - back, 0.0), stored)
+    }
+
+    /// Amplitudes of recovery instead of stresses, a time after the element was let go.
+    fn recover(self, displacement: f64, time: f64) -> f64 {
+        let foundation = self.foundation;
+        let stresses = self.slots[..foundation.branches.len()].to_vec();
+        let mut limit = displacement;
+        for (slot, mode) in self.slots.iter_mut().zip(&foundation.modes) {
+            let amplitude = foundation.amplitude(mode, displacement, &stresses);
+            limit += amplitude;
+            *slot = amplitude * (-time / mode.length).exp();
+        }
+        // A solid recovers, and rounding does not stay.
+        if foundation.spring > 0.0 { 0.0 } else { limit }
+    }
+
+    /// Touches an element that recovers to a `limit`, where the line goes from one displacement to another.
+    pub(super) fn touch(self, limit: f64, [from, to]: [f64; 2]) -> Driven {
+        let foundation = self.foundation;
+        let left = |part: f64| {
+            let slots = self.slots.iter().zip(&foundation.modes);
+            let time = part * self.duration;
+            slots.map(move |(slot, mode)| slot * (-time / mode.length).exp())
+        };
+        let gap = |part: f64| (limit - left(part).sum::<f64>()) - (from + part * (to - from));
+        let part = if gap(0.0) <= 0.0 {
+            0.0
+        } else {
+            bracketed_root(gap, [0.0, 1.0]).unwrap_or(1.0)
+        };
+        let left: Vec<f64> = left(part).collect();
+        self.slots[..left.len()].copy_from_slice(&left);
+        let start = from + part * (to - from);
+        let duration = self.duration;
+        let stresses = &mut *self.slots;
+        let again = Event {
+            foundation,
+            duration,
+            slots: stresses,
+        };
+        let (displacement, recovered) = again.strike(limit, start);
+        let stresses = &mut self.slots[..foundation.branches.len()];
+        let rest = (1.0 - part) * self.duration;
+        let mut driven = Driven::default();
+        if rest > 0.0 {
+            let step = TimeStep::new(foundation, rest);
+            driven = step.drive(displacement, to - displacement, stresses);
+        }
+        driven.lost -= recovered;
+        driven
+    }
+
+    /// Stresses instead of amplitudes, of an element that is touched at once; gives its displacement, and what is stored.
+    pub(super) fn strike(self, limit: f64, under: f64) -> (f64, f64) {
+        let foundation = self.foundation;
+        let left = self.slots[..foundation.modes.len()].to_vec();
+        let mut displacement = limit - left.iter().sum::<f64>();
+        for (slot, branch) in self.slots.iter_mut().zip(&foundation.branches) {
+            *slot = foundation.free_stress(branch, &left);
+        }
+        let stresses = &mut self.slots[..foundation.branches.len()];
+        // A dashpot holds against a jump.
+        if !foundation.has_dashpot() {
+            foundation.strike(stresses, under - displacement);
+            displacement = under;
+        }
+        (
+            displacement,
+            foundation.stored_energy(displacement, stresses),
+        )
+    }
+}

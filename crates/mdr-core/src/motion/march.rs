@@ -1,0 +1,272 @@
+//! A motion on one resolution.
+
+use std::cell::RefCell;
+
+use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep, RigidLine};
+use numerics::KEPT_STATES;
+use rheology::Material;
+
+use super::chain::{Chain, Given, Kept, Stepped};
+use super::cycle::cycle;
+use crate::MdrError;
+use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
+use crate::error::enough_elements;
+use crate::steady::Foundation;
+
+/// Steps of a motion, or of one cycle, after which it is not begun.
+const MOST_STEPS: f64 = 4e6;
+/// Duration of the first touch, at rest, relative to that of the first step.
+const TOUCH: f64 = 1e-3;
+
+/// Where the contact may end at first, in lengths of that of the fastest sliding.
+const REACH: f64 = 0.75;
+
+/// Elements of a chain per element of the contact, at most about, and what each takes besides its memory, \[bytes].
+const FOOTPRINT: f64 = 4.0;
+const PER_ELEMENT: f64 = 200.0;
+
+/// What moves, on what, and how.
+pub(super) struct Problem<'a, L: ?Sized> {
+    pub(super) line: &'a L,
+    pub(super) foundation: Foundation,
+    pub(super) load: &'a MovingLoad,
+    /// Length of the contact that is divided into elements, \[m].
+    pub(super) length: f64,
+    /// The slowest retardation time of the material, \[s]; 0 without any.
+    pub(super) memory: f64,
+    /// Relative error by which cycles may differ.
+    pub(super) tolerance: f64,
+    /// What the cycle on the resolution before remembers, with which the next one begins.
+    pub(super) kept: RefCell<Option<Kept>>,
+}
+
+impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
+    pub(super) fn new(
+        line: &'a L,
+        material: &(impl Material + ?Sized),
+        load: &'a MovingLoad,
+        (length, tolerance): (f64, f64),
+    ) -> Result<Self, MdrError> {
+        let creep = material.creep();
+        if load.is_cycle() && creep.fluidity() > 0.0 {
+            return Err(MdrError::NoCycle);
+        }
+        let times = creep
+            .elements()
+            .iter()
+            .map(|element| element.retardation_time);
+        Ok(Self {
+            line,
+            foundation: Foundation::new(material, 1.0)?,
+            load,
+            length,
+            memory: times.fold(0.0, f64::max),
+            tolerance,
+            kept: RefCell::new(None),
+        })
+    }
+
+    /// Follows the motion with a number of elements along the contact.
+    pub(super) fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, MdrError> {
+        let spacing = self.length / elements as f64;
+        let legs = self.load.steps(elements, spacing, MOST_STEPS)?;
+        let mut height = match self.load.largest_control() {
+            Control::IndentationDepth(depth) => depth,
+            Control::NormalForce(_) => self.rise(),
+        };
+        loop {
+            let sampled = ElementHeights::below(self.line, spacing, height)?;
+            let range = self.load.range();
+            let n_elements = (range[1] - range[0]) / spacing + sampled.heights.len() as f64;
+            if n_elements > MAX_ELEMENTS as f64 {
+                return Err(MdrError::TooManyElements {
+                    allowed: MAX_ELEMENTS,
+                    spacing,
+                    height,
+                });
+            }
+            if let Some(record) = self.follow(&sampled, &legs, tell)? {
+                let contacts = record.steps.iter().map(|step| step.n_contact);
+                enough_elements(contacts.max().unwrap_or(0), spacing)?;
+                return Ok(record);
+            }
+            height = 2.0 * sampled.ceiling;
+        }
+    }
+
+    /// Memory of all resolutions up to these elements, \[bytes].
+    pub(super) fn memory_on(&self, elements: usize) -> Result<f64, MdrError> {
+        let spacing = self.length / elements as f64;
+        let n_steps = self.load.steps(elements, spacing, MOST_STEPS)?.len() as f64;
+        let [rear, front] = self.load.range();
+        let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
+        let n_slots = self
+            .foundation
+            .branches
+            .len()
+            .max(self.foundation.modes.len());
+        let copies = if self.load.is_cycle() {
+            KEPT_STATES as f64
+        } else {
+            1.0
+        };
+        let per_element = copies * (n_slots * size_of::<f64>()) as f64 + PER_ELEMENT;
+        // The values on four resolutions, and a list grows by doubling.
+        let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
+        Ok(n_steps * per_step as f64 + n_elements * per_element)
+    }
+
+    /// Height of the line about where a contact may end.
+    fn rise(&self) -> f64 {
+        let lowest = self.line.height(0.0);
+        let sides =
+            [-REACH * self.length, REACH * self.length].map(|x| self.line.height(x) - lowest);
+        let rise = sides[0].min(sides[1]);
+        if rise.is_finite() && rise > 0.0 {
+            rise
+        } else {
+            self.length
+        }
+    }
+
+    /// The motion, or nothing when the chain was not high enough.
+    fn follow(
+        &self,
+        sampled: &ElementHeights,
+        legs: &[MovingStep],
+        tell: &dyn Fn(f64),
+    ) -> Result<Option<MotionRecord>, MdrError> {
+        let start = self.load.stages()[0].start;
+        let touch = TOUCH * legs[0].duration;
+        let place = [start.time - touch, start.position];
+        let mut chain = Chain::new(
+            self.line,
+            &self.foundation,
+            sampled,
+            self.load.range(),
+            place,
+        )?;
+        let first = self.given(start.control, sampled.spacing);
+        let Some(touched) = chain.advance(touch, start.position, first)? else {
+            return Ok(None);
+        };
+        if self.load.is_cycle() {
+            return cycle(self, chain, legs, tell);
+        }
+        self.pass(&mut chain, legs, touched.depth, tell)
+    }
+
+    fn given(&self, control: Control, spacing: f64) -> Given {
+        match control {
+            Control::IndentationDepth(depth) => Given::Depth(depth),
+            // In this order forces whose square is no number stay in range.
+            Control::NormalForce(force) => {
+                Given::Load(0.25 * force / spacing / self.foundation.unit)
+            }
+        }
+    }
+
+    /// Force of all elements \[N] per what they add up to.
+    pub(super) fn unit(&self, spacing: f64) -> f64 {
+        4.0 * spacing * self.foundation.unit
+    }
+
+    /// All steps once.
+    pub(super) fn pass(
+        &self,
+        chain: &mut Chain<'_, L>,
+        legs: &[MovingStep],
+        depth: f64,
+        tell: &dyn Fn(f64),
+    ) -> Result<Option<MotionRecord>, MdrError> {
+        let spacing = chain.spacing();
+        let unit = self.unit(spacing);
+        let mut record = MotionRecord {
+            steps: Vec::with_capacity(legs.len()),
+            spacing,
+            ..MotionRecord::default()
+        };
+        let mut lost = 0.0;
+        let first = self.load.stages()[0].start;
+        let mut before = (first.position, first.control, depth);
+        for (index, leg) in legs.iter().enumerate() {
+            let given = self.given(leg.end.control, spacing);
+            let Some(stepped) = chain.advance(leg.duration, leg.end.position, given)? else {
+                return Ok(None);
+            };
+            lost += unit * stepped.sums.lost;
+            record.push(
+                step_of(leg, &stepped, before, unit),
+                leg.end.position - before.0,
+            );
+            before = (leg.end.position, leg.end.control, stepped.depth);
+            tell((index + 1) as f64 / legs.len() as f64);
+        }
+        record.imbalance = record.work - lost;
+        Ok(Some(record))
+    }
+}
+
+/// The step of a leg, from a position, control and depth.
+fn step_of(
+    leg: &MovingStep,
+    stepped: &Stepped,
+    (position, control, depth): (f64, Control, f64),
+    unit: f64,
+) -> MotionStep {
+    let force = |impulse: f64| unit * impulse / leg.duration;
+    let normal_force = match control {
+        Control::NormalForce(force) => force.midpoint(leg.end.control.value()),
+        Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
+    };
+    MotionStep {
+        stage: leg.stage,
+        time: leg.end.time - 0.5 * leg.duration,
+        position: position.midpoint(leg.end.position),
+        tangential_force: force(stepped.sums.tangential_impulse),
+        normal_force,
+        indentation_depth: depth.midpoint(stepped.depth),
+        contact: stepped.contact,
+        n_contact: stepped.sums.n_loaded,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::{EquivalentLine, Shape, Sphere, Stroke};
+    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+
+    use super::*;
+
+    /// ∮ F_t dx is what the elements lose: to rounding at a depth; under a force ∮ F_N dd of the means over steps is left, which
+    /// vanishes with the square of the step.
+    #[test]
+    fn a_cycle_dissipates_its_work() {
+        let ball = Sphere::new(5e-3).expect("a sphere");
+        let branches = [(1e7, 1e-3), (3e6, 2e-2)].map(|(g, t)| RelaxationBranch::new(g, t));
+        let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches.to_vec()).expect("a spectrum");
+        let material = Prony::new(spectrum).expect("a material");
+        let line = EquivalentLine(&ball);
+        for (control, length, elements, allowed) in [
+            (Control::IndentationDepth(5e-5), 5e-3, 64, 1e-10),
+            (Control::IndentationDepth(5e-5), 5e-5, 64, 1e-10),
+            (Control::NormalForce(2.0), 5e-3, 64, 1e-4),
+            (Control::NormalForce(2.0), 5e-3, 1024, 1e-6),
+        ] {
+            let stroke = Stroke {
+                length,
+                frequency: 5.0,
+                shape: Shape::Sinusoidal,
+            };
+            let load = MovingLoad::reciprocating(control, stroke).expect("a load");
+            let problem = Problem::new(&line, &material, &load, (2e-3, 1e-9)).expect("a problem");
+            let record = problem.on(elements, &|_| ()).expect("a cycle");
+            let difference = (record.imbalance / record.work).abs();
+            assert!(
+                record.work > 0.0 && difference < allowed,
+                "{control:?}, stroke {length}, {elements} elements: {} and {difference:e}",
+                record.work
+            );
+        }
+    }
+}

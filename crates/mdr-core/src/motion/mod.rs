@@ -1,0 +1,126 @@
+//! Any motion of a line over a chain: starts, stops, dwells, returns, once or to and fro.
+//!
+//! ```text
+//! F_t = 4 Σ Δx w h̃'(X − x),   ∫ F_t dx + ∫ F_N dd = stored and lost energy
+//! ```
+//! Steps in time are as long as elements, or grow after a stop, so that both become finer together; values on several
+//! resolutions tell their errors.
+
+mod chain;
+mod cycle;
+mod event;
+mod heights;
+mod march;
+mod time_step;
+
+use indenters::{MotionView, Moved, MovingLoad, RigidLine};
+use numerics::{Accuracy, Goal, Request, positive, refine};
+use rheology::Material;
+
+use crate::MdrError;
+use crate::steady::LineProblem;
+use march::Problem;
+
+/// Elements along the contact after which a motion is given up.
+const MOST_ELEMENTS: usize = 4096;
+/// There are about as many steps as elements.
+const WORK: f64 = 2.0;
+/// The friction of smooth bodies is of the second order, which their outline on the elements makes unsafe to assume; below
+/// the smallest order nothing converges.
+const ORDERS: [f64; 2] = [0.1, 1.0];
+/// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
+const PART_OF_CYCLES: f64 = 0.05;
+const TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
+/// Moves a line over an undeformed chain: through the points of a motion, or to and fro until two cycles are alike; to an
+/// error of the mean friction coefficient relative to its value, or with a number of elements along the contact.
+///
+/// At the beginning the line is pressed at once. The friction force of a motion through points has the same error, relative
+/// to its largest value.
+///
+/// ```
+/// use mdr_core::indenters::{Control, EquivalentLine, MovingLoad, Shape, Sphere, Stroke};
+/// use mdr_core::rheology::{StandardSolid, StandardSolidParameters};
+/// use mdr_core::move_along;
+///
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 1e7,
+///     viscosity: 1e5,
+/// })?;
+/// let ball = Sphere::new(5e-3)?;
+/// let stroke = Stroke { length: 5e-3, frequency: 1.0, shape: Shape::Sinusoidal };
+/// let load = MovingLoad::reciprocating(Control::NormalForce(1.0), stroke)?;
+/// let cycle = move_along(&EquivalentLine(&ball), &rubber, &load, 1e-2)?;
+/// let energy = cycle.dissipated_energy.expect("of a cycle");
+/// let expected = cycle.friction_coefficient.value * 1.0 * load.length();
+/// assert!((energy.value / expected - 1.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`MdrError::MotionNotReached`] with what the finest chain gives; [`MdrError::NoCycle`] to and fro on a material that
+/// flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps); [`MdrError::ContactReachesEdge`];
+/// [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot; otherwise like [`slide`](crate::slide()).
+pub fn move_along<'w>(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &MovingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<Moved, MdrError> {
+    let request = request.into();
+    let steady = LineProblem::new(line, material, load.fastest())?;
+    steady.check_kinks(load.largest_control())?;
+    let length = positive(
+        "contact length",
+        steady.contact_span(load.largest_control())?,
+    )?;
+    let tolerance = match request.accuracy {
+        Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
+        Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
+    };
+    let problem = Problem::new(line, material, load, (length, tolerance))?;
+    let goal = Goal {
+        request,
+        largest: MOST_ELEMENTS,
+        order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
+        work: WORK,
+        others: 0.0,
+        selection: 1.0,
+    };
+    let view = MotionView {
+        load,
+        is_elastic: material.creep().is_elastic(),
+    };
+    let refined = refine(
+        &goal,
+        |elements, tell: &dyn Fn(f64)| problem.on(elements, tell),
+        |record| view.quantities(record),
+        |record, _: &dyn Fn(f64)| Ok::<_, MdrError>(view.rests(record)),
+    )?;
+    let found = view.moved(refined.value, &refined.error, refined.parts[0]);
+    match refined.missed {
+        None => Ok(found),
+        Some(missed) => Err(MdrError::MotionNotReached {
+            missed,
+            reached: Box::new(found),
+        }),
+    }
+}
+
+/// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`move_along`], before anything is followed.
+pub fn move_along_memory(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &MovingLoad,
+    elements: usize,
+) -> Result<f64, MdrError> {
+    let steady = LineProblem::new(line, material, load.fastest())?;
+    let length = positive(
+        "contact length",
+        steady.contact_span(load.largest_control())?,
+    )?;
+    Problem::new(line, material, load, (length, TOLERANCE_ON_ELEMENTS))?.memory_on(elements)
+}

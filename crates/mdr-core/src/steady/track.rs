@@ -1,0 +1,75 @@
+//! A line that comes back to the same place again and again, as a ball on a disc does.
+//!
+//! Every element sees one pass like the other. What is left of the pass before, in the modes of recovery, is ahead of the line:
+//!
+//! ```text
+//! x = g(x),   g: one pass over a surface with x_k left in mode k, and then free over the rest of the track
+//! u(s) = u₁ e^(−(L − s)/(v λ)) / (1 − e^(−L/(v λ)))        at a distance s ahead of one load that alone gives u₁ behind itself
+//! ```
+//! A mode with v λ ≫ L carries the mean load of the whole track and hardly changes under the line, so that it dissipates
+//! nothing.
+
+use numerics::{Settled, settle};
+
+use super::foundation::{Foundation, Recovery};
+use super::profile::Profile;
+use super::range::Range;
+use super::sweep::{Sweep, sweep};
+use crate::MdrError;
+
+/// Passes after which the search is given up.
+const MOST_PASSES: usize = 300;
+/// What may be left of the way to the stationary state, in depths; more where the modes forget slowly, by rounding.
+const TOLERANCE: f64 = 1e-11;
+const ROUNDING: f64 = 1024.0 * f64::EPSILON;
+
+/// Refuses a track that is not longer than the line is below the surface.
+pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
+    let needed = range.ends[1] - range.ends[0];
+    if track > needed {
+        return Ok(());
+    }
+    Err(MdrError::TrackTooShort { track, needed })
+}
+
+/// The pass in which the surface ahead is what the pass before has left.
+pub(super) fn around(
+    foundation: &Foundation,
+    profile: &Profile,
+    track: f64,
+    loads: Option<Vec<[f64; 2]>>,
+) -> Result<Sweep, MdrError> {
+    // Of depths that are too large for the track, on the way to one that is not, a monotone force is all that is needed.
+    let free = (track - profile.length).max(0.0);
+    let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
+    let tolerance = TOLERANCE.max(ROUNDING * slowness);
+    let mut left = 0.0;
+    let pass = |ahead: &[f64]| {
+        let (_, behind) = sweep(foundation, profile, foundation.recovering(ahead), None)?;
+        let end = foundation.left_after(&behind, free);
+        Ok::<_, MdrError>((end.clone(), end))
+    };
+    let rest = |now: &mut Vec<f64>, before: &Vec<f64>| {
+        let changes = now.iter().zip(before.iter());
+        let changes = changes.map(|(now, before)| (now - before).abs());
+        left = slowness * changes.fold(0.0, f64::max);
+        left
+    };
+    let start = foundation.left_after(&Recovery::untouched(), free);
+    let ahead = match settle(start, (MOST_PASSES, tolerance), pass, rest)? {
+        Settled::Found(ahead, _) => ahead,
+        Settled::Missed(change) => {
+            return Err(MdrError::NotPeriodic {
+                cycles: MOST_PASSES,
+                change,
+                tolerance,
+            });
+        }
+    };
+    let (mut sums, _) = sweep(foundation, profile, foundation.recovering(&ahead), loads)?;
+    // The surface is that much higher or lower under the whole line.
+    let [carried, resisted] = foundation.resistance(profile.length.recip(), profile.length);
+    sums.load_error += left * carried;
+    sums.work_error += left * resisted;
+    Ok(sums)
+}

@@ -1,0 +1,244 @@
+//! A motion through points has the stationary state in its middle, one to and fro has the linear answer where the contact
+//! stays, and bars hold.
+
+use std::f64::consts::PI;
+
+use indenters::{
+    Control, EquivalentLine, IndenterError, Moved, MovedPoint, MovingLoad, MovingPoint,
+    PowerProfile, RigidLine, Shape, Sphere, Stroke,
+};
+use mdr_core::{MdrError, move_along, steady};
+use numerics::Accuracy;
+use rheology::{Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum};
+
+use crate::support::{at_depth, load};
+
+const FORCE: f64 = 2.0;
+
+fn ball() -> Sphere {
+    Sphere::new(5e-3).expect("a sphere")
+}
+
+/// Branches of a decade and more each, from 1e-4 s on.
+fn rubber(n_branches: i32) -> Prony {
+    let branch = |k| RelaxationBranch::new(1e7 / f64::from(1 + k), 1e-4 * 15_f64.powi(k));
+    let branches = (0..n_branches).map(branch).collect();
+    let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches).expect("a spectrum");
+    Prony::new(spectrum).expect("a material")
+}
+
+fn through(points: &[[f64; 2]], control: Control) -> MovingLoad {
+    let point = |&[time, position]: &[f64; 2]| MovingPoint {
+        time,
+        position,
+        control,
+    };
+    let points: Vec<MovingPoint> = points.iter().map(point).collect();
+    MovingLoad::through(&points).expect("a motion")
+}
+
+fn to_and_fro(length: f64, frequency: f64, control: Control) -> MovingLoad {
+    let stroke = Stroke {
+        length,
+        frequency,
+        shape: Shape::Sinusoidal,
+    };
+    MovingLoad::reciprocating(control, stroke).expect("a motion")
+}
+
+/// Of the last point of the stage that ends at a time.
+fn force_at(moved: &Moved, time: f64) -> numerics::Estimate {
+    let at = |point: &&MovedPoint| (point.time - time).abs() < 1e-9 * time;
+    moved
+        .points
+        .iter()
+        .find(at)
+        .expect("a point")
+        .tangential_force
+}
+
+#[test]
+fn a_long_stroke_ends_in_steady_sliding_forth_and_back() {
+    let (ball, velocity) = (ball(), 0.1);
+    let line = EquivalentLine(&ball);
+    for (n_branches, control) in [
+        (1, Control::NormalForce(FORCE)),
+        (3, Control::NormalForce(FORCE)),
+        (3, Control::IndentationDepth(5e-5)),
+    ] {
+        let material = rubber(n_branches);
+        let state = match control {
+            Control::NormalForce(force) => steady(&line, &material, &load(force, velocity), 1e-8),
+            Control::IndentationDepth(depth) => {
+                steady(&line, &material, &at_depth(depth, velocity), 1e-8)
+            }
+        };
+        let state = state.expect("a stationary state");
+        let expected = state.friction_coefficient.value * state.normal_force.value;
+        let path = [[0.0, 0.0], [0.3, 0.03], [0.4, 0.03], [0.7, 0.0]];
+        let moved = move_along(&line, &material, &through(&path, control), 1e-3);
+        let moved = moved.map_err(|error| error.to_string()).expect("a motion");
+        for (time, sign) in [(0.3, 1.0), (0.7, -1.0)] {
+            let got = force_at(&moved, time);
+            let error = (got.value - sign * expected).abs();
+            // On the way back the elements still remember the way there.
+            let remembered = if sign < 0.0 { 1e-3 * expected } else { 0.0 };
+            assert!(
+                error <= got.error + remembered && got.error < 5e-3 * expected,
+                "{n_branches} branches, {control:?}, at {time} s: {got:?}, expected {sign} {expected}"
+            );
+        }
+    }
+}
+
+/// An element that stays in contact is compressed by −h̃' x(t), so that in a cycle it loses π G''(ω) (h̃' s/2)² per area; of
+/// the contact at a depth only parts of the order of the stroke at its ends come and go.
+#[test]
+fn where_the_contact_stays_the_loss_is_that_of_the_loss_modulus() {
+    let body = PowerProfile::paraboloid(50.0).expect("a paraboloid");
+    let (line, depth) = (EquivalentLine(&body), 1e-4);
+    let half_contact = (depth / 100.0_f64).sqrt();
+    let slopes = 2.0 * 200.0_f64.powi(2) * half_contact.powi(3) / 3.0;
+    for (n_branches, frequency) in [(1, 200.0), (3, 1.0), (3, 1e3)] {
+        let material = rubber(n_branches);
+        let stroke = 1e-3 * half_contact;
+        let motion = to_and_fro(stroke, frequency, Control::IndentationDepth(depth));
+        let moved = move_along(&line, &material, &motion, Accuracy::Elements(256));
+        let moved = moved.expect("a cycle");
+        let loss = material
+            .complex_modulus(2.0 * PI * frequency)
+            .expect("a modulus")
+            .loss;
+        let expected = 4.0 * PI * loss * (0.5 * stroke).powi(2) * slopes;
+        let got = moved.dissipated_energy.expect("of a cycle");
+        assert!(
+            (got.value - expected).abs() <= got.error + 5e-3 * expected
+                && got.error < 0.03 * expected,
+            "{n_branches} branches at {frequency} Hz: {got:?}, expected {expected}"
+        );
+    }
+}
+
+#[test]
+fn from_fretting_to_sliding_friction_grows_with_the_stroke() {
+    let ball = ball();
+    let mut before = 0.0;
+    for stroke in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+        let motion = to_and_fro(stroke, 1.0, Control::NormalForce(FORCE));
+        let moved = move_along(&EquivalentLine(&ball), &rubber(2), &motion, 1e-2);
+        let friction = moved.expect("a cycle").friction_coefficient;
+        assert!(
+            friction.value > before + friction.error,
+            "{stroke}: {friction:?} after {before}"
+        );
+        before = friction.value;
+    }
+}
+
+#[test]
+fn after_a_dwell_friction_begins_with_a_peak() {
+    let (ball, control) = (ball(), Control::NormalForce(FORCE));
+    let path = [[0.0, 0.0], [0.1, 0.01], [10.0, 0.01], [10.1, 0.02]];
+    let (line, material) = (EquivalentLine(&ball), rubber(3));
+    let moved = move_along(&line, &material, &through(&path, control), 1e-2);
+    let moved = moved.map_err(|error| error.to_string()).expect("a motion");
+    let straight = move_along(&line, &material, &through(&path[..2], control), 1e-2);
+    let steady = force_at(&moved, 10.1).value.abs() / FORCE;
+    let peak = moved.peak_friction;
+    assert!(
+        peak.value > 1.2 * steady + peak.error,
+        "{peak:?} over {steady}"
+    );
+    let at_rest = force_at(&moved, 10.0);
+    assert!(
+        at_rest.value.abs() < 0.5 * steady * FORCE,
+        "relaxed: {at_rest:?} of {steady}"
+    );
+    let first = straight.expect("a motion").points;
+    let same = moved.points[0].normal_force == first[0].normal_force;
+    assert!(same, "the beginning does not depend on the end");
+}
+
+#[test]
+fn bars_of_coarse_chains_hold_finer_values() {
+    let ball = ball();
+    let line = EquivalentLine(&ball);
+    let cases = [
+        (3, to_and_fro(2e-3, 3.0, Control::NormalForce(FORCE))),
+        (2, to_and_fro(5e-5, 30.0, Control::IndentationDepth(5e-5))),
+        (
+            2,
+            through(
+                &[[0.0, 0.0], [0.1, 4e-3], [0.3, 1e-3], [0.5, 1e-3]],
+                Control::NormalForce(FORCE),
+            ),
+        ),
+    ];
+    for (n_branches, motion) in cases {
+        let on = |elements| {
+            let request = Accuracy::Elements(elements);
+            move_along(&line, &rubber(n_branches), &motion, request).expect("a motion")
+        };
+        let fine = on(192);
+        for elements in [12, 24, 48] {
+            let coarse = on(elements);
+            let whole = [
+                (
+                    "friction",
+                    coarse.friction_coefficient,
+                    fine.friction_coefficient,
+                ),
+                ("peak", coarse.peak_friction, fine.peak_friction),
+            ];
+            for (name, coarse, fine) in whole {
+                let error = (coarse.value - fine.value).abs();
+                assert!(
+                    error <= coarse.error + fine.error,
+                    "{name}, {elements}: {coarse:?}, {fine:?}"
+                );
+            }
+            let pairs = coarse.points.iter().zip(&fine.points);
+            let misses = pairs.filter(|(coarse, fine)| {
+                let (coarse, fine) = (coarse.tangential_force, fine.tangential_force);
+                (coarse.value - fine.value).abs() > coarse.error + fine.error
+            });
+            // Single points, where elements come and go by chance as on the other resolutions.
+            let (misses, all) = (misses.count(), coarse.points.len());
+            assert!(
+                20 * misses <= all,
+                "{elements} elements: {misses} of {all} points"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_cannot_move_so_is_refused() {
+    let (ball, control) = (ball(), Control::NormalForce(FORCE));
+    let line = EquivalentLine(&ball);
+    let fluid = Maxwell::new(1e6, 1e5).expect("a fluid");
+    let refused = move_along(&line, &fluid, &to_and_fro(1e-3, 1.0, control), 1e-2);
+    assert_eq!(refused, Err(MdrError::NoCycle), "a fluid to and fro");
+    let path = through(&[[0.0, 0.0], [0.1, 1e-3], [0.2, 0.0]], control);
+    assert!(
+        move_along(&line, &fluid, &path, 1e-2).is_ok(),
+        "a fluid once"
+    );
+    let far = move_along(&line, &rubber(1), &to_and_fro(1e4, 1.0, control), 1e-2);
+    assert!(
+        matches!(
+            far,
+            Err(MdrError::Indenter(IndenterError::TooManySteps { .. }))
+        ),
+        "{far:?}"
+    );
+    let deep = move_along(
+        &line,
+        &rubber(1),
+        &to_and_fro(1e-3, 1.0, Control::NormalForce(1e4)),
+        1e-2,
+    );
+    assert!(deep.is_err(), "beyond the equator: {deep:?}");
+    let height = line.height(1e-3);
+    assert!(height > 0.0, "a line that rises: {height}");
+}

@@ -1,0 +1,199 @@
+//! A motion along the surface, of a scene or of a file: to and fro, or through points.
+
+use indenters::{Control, IndenterError, MovingLoad, MovingPoint, Shape, Stroke};
+use numerics::{in_range, positive};
+
+use super::SceneError;
+use super::files::motion;
+use super::load::{Load, MotionPoint, StrokeShape};
+use crate::files::Files;
+use crate::text::WrongInput;
+
+const ONE_OF: &str = "a body moves through the points of motion or motion_file, or over a stroke, or follows a history: give one of them";
+const MOVES: &str = "a motion says how the body moves; leave this out";
+
+impl Load {
+    /// To and fro, or through points, pressed as `control` says; none where the speed is constant.
+    pub(crate) fn checked_motion(
+        &self,
+        control: impl FnOnce() -> Result<Control, SceneError>,
+        files: &Files<'_>,
+    ) -> Result<Option<MovingLoad>, SceneError> {
+        self.check_alone()?;
+        if let Some(length) = self.stroke {
+            let missing = || {
+                let problem = "a stroke needs a frequency [1/s], how many times it is passed forth and back in a second";
+                SceneError::at("load.stroke", problem)
+            };
+            let stroke = Stroke {
+                length: positive("load.stroke", length)?,
+                frequency: positive("load.frequency", self.frequency.ok_or_else(missing)?)?,
+                shape: match self.shape.unwrap_or_default() {
+                    StrokeShape::Sinusoidal => Shape::Sinusoidal,
+                    StrokeShape::Triangular => Shape::Triangular,
+                },
+            };
+            let load = MovingLoad::reciprocating(control()?, stroke);
+            return load
+                .map(Some)
+                .map_err(|error| refused("load.frequency", &error));
+        }
+        for (key, is_given) in [
+            ("load.frequency", self.frequency.is_some()),
+            ("load.shape", self.shape.is_some()),
+        ] {
+            if is_given {
+                return Err(SceneError::at(
+                    key,
+                    "it belongs to a stroke; give load.stroke",
+                ));
+            }
+        }
+        let (points, key) = match (&self.motion, &self.motion_file) {
+            (None, None) => return Ok(None),
+            (Some(points), _) => (points.clone(), "load.motion"),
+            (None, Some(file)) => {
+                let table = files.table(file);
+                let points =
+                    table.and_then(|(file, table)| motion(&file, &table).map_err(WrongInput));
+                let wrong = |WrongInput(problem)| SceneError::at("load.motion_file", problem);
+                (points.map_err(wrong)?, "load.motion_file")
+            }
+        };
+        let points = self.pressed(&points, key, control)?;
+        let load = MovingLoad::through(&points);
+        load.map(Some).map_err(|error| refused(key, &error))
+    }
+
+    /// Refuses what says something else about the motion.
+    fn check_alone(&self) -> Result<(), SceneError> {
+        let motions = [
+            ("load.stroke", self.stroke.is_some()),
+            ("load.motion", self.motion.is_some()),
+            ("load.motion_file", self.motion_file.is_some()),
+            ("load.history", self.history.is_some()),
+            ("load.history_file", self.history_file.is_some()),
+        ];
+        let mut given = motions.iter().filter(|(_, is_given)| *is_given);
+        let first = given.next();
+        if let Some((key, _)) = given.next() {
+            return Err(SceneError::at(*key, ONE_OF));
+        }
+        if first.is_some_and(|(key, _)| !key.contains("history")) {
+            let others = [
+                ("load.velocity", self.velocity),
+                ("load.track", self.track),
+                ("load.mean_pressure", self.mean_pressure),
+            ];
+            SceneError::none_given(&others, MOVES)?;
+        }
+        Ok(())
+    }
+
+    /// The points with their forces or depths, or with that of the load.
+    fn pressed(
+        &self,
+        points: &[MotionPoint],
+        key: &str,
+        control: impl FnOnce() -> Result<Control, SceneError>,
+    ) -> Result<Vec<MovingPoint>, SceneError> {
+        if points.len() < 2 {
+            return Err(SceneError::at(key, "at least two points are needed"));
+        }
+        let is_own =
+            |point: &MotionPoint| point.normal_force.is_some() || point.indentation_depth.is_some();
+        let held = if points.iter().any(is_own) {
+            let others = [
+                ("load.normal_force", self.normal_force),
+                ("load.indentation_depth", self.indentation_depth),
+            ];
+            let problem =
+                "the points of the motion have a force or a depth of their own; leave this out";
+            SceneError::none_given(&others, problem)?;
+            None
+        } else {
+            Some(control()?)
+        };
+        let mut before = f64::NEG_INFINITY;
+        let moving = |(index, point): (usize, &MotionPoint)| {
+            let place = Place { key, index };
+            let later = point.time >= 0.0 && point.time > before;
+            let allowed = "finite, at least 0, and after the time of the point before";
+            before = place.number("time", point.time, later, allowed)?;
+            let control = match held {
+                Some(control) => control,
+                None => place.control(point, &points[0])?,
+            };
+            Ok(MovingPoint {
+                time: point.time,
+                position: place.number("position", point.position, true, "finite")?,
+                control,
+            })
+        };
+        points.iter().enumerate().map(moving).collect()
+    }
+
+    /// The length of a track, of a body that slides with a speed, \[m].
+    pub(crate) fn checked_track(&self) -> Result<Option<f64>, SceneError> {
+        let track = self.track.map(|track| positive("load.track", track));
+        Ok(track.transpose()?)
+    }
+}
+
+/// A point of a motion, of the scene or of a file, whose rows count from 0 like an index.
+struct Place<'a> {
+    key: &'a str,
+    index: usize,
+}
+
+impl Place<'_> {
+    fn key(&self, name: &str) -> String {
+        let Self { key, index } = self;
+        match name {
+            _ if *key == "load.motion_file" => (*key).to_owned(),
+            "" => format!("{key}[{index}]"),
+            _ => format!("{key}[{index}].{name}"),
+        }
+    }
+
+    fn number(
+        &self,
+        name: &'static str,
+        value: f64,
+        holds: bool,
+        allowed: &'static str,
+    ) -> Result<f64, SceneError> {
+        let wrong = |refused| SceneError::value(self.key(name), refused);
+        in_range(name, value, holds && value.is_finite(), allowed).map_err(wrong)
+    }
+
+    /// The force or depth of a point, as the first one has it.
+    fn control(&self, point: &MotionPoint, first: &MotionPoint) -> Result<Control, SceneError> {
+        let wrong = |problem| Err(SceneError::at(self.key(""), problem));
+        let control = match (point.normal_force, point.indentation_depth) {
+            (Some(force), None) => {
+                let allowed = "finite and at least 0";
+                self.number("normal_force", force, force >= 0.0, allowed)
+                    .map(Control::NormalForce)?
+            }
+            (None, Some(depth)) => {
+                let depth = self.number("indentation_depth", depth, true, "finite");
+                depth.map(Control::IndentationDepth)?
+            }
+            _ => {
+                return wrong(
+                    "either normal_force or indentation_depth is needed, at all points or at none",
+                );
+            }
+        };
+        if first.normal_force.is_some() != point.normal_force.is_some() {
+            return wrong("all points have a force, or all a depth");
+        }
+        Ok(control)
+    }
+}
+
+/// A number that follows from those of the scene.
+fn refused(key: &str, error: &IndenterError) -> SceneError {
+    SceneError::at(key, error.to_string())
+}
