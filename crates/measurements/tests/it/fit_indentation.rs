@@ -2,132 +2,14 @@
 
 use std::fmt::Write as _;
 
-use friction_analytic::{BondedLayer, LayerProfile};
-use indenters::{Axisymmetric, Control, FlatPunch, HistoryPoint, PowerProfile, Sphere};
-use mdr_core::{Follow, indent_along};
+use indenters::{Axisymmetric, FlatPunch, PowerProfile, Sphere};
 use measurements::indentation::{
-    Finding, FitOptions, Flag, IndentationCurve, IndentationFit, Rheology, Thickness,
-    fit_indentation,
+    Finding, FitOptions, Flag, IndentationCurve, Rheology, fit_indentation,
 };
 use rayon::prelude::*;
-use rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
 
 use crate::support::{Normal, assert_close};
-
-/// A body on a known material; contact point, baseline and tilt of its curves are always the same.
-struct Case {
-    name: &'static str,
-    body: Box<dyn Axisymmetric>,
-    /// Of the sample, if it is not a half space, \[m].
-    thickness: Option<f64>,
-    material: Prony,
-    rheology: Rheology,
-    /// In the order of the findings.
-    truth: Vec<f64>,
-}
-
-const CONTACT_POINT: f64 = 0.437e-6;
-const BASELINE: f64 = 2e-10;
-const TILT: f64 = -1e-5;
-
-impl Case {
-    /// The moduli and times of a series, or G(1 s) and the exponent of a power law.
-    fn new(name: &'static str, body: impl Axisymmetric + 'static, of_material: &[f64]) -> Self {
-        let (spectrum, rheology) = if of_material[1] < 1.0 {
-            let unit = Springpot::new(1.0, of_material[1]).expect("a springpot");
-            let coefficient = of_material[0] / unit.relaxation_modulus(1.0).expect("a modulus");
-            let pot = Springpot::new(coefficient, of_material[1]).expect("a springpot");
-            let expansion = pot.expand([1e-3, 1e5], 1e-6).expect("an expansion");
-            (expansion.spectrum, Rheology::PowerLaw)
-        } else {
-            let branches = of_material[1..]
-                .chunks(2)
-                .map(|pair| RelaxationBranch::new(pair[0], pair[1]));
-            let spectrum = RelaxationSpectrum::new(of_material[0], 0.0, branches.collect());
-            (spectrum.expect("a spectrum"), Rheology::StandardSolid)
-        };
-        Self {
-            name,
-            body: Box::new(body),
-            thickness: None,
-            material: Prony::new(spectrum).expect("a material"),
-            rheology,
-            truth: [of_material, &[CONTACT_POINT, BASELINE, TILT]].concat(),
-        }
-    }
-
-    /// With white noise of the force alone.
-    fn curve(&self, points: usize, level: f64, seed: u64) -> IndentationCurve {
-        self.noisy_curve(points, level, &NOISES[0], seed)
-    }
-
-    /// The exact force of an approach for a second to 1.5 µm, a dwell, and the way back, and Gaussian noise of a part of its
-    /// peak.
-    fn noisy_curve(&self, points: usize, level: f64, kind: &Noise, seed: u64) -> IndentationCurve {
-        let time = (0..points).map(|i| 3.0 * i as f64 / (points - 1) as f64);
-        let time: Vec<f64> = time.collect();
-        let depth = time.iter().map(|t| 1.5e-6 * t.min(1.0).min(3.0 - t));
-        let mut depth: Vec<f64> = depth.collect();
-        let history = time.iter().zip(&depth).map(|(&time, depth)| HistoryPoint {
-            time,
-            control: Control::IndentationDepth(depth - CONTACT_POINT),
-        });
-        let history: Vec<HistoryPoint> = history.collect();
-        let follow = |profile| indent_along(profile, &self.material, &history, &Follow::default());
-        let exact = match self.thickness {
-            None => follow(&self.body),
-            Some(thickness) => follow(&on_layer(&self.body, thickness)),
-        };
-        let exact = exact.expect("a curve").into_iter().zip(&depth);
-        let force =
-            exact.map(|(point, d)| point.normal_force.value + BASELINE + TILT * (d - 0.75e-6));
-        let mut force: Vec<f64> = force.collect();
-        let noise = level * peak(&force);
-        let mut normal = Normal(seed);
-        let mut last = normal.draw();
-        for force in &mut force {
-            *force += noise * last;
-            let news = (1.0 - kind.correlation * kind.correlation).sqrt();
-            last = kind.correlation * last + news * normal.draw();
-        }
-        change(&mut depth, |depth| {
-            depth + 1.5e-6 * kind.depth * normal.draw()
-        });
-        IndentationCurve { time, depth, force }
-    }
-
-    fn fit(&self, curve: &IndentationCurve) -> Result<IndentationFit, String> {
-        let rheology = self.rheology;
-        let options = FitOptions {
-            rheology,
-            thickness: self.thickness.map_or(Thickness::Infinite, Thickness::Known),
-            ..FitOptions::default()
-        };
-        fit_indentation(&*self.body, curve, &options).map_err(|error| error.to_string())
-    }
-}
-
-fn on_layer(body: &dyn Axisymmetric, thickness: f64) -> LayerProfile {
-    let layer = BondedLayer::new(thickness, 0.5).expect("a layer");
-    LayerProfile::new(body, &layer, 1.5e-6).expect("a profile")
-}
-
-fn peak(force: &[f64]) -> f64 {
-    force.iter().copied().fold(0.0, f64::max)
-}
-
-fn sphere(of_material: &[f64]) -> Case {
-    Case::new("sphere", Sphere::new(5e-6).expect("a sphere"), of_material)
-}
-
-/// The contact is 1.4 thicknesses wide.
-fn thin() -> Case {
-    let ball = Sphere::new(5e-5).expect("a sphere");
-    Case {
-        thickness: Some(6e-6),
-        ..Case::new("sphere, thin sample", ball, &[1e3, 2e3, 0.3])
-    }
-}
+use crate::synthetic::{CONTACT_POINT, Case, NOISES, TILT, change, peak, sphere, thin};
 
 fn cases() -> [Case; 5] {
     let cone = PowerProfile::cone(0.7).expect("a cone");
@@ -144,30 +26,6 @@ fn cases() -> [Case; 5] {
 
 /// Noise in parts of the peak force.
 const LEVELS: [f64; 3] = [0.003, 0.01, 0.03];
-
-/// Of the force, from point to point, and of the depth, in parts of its range.
-struct Noise {
-    name: &'static str,
-    correlation: f64,
-    depth: f64,
-}
-
-const NOISES: [Noise; 4] = [
-    Noise::new("white", 0.0, 0.0),
-    Noise::new("correlation 0.9", 0.9, 0.0),
-    Noise::new("correlation 0.99", 0.99, 0.0),
-    Noise::new("white, depth 0.3 %", 0.0, 0.003),
-];
-
-impl Noise {
-    const fn new(name: &'static str, correlation: f64, depth: f64) -> Self {
-        Self {
-            name,
-            correlation,
-            depth,
-        }
-    }
-}
 
 fn holds((finding, truth): (&Finding, &f64)) -> bool {
     let [lower, upper] = finding.interval;
@@ -294,10 +152,6 @@ const REASONS: [(&str, Damage); 9] = [
         add(&mut c.force[500..540], -0.3 * peak);
     }),
 ];
-
-fn change(numbers: &mut [f64], mut to: impl FnMut(f64) -> f64) {
-    numbers.iter_mut().for_each(|number| *number = to(*number));
-}
 
 fn add(numbers: &mut [f64], by: f64) {
     change(numbers, |number| number + by);
@@ -485,103 +339,4 @@ fn a_tenth_of_wild_points_does_not_move_the_result() {
     forces.for_each(|force| *force += jump);
     let fit = case.fit(&curve).expect("a fit");
     assert_found(&fit.findings[..3], &case.truth);
-}
-
-/// Taken for a half space, a thin sample has a modulus that is too large.
-#[test]
-fn a_thin_sample_that_is_taken_for_a_thick_one_is_too_stiff_and_flagged() {
-    let case = thin();
-    let curve = case.curve(600, 0.003, 3);
-    let thick = Case {
-        thickness: None,
-        ..thin()
-    }
-    .fit(&curve)
-    .expect("a fit");
-    let known = case.fit(&curve).expect("a fit");
-    let [thick_modulus, modulus] =
-        [&thick, &known].map(|fit| fit.findings[0].estimate.expect("it is determined").value);
-    assert!(
-        thick_modulus > 2.0 * modulus,
-        "{thick_modulus} and {modulus}"
-    );
-    assert_ne!(thick.flags, [], "taken for a half space");
-    assert_eq!(known.flags, [], "known thickness");
-    let ball = Sphere::new(5e-6).expect("a sphere");
-    let deep = Case {
-        body: Box::new(ball),
-        thickness: Some(2e-6),
-        ..thin()
-    };
-    let flags = deep.fit(&deep.curve(600, 0.003, 3)).expect("a fit").flags;
-    let is_deep =
-        |flag: &Flag| matches!(flag, Flag::DeepInSample(percent) if (*percent - 53.0).abs() < 1.0);
-    assert!(flags.len() == 1 && flags.iter().all(is_deep), "{flags:?}");
-}
-
-/// Deep in a thin sample, and not in a thick one, the shape of a curve says how thick it is.
-#[test]
-fn a_thickness_is_found_or_bounded() {
-    let fitted = |case: &Case, seed: u64| {
-        let options = FitOptions {
-            thickness: Thickness::Fitted,
-            profile: true,
-            ..FitOptions::default()
-        };
-        fit_indentation(&*case.body, &case.curve(300, 0.002, seed), &options).expect("a fit")
-    };
-    let thick = Case {
-        thickness: Some(1e-3),
-        ..thin()
-    };
-    for seed in 0..4 {
-        let fit = fitted(&thin(), seed);
-        let thickness = fit.findings.last().expect("a thickness");
-        assert_eq!(thickness.name, "thickness", "{thickness:?}");
-        let estimate = thickness.estimate.expect("it is determined");
-        assert!(
-            (estimate.value - 6e-6).abs() < 4.0 * estimate.error,
-            "{thickness:?}"
-        );
-        assert!(estimate.error < 1.5e-6, "{thickness:?}");
-        let fit = fitted(&thick, seed);
-        let thickness = fit.findings.last().expect("a thickness");
-        assert_eq!(
-            (thickness.estimate, thickness.interval[1]),
-            (None, None),
-            "{thickness:?}"
-        );
-        assert!(
-            thickness.interval[0].is_some_and(|lower| (1.5e-5..1e-3).contains(&lower)),
-            "{thickness:?}"
-        );
-    }
-}
-
-#[test]
-fn a_thickness_that_is_none_is_refused() {
-    let case = thin();
-    let curve = case.curve(300, 0.003, 3);
-    for (thickness, reason) in [
-        (0.0, "thickness must be finite and greater than 0, but is 0"),
-        (
-            -1e-6,
-            "thickness must be finite and greater than 0, but is -1e-6",
-        ),
-        (
-            f64::NAN,
-            "thickness must be finite and greater than 0, but is not a number",
-        ),
-        (
-            1e-8,
-            "thickness must be at least a hundredth of the radius of the contact, but is 1e-8",
-        ),
-    ] {
-        let refused = Case {
-            thickness: Some(thickness),
-            ..thin()
-        }
-        .fit(&curve);
-        assert_eq!(refused.err().as_deref(), Some(reason), "{thickness}");
-    }
 }

@@ -3,3 +3,5 @@
 mod exported_tables;
 mod fit_indentation;
 mod support;
+mod synthetic;
+mod thin_samples;
