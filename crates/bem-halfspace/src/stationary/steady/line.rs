@@ -205,7 +205,9 @@ fn with_elements(
     };
     let mut known = bars::resolve(&resolution, solve, Ok)?;
     let area = known.contact_area;
-    known.contact_area = Estimate::new(area.value / strip, area.error / strip);
+    // A width of whole elements is not known better than to one of them.
+    let error = (area.error / strip).max(known.options.spacing[0]);
+    known.contact_area = Estimate::new(area.value / strip, error);
     Ok(known)
 }
 
