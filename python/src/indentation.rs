@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use measurements::indentation::{
     CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness,
-    fit_indentation,
-    indentation_curve,
+    fit_indentation, indentation_curve,
 };
 use numpy::{IntoPyArray as _, PyReadonlyArray1};
 use pyo3::prelude::*;

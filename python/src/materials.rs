@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rheology::{RelaxationSpectrum, RheologyError};
 use rheology::fit::{
-    Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, expand, identify,
+    Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, expand,
+    identify,
 };
+use rheology::{RelaxationSpectrum, RheologyError};
 use viscofriction::scene::MaterialTable;
 use viscofriction::solve::{Expansion, HalfSpace, half_space};
 use viscofriction::{Files, friction_analytic};

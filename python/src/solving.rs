@@ -6,9 +6,9 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
-use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields};
+use viscofriction::solve::{BodyOfScene, body, body_of_heights, sensitivities, with_fields};
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
-use viscofriction::{Answer, Body, Files, Problem, Scene, SolveError, plan, solve};
+use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
 
 use crate::background;
 use crate::reading::read_file;
@@ -28,11 +28,16 @@ struct Scenes {
 }
 
 impl Scenes {
-    fn problem(&self, index: usize) -> PyResult<Problem> {
+    fn scene(&self, index: usize) -> Scene {
         let mut scene = self.scene.clone();
         for (column, values) in &self.columns {
             column(&mut scene, values[index]);
         }
+        scene
+    }
+
+    fn problem(&self, index: usize) -> PyResult<Problem> {
+        let scene = self.scene(index);
         let problem = match self.surface.as_ref().and_then(copy) {
             Some(body) => Problem::with_body(&scene, body, &self.folder, read_file),
             None => Problem::new(&scene, &self.folder, read_file),
@@ -89,6 +94,8 @@ pub(crate) struct Loads<'py> {
     )>,
     /// Whether fields are wanted that take longer than the answer itself.
     fields: bool,
+    /// Whether derivatives by the numbers of the scene are wanted.
+    sensitivity: bool,
 }
 
 impl Loads<'_> {
@@ -137,7 +144,7 @@ pub(crate) fn solve_loads<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scenes = loads.scenes()?;
-    let fields = loads.fields;
+    let (fields, sensitivity) = (loads.fields, loads.sensitivity);
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| {
@@ -153,8 +160,12 @@ pub(crate) fn solve_loads<'py>(
     };
     let is_quick = count == 1 && problems[0].as_ref().is_some_and(is_quick);
     let work = move |index: usize| {
-        let solve = |problem: &Problem| {
-            let answer = solve(problem)?;
+        let solve = |problem: &Problem| -> Result<Answer, SolveError> {
+            let mut answer = solve(problem)?;
+            if sensitivity {
+                let files = (&*scenes.folder, read_file as ReadFile);
+                answer.sensitivity = sensitivities(&scenes.scene(index), files, problem, &answer)?;
+            }
             Ok(if fields {
                 with_fields(problem, answer)
             } else {
@@ -226,6 +237,20 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     let left_out = answer.left_out.into_iter().map(<&str>::from);
     let left_out: Vec<&str> = left_out.collect();
     dictionary.set_item("left_out", left_out)?;
+    if !answer.sensitivity.is_empty() {
+        let known = PyDict::new(py);
+        for one in &answer.sensitivity {
+            let derivatives = PyDict::new(py);
+            for (name, known) in one.named() {
+                if let Some(known) = known {
+                    derivatives.set_item(name, known.value)?;
+                    derivatives.set_item(format!("{name}_error"), known.error)?;
+                }
+            }
+            known.set_item(&one.parameter, derivatives)?;
+        }
+        dictionary.set_item("sensitivity", known)?;
+    }
     if let Some(field) = answer.fields.pressure {
         let shape = field.grid.shape();
         let pressure = field.pressure.into_pyarray(py).reshape(shape)?;

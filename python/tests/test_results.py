@@ -249,3 +249,18 @@ def test_a_law_that_raises_or_rises_is_refused() -> None:
         vf.Prony.from_relaxation(broken, (1e-3, 1e3))
     with pytest.raises(ValueError, match="a relative error of"):
         vf.Prony.from_relaxation(lambda time: 1.0 + time / (1.0 + time), (1e-3, 1e3))
+
+
+def test_derivatives_are_arrays() -> None:
+    forces = [1.0, 2.0]
+    answer = vf.slide(vf.Cone(0.1), SOLID, normal_force=forces, velocity=0.1, model="line", sensitivity=True)
+    known = answer.sensitivity
+    moduli = ["equilibrium_modulus", "maxwell_modulus", "viscosity"]
+    sums = sum(known[f"material.standard-solid.{name}"]["friction_coefficient"] for name in moduli)
+    # Twice the stresses and twice the force are the same scene.
+    assert sums + known["load.normal_force"]["friction_coefficient"] == pytest.approx(np.zeros(2), abs=1e-6)
+    assert (known["load.velocity"]["friction_coefficient_error"] < 1e-6).all()
+    with pytest.raises(AttributeError, match="sensitivity=True"):
+        vf.slide(vf.Cone(0.1), SOLID, normal_force=1.0, velocity=0.1, model="line").sensitivity  # noqa: B018
+    single = vf.solve({"indenter": vf.Cone(0.1), "material": SOLID, "load": {"normal_force": 1.0, "velocity": 0.1}}, sensitivity=True)
+    assert math.isfinite(single.sensitivity["indenter.cone.slope"]["friction_coefficient"])

@@ -255,6 +255,21 @@ class Answer(Compared):
         motion: dict[str, NDArray[np.float64]] = known["motion"]
         return motion
 
+    @property
+    def sensitivity(self) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """d ln(quantity)/d ln(number) by the number of the scene and the quantity, with errors, if it was asked for."""
+        answers = [(answer or {}).get("sensitivity", {}) for answer in self._answers]
+        if not any(answers):
+            raise AttributeError("derivatives are there where they were asked for: slide(…, sensitivity=True)")
+        numbers = dict.fromkeys(number for known in answers for number in known)
+        quantities = dict.fromkeys(name for known in answers for one in known.values() for name in one)
+
+        def values(number: str, quantity: str) -> NDArray[np.float64]:
+            all_of = [known.get(number, {}).get(quantity, np.nan) for known in answers]
+            return np.array(all_of).reshape(self.shape)
+
+        return {number: {quantity: values(number, quantity) for quantity in quantities} for number in numbers}
+
     def _single(self) -> dict[str, Any]:
         if self.shape != () or self._answers[0] is None:
             raise AttributeError("fields belong to a single scene: ask for one load")
