@@ -12,6 +12,8 @@ use crate::{Base, BemError};
 
 /// Relative step of the differences by the length of a memory; their error is its square.
 const STEP: f64 = 1e-3;
+/// Logarithm of the ratio of two memories that do not change places.
+const APART: f64 = 1e-3;
 
 /// Sums of the kernels of all parts of the creep with the weights of a quantity, per compliance of an element.
 #[derive(Debug)]
@@ -98,8 +100,10 @@ impl Basis {
         (instant + flow + delayed.sum::<f64>()) / self.kernel.compliance
     }
 
+    /// Whether each delay of another creep belongs to one of these; of some that are alike it is not known which.
     pub(super) fn has_delays_of(&self, creep: &MovingCreep) -> bool {
-        creep.delays.len() == self.delays.len()
+        let differ = |pair: &[[f64; 2]]| (pair[1][1] / pair[0][1]).ln().abs() > APART;
+        creep.delays.len() == self.delays.len() && creep.delays.windows(2).all(differ)
     }
 
     /// The change from one creep on its base to another.
