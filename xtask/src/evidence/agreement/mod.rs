@@ -20,7 +20,7 @@ use judge::{Row, Verdict, judge};
 use relation::Relation;
 
 const SCENES: usize = 5000;
-const QUICK_SCENES: usize = 25;
+const QUICK_SCENES: usize = 30;
 /// Half the decades of the distances from first touch in a quick run.
 const QUICK_DISTANCES: f64 = 0.2;
 /// Part of the comparisons that may be outside the sum of the bars, and by how many of these sums at most.
