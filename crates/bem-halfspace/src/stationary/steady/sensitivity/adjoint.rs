@@ -5,6 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::BemError;
 use crate::stationary::conjugate_residuals::{minimise, norm};
 use crate::stationary::steady::contact_equations::{MOST_DIRECTIONS, is_factorised};
 use crate::stationary::steady::filter::Product;
@@ -15,28 +16,29 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 /// Residual of the adjoint equations over their right side.
 const TOLERANCE: f64 = 1e-9;
 
-/// The loads on a contact that solve `Kᵀ y = r` for each of the right sides, in the units of the mesh; none where their
-/// iteration does not end.
+/// The loads on a contact that solve `Kᵀ y = r` for each of the right sides, in the units of the mesh; or the residual that
+/// is left, relative to the right side.
 pub(super) fn solve_transposed<const N: usize>(
     mesh: &Mesh,
     plans: &mut Plans,
     contact: &[usize],
     right: [Vec<f64>; N],
-) -> Option<[Vec<f64>; N]> {
+) -> Result<[Vec<f64>; N], BemError> {
     let region = mesh.region(contact.iter().copied());
     let n = contact.len();
     if is_factorised(n, region.n_places()) {
         let entry = |row: usize, column: usize| mesh.reversed(contact[row], contact[column]);
         let factors = DMatrix::from_fn(n, n, entry).lu();
         let solved = right.map(|right| factors.solve(&DVector::from_vec(right)));
-        let is_solved = solved.iter().all(Option::is_some);
-        return is_solved
-            .then(|| solved.map(|one| one.map_or_else(Vec::new, |one| one.data.into())));
+        if solved.iter().any(Option::is_none) {
+            return Err(not_solved(1.0));
+        }
+        return Ok(solved.map(|one| one.map_or_else(Vec::new, |one| one.data.into())));
     }
     let region = region.turned();
     let mut product = Product::new(plans.kernel(region.shape), &region);
     let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
-    let mut has_ended = true;
+    let (mut left, mut has_ended) = (0.0_f64, true);
     let solved = right.map(|right| {
         let allowed = TOLERANCE * norm(&right);
         let mut loads = vec![0.0; n];
@@ -50,8 +52,21 @@ pub(super) fn solve_transposed<const N: usize>(
                 [direction, moved]
             })
         });
+        left = left.max(TOLERANCE * norm(&residual) / allowed);
         has_ended &= norm(&residual) <= allowed;
         loads
     });
-    has_ended.then_some(solved)
+    if has_ended {
+        Ok(solved)
+    } else {
+        Err(not_solved(left))
+    }
+}
+
+const fn not_solved(residual: f64) -> BemError {
+    BemError::ContactNotConverged {
+        iterations: MOST_DIRECTIONS,
+        residual,
+        tolerance: TOLERANCE,
+    }
 }
