@@ -6,7 +6,9 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
-use viscofriction::solve::{BodyOfScene, body, body_of_heights, sensitivities, with_fields};
+use viscofriction::solve::{
+    BodyOfScene, Sensitivity, body, body_of_heights, sensitivities, with_fields,
+};
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
 use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
 
@@ -238,18 +240,7 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     let left_out: Vec<&str> = left_out.collect();
     dictionary.set_item("left_out", left_out)?;
     if !answer.sensitivity.is_empty() {
-        let known = PyDict::new(py);
-        for one in &answer.sensitivity {
-            let derivatives = PyDict::new(py);
-            for (name, known) in one.named() {
-                if let Some(known) = known {
-                    derivatives.set_item(name, known.value)?;
-                    derivatives.set_item(format!("{name}_error"), known.error)?;
-                }
-            }
-            known.set_item(&one.parameter, derivatives)?;
-        }
-        dictionary.set_item("sensitivity", known)?;
+        dictionary.set_item("sensitivity", derivatives(py, &answer.sensitivity)?)?;
     }
     if let Some(field) = answer.fields.pressure {
         let shape = field.grid.shape();
@@ -282,6 +273,25 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         }
     }
     Ok(dictionary)
+}
+
+/// The derivatives and their errors by quantity, by the number of the scene.
+fn derivatives<'py>(
+    py: Python<'py>,
+    sensitivities: &[Sensitivity],
+) -> PyResult<Bound<'py, PyDict>> {
+    let by_number = PyDict::new(py);
+    for sensitivity in sensitivities {
+        let by_quantity = PyDict::new(py);
+        for (name, known) in sensitivity.named() {
+            if let Some(known) = known {
+                by_quantity.set_item(name, known.value)?;
+                by_quantity.set_item(format!("{name}_error"), known.error)?;
+            }
+        }
+        by_number.set_item(&sensitivity.parameter, by_quantity)?;
+    }
+    Ok(by_number)
 }
 
 /// The warnings of many answers, each once, with how many answers have it.

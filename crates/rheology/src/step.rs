@@ -84,10 +84,11 @@ impl ExponentialStep {
 
     /// Output at the end of the step with zero input, for every point.
     ///
-    /// Values of `state` beyond `n_fields() · history.len()` are ignored.
+    /// # Panics
+    /// If `state` does not have `n_fields() · history.len()` values.
     pub fn history(&self, state: &[f64], history: &mut [f64]) {
         let n_values = self.n_fields() * history.len();
-        debug_assert_eq!(state.len(), n_values, "shape of the state");
+        assert_eq!(state.len(), n_values, "shape of the state");
         history.fill(0.0);
         if history.is_empty() {
             return;
@@ -101,10 +102,11 @@ impl ExponentialStep {
 
     /// Moves the state to the end of the step, given the `input` of every point: w held over the step.
     ///
-    /// Values of `state` beyond `n_fields() · input.len()` are left as they are.
+    /// # Panics
+    /// If `state` does not have `n_fields() · input.len()` values.
     pub fn advance(&self, input: &[f64], state: &mut [f64]) {
         let n_values = self.n_fields() * input.len();
-        debug_assert_eq!(state.len(), n_values, "shape of the state");
+        assert_eq!(state.len(), n_values, "shape of the state");
         if input.is_empty() {
             return;
         }

@@ -7,9 +7,6 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-/// What `.ci/run` sets too.
-const ASSERTIONS: &str = "CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS";
-
 /// The folder of the workspace.
 pub(super) fn workspace_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -29,7 +26,6 @@ fn command(arguments: &str) -> Command {
     let mut command = Command::new(cargo);
     command.args(arguments.split_whitespace());
     command.current_dir(workspace_root());
-    command.env(ASSERTIONS, "true");
     command
 }
 

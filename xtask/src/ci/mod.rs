@@ -1,7 +1,6 @@
 //! `ci`: everything that CI checks, one step after the other.
 //!
-//! All builds use the release profile, with assertions that a release leaves out, so that everything is compiled once.
-//! `.ci/run` compiles `cargo xtask` itself so; elsewhere the crates of the workspace are compiled a second time.
+//! All builds use the release profile, so that everything is compiled once.
 
 mod cargo;
 mod dependencies;
@@ -20,7 +19,7 @@ pub(crate) use release::release;
 use workspace::{Workspace, check_lengths};
 
 /// What is published.
-const PACKAGES: &str = "--workspace --exclude xtask --exclude benches --exclude casebook";
+const PACKAGES: &str = "--workspace --exclude xtask --exclude benches --exclude casebook --exclude viscofriction-python";
 
 /// Runs all steps up to the first that fails; the last line printed counts the tests.
 pub(crate) fn run() -> Result<()> {

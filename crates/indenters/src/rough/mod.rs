@@ -112,6 +112,10 @@ impl PeriodicSurface {
     ///
     /// # Errors
     /// [`InvalidParameter`] for a grid with no more than two elements per shortest wave.
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "the lengths are those of the plan"
+    )]
     pub fn heights(&self, [rows, columns]: [usize; 2]) -> Result<Vec<f64>, InvalidParameter> {
         let [along_x, along_y] = self.largest_numbers();
         let allowed = "more than two for each of the shortest waves";
@@ -139,7 +143,7 @@ impl PeriodicSurface {
                 coefficients[n_columns - 1].im = 0.0;
             }
             let done = along_y.process_with_scratch(&mut coefficients, heights, &mut scratch);
-            debug_assert!(done.is_ok(), "the lengths are those of the plan");
+            assert!(done.is_ok(), "the lengths are those of the plan");
         }
         Ok(heights)
     }

@@ -158,7 +158,7 @@ impl WakeTable {
 
     fn index(&self, rows: isize, columns: usize) -> usize {
         let row = rows + self.reach[0].cast_signed();
-        debug_assert!(
+        assert!(
             row >= 0 && row.unsigned_abs() <= 2 * self.reach[0] && columns <= self.reach[1],
             "offset {rows}, {columns} is beyond the reach {:?}",
             self.reach

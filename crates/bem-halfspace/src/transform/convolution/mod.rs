@@ -135,7 +135,7 @@ impl Convolution {
     /// fields are those of its part in front of them, with half the pressure of a row or column through whose centre a
     /// mirror passes. Only of a whole grid.
     pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
-        debug_assert_eq!(self.mirrors, NO_MIRRORS, "a whole grid");
+        assert_eq!(self.mirrors, NO_MIRRORS, "a whole grid");
         if mirrors == NO_MIRRORS {
             return self.clone();
         }

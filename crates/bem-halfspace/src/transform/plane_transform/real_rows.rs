@@ -9,7 +9,7 @@ pub(super) fn forward_real(
     scratch: &mut [Complex<f64>],
 ) {
     let done = plan.process_with_scratch(reals, coefficients, scratch);
-    debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+    assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
 }
 
 pub(super) fn inverse_real(
@@ -23,5 +23,5 @@ pub(super) fn inverse_real(
         coefficients[reals.len() / 2].im = 0.0;
     }
     let done = plan.process_with_scratch(coefficients, reals, scratch);
-    debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+    assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
 }

@@ -83,7 +83,7 @@ impl RowTransform {
 
     /// Transforms all elements of a row without a mirror; they are overwritten.
     pub(super) fn forward_whole(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
-        debug_assert!(!self.has_mirror(), "a whole row");
+        assert!(!self.has_mirror(), "a whole row");
         if let Self::Fourier { forward, .. } = self {
             let mut scratch = forward.make_scratch_vec();
             forward_real(&**forward, (row, transformed), &mut scratch);
