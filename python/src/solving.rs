@@ -7,7 +7,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{
-    BodyOfScene, Sensitivity, body, body_of_heights, sensitivities, with_fields,
+    BodyOfScene, Sensitivity, body, body_of_heights, sensitivities, spectral_sensitivity,
+    with_fields,
 };
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
 use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
@@ -98,6 +99,7 @@ pub(crate) struct Loads<'py> {
     fields: bool,
     /// Whether derivatives by the numbers of the scene are wanted.
     sensitivity: bool,
+    spectral_sensitivity: bool,
 }
 
 impl Loads<'_> {
@@ -147,6 +149,7 @@ pub(crate) fn solve_loads<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let scenes = loads.scenes()?;
     let (fields, sensitivity) = (loads.fields, loads.sensitivity);
+    let spectral = loads.spectral_sensitivity;
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| {
@@ -167,6 +170,9 @@ pub(crate) fn solve_loads<'py>(
             if sensitivity {
                 let files = (&*scenes.folder, read_file as ReadFile);
                 answer.sensitivity = sensitivities(&scenes.scene(index), files, problem, &answer)?;
+            }
+            if spectral {
+                answer.spectral_sensitivity = Some(spectral_sensitivity(problem, &answer)?);
             }
             Ok(if fields {
                 with_fields(problem, answer)
@@ -234,14 +240,12 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     dictionary.set_item("model", answer.model.name())?;
     dictionary.set_item("unknowns", answer.unknowns)?;
     dictionary.set_item("iterations", answer.iterations)?;
-    dictionary.set_item("warnings", answer.warnings)?;
-    dictionary.set_item("not_modelled", answer.not_modelled)?;
-    let left_out = answer.left_out.into_iter().map(<&str>::from);
+    dictionary.set_item("warnings", &answer.warnings)?;
+    dictionary.set_item("not_modelled", &answer.not_modelled)?;
+    let left_out = answer.left_out.iter().copied().map(<&str>::from);
     let left_out: Vec<&str> = left_out.collect();
     dictionary.set_item("left_out", left_out)?;
-    if !answer.sensitivity.is_empty() {
-        dictionary.set_item("sensitivity", derivatives(py, &answer.sensitivity)?)?;
-    }
+    add_derivatives(py, &answer, &dictionary)?;
     if let Some(field) = answer.fields.pressure {
         let shape = field.grid.shape();
         let pressure = field.pressure.into_pyarray(py).reshape(shape)?;
@@ -273,6 +277,29 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         }
     }
     Ok(dictionary)
+}
+
+/// What was asked for of them.
+fn add_derivatives<'py>(
+    py: Python<'py>,
+    answer: &Answer,
+    dictionary: &Bound<'py, PyDict>,
+) -> PyResult<()> {
+    if !answer.sensitivity.is_empty() {
+        dictionary.set_item("sensitivity", derivatives(py, &answer.sensitivity)?)?;
+    }
+    if let Some(spectral) = &answer.spectral_sensitivity {
+        let columns = PyDict::new(py);
+        for (name, values) in spectral.columns() {
+            columns.set_item(name, values.into_pyarray(py))?;
+        }
+        columns.set_item(
+            "outside_valid_frequencies",
+            spectral.outside_valid_frequencies,
+        )?;
+        dictionary.set_item("spectral_sensitivity", columns)?;
+    }
+    Ok(())
 }
 
 /// The derivatives and their errors by quantity, by the number of the scene.

@@ -264,3 +264,19 @@ def test_derivatives_are_arrays() -> None:
         vf.slide(vf.Cone(0.1), SOLID, normal_force=1.0, velocity=0.1, model="line").sensitivity  # noqa: B018
     single = vf.solve({"indenter": vf.Cone(0.1), "material": SOLID, "load": {"normal_force": 1.0, "velocity": 0.1}}, sensitivity=True)
     assert math.isfinite(single.sensitivity["indenter.cone.slope"]["friction_coefficient"])
+
+
+def test_derivatives_by_frequencies_add_up_to_the_unit_of_stress() -> None:
+    answer = vf.slide(vf.Sphere(5e-3), SOLID, normal_force=1.0, velocity=0.1, sensitivity=True, spectral_sensitivity=True)
+    bands = answer.spectral_sensitivity
+    assert bands["from_rad_per_s"][0] == 0.0
+    assert np.array_equal(bands["from_rad_per_s"][1:], bands["to_rad_per_s"][:-1])
+    assert bands["outside_valid_frequencies"] is None
+    by_both = sum(bands[f"friction_coefficient_by_{modulus}_modulus"].sum() for modulus in ("storage", "loss"))
+    # Under a force the friction is that of the force over the unit of stress.
+    by_force = answer.sensitivity["load.normal_force"]["friction_coefficient"]
+    assert abs(by_both + by_force) < 0.02 * abs(by_force)
+    with pytest.raises(AttributeError, match="spectral_sensitivity=True"):
+        vf.slide(vf.Sphere(5e-3), SOLID, normal_force=1.0, velocity=0.1).spectral_sensitivity  # noqa: B018
+    with pytest.raises(vf.NotReached, match="derivatives"):
+        vf.slide(vf.Cone(0.1), SOLID, normal_force=1.0, velocity=0.1, model="line", spectral_sensitivity=True)

@@ -270,6 +270,18 @@ class Answer(Compared):
 
         return {number: {quantity: values(number, quantity) for quantity in quantities} for number in numbers}
 
+    @property
+    def spectral_sensitivity(self) -> dict[str, Any]:
+        """d ln(quantity)/d ln(modulus) in bands of frequencies of a single scene, as arrays with their errors: the ends of the
+        bands [rad/s], ``friction_coefficient_by_loss_modulus`` and so on, and which part of the friction's lies at frequencies
+        at which the material was not measured.
+        """
+        answer = self._single()
+        if "spectral_sensitivity" not in answer:
+            raise AttributeError("these derivatives are there where they were asked for: slide(…, spectral_sensitivity=True)")
+        known: dict[str, Any] = answer["spectral_sensitivity"]
+        return known
+
     def _single(self) -> dict[str, Any]:
         if self.shape != () or self._answers[0] is None:
             raise AttributeError("fields belong to a single scene: ask for one load")

@@ -44,6 +44,7 @@ def slide(
     elements: int | None = None,
     threads: int | None = None,
     sensitivity: bool = False,
+    spectral_sensitivity: bool = False,
     progress: Progress = None,
 ) -> Answer:
     """Friction of a body that slides over a half space of the material, or a layer of it bonded to a rigid base.
@@ -53,7 +54,7 @@ def slide(
     model, ``method`` for one of the program's methods; it also knows a ``track`` [m], after which the body comes back to the
     same place. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
     given; ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of
-    the scene, too.
+    the scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
     """
@@ -71,7 +72,8 @@ def slide(
     options = given(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
-    return _solved(body, material, loads, options, progress, sensitivity)
+    derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
+    return _solved(body, material, loads, options, progress, derivatives)
 
 
 def move(
@@ -147,14 +149,18 @@ def press(
     return _solved(body, material, loads, options, progress)
 
 
-def solve(scene: Scene, *, sensitivity: bool = False, progress: Progress = None) -> Answer:
+def solve(
+    scene: Scene, *, sensitivity: bool = False, spectral_sensitivity: bool = False, progress: Progress = None
+) -> Answer:
     """The answer to a scene: a scene file, or the same as a dictionary.
 
     In a dictionary bodies and materials may stand in the place of their tables:
     ``{"indenter": Sphere(5e-3), "material": Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.01}}``.
-    With ``sensitivity`` the answer has its derivatives by all numbers of the scene, too.
+    With ``sensitivity`` the answer has its derivatives by all numbers of the scene, too, and with ``spectral_sensitivity`` those
+    by the storage and the loss modulus at each frequency.
     """
-    return ask(scene, {}, (), progress, sensitivity=sensitivity)
+    derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
+    return ask(scene, {}, (), progress, derivatives=derivatives)
 
 
 def ask(
@@ -165,15 +171,16 @@ def ask(
     *,
     history: Any = None,
     fields: bool = False,
-    sensitivity: bool = False,
+    derivatives: dict[str, bool] | None = None,
 ) -> Answer:
     """The answers to a scene with other loads, or another history, and with what takes longer than the answer itself."""
     table, folder, heights = read(scene)
-    if sensitivity and heights is not None:
+    derivatives = derivatives or {"sensitivity": False, "spectral_sensitivity": False}
+    if derivatives["sensitivity"] and heights is not None:
         raise ValueError("sensitivity needs a body of numbers, and not one of heights")
     request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items())}
     with shown(progress) as show:
-        found = _native.solve_loads(request | {"history": history, "fields": fields, "sensitivity": sensitivity}, show)
+        found = _native.solve_loads(request | {"history": history, "fields": fields} | derivatives, show)
     answer = Answer(found, columns, shape)
     not_reached(answer)
     return answer
@@ -189,10 +196,10 @@ def _solved(
     loads: dict[str, ArrayLike],
     options: dict[str, Any],
     progress: Progress,
-    sensitivity: bool = False,
+    derivatives: dict[str, bool] | None = None,
 ) -> Answer:
     scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
-    return ask(scene, *together(loads), progress, sensitivity=sensitivity)
+    return ask(scene, *together(loads), progress, derivatives=derivatives)
 
 
 def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:

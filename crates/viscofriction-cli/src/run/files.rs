@@ -5,9 +5,9 @@ use std::iter;
 use anyhow::Result;
 use viscofriction::Estimate;
 use viscofriction::npy::to_npy;
-use viscofriction::solve::{Answer, Curve, HistoryRow};
+use viscofriction::solve::{Answer, Curve, HistoryRow, Problem};
 
-use super::{Timed, pictures};
+use super::{Timed, pictures, spectrum};
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
@@ -15,11 +15,19 @@ pub(super) const NAMES: &str = "result.json history.csv history.svg history.png 
     motion.csv motion.svg motion.png motion_over_time.svg motion_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
+    spectral_sensitivity.csv spectral_sensitivity.svg spectral_sensitivity.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
 
 /// Writes what the answer has; result.json comes last: with it the others are there.
-pub(super) fn write(timed: &Timed<'_>, out: &OutputFolder) -> Result<()> {
+pub(super) fn write(problem: &Problem, timed: &Timed<'_>, out: &OutputFolder) -> Result<()> {
     let answer = timed.answer;
+    if let Some(spectral) = &answer.spectral_sensitivity {
+        let (names, columns): (Vec<String>, Vec<Vec<f64>>) = spectral.columns().into_iter().unzip();
+        let row = |band: usize| columns.iter().map(move |values| values[band]);
+        let rows = (0..spectral.bands.len()).map(|band| row(band).collect::<Vec<f64>>());
+        out.write("spectral_sensitivity.csv", &to_csv(&names.join(" "), rows)?)?;
+        out.draw("spectral_sensitivity", &spectrum::figure(problem, spectral))?;
+    }
     write_pressure(answer, out)?;
     write_line(answer, out)?;
     write_history(answer, out)?;

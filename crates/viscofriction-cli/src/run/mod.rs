@@ -2,6 +2,7 @@
 
 mod files;
 mod pictures;
+mod spectrum;
 mod table;
 
 use std::path::PathBuf;
@@ -11,10 +12,10 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use viscofriction::Watch;
-use viscofriction::scene::Method;
+use viscofriction::scene::{Method, Source};
 use viscofriction::solve::{
     Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of, sensitivities,
-    with_fields,
+    spectral_sensitivity, with_fields,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -43,6 +44,10 @@ pub(crate) struct Run {
     /// d ln(number), with error bars.
     #[arg(long)]
     sensitivity: bool,
+    /// Say how much the answer depends on the storage and the loss modulus at each frequency; into the folder of --out as a
+    /// picture under the master curve.
+    #[arg(long)]
+    spectral_sensitivity: bool,
     /// Also write result.json, fields (NPY and CSV) and pictures (SVG and PNG) into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -86,15 +91,8 @@ pub(crate) fn run(options: &Run) -> Result<()> {
             None => return Err(error.context(path.to_string())),
         },
     };
-    if options.sensitivity && missed.is_none() {
-        let scene = scene_of(&source, options.method)?;
-        let files = (source.folder(), read_input as _);
-        let task = format!("derivatives of {path}");
-        let found = progress::during(task, |_| sensitivities(&scene, files, &problem, &answer));
-        match found {
-            Ok(found) => answer.sensitivity = found,
-            Err(error) => missed = Some(error.into()),
-        }
+    if missed.is_none() {
+        missed = add_derivatives(options, (&source, &problem), &mut answer)?;
     }
     if out.is_some() {
         let task = format!("fields of {path}");
@@ -106,7 +104,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let answer = Timed { answer, seconds };
     // Before anything is printed, because a pipe that is closed ends the program.
     if let Some(out) = &out {
-        files::write(&answer, out)?;
+        files::write(&problem, &answer, out)?;
     }
     print(&problem, &answer, options.format)?;
     if let (Some(out), Format::Table) = (&out, options.format) {
@@ -116,6 +114,29 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         explain(&problem, answer.answer, options.format)?;
     }
     missed.map_or(Ok(()), |error| Err(error.context(path.to_string())))
+}
+
+/// The derivatives that were asked for, or why there are none.
+fn add_derivatives(
+    options: &Run,
+    (source, problem): (&Source, &Problem),
+    answer: &mut Answer,
+) -> Result<Option<anyhow::Error>> {
+    let path = source.path().display();
+    let mut found = Ok(());
+    if options.sensitivity {
+        let scene = scene_of(source, options.method)?;
+        let files = (source.folder(), read_input as _);
+        let task = format!("derivatives of {path}");
+        let all = progress::during(task, |_| sensitivities(&scene, files, problem, answer));
+        found = all.map(|all| answer.sensitivity = all);
+    }
+    if options.spectral_sensitivity && found.is_ok() {
+        let task = format!("derivatives of {path} by frequencies");
+        let spectral = progress::during(task, |_| spectral_sensitivity(problem, answer));
+        found = spectral.map(|spectral| answer.spectral_sensitivity = Some(spectral));
+    }
+    Ok(found.err().map(anyhow::Error::from))
 }
 
 /// Why a method was chosen.
@@ -144,6 +165,10 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             }
             if !answer.sensitivity.is_empty() {
                 print_line(&format!("\n{}\n", table::sensitivity(answer)))?;
+            }
+            if let Some(spectral) = &answer.spectral_sensitivity {
+                let (table, words) = spectrum::table(spectral);
+                print_line(&format!("\n{table}\n{words}\n"))?;
             }
             if let Some(why) = &answer.not_reached {
                 print_line(&format!("not reached: {why}"))?;

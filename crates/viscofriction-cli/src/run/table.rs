@@ -81,7 +81,7 @@ pub(super) fn sensitivity(answer: &Answer) -> Table {
     table
 }
 
-fn with_bar(known: &Estimate) -> String {
+pub(super) fn with_bar(known: &Estimate) -> String {
     // What rounds to nothing has no sign.
     let value = if known.value.abs() < 5e-7 {
         0.0

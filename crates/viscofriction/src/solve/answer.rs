@@ -13,7 +13,7 @@ use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
-use super::sensitivity::Sensitivity;
+use super::sensitivity::{Sensitivity, SpectralSensitivity};
 use crate::scene::{Method, Model};
 
 /// One result in SI; what a method does not know is left out.
@@ -66,6 +66,8 @@ pub struct Answer {
     pub left_out: Vec<Omission>,
     /// How much it depends on the numbers of its scene, where [they](super::sensitivities()) were asked for.
     pub sensitivity: Vec<Sensitivity>,
+    /// How much it depends on the modulus at each frequency, where [that](super::spectral_sensitivity()) was asked for.
+    pub spectral_sensitivity: Option<SpectralSensitivity>,
     /// The finest boundary elements.
     pub(crate) grid: Option<Grid>,
     /// Those of a stationary contact.
@@ -190,6 +192,7 @@ impl Answer {
             not_modelled: Vec::new(),
             left_out: Vec::new(),
             sensitivity: Vec::new(),
+            spectral_sensitivity: None,
             stationary: None,
             grid: None,
             fields: Fields::default(),
@@ -382,6 +385,9 @@ impl Serialize for Answer {
         }
         if !self.sensitivity.is_empty() {
             map.serialize_entry("sensitivity", &self.sensitivity)?;
+        }
+        if let Some(spectral) = &self.spectral_sensitivity {
+            map.serialize_entry("spectral_sensitivity", spectral)?;
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;

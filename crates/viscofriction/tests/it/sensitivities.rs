@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use numerics::Estimate;
-use viscofriction::solve::{Sensitivity, sensitivities};
+use viscofriction::solve::{Sensitivity, sensitivities, spectral_sensitivity};
 use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
 
 fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
@@ -108,4 +108,58 @@ fn answers_without_derivatives_say_where_there_are_some() {
     let (_, known) = answered(text);
     let error = known.expect_err("a march has none").to_string();
     assert!(error.contains("bem-steady"), "{error}");
+}
+
+/// On a layer: what a modulus, its time and the unit of stress change is what they change of G' and G'' at each frequency.
+#[test]
+fn derivatives_by_frequencies_are_those_by_the_numbers_of_the_material() {
+    let text = "indenter.sphere.radius = 5e-3\nlayer.thickness = 2e-3\nload = { normal_force = 2.0, velocity = 0.05 }\n\
+                material.prony = { equilibrium_modulus = 1e6, valid_frequencies = [50.0, 2e3], branches = [\
+                { modulus = 1e7, relaxation_time = 1e-3 }, { modulus = 1e6, relaxation_time = 0.1 }] }";
+    let scene: Scene = text.parse().expect("a scene");
+    let problem = Problem::try_from(&scene).expect("a problem");
+    let (answer, known) = answered(text);
+    let known = known.expect("derivatives");
+    let spectral = spectral_sensitivity(&problem, &answer).expect("derivatives");
+    let ends = spectral.bands.iter().flat_map(|band| band.frequencies);
+    let ends: Vec<f64> = ends.collect();
+    assert!(ends[0] == 0.0 && ends.contains(&50.0) && ends.contains(&2e3));
+    let outside = spectral.outside_valid_frequencies.expect("a window");
+    assert!((0.05..0.6).contains(&outside), "{outside}");
+    // G' and G'' of a branch over those of all, at one frequency.
+    let share = |branch: [f64; 2], frequency: f64| {
+        let part = |[modulus, time]: [f64; 2]| {
+            let x = frequency * time;
+            [x, 1.0].map(|factor| modulus * x * factor / (1.0 + x * x))
+        };
+        let [soft, stiff] = [part([1e6, 0.1]), part([1e7, 1e-3])];
+        let own = part(branch);
+        [
+            own[0] / (1e6 + soft[0] + stiff[0]),
+            own[1] / (soft[1] + stiff[1]),
+        ]
+    };
+    for (index, branch) in [[1e7, 1e-3], [1e6, 0.1]].into_iter().enumerate() {
+        let (mut sum, mut error) = (0.0, 0.0);
+        for band in &spectral.bands {
+            let [from, to] = band.frequencies;
+            let shares = share(branch, (from.max(1e-3 * to) * to).sqrt());
+            for (share, by) in shares
+                .iter()
+                .zip([&band.storage_modulus, &band.loss_modulus])
+            {
+                let by = by.friction_coefficient.expect("a derivative");
+                sum += share * by.value;
+                error += share * by.error;
+            }
+        }
+        let name = format!("material.prony.branches[{index}].modulus");
+        let expected = of(&known, &name).friction_coefficient;
+        let expected = expected.expect("a derivative");
+        let allowed = error + expected.error;
+        assert!(
+            (sum - expected.value).abs() < allowed && allowed < 0.06,
+            "{name}: {sum} instead of {expected:?}, {allowed}"
+        );
+    }
 }

@@ -10,7 +10,7 @@
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use numerics::positive;
-use rheology::{CreepSpectrum, Material as _};
+use rheology::{ComplexCompliance, CreepSpectrum, Material as _};
 
 use crate::{Base, BemError, Elastomer};
 
@@ -18,6 +18,7 @@ use crate::{Base, BemError, Elastomer};
 pub(super) const SLOWEST: f64 = 1e-100;
 
 /// A material at a sliding speed.
+#[derive(Debug, Clone)]
 pub(super) struct SlidingCreep {
     spectrum: CreepSpectrum,
     /// 2 (1 − ν).
@@ -108,6 +109,25 @@ impl SlidingCreep {
         } else {
             self.spectrum.fluidity()
         }
+    }
+
+    /// Wave number along x of what oscillates at an angular frequency in the material.
+    pub(super) fn wave_number(&self, frequency: f64) -> f64 {
+        frequency / self.velocity
+    }
+
+    /// Compliance J' and J'', times 2 (1 − ν), to what varies along x with a wave number.
+    pub(super) fn compliance_of_wave(
+        &self,
+        wave_number: f64,
+    ) -> Result<ComplexCompliance, BemError> {
+        let compliance = self
+            .spectrum
+            .complex_compliance(wave_number * self.velocity)?;
+        Ok(ComplexCompliance {
+            storage: self.half_space_factor * compliance.storage,
+            loss: self.half_space_factor * compliance.loss,
+        })
     }
 
     pub(super) const fn base(&self) -> &Base {

@@ -22,9 +22,25 @@ pub(super) fn sensitivities(
     load: &SlidingLoad,
     answer: &Answer,
 ) -> Result<Vec<Sensitivity>> {
+    let contact = contact(problem, load, answer)?;
+    let of = |number: Number| {
+        let ends = neighbours(numbers, &number)?;
+        let change = change(&contact, &number, &ends)?;
+        let width = (ends[1].1 / ends[0].1).ln();
+        Ok(relative(number.path(), answer, change, width))
+    };
+    numbers.all().into_iter().map(of).collect()
+}
+
+/// The contact of an answer with its adjoint loads.
+pub(super) fn contact(
+    problem: &Problem,
+    load: &SlidingLoad,
+    answer: &Answer,
+) -> Result<SteadySensitivity> {
     let method = Method::BemSteady;
     let elastomer = problem.elastomer()?;
-    let contact = match (problem.body(), answer.stationary) {
+    Ok(match (problem.body(), answer.stationary) {
         (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {
             SteadySensitivity::of_line(cylinder, &elastomer, load, &options)
         }
@@ -33,14 +49,7 @@ pub(super) fn sensitivities(
             SteadySensitivity::new(surface, &elastomer, load, &options)
         }
         _ => return Err(SolveError::NoSensitivity { method }),
-    }?;
-    let of = |number: Number| {
-        let ends = neighbours(numbers, &number)?;
-        let change = change(&contact, &number, &ends)?;
-        let width = (ends[1].1 / ends[0].1).ln();
-        Ok(relative(&number, answer, change, width))
-    };
-    numbers.all().into_iter().map(of).collect()
+    }?)
 }
 
 /// The problems on both sides of a number, or from below where it is the largest allowed one, with its values.
@@ -94,7 +103,13 @@ fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
     }
 }
 
-fn relative(number: &Number, answer: &Answer, change: Change<Estimate>, width: f64) -> Sensitivity {
+/// The derivatives of the logarithms by that of a parameter, which changes by so much.
+pub(super) fn relative(
+    parameter: String,
+    answer: &Answer,
+    change: Change<Estimate>,
+    width: f64,
+) -> Sensitivity {
     let of = |change: Option<Estimate>, value: Option<Estimate>| {
         let (change, value) = change.zip(value.filter(|value| value.value != 0.0))?;
         let derivative = change.value / (width * value.value);
@@ -104,7 +119,7 @@ fn relative(number: &Number, answer: &Answer, change: Change<Estimate>, width: f
         Some(Estimate::new(derivative, error.abs() + of_value.abs()))
     };
     Sensitivity {
-        parameter: number.path(),
+        parameter,
         friction_coefficient: of(
             Some(change.friction_coefficient),
             answer.friction_coefficient,

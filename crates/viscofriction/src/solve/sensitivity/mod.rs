@@ -3,6 +3,7 @@
 mod adjoint;
 mod differences;
 mod parameters;
+mod spectral;
 
 use std::path::Path;
 
@@ -15,6 +16,7 @@ use super::problem::{Motion, Problem};
 use crate::files::ReadFile;
 use crate::scene::{Method, Scene};
 use parameters::Numbers;
+pub use spectral::{ByFrequency, SpectralSensitivity, spectral_sensitivity};
 
 /// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
 /// one-dimensional model.

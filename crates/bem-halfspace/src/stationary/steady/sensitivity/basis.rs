@@ -1,9 +1,15 @@
 //! What a quantity asks of the creep: its derivative by the kernel, summed over each part of the creep once.
 
+use std::f64::consts::PI;
+
+use rheology::ComplexCompliance;
+use rustfft::num_complex::Complex;
+
 use crate::parallel::reductions::dot;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::retarded_potential::RetardedPotential;
 use crate::stationary::steady::sensitivity::offsets::Offsets;
+use crate::stationary::steady::sensitivity::waves::Waves;
 use crate::stationary::steady::sliding_creep::{
     Delay, ElementCreep, MovingCreep, SLOWEST, SlidingCreep,
 };
@@ -12,6 +18,8 @@ use crate::{Base, BemError};
 
 /// Relative step of the differences by the length of a memory; their error is its square.
 const STEP: f64 = 1e-3;
+/// Wave number of what does not change along x, over the longest of those that do.
+const LONGEST_WAVE: f64 = 1e-6;
 /// Logarithm of the ratio of two memories that do not change places.
 const APART: f64 = 1e-3;
 
@@ -33,6 +41,7 @@ struct Kernel {
     aspect: f64,
     shift: f64,
     base: Base,
+    material: SlidingCreep,
     /// Compliance over the length of an element, \[1/Pa].
     compliance: f64,
 }
@@ -58,6 +67,7 @@ impl Basis {
             aspect: mesh.aspect(),
             shift: on_grid.shift,
             base: on_grid.base.clone(),
+            material: creep.clone(),
             compliance: creep.compliance(spacing)?,
         };
         let creep = creep.moving();
@@ -104,6 +114,47 @@ impl Basis {
     pub(super) fn has_delays_of(&self, creep: &MovingCreep) -> bool {
         let differ = |pair: &[[f64; 2]]| (pair[1][1] / pair[0][1]).ln().abs() > APART;
         creep.delays.len() == self.delays.len() && creep.delays.windows(2).all(differ)
+    }
+
+    /// The derivatives of quantities of one contact by the logarithms of the storage and of the loss modulus in each of the
+    /// bands of angular frequencies \[rad/s].
+    ///
+    /// What flows follows a load that never changes: `∫_x^∞ w ds` is that of all waves but the longest, and half the integral
+    /// of w over all x, which is of the frequency 0.
+    pub(super) fn by_moduli(
+        quantities: &[&Self],
+        bands: &[[f64; 2]],
+    ) -> Result<Vec<Vec<[f64; 2]>>, BemError> {
+        let Some(kernel) = quantities.first().map(|basis| &basis.kernel) else {
+            return Ok(Vec::new());
+        };
+        let waves = Waves {
+            quantities: quantities.iter().map(|basis| &basis.offsets).collect(),
+            base: &kernel.base,
+            aspect: kernel.aspect,
+            shift: kernel.shift,
+        };
+        let of_band = |band: &[f64; 2]| {
+            let ends =
+                band.map(|frequency| kernel.material.wave_number(frequency) * kernel.spacing);
+            let mut sums = vec![[0.0; 2]; quantities.len()];
+            let flow = kernel.material.flow_per_length() * kernel.spacing / kernel.compliance;
+            if band[0] <= 0.0 && flow > 0.0 {
+                for (sums, weights) in sums.iter_mut().zip(waves.at(LONGEST_WAVE * ends[1])) {
+                    sums[1] -= 0.5 * flow * weights.re;
+                }
+            }
+            for [wave_number, weight] in waves.nodes(ends) {
+                let by_logarithm = kernel.by_logarithm(wave_number)?;
+                for (sums, weights) in sums.iter_mut().zip(waves.at(wave_number)) {
+                    for (sum, compliance) in sums.iter_mut().zip(by_logarithm) {
+                        *sum += weight / PI * (weights * compliance).re;
+                    }
+                }
+            }
+            Ok(sums)
+        };
+        bands.iter().map(of_band).collect()
     }
 
     /// The change from one creep on its base to another.
@@ -169,6 +220,21 @@ impl Kernel {
             base: self.base.clone(),
             ..ElementCreep::default()
         }
+    }
+
+    /// The derivatives of the compliance 1/(G' − i G'') to a wave by ln G' and ln G'', over that of an element.
+    fn by_logarithm(&self, wave_number: f64) -> Result<[Complex<f64>; 2], BemError> {
+        let ComplexCompliance { storage, loss } = self
+            .material
+            .compliance_of_wave(wave_number / self.spacing)?;
+        let compliance = Complex::new(storage, loss);
+        // G' − i G'' is its reciprocal.
+        let moduli = compliance.inv();
+        let turned = [-moduli.re, -moduli.im].map(|part| part / self.compliance);
+        Ok([
+            compliance * compliance * turned[0],
+            compliance * compliance * Complex::i() * turned[1],
+        ])
     }
 
     fn flow(&self, offsets: &Offsets) -> f64 {

@@ -16,9 +16,10 @@ mod basis;
 mod contact;
 mod offsets;
 mod state;
+mod waves;
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Estimate, in_range};
+use numerics::{Estimate, in_range, not_negative};
 use rheology::Material;
 
 use crate::stationary::steady::line::Strip;
@@ -48,6 +49,18 @@ pub struct Change<T> {
     pub indentation_depth: Option<T>,
     /// Of the normal force at a depth, \[N].
     pub normal_force: Option<T>,
+}
+
+/// The derivatives by the complex modulus in a band of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[must_use]
+pub struct ByModuli {
+    /// Lowest and highest angular frequency of the band, \[rad/s].
+    pub frequencies: [f64; 2],
+    /// By the logarithm of the storage modulus in the band.
+    pub storage_modulus: Change<Estimate>,
+    /// By the logarithm of the loss modulus in the band.
+    pub loss_modulus: Change<Estimate>,
 }
 
 /// A stationary contact with its adjoint loads, on grids whose difference gives the bars.
@@ -170,6 +183,46 @@ impl SteadySensitivity {
     pub fn by_load(&self) -> Change<Estimate> {
         let of = |states: &[State]| mean(states.iter().map(State::by_load).collect());
         compared(of(&self.fine), of(&self.coarse))
+    }
+
+    /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each
+    /// between two that follow each other: how much a quantity changes when the modulus does by one e-fold there and stays as it
+    /// is elsewhere.
+    ///
+    /// The sums of both over all frequencies from 0 on are the change by the unit of stress. Beyond about `π v/Δx` waves are
+    /// shorter than two elements, and say nothing.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and [`BemError::Material`] where the
+    /// material is not known at them.
+    pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
+        let bands: Vec<[f64; 2]> = frequencies
+            .windows(2)
+            .map(|ends| [ends[0], ends[1]])
+            .collect();
+        for &[from, to] in &bands {
+            not_negative("frequency", from)?;
+            in_range("frequency", to, to > from, "greater than the one before")?;
+        }
+        let of = |states: &[State]| -> Result<Vec<[Mean; 2]>, BemError> {
+            let found = states.iter().map(|state| state.by_moduli(&bands));
+            let found = found.collect::<Result<Vec<_>, _>>()?;
+            let of_band = |band: usize| {
+                [0, 1].map(|part| mean(found.iter().map(|state| state[band][part]).collect()))
+            };
+            Ok((0..bands.len()).map(of_band).collect())
+        };
+        let pairs = of(&self.fine)?.into_iter().zip(of(&self.coarse)?);
+        let found = pairs.zip(&bands).map(|((fine, coarse), &frequencies)| {
+            let [storage_modulus, loss_modulus] =
+                [0, 1].map(|part| compared(fine[part], coarse[part]));
+            ByModuli {
+                frequencies,
+                storage_modulus,
+                loss_modulus,
+            }
+        });
+        Ok(found.collect())
     }
 
     fn change(

@@ -126,6 +126,19 @@ impl State {
         self.change(|gradient| gradient.basis.between_elastomers(ends))
     }
 
+    /// By the logarithms of the storage and of the loss modulus in each band of frequencies.
+    pub(super) fn by_moduli(&self, bands: &[[f64; 2]]) -> Result<Vec<[Change<f64>; 2]>, BemError> {
+        let bases: Vec<&Basis> = self.gradients.iter().map(|one| &one.basis).collect();
+        let of_band = |sums: Vec<[f64; 2]>| {
+            [0, 1].map(|part| {
+                let pairs = self.gradients.iter().zip(&sums);
+                self.of_all(pairs.map(|(one, sums)| one.unit * sums[part]).collect())
+            })
+        };
+        let sums = Basis::by_moduli(&bases, bands)?;
+        Ok(sums.into_iter().map(of_band).collect())
+    }
+
     pub(super) fn by_load(&self) -> Change<f64> {
         self.of_all(self.gradients.iter().map(|one| one.by_load).collect())
     }

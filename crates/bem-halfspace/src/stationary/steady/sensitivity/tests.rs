@@ -1,6 +1,8 @@
 //! Derivatives against differences of solutions on one and the same grid, whose contact does not change.
 
-use indenters::{FlatCone, PowerProfile, Surface};
+use std::f64::consts::PI;
+
+use indenters::{Cylinder, FlatCone, PowerProfile, Surface};
 use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 use super::*;
@@ -206,4 +208,121 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
             }
         }
     }
+}
+
+/// The change of the complex modulus from one material to another, weighted by the derivatives at each frequency: for both
+/// quantities, with the sum of the absolute values.
+fn by_frequencies(
+    case: &Case,
+    state: &State,
+    index: usize,
+    options: SteadyOptions,
+) -> [[f64; 2]; 2] {
+    const PER_DECADE: f64 = 40.0;
+    let materials = [-STEP, STEP].map(|step| {
+        let mut factors = [1.0; 7];
+        factors[index] += step;
+        case.material(&factors)
+    });
+    let last = 20.0 * PI * 2.0 / options.spacing[0];
+    let edges = (-240..).map(|index| 10.0_f64.powf(f64::from(index) / PER_DECADE));
+    let edges = edges.take_while(|edge| *edge < last);
+    let edges: Vec<f64> = [0.0].into_iter().chain(edges).collect();
+    let bands: Vec<[f64; 2]> = edges.windows(2).map(|ends| [ends[0], ends[1]]).collect();
+    let found = state.by_moduli(&bands).expect("derivatives");
+    let [mut sums, mut sizes] = [[0.0; 2]; 2];
+    for ([from, to], derivatives) in bands.iter().zip(found) {
+        let [before, after] = materials.each_ref().map(|material| {
+            let modulus = material.complex_modulus((from * to).sqrt().max(1e-3 * to));
+            let modulus = modulus.expect("a modulus");
+            [modulus.storage, modulus.loss]
+        });
+        for part in 0..2 {
+            let change = if before[part] > 0.0 {
+                (after[part] / before[part]).ln()
+            } else {
+                0.0
+            };
+            let other = derivatives[part].indentation_depth;
+            let other = other.or(derivatives[part].normal_force).unwrap_or(0.0);
+            let parts = [derivatives[part].friction_coefficient, other];
+            for quantity in 0..2 {
+                sums[quantity] += change * parts[quantity] / STEP;
+                sizes[quantity] += (change * parts[quantity] / STEP).abs();
+            }
+        }
+    }
+    [sums, sizes]
+}
+
+/// Waves are another way to the same number: those of a modulus, of a time and of the unit of stress.
+#[test]
+fn derivatives_by_frequencies_add_up_to_those_by_moduli_and_times() {
+    let side = [-1.7, 1.7];
+    let options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
+    for case in cases() {
+        let (state, _) = case.state(&[1.0; 7], options, None);
+        for index in [1, 2] {
+            let expected = changed(&case, &state, index);
+            let other = expected.indentation_depth.or(expected.normal_force);
+            let expected = [expected.friction_coefficient, other.unwrap_or(0.0)];
+            let [got, sizes] = by_frequencies(&case, &state, index, options);
+            for quantity in 0..2 {
+                let [expected, got] = [expected[quantity] / STEP, got[quantity]];
+                assert!(
+                    (got - expected).abs() <= 1e-4 * sizes[quantity],
+                    "{}, {}: {got:e} instead of {expected:e}",
+                    case.name,
+                    NAMES[index]
+                );
+            }
+        }
+    }
+}
+
+/// A cylinder is a strip of one long element across the motion.
+#[test]
+fn frequencies_of_a_cylinder_add_up_to_the_unit_of_stress() {
+    for thickness in [f64::INFINITY, 0.5] {
+        a_cylinder_adds_up(thickness);
+    }
+}
+
+fn a_cylinder_adds_up(thickness: f64) {
+    let cylinder = Cylinder::new(1.0).expect("a body");
+    let materials = [1.0 - STEP, 1.0, 1.0 + STEP].map(|scale| {
+        let branches = vec![RelaxationBranch {
+            modulus: 3.0 * scale,
+            relaxation_time: 0.3,
+        }];
+        let spectrum = RelaxationSpectrum::new(scale, 0.0, branches).expect("a spectrum");
+        Prony::new(spectrum).expect("a material")
+    });
+    let load = SlidingLoad::new(0.5, 2.0).expect("a load");
+    let options = LineOptions {
+        spacing: 0.02,
+        phase: 0.0,
+        footprint: [-1.5, 1.5],
+        tolerance: 1e-10,
+        max_iterations: 100,
+    };
+    let [softer, layer, stiffer] = materials
+        .each_ref()
+        .map(|material| Layer::new(material, thickness).expect("a layer"));
+    let sensitivity = SteadySensitivity::of_line(&cylinder, &layer, &load, &options);
+    let sensitivity = sensitivity.expect("a sensitivity");
+    let change = sensitivity.between_elastomers([&softer, &stiffer], [2.0; 2]);
+    let expected = change.expect("a change").friction_coefficient.value / (2.0 * STEP);
+    let bands = sensitivity.by_moduli(&[0.0, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4]);
+    let parts = bands.expect("bands").into_iter().map(|band| {
+        let by = [band.storage_modulus, band.loss_modulus];
+        by.map(|change| change.friction_coefficient.value)
+    });
+    let parts: Vec<f64> = parts.flatten().collect();
+    let got: f64 = parts.iter().sum();
+    let size: f64 = parts.iter().map(|part| part.abs()).sum();
+    assert!(
+        (got - expected).abs() < 1e-4 * size,
+        "{thickness}: {got:e} instead of {expected:e}"
+    );
 }

@@ -1,0 +1,154 @@
+//! What an answer rests on, frequency by frequency: a table, and a picture under the master curve.
+
+use std::iter;
+
+use comfy_table::Table;
+use viscofriction::Estimate;
+use viscofriction::solve::{ByFrequency, Problem, SpectralSensitivity};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
+
+use super::pictures::around;
+use super::table::with_bar;
+use crate::output::markdown;
+
+/// Part of all that a band needs to have a row in the table, and to be in the picture.
+const IN_TABLE: f64 = 0.01;
+const IN_PICTURE: f64 = 1e-4;
+/// Points of a master curve in a decade.
+const POINTS_PER_DECADE: f64 = 20.0;
+
+const COLOURS: [Colour; 2] = [Colour::Blue, Colour::Red];
+const QUANTITIES: [&str; 3] = ["friction coefficient", "normal force", "indentation depth"];
+
+/// The derivatives of a band by G' and by G'', quantity by quantity.
+fn derivatives(band: &ByFrequency) -> [[Option<Estimate>; 2]; 3] {
+    let both = [&band.storage_modulus, &band.loss_modulus];
+    [
+        both.map(|one| one.friction_coefficient),
+        both.map(|one| one.normal_force),
+        both.map(|one| one.indentation_depth),
+    ]
+}
+
+/// Those of the friction.
+fn of_friction(band: &ByFrequency) -> [Estimate; 2] {
+    derivatives(band)[0].map(|known| known.unwrap_or(Estimate::exact(0.0)))
+}
+
+fn size(band: &ByFrequency) -> f64 {
+    of_friction(band)
+        .iter()
+        .map(|known| known.value.abs())
+        .sum()
+}
+
+/// The bands with so much of the sum of all absolute values.
+fn with_part(spectral: &SpectralSensitivity, part: f64) -> impl Iterator<Item = &ByFrequency> {
+    let least = part * spectral.bands.iter().map(size).sum::<f64>();
+    spectral
+        .bands
+        .iter()
+        .filter(move |band| size(band) >= least)
+}
+
+/// The bands that matter, and how much of the friction the others have together.
+pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
+    let known = spectral.bands.first().map(derivatives).unwrap_or_default();
+    let columns: Vec<usize> = (0..known.len())
+        .filter(|&quantity| known[quantity][0].is_some())
+        .collect();
+    let heads = columns.iter().flat_map(|&quantity| {
+        ["G′", "G″"].map(|modulus| format!("d ln {} by {modulus}", QUANTITIES[quantity]))
+    });
+    let heads: Vec<String> = iter::once("ω [rad/s]".to_owned()).chain(heads).collect();
+    let mut table = markdown(&heads.join(" | "));
+    for band in with_part(spectral, IN_TABLE) {
+        let [from, to] = band.frequencies;
+        let cells = columns
+            .iter()
+            .flat_map(|&quantity| derivatives(band)[quantity]);
+        let cells = cells.map(|known| known.map_or_else(String::new, |known| with_bar(&known)));
+        table.add_row(iter::once(format!("{from:.3e} to {to:.3e}")).chain(cells));
+    }
+    let all: f64 = spectral.bands.iter().map(size).sum();
+    let shown: f64 = with_part(spectral, IN_TABLE).map(size).sum();
+    let percent = |part: f64| format!("{:.1} %", 100.0 * part);
+    let rest = percent((all - shown) / all);
+    let mut words =
+        format!("of the absolute values of the friction, bands without a row have {rest}");
+    if let Some(outside) = spectral.outside_valid_frequencies {
+        let outside = percent(outside);
+        words += &format!(", and frequencies at which the material was not measured {outside}");
+    }
+    (table, words)
+}
+
+/// The master curve, and below it the derivatives of the friction by both moduli per decade of frequency.
+pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figure {
+    let bands: Vec<&ByFrequency> = with_part(spectral, IN_PICTURE)
+        .filter(|band| band.frequencies[0] > 0.0)
+        .collect();
+    let ends = bands.iter().flat_map(|band| band.frequencies);
+    let x = Axis::decades("angular frequency ω [rad/s]", ends);
+    let solid = Line::thick(Dash::Solid);
+    let moduli = master_curve(problem, x.range);
+    let master = [0, 1].map(|part| {
+        let points = moduli.iter().map(|row| [row[0], row[1 + part]]);
+        let points = points.filter(|point| point[1] > 0.0).collect();
+        Series::line(points, solid, COLOURS[part]).labelled(["G′", "G″"][part])
+    });
+    let y = Axis::decades(
+        "modulus [Pa]",
+        master.iter().flat_map(|s| &s.points).map(|p| p[1]),
+    );
+    let above = Chart::new(x.clone(), y, master.into());
+    let by = [0, 1].map(|part| per_decade(&bands, part));
+    let ends = by.iter().flat_map(|series| {
+        let pairs = series.points.iter().zip(&series.errors);
+        pairs.flat_map(|(point, error)| [point[1] - error, point[1] + error])
+    });
+    let range = around(ends);
+    let y = Axis::linear("d ln μ per decade of ω", range);
+    let window = problem.window().into_iter().flatten();
+    let within = window.filter(|end| x.range[0] < *end && *end < x.range[1]);
+    let window = within.map(|end| {
+        let points = range.map(|value| [end, value]).to_vec();
+        Series::line(points, Line::thin(Dash::Dashed), Colour::Black)
+    });
+    let series = window.chain(by).collect();
+    Figure::new([above, Chart::new(x, y, series)], 1)
+}
+
+/// The derivatives of the friction by one of the moduli per decade, in the middle of each band.
+fn per_decade(bands: &[&ByFrequency], part: usize) -> Series {
+    let at = bands.iter().map(|band| {
+        let [from, to] = band.frequencies;
+        let known = of_friction(band)[part];
+        let decades = (to / from).log10();
+        (
+            [(from * to).sqrt(), known.value / decades],
+            known.error / decades,
+        )
+    });
+    let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = at.unzip();
+    let marker = Marker::filled(Shape::Circle);
+    Series {
+        errors,
+        line: Some(Line::thick(Dash::Solid)),
+        ..Series::markers(points, marker, COLOURS[part])
+    }
+    .labelled(["by ln G′", "by ln G″"][part])
+}
+
+/// Frequency, storage and loss modulus where they are known.
+fn master_curve(problem: &Problem, range: [f64; 2]) -> Vec<[f64; 3]> {
+    let [first, last] = range.map(|end| (POINTS_PER_DECADE * end.log10()).round());
+    #[expect(clippy::cast_possible_truncation, reason = "logarithms of numbers")]
+    let points = first as i32..=last as i32;
+    let at = |index: i32| {
+        let frequency = 10.0_f64.powf(f64::from(index) / POINTS_PER_DECADE);
+        let modulus = problem.material().complex_modulus(frequency).ok()?;
+        Some([frequency, modulus.storage, modulus.loss])
+    };
+    points.filter_map(at).collect()
+}

@@ -1,0 +1,156 @@
+//! How much an answer depends on the modulus of its material at each frequency.
+
+use std::f64::consts::PI;
+
+use bem_halfspace::steady::sensitivity::{ByModuli, Change};
+use numerics::Estimate;
+use serde::Serialize;
+
+use super::Sensitivity;
+use super::adjoint;
+use crate::scene::Method;
+use crate::solve::answer::{Answer, StationaryGrid};
+use crate::solve::error::{Result, SolveError};
+use crate::solve::problem::{Motion, Problem};
+
+/// Bands in a decade.
+const PER_DECADE: f64 = 10.0;
+/// Lowest frequency that is told from 0, as a part of v/a with the length a of the contact: friction is that of waves far
+/// shorter, and a depth depends on longer ones together.
+const LOWEST: f64 = 0.01;
+
+/// The derivatives of the quantities of an answer by the complex modulus in bands of frequencies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpectralSensitivity {
+    /// Bands of increasing frequencies, the first of them from 0 on.
+    pub bands: Vec<ByFrequency>,
+    /// Part of the absolute values of all derivatives of the friction that lies outside of the frequencies at which the
+    /// material was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outside_valid_frequencies: Option<f64>,
+}
+
+/// The derivatives by the logarithm of a modulus that changes between two frequencies and nowhere else.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ByFrequency {
+    /// Lowest and highest angular frequency, \[rad/s].
+    pub frequencies: [f64; 2],
+    /// By the logarithm of G'.
+    pub storage_modulus: Sensitivity,
+    /// By the logarithm of G''.
+    pub loss_modulus: Sensitivity,
+}
+
+/// The derivatives of an answer by the storage and the loss modulus at each frequency; of stationary sliding by boundary
+/// elements.
+///
+/// # Errors
+/// [`SolveError::NoSensitivity`] for other methods and motions.
+pub fn spectral_sensitivity(problem: &Problem, answer: &Answer) -> Result<SpectralSensitivity> {
+    let method = answer.method;
+    let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
+        return Err(SolveError::NoSensitivity { method });
+    };
+    let (Some(spacing), Some(contact)) = (spacing(answer), &answer.contact_box) else {
+        return Err(SolveError::NoSensitivity { method });
+    };
+    let length = contact.x[1] - contact.x[0];
+    let ends = [LOWEST / length, PI / spacing].map(|wave_number| load.velocity() * wave_number);
+    let found =
+        adjoint::contact(problem, &load, answer)?.by_moduli(&edges(ends, problem.window()))?;
+    let bands: Vec<ByFrequency> = found
+        .into_iter()
+        .map(|band| of_band(answer, band))
+        .collect();
+    Ok(SpectralSensitivity {
+        outside_valid_frequencies: problem.window().map(|window| outside(&bands, window)),
+        bands,
+    })
+}
+
+impl SpectralSensitivity {
+    /// The ends of the bands \[rad/s], and what is known of each quantity by either modulus with its error, as columns.
+    pub fn columns(&self) -> Vec<(String, Vec<f64>)> {
+        let column = |of: &dyn Fn(&ByFrequency) -> f64| self.bands.iter().map(of).collect();
+        let mut columns = vec![
+            (
+                "from_rad_per_s".to_owned(),
+                column(&|band| band.frequencies[0]),
+            ),
+            (
+                "to_rad_per_s".to_owned(),
+                column(&|band| band.frequencies[1]),
+            ),
+        ];
+        let Some(first) = self.bands.first() else {
+            return columns;
+        };
+        for (index, (name, known)) in first.loss_modulus.named().into_iter().enumerate() {
+            for (part, modulus) in ["storage", "loss"].into_iter().enumerate() {
+                let of = |band: &ByFrequency| {
+                    let both = [&band.storage_modulus, &band.loss_modulus];
+                    both[part].named()[index].1
+                };
+                if known.is_some() {
+                    let value = column(&|band| of(band).map_or(f64::NAN, |known| known.value));
+                    let error = column(&|band| of(band).map_or(f64::NAN, |known| known.error));
+                    columns.push((format!("{name}_by_{modulus}_modulus"), value));
+                    columns.push((format!("{name}_by_{modulus}_modulus_error"), error));
+                }
+            }
+        }
+        columns
+    }
+}
+
+const fn spacing(answer: &Answer) -> Option<f64> {
+    match answer.stationary {
+        Some(StationaryGrid::Contact(options)) => Some(options.spacing[0]),
+        Some(StationaryGrid::Line(options)) => Some(options.spacing),
+        None => None,
+    }
+}
+
+/// The ends of the bands: 0, round parts of decades, and the ends of the window between them.
+fn edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64> {
+    let [first, last] = [lowest, highest].map(|end| PER_DECADE * end.log10());
+    let number = |index: i32| 10.0_f64.powf(f64::from(index) / PER_DECADE);
+    let mut edges = vec![0.0];
+    #[expect(clippy::cast_possible_truncation, reason = "logarithms of numbers")]
+    edges.extend((first.floor() as i32..=last.ceil() as i32).map(number));
+    let within = |end: &f64| *end > edges[1] && *end < edges[edges.len() - 1];
+    let ends: Vec<f64> = window.into_iter().flatten().filter(within).collect();
+    edges.extend(ends);
+    edges.sort_by(f64::total_cmp);
+    edges.dedup();
+    edges
+}
+
+fn of_band(answer: &Answer, band: ByModuli) -> ByFrequency {
+    let of = |name: &str, change: Change<Estimate>| {
+        adjoint::relative(name.to_owned(), answer, change, 1.0)
+    };
+    ByFrequency {
+        frequencies: band.frequencies,
+        storage_modulus: of("storage_modulus", band.storage_modulus),
+        loss_modulus: of("loss_modulus", band.loss_modulus),
+    }
+}
+
+/// Of the absolute values of both derivatives of the friction.
+fn outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
+    let size = |band: &ByFrequency| {
+        let both = [&band.storage_modulus, &band.loss_modulus];
+        let sizes = both.map(|one| {
+            one.friction_coefficient
+                .map_or(0.0, |known| known.value.abs())
+        });
+        sizes.iter().sum::<f64>()
+    };
+    let is_outside =
+        |band: &&ByFrequency| band.frequencies[1] <= lowest || band.frequencies[0] >= highest;
+    let all: f64 = bands.iter().map(size).sum();
+    bands.iter().filter(is_outside).map(size).sum::<f64>() / all
+}
