@@ -6,7 +6,7 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
-use viscofriction::solve::{BodyOfScene, body, body_of_heights, sensitivities, with_fields};
+use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields, with_sensitivity};
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
 use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
 
@@ -164,7 +164,7 @@ pub(crate) fn solve_loads<'py>(
             let mut answer = solve(problem)?;
             if sensitivity {
                 let files = (&*scenes.folder, read_file as ReadFile);
-                answer.sensitivity = sensitivities(&scenes.scene(index), files, problem, &answer)?;
+                answer = with_sensitivity(&scenes.scene(index), files, problem, answer)?;
             }
             Ok(if fields {
                 with_fields(problem, answer)

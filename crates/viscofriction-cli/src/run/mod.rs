@@ -13,8 +13,8 @@ use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::Method;
 use viscofriction::solve::{
-    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of, sensitivities,
-    with_fields,
+    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of, with_fields,
+    with_sensitivity,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -90,9 +90,10 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         let scene = scene_of(&source, options.method)?;
         let files = (source.folder(), read_input as _);
         let task = format!("derivatives of {path}");
-        let found = progress::during(task, |_| sensitivities(&scene, files, &problem, &answer));
+        let alone = answer.clone();
+        let found = progress::during(task, |_| with_sensitivity(&scene, files, &problem, alone));
         match found {
-            Ok(found) => answer.sensitivity = found,
+            Ok(found) => answer = found,
             Err(error) => missed = Some(error.into()),
         }
     }
@@ -144,6 +145,12 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             }
             if !answer.sensitivity.is_empty() {
                 print_line(&format!("\n{}\n", table::sensitivity(answer)))?;
+            }
+            if !answer.budget.entries.is_empty() {
+                print_line(&format!(
+                    "standard uncertainties:\n\n{}\n",
+                    table::budget(answer)
+                ))?;
             }
             if let Some(why) = &answer.not_reached {
                 print_line(&format!("not reached: {why}"))?;

@@ -17,7 +17,7 @@ use crate::solve::problem::{Motion, Problem};
 const STEP: f64 = 1e-5;
 
 pub(super) fn sensitivities(
-    numbers: &Numbers,
+    (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
     load: &SlidingLoad,
     answer: &Answer,
@@ -34,13 +34,13 @@ pub(super) fn sensitivities(
         }
         _ => return Err(SolveError::NoSensitivity { method }),
     }?;
-    let of = |number: Number| {
-        let ends = neighbours(numbers, &number)?;
-        let change = change(&contact, &number, &ends)?;
+    let of = |number: &Number| {
+        let ends = neighbours(numbers, number)?;
+        let change = change(&contact, number, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
-        Ok(relative(&number, answer, change, width))
+        Ok(relative(number, answer, change, width))
     };
-    numbers.all().into_iter().map(of).collect()
+    all.iter().map(of).collect()
 }
 
 /// The problems on both sides of a number, or from below where it is the largest allowed one, with its values.
