@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{
-    BodyOfScene, Sensitivity, body, body_of_heights, sensitivities, spectral_sensitivity,
-    with_fields,
+    BodyOfScene, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
+    with_sensitivity,
 };
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
 use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
@@ -169,7 +169,7 @@ pub(crate) fn solve_loads<'py>(
             let mut answer = solve(problem)?;
             if sensitivity {
                 let files = (&*scenes.folder, read_file as ReadFile);
-                answer.sensitivity = sensitivities(&scenes.scene(index), files, problem, &answer)?;
+                answer = with_sensitivity(&scenes.scene(index), files, problem, answer)?;
             }
             if spectral {
                 answer.spectral_sensitivity = Some(spectral_sensitivity(problem, &answer)?);

@@ -140,6 +140,12 @@ impl Canvas {
         self.mark("path", &[], &[("d", path), ("fill", fill)], pen);
     }
 
+    /// Closed shape through which what is below it is seen.
+    pub(crate) fn veil(&mut self, path: &str, fill: &str) {
+        let texts = [("d", path), ("fill", fill), ("fill-opacity", "0.18")];
+        self.mark("path", &[], &texts, &NO_PEN);
+    }
+
     pub(crate) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
         let [width, height] = [("width", area.width), ("height", area.height)];
         let places = [("x", area.left), ("y", area.top), width, height];

@@ -4,7 +4,7 @@ use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
 use crate::error::PlotError;
 use crate::font::fitting_width;
 use crate::frame::Frame;
-use crate::marks::{MARKER_RADIUS, draw_marker, error_bars, line_pen};
+use crate::marks::{MARKER_RADIUS, draw_marker, ends, line_pen};
 use crate::series::Series;
 use crate::ticks::counts;
 
@@ -130,7 +130,8 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
     let mut marks = Vec::new();
     for one in series {
         let pixels = frame.pixels(&one.points);
-        let mut strokes = error_bars(frame, one);
+        let mut strokes = ends(frame, one, &one.errors);
+        strokes.extend(ends(frame, one, &one.band));
         if one.line.is_some() {
             strokes.extend(pixels.windows(2).map(|pair| [pair[0], pair[1]]));
         }

@@ -10,15 +10,26 @@ pub(crate) const MARKER_RADIUS: f64 = 3.6;
 const DOT_RADIUS: f64 = 1.7;
 const CAP: f64 = 3.5;
 
-/// Draws series one after the other: of each the line, then the error bars, then the markers.
+/// Draws the bands of all series, and then one series after the other: of each the line, then the error bars, then the markers.
 pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series]) {
+    for one in series {
+        let band = ends(frame, one, &one.band);
+        let [upper, lower] = [0, 1].map(|end: usize| band.iter().map(move |ends| ends[end]));
+        let around = upper.chain(lower.rev());
+        let around = around
+            .map(|[x, y]| format!("{x:.2} {y:.2}"))
+            .collect::<Vec<_>>();
+        if band.len() > 1 {
+            canvas.veil(&format!("M{}Z", around.join("L")), one.colour.hex());
+        }
+    }
     for one in series {
         let pixels = frame.pixels(&one.points);
         if let Some(line) = one.line {
             canvas.polyline(&pixels, &line_pen(line, one.colour));
         }
         let pen = Pen::solid(one.colour.hex(), 1.1);
-        for [upper, lower] in error_bars(frame, one) {
+        for [upper, lower] in ends(frame, one, &one.errors) {
             canvas.line(upper, lower, &pen);
             for [x, y] in [upper, lower] {
                 canvas.line([x - CAP, y], [x + CAP, y], &pen);
@@ -32,11 +43,11 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
     }
 }
 
-/// Upper and lower ends of the error bars of a series.
-pub(crate) fn error_bars(frame: &Frame, series: &Series) -> Vec<[Pixel; 2]> {
+/// Upper and lower ends of lengths to both sides of the points of a series.
+pub(crate) fn ends(frame: &Frame, series: &Series, lengths: &[f64]) -> Vec<[Pixel; 2]> {
     let ends = |sign: f64| {
-        let bars = series.points.iter().zip(&series.errors);
-        let ends = bars.map(|([x, y], error)| [*x, y + sign * error]);
+        let bars = series.points.iter().zip(lengths);
+        let ends = bars.map(|([x, y], length)| [*x, y + sign * length]);
         frame.pixels(&ends.collect::<Vec<_>>())
     };
     let bars = ends(1.0).into_iter().zip(ends(-1.0));

@@ -13,6 +13,8 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// Half lengths of symmetric error bars in y, one per point or none at all.
     pub errors: Vec<f64>,
+    /// Half widths of a shaded band around the points in y, one per point or none at all.
+    pub band: Vec<f64>,
     /// Line through the points.
     pub line: Option<Line>,
     /// Markers on the points.
@@ -115,6 +117,7 @@ impl Series {
             label: None,
             points,
             errors: Vec::new(),
+            band: Vec::new(),
             line: Some(line),
             marker: None,
             colour,
@@ -149,26 +152,30 @@ impl Series {
             x.check(at, name, index)?;
             y.check(value, name, index)?;
         }
-        let bars = format!("error bars of {name}");
-        let [needed, given] = [self.points.len(), self.errors.len()];
-        if given > 0 && given != needed {
-            return Err(PlotError::Count {
-                of: bars,
-                needed,
-                given,
-            });
+        for (what, lengths) in [("error bars", &self.errors), ("band", &self.band)] {
+            self.check_lengths(format!("{what} of {name}"), lengths, y)?;
         }
-        for (index, (&[_, value], &error)) in self.points.iter().zip(&self.errors).enumerate() {
-            if error < 0.0 {
+        Ok(())
+    }
+
+    /// Refuses lengths around the points that are not there or not shown.
+    fn check_lengths(&self, of: String, lengths: &[f64], y: &Axis) -> Result<(), PlotError> {
+        let [needed, given] = [self.points.len(), lengths.len()];
+        if given > 0 && given != needed {
+            return Err(PlotError::Count { of, needed, given });
+        }
+        for (index, (&[_, value], &length)) in self.points.iter().zip(lengths).enumerate() {
+            if length < 0.0 {
                 return Err(PlotError::Value {
-                    of: bars,
+                    of,
                     needed: "not be negative".into(),
                     index,
-                    value: error,
+                    value: length,
                 });
             }
-            y.check(value - error, name, index)?;
-            y.check(value + error, name, index)?;
+            let name = self.label.as_deref().unwrap_or("a series without label");
+            y.check(value - length, name, index)?;
+            y.check(value + length, name, index)?;
         }
         Ok(())
     }

@@ -21,8 +21,8 @@ pub struct Files<'a> {
 
 /// Memory for a row of a table while it is read, \[bytes]: the points of a history, thrice while their list grows.
 const PER_ROW: u64 = 200;
-/// A material is written by a person or a fit, \[bytes].
-const LARGEST_MATERIAL: u64 = 1 << 20;
+/// A material is written by a person or a fit, which has the covariance of up to 200 branches, \[bytes].
+const LARGEST_MATERIAL: u64 = 1 << 21;
 
 impl<'a> Files<'a> {
     /// Those of a scene, in a folder.

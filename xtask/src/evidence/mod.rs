@@ -5,6 +5,7 @@
 mod agreement;
 mod calibration;
 mod fit;
+mod material;
 mod report;
 mod request;
 mod rough;
@@ -60,6 +61,8 @@ enum Experiment {
     SpeedRange,
     /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
     Rough,
+    /// Fit materials that are known to made-up measurements, and compare their friction with its material error.
+    Material,
 }
 
 /// Carries out the experiments asked for; a result that is wrong is written like any other before the command fails.
@@ -91,6 +94,7 @@ impl Experiment {
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),
             Self::Rough => rough::report(out, quick),
+            Self::Material => material::report(quick),
         }
     }
 }

@@ -44,6 +44,40 @@ pub struct MeasuredCurve {
     pub(super) rows: Vec<Measurement>,
     /// The shortest and the longest time that the curve covers, 1/ω or t.
     pub(super) time_window: [f64; 2],
+    /// How it was joined, if it is a master curve.
+    pub(super) joined: Option<JoinedIsotherms>,
+}
+
+/// Isotherms on one curve, in any order.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub(super) struct JoinedIsotherms {
+    /// In the unit of the table.
+    pub(super) temperatures: Vec<f64>,
+    /// ln of the factors of their frequencies.
+    pub(super) log_factors: Vec<f64>,
+    /// Pairs of an isotherm that stayed where it was and the one that was shifted onto it, each after the one that it was shifted
+    /// onto; none where the factors were given.
+    pub(super) chain: Vec<[usize; 2]>,
+}
+
+impl JoinedIsotherms {
+    /// d ln a/dT from the neighbours of every isotherm; 0 of a single one.
+    pub(super) fn secants(&self) -> Vec<f64> {
+        let n = self.temperatures.len();
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|a, b| self.temperatures[*a].total_cmp(&self.temperatures[*b]));
+        let mut slopes = vec![0.0; n];
+        for place in 0..n {
+            let ends = [place.saturating_sub(1), (place + 1).min(n - 1)].map(|end| order[end]);
+            let rise = |values: &[f64]| values[ends[1]] - values[ends[0]];
+            let width = rise(&self.temperatures);
+            if width > 0.0 {
+                slopes[order[place]] = rise(&self.log_factors) / width;
+            }
+        }
+        slopes
+    }
 }
 
 impl MeasuredCurve {
@@ -70,13 +104,36 @@ impl MeasuredCurve {
                 value,
                 size: value.max(LEAST_PART * magnitude),
                 weight: magnitude.recip(),
+                isotherm: 0,
             };
             let [storage, loss] = [point.storage, point.loss];
             rows.extend([row(Quantity::Storage, storage), row(Quantity::Loss, loss)]);
         }
         let [first, last] = ends(&rows, points.len())?;
         let time_window = [last.recip(), first.recip()];
-        Ok(Self { rows, time_window })
+        Ok(Self {
+            rows,
+            time_window,
+            joined: None,
+        })
+    }
+
+    /// The same curve as one of isotherms, with the isotherm of every point.
+    pub(super) fn of_isotherms(mut self, places: &[usize], joined: JoinedIsotherms) -> Self {
+        for (row, isotherm) in self
+            .rows
+            .iter_mut()
+            .zip(places.iter().flat_map(|one| [*one; 2]))
+        {
+            row.isotherm = isotherm;
+        }
+        self.joined = Some(joined);
+        self
+    }
+
+    /// The isotherm of every point.
+    pub(super) fn places(&self) -> Vec<usize> {
+        self.rows.chunks(2).map(|point| point[0].isotherm).collect()
     }
 
     /// A curve measured in relaxation.
@@ -109,10 +166,15 @@ impl MeasuredCurve {
                 value: point.modulus,
                 size,
                 weight: size.recip(),
+                isotherm: 0,
             });
         }
         let time_window = ends(&rows, points.len())?;
-        Ok(Self { rows, time_window })
+        Ok(Self {
+            rows,
+            time_window,
+            joined: None,
+        })
     }
 
     /// The lowest and the highest angular frequency that the curve covers, \[rad/s], 1/t of a relaxation.
@@ -134,6 +196,7 @@ impl MeasuredCurve {
         Some(Self {
             rows: self.rows.iter().map(swapped).collect::<Option<_>>()?,
             time_window: self.time_window,
+            joined: self.joined.clone(),
         })
     }
 }

@@ -5,6 +5,7 @@ mod plausible;
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use numerics::{InvalidParameter, in_range, not_negative, positive};
 
+use super::covariance::{ModuliCovariance, covariance};
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
@@ -86,6 +87,8 @@ pub struct Identification {
     pub storage_error: Option<RelativeError>,
     /// The same of G''.
     pub loss_error: Option<RelativeError>,
+    /// How well the moduli are known; none where that leaves the range of `f64`.
+    pub covariance: Option<ModuliCovariance>,
 }
 
 /// The series as one that stands for what was measured, with the largest error at the points.
@@ -115,18 +118,34 @@ pub fn identify(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
-    let found = series_of(curve, options);
+    let found = fitted(curve, options).and_then(|(problem, series)| {
+        let found = problem.assessed(curve, &series)?;
+        let covariance = covariance(&problem.rows, curve, &found.spectrum);
+        Ok(Identification {
+            covariance,
+            ..found
+        })
+    });
     if !matches!(found, Err(RheologyError::InvalidParameter(_))) {
         plausible::check(curve, options.ending, found.as_ref().ok())?;
     }
     found
 }
 
-/// The same, however badly it fits.
+/// The same, however badly it fits, without a covariance.
 pub(super) fn series_of(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
+    let (problem, series) = fitted(curve, options)?;
+    problem.assessed(curve, &series)
+}
+
+/// The series, and the rows with the weights that it was fitted with.
+fn fitted(
+    curve: &MeasuredCurve,
+    options: &IdentifyOptions,
+) -> Result<(Measured, Series), RheologyError> {
     let mut problem = Measured {
         rows: curve.rows.clone(),
         window: curve.time_window,
@@ -141,8 +160,7 @@ pub(super) fn series_of(
             problem.solved(times, not_negative("weight", weight)?)?
         }
     };
-    problem.rows.clone_from(&curve.rows);
-    problem.assessed(&series)
+    Ok((problem, series))
 }
 
 /// Part of |G*| below which the errors of a modulus count relative to this part.
@@ -251,17 +269,27 @@ impl Measured {
         Ok(best)
     }
 
-    fn assessed(&self, series: &Series) -> Result<Identification, RheologyError> {
+    /// The errors of a series, by the sizes of the curve itself.
+    fn assessed(
+        &self,
+        curve: &MeasuredCurve,
+        series: &Series,
+    ) -> Result<Identification, RheologyError> {
         let spring = series.spring.unwrap_or_default();
         let spectrum = RelaxationSpectrum::new(spring, 0.0, series.branches.clone())?;
-        let errors = self.point_errors(series);
+        let measured = Self {
+            rows: curve.rows.clone(),
+            ..*self
+        };
+        let errors = measured.point_errors(series);
         Ok(Identification {
             spectrum,
             time_range: self.window,
             rms_relative_error: (errors.iter().sum::<f64>() / errors.len() as f64).sqrt(),
             max_relative_error: errors.into_iter().fold(0.0, f64::max).sqrt(),
-            storage_error: self.error_of(series, Quantity::Storage),
-            loss_error: self.error_of(series, Quantity::Loss),
+            storage_error: measured.error_of(series, Quantity::Storage),
+            loss_error: measured.error_of(series, Quantity::Loss),
+            covariance: None,
         })
     }
 

@@ -1,6 +1,8 @@
 //! One curve over many decades from isotherms over a few.
 
-use super::curve::{MeasuredCurve, ModulusPoint};
+use std::f64::consts::LN_10;
+
+use super::curve::{JoinedIsotherms, MeasuredCurve, ModulusPoint};
 use crate::RheologyError;
 use numerics::golden_section;
 
@@ -39,8 +41,12 @@ impl MasterCurve {
         for [_, log] in &mut self.log10_factors {
             *log -= log10_factor;
         }
+        let mut curve = MeasuredCurve::oscillation(self.points.clone())?;
+        if let Some(joined) = self.curve.joined.take() {
+            curve = curve.of_isotherms(&self.curve.places(), joined);
+        }
         Ok(Self {
-            curve: MeasuredCurve::oscillation(self.points.clone())?,
+            curve,
             reference_temperature: temperature,
             ..self
         })
@@ -61,7 +67,7 @@ pub fn shifted_master_curve(
         Ok([isotherm.temperature, log])
     });
     let factors = factors.collect::<Result<_, RheologyError>>()?;
-    joined(isotherms, reference_temperature, factors)
+    joined(isotherms, reference_temperature, factors, Vec::new())
 }
 
 /// The master curve with every isotherm shifted horizontally onto its neighbour, so that the storage moduli of both lie
@@ -95,33 +101,36 @@ pub fn automatic_master_curve(
     let mut logs = vec![0.0; isotherms.len()];
     let upwards = (nearest + 1..order.len()).map(|place| [place - 1, place]);
     let downwards = (0..nearest).rev().map(|place| [place + 1, place]);
-    for places in upwards.chain(downwards) {
-        let [known, new] = places.map(|place| order[place]);
+    let chain = upwards.chain(downwards);
+    let chain: Vec<[usize; 2]> = chain.map(|pair| pair.map(|place| order[place])).collect();
+    for &[known, new] in &chain {
         logs[new] = logs[known] + shift_onto(&isotherms[known], &isotherms[new])?;
     }
     let factors = isotherms.iter().zip(logs);
     let factors = factors.map(|(isotherm, log)| [isotherm.temperature, log]);
     let reference_temperature = isotherms[order[nearest]].temperature;
-    joined(isotherms, reference_temperature, factors.collect())
+    joined(isotherms, reference_temperature, factors.collect(), chain)
 }
 
 fn joined(
     isotherms: &[Isotherm],
     reference_temperature: f64,
     log10_factors: Vec<[f64; 2]>,
+    chain: Vec<[usize; 2]>,
 ) -> Result<MasterCurve, RheologyError> {
-    let pairs = isotherms.iter().zip(&log10_factors);
-    let shifted = pairs.flat_map(|(isotherm, [_, log])| {
+    let pairs = isotherms.iter().zip(&log10_factors).enumerate();
+    let shifted = pairs.flat_map(|(place, (isotherm, [_, log]))| {
         let factor = 10_f64.powf(*log);
-        isotherm.points.iter().map(move |point| ModulusPoint {
+        let points = isotherm.points.iter().map(move |point| ModulusPoint {
             angular_frequency: point.angular_frequency * factor,
             ..*point
-        })
+        });
+        points.map(move |point| (place, point))
     });
-    let mut points: Vec<ModulusPoint> = shifted.collect();
-    points.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
+    let mut shifted: Vec<(usize, ModulusPoint)> = shifted.collect();
+    shifted.sort_by(|(_, a), (_, b)| a.angular_frequency.total_cmp(&b.angular_frequency));
     // Two isotherms may meet at one reduced frequency: there the mean of both is the measurement.
-    points.dedup_by(|next, kept| {
+    shifted.dedup_by(|(_, next), (_, kept)| {
         let same = next.angular_frequency <= kept.angular_frequency;
         if same {
             kept.storage = 0.5 * (kept.storage + next.storage);
@@ -129,8 +138,14 @@ fn joined(
         }
         same
     });
+    let (places, points): (Vec<usize>, Vec<ModulusPoint>) = shifted.into_iter().unzip();
+    let isotherms = JoinedIsotherms {
+        temperatures: log10_factors.iter().map(|pair| pair[0]).collect(),
+        log_factors: log10_factors.iter().map(|pair| LN_10 * pair[1]).collect(),
+        chain,
+    };
     Ok(MasterCurve {
-        curve: MeasuredCurve::oscillation(points.clone())?,
+        curve: MeasuredCurve::oscillation(points.clone())?.of_isotherms(&places, isotherms),
         points,
         reference_temperature,
         log10_factors,

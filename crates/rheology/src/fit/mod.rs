@@ -1,5 +1,6 @@
 //! Materials from measurements: master curves, and the Prony series behind them.
 
+mod covariance;
 mod curve;
 mod expand;
 mod identify;
@@ -8,6 +9,7 @@ mod nnls;
 mod refine;
 mod system;
 
+pub use covariance::ModuliCovariance;
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};
 pub use expand::expand;
 pub use identify::{Control, Ending, Identification, IdentifyOptions, RelativeError, identify};

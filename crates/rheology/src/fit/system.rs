@@ -27,6 +27,8 @@ pub(super) struct Measurement {
     pub(super) size: f64,
     /// Of its error in the squares; inverse of the magnitude of the modulus until more is known.
     pub(super) weight: f64,
+    /// Of a master curve; 0 of a single curve.
+    pub(super) isotherm: usize,
 }
 
 /// Errors of a modulus that is a smaller part of |G*| are relative to this part: no instrument tells it from zero.

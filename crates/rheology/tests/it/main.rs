@@ -7,6 +7,8 @@ mod conversion_round_trip;
 mod fit_recovers_materials;
 mod fractional_elements_expand;
 #[cfg(feature = "fit")]
+mod moduli_are_known_as_well_as_said;
+#[cfg(feature = "fit")]
 mod own_laws_expand;
 mod standard_solid_has_its_limits;
 mod steps_are_exact;

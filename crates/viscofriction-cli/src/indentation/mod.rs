@@ -177,7 +177,8 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let findings = options.table(&fit).replace('\n', "\n# ");
     let [lowest, highest] = fit.valid_frequencies;
     let measured = format!("valid_frequencies = [{lowest:?}, {highest:?}]\n");
-    let material = prony(&fit.material.relaxation(), options.poisson_ratio, &measured);
+    let spectrum = fit.material.relaxation();
+    let material = prony(&spectrum, options.poisson_ratio, &measured, None);
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
     print_line(&format!("written into {}", out.path().display()))

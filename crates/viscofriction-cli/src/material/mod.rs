@@ -84,7 +84,11 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
         return Err(WrongInput(format!("{}: {problem}", options.data.display())).into());
     }
     let (points, shifted) = joined(moduli, options).map_err(wrong)?;
-    let curve = points.curve().map_err(wrong)?;
+    let curve = match &shifted {
+        // It knows its isotherms.
+        Some(shifted) => shifted.master.curve.clone(),
+        None => points.curve().map_err(wrong)?,
+    };
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let found = progress::during(format!("fitting {}", options.data.display()), |_| {

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use rheology::RelaxationSpectrum;
-use rheology::fit::{ModulusPoint, RelaxationPoint};
+use rheology::fit::{ModuliCovariance, ModulusPoint, RelaxationPoint};
 use viscofriction::scene::{Shift, ShiftLaw};
 
 use super::picture::{Comparison, OSCILLATION, RELAXATION, figure};
@@ -100,7 +100,22 @@ pub(super) fn material(fitted: &Fitted<'_>) -> String {
             measured += &shift_line(shift);
         }
     }
-    text + &prony(spectrum, fitted.options.poisson_ratio, &measured)
+    let covariance = fitted.found.covariance.as_ref();
+    measured += &covariance.map_or_else(String::new, covariance_lines);
+    text + &prony(
+        spectrum,
+        fitted.options.poisson_ratio,
+        &measured,
+        covariance,
+    )
+}
+
+/// How well the moduli are known, as keys of the material.
+fn covariance_lines(covariance: &ModuliCovariance) -> String {
+    let row = |row: &Vec<f64>| format!("    {row:?},\n");
+    let rows: String = covariance.relative.iter().map(row).collect();
+    let method = covariance.in_words();
+    format!("covariance.method = {method:?}\ncovariance.relative = [\n{rows}]\n")
 }
 
 /// How times change with temperature, as a key of the material.
@@ -114,17 +129,34 @@ fn shift_line(shift: &Shift) -> String {
     format!("shift = {{ temperature = {temperature:?}, {range}, law = {{ {law} }} }}\n")
 }
 
-/// The table `[material.prony]` of a scene file, with lines about how it was `measured`.
-pub(crate) fn prony(spectrum: &RelaxationSpectrum, poisson_ratio: f64, measured: &str) -> String {
-    let branches = spectrum.branches().iter().map(|branch| {
-        let (modulus, time) = (branch.modulus, branch.relaxation_time);
-        format!("    {{ modulus = {modulus:?}, relaxation_time = {time:?} }},\n")
-    });
+/// The table `[material.prony]` of a scene file, with lines about how it was `measured`, and the standard errors of its moduli as
+/// comments.
+pub(crate) fn prony(
+    spectrum: &RelaxationSpectrum,
+    poisson_ratio: f64,
+    measured: &str,
+    covariance: Option<&ModuliCovariance>,
+) -> String {
+    let errors = covariance.map(ModuliCovariance::standard_errors);
+    let error = |place: usize| {
+        let error = errors.as_ref().map(|errors| 100.0 * errors[place]);
+        error.map_or_else(String::new, |error| format!("  # ± {error:.2} %"))
+    };
+    let branches = spectrum
+        .branches()
+        .iter()
+        .enumerate()
+        .map(|(place, branch)| {
+            let (modulus, time) = (branch.modulus, branch.relaxation_time);
+            let error = error(place + 1);
+            format!("    {{ modulus = {modulus:?}, relaxation_time = {time:?} }},{error}\n")
+        });
     let viscosity = Some(spectrum.viscosity()).filter(|viscosity| *viscosity > 0.0);
     let viscosity = viscosity.map(|viscosity| format!("viscosity = {viscosity:?}\n"));
     format!(
-        "[material.prony]\nequilibrium_modulus = {:?}\n{}poisson_ratio = {poisson_ratio:?}\n{measured}branches = [\n{}]\n",
+        "[material.prony]\nequilibrium_modulus = {:?}{}\n{}poisson_ratio = {poisson_ratio:?}\n{measured}branches = [\n{}]\n",
         spectrum.equilibrium_modulus(),
+        error(0),
         viscosity.unwrap_or_default(),
         branches.collect::<String>()
     )

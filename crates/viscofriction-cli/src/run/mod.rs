@@ -14,8 +14,8 @@ use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::{Method, Source};
 use viscofriction::solve::{
-    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of, sensitivities,
-    spectral_sensitivity, with_fields,
+    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of,
+    spectral_sensitivity, with_fields, with_sensitivity,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -92,7 +92,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         },
     };
     if missed.is_none() {
-        missed = add_derivatives(options, (&source, &problem), &mut answer)?;
+        (answer, missed) = with_derivatives(options, (&source, &problem), answer)?;
     }
     if out.is_some() {
         let task = format!("fields of {path}");
@@ -116,27 +116,31 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     missed.map_or(Ok(()), |error| Err(error.context(path.to_string())))
 }
 
-/// The derivatives that were asked for, or why there are none.
-fn add_derivatives(
+/// The answer with the derivatives that were asked for, or why there are none.
+fn with_derivatives(
     options: &Run,
     (source, problem): (&Source, &Problem),
-    answer: &mut Answer,
-) -> Result<Option<anyhow::Error>> {
+    mut answer: Answer,
+) -> Result<(Answer, Option<anyhow::Error>)> {
     let path = source.path().display();
-    let mut found = Ok(());
     if options.sensitivity {
         let scene = scene_of(source, options.method)?;
         let files = (source.folder(), read_input as _);
         let task = format!("derivatives of {path}");
-        let all = progress::during(task, |_| sensitivities(&scene, files, problem, answer));
-        found = all.map(|all| answer.sensitivity = all);
+        let alone = answer.clone();
+        match progress::during(task, |_| with_sensitivity(&scene, files, problem, alone)) {
+            Ok(found) => answer = found,
+            Err(error) => return Ok((answer, Some(error.into()))),
+        }
     }
-    if options.spectral_sensitivity && found.is_ok() {
+    if options.spectral_sensitivity {
         let task = format!("derivatives of {path} by frequencies");
-        let spectral = progress::during(task, |_| spectral_sensitivity(problem, answer));
-        found = spectral.map(|spectral| answer.spectral_sensitivity = Some(spectral));
+        match progress::during(task, |_| spectral_sensitivity(problem, &answer)) {
+            Ok(found) => answer.spectral_sensitivity = Some(found),
+            Err(error) => return Ok((answer, Some(error.into()))),
+        }
     }
-    Ok(found.err().map(anyhow::Error::from))
+    Ok((answer, None))
 }
 
 /// Why a method was chosen.
@@ -165,6 +169,12 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             }
             if !answer.sensitivity.is_empty() {
                 print_line(&format!("\n{}\n", table::sensitivity(answer)))?;
+            }
+            if !answer.budget.entries.is_empty() {
+                print_line(&format!(
+                    "standard uncertainties:\n\n{}\n",
+                    table::budget(answer)
+                ))?;
             }
             if let Some(spectral) = &answer.spectral_sensitivity {
                 let (table, words) = spectrum::table(spectral);

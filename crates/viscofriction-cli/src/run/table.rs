@@ -4,14 +4,21 @@ use std::iter;
 
 use comfy_table::Table;
 use viscofriction::scene::Model;
-use viscofriction::solve::{Answer, Problem};
+use viscofriction::solve::{Answer, Problem, Uncertainties};
 use viscofriction::{ErrorParts, Estimate};
 
 use crate::output::markdown;
 
 /// One row per quantity, with its error and unit.
 pub(super) fn table(answer: &Answer) -> Table {
-    let mut table = markdown("quantity | value | error | unit");
+    let of_material = answer.budget.material();
+    let has_material = of_material.named().iter().any(|(_, known)| known.is_some());
+    let column = if has_material {
+        " | material error"
+    } else {
+        ""
+    };
+    let mut table = markdown(&format!("quantity | value | error{column} | unit"));
     let [force, area] = if answer.is_per_length {
         ["N/m", "m²/m"]
     } else {
@@ -43,13 +50,22 @@ pub(super) fn table(answer: &Answer) -> Table {
     let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
     for (name, known, unit) in rows {
         if let Some(known) = known {
-            let is_exact = known.error == 0.0;
-            let error = format!("{:.1e}", known.error);
-            let error = if is_exact { "" } else { &error };
-            table.add_row([name, &short(known.value), error, unit]);
+            let of_material = has_material.then(|| of_material.of(&name.replace(' ', "_")));
+            let errors = [
+                Some(Some(known.error).filter(|error| *error > 0.0)),
+                of_material,
+            ];
+            let errors = errors.into_iter().flatten().map(short_error);
+            let before = [name.to_owned(), short(known.value)].into_iter();
+            table.add_row(before.chain(errors).chain([unit.to_owned()]));
         }
     }
     table
+}
+
+/// Two digits, or nothing of what is exact or not known.
+fn short_error(error: Option<f64>) -> String {
+    error.map_or_else(String::new, |error| format!("{error:.1e}"))
 }
 
 /// Nine digits; the JSON has all of them.
@@ -77,6 +93,40 @@ pub(super) fn sensitivity(answer: &Answer) -> Table {
         let known = columns.iter().map(|&column| one.named()[column].1);
         let cells = known.map(|known| known.map_or_else(String::new, |known| with_bar(&known)));
         table.add_row(iter::once(one.parameter.clone()).chain(cells));
+    }
+    table
+}
+
+/// One row per source of uncertainty, with the quantities that it makes uncertain, as parts of them.
+pub(super) fn budget(answer: &Answer) -> Table {
+    let total = ("total", answer.budget.total());
+    let entries = answer.budget.entries.iter();
+    let entries = entries.map(|(source, known)| (source.name(), *known));
+    let rows: Vec<(&str, Uncertainties)> = entries.chain([total]).collect();
+    let quantities = [
+        ("friction coefficient", answer.friction_coefficient),
+        ("normal force", Some(answer.normal_force)),
+        ("indentation depth", answer.indentation_depth),
+        ("contact area", answer.contact_area),
+    ];
+    let known = |name: &str| {
+        rows.iter()
+            .any(|(_, known)| known.of(&name.replace(' ', "_")).is_some())
+    };
+    let columns = quantities.into_iter().filter(|(name, _)| known(name));
+    let columns: Vec<(&str, f64)> = columns
+        .filter_map(|(name, value)| Some((name, value?.value)))
+        .collect();
+    let heads = columns.iter().map(|(name, _)| format!(" | u of {name}"));
+    let mut table = markdown(&format!("source{}", heads.collect::<String>()));
+    for (source, known) in &rows {
+        let cells = columns.iter().map(|(name, value)| {
+            let part = known
+                .of(&name.replace(' ', "_"))
+                .map(|known| 100.0 * known / value.abs());
+            part.map_or_else(String::new, |part| format!("{part:.3} %"))
+        });
+        table.add_row(iter::once((*source).to_owned()).chain(cells));
     }
     table
 }

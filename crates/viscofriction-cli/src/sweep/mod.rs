@@ -42,6 +42,10 @@ pub(crate) struct Sweep {
         conflicts_with = "merge"
     )]
     vary: Vec<Vary>,
+    /// Also say what the covariance of the material and the uncertainties of the scene make of every point, and draw the band of
+    /// the material.
+    #[arg(long, conflicts_with = "merge")]
+    sensitivity: bool,
     /// Compute only what the file does not have yet.
     #[arg(long, conflicts_with = "merge", requires = "out")]
     resume: bool,
@@ -65,6 +69,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
     let mut plan = Plan::new(read_scene(scene)?, &options.vary, read_input)?;
+    plan.sensitivity = options.sensitivity;
     // As many points are computed at the same time.
     let at_once = plan.n_points().min(rayon::current_num_threads()) as u64;
     plan.max_memory = half_of_free_memory().map(|bytes| bytes / at_once);

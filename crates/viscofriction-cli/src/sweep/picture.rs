@@ -128,6 +128,7 @@ fn figure(table: &RowTable) -> Result<Figure> {
         label,
         values: values(name),
         errors: values(&format!("{name}_error")),
+        of_material: values(&format!("{name}_material_error")),
         theory: values(&format!("persson_{name}")),
     };
     // Over the key that has the most numbers, the first of several.
@@ -235,6 +236,8 @@ struct Drawn<'a> {
     label: &'a str,
     values: Vec<Option<f64>>,
     errors: Vec<Option<f64>>,
+    /// What the covariance of the material makes of it.
+    of_material: Vec<Option<f64>>,
     /// The same by Persson's theory, where it is known.
     theory: Vec<Option<f64>>,
 }
@@ -242,23 +245,31 @@ struct Drawn<'a> {
 impl Drawn<'_> {
     /// What was computed over these numbers in these rows, and what theory says there.
     fn series(&self, rows: &[(f64, usize)]) -> [Series; 2] {
-        let of = |values: &[Option<f64>]| -> Vec<([f64; 2], f64)> {
-            let value = |row: usize| values.get(row).copied().flatten();
-            let error = |row: usize| self.errors.get(row).copied().flatten();
-            let points = rows.iter().filter_map(|&(x, row)| {
-                let point = [x, value(row)?];
-                Some((point, error(row).unwrap_or(0.0)))
-            });
+        let at = |values: &[Option<f64>], row: usize| values.get(row).copied().flatten();
+        let known = |values: &[Option<f64>]| -> Vec<(usize, [f64; 2])> {
+            let points = rows.iter();
+            let points = points.filter_map(|&(x, row)| Some((row, [x, at(values, row)?])));
             points.collect()
         };
         let line = |dash| Line::thin(dash);
-        let (points, errors) = of(&self.values).into_iter().unzip();
+        let (rows_of_points, points): (Vec<usize>, Vec<[f64; 2]>) =
+            known(&self.values).into_iter().unzip();
+        let lengths = |values: &[Option<f64>], factor: f64| {
+            let length = |row: &usize| factor * at(values, *row).unwrap_or(0.0);
+            rows_of_points.iter().map(length).collect()
+        };
+        let has_band = self.of_material.iter().any(Option::is_some);
         let computed = Series {
             marker: Some(Marker::filled(Shape::Circle)),
-            errors,
+            errors: lengths(&self.errors, 1.0),
+            band: if has_band {
+                lengths(&self.of_material, OF_95_PERCENT)
+            } else {
+                Vec::new()
+            },
             ..Series::line(points, line(Dash::Solid), Colour::Blue)
         };
-        let theory = of(&self.theory).into_iter().map(|(point, _)| point);
+        let theory = known(&self.theory).into_iter().map(|(_, point)| point);
         let theory = Series::line(theory.collect(), line(Dash::Dashed), Colour::Blue);
         [computed, theory]
     }
@@ -287,15 +298,24 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
         series.extend([computed, theory].into_iter().filter(is_seen));
     }
     let ends = series.iter().flat_map(|one| {
-        let errors = one.errors.iter().chain(std::iter::repeat(&0.0));
-        one.points.iter().zip(errors)
+        let or_none = |lengths: &[f64], place: usize| lengths.get(place).copied().unwrap_or(0.0);
+        let length = move |place| or_none(&one.errors, place).max(or_none(&one.band, place));
+        let points = one.points.iter().enumerate();
+        points.map(move |(place, point)| (point, length(place)))
     });
     let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
     let y = Axis::linear(drawn.label, around(ends));
     let points = series.iter().flat_map(|one| &one.points);
     let x = axis(over.name, &sorted(points.map(|point| point[0])));
-    Figure::single(Chart::new(x, y, series))
+    let has_band = series.iter().any(|one| !one.band.is_empty());
+    Figure::single(Chart {
+        title: has_band.then(|| "bars: computation; band: 95 % by the moduli".to_owned()),
+        ..Chart::new(x, y, series)
+    })
 }
+
+/// Standard deviations of a normal distribution that hold 95 per cent of it to either side.
+const OF_95_PERCENT: f64 = 1.96;
 
 /// An axis with some room at its ends, so that no mark is cut by the frame.
 fn axis(key: &str, places: &[f64]) -> Axis {

@@ -338,3 +338,95 @@ fn temperatures_without_a_law_are_refused() {
         );
     }
 }
+
+/// A ball on the rubber of a fit in the folder `out`, with more at the top of the scene.
+fn ball(file: &str, more: &str) -> String {
+    format!(
+        "{more}\n[indenter.sphere]\nradius = 5e-3\n[material.file]\npath = {file:?}\n[load]\nnormal_force = 2.0\n\
+         velocity = 1e-2\n[solve]\nelements = 16\n"
+    )
+}
+
+/// A folder with a fit, and a ball on it.
+fn fitted(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("dma.csv", isotherms(0.0));
+    folder.done("fit-material dma.csv --branches 8 --out out");
+    folder.write("scene.toml", ball("out/material.toml", ""));
+    folder
+}
+
+#[test]
+fn a_fit_knows_its_moduli_and_what_is_no_covariance_is_refused() {
+    let folder = fitted("covariance");
+    let prony = prony(&folder);
+    let n = prony["branches"].as_array().expect("a list").len() + 1;
+    let rows = prony["covariance"]["relative"].as_array().expect("rows");
+    assert_eq!(rows.len(), n, "rows");
+    let method = prony["covariance"]["method"].as_str();
+    let method = method.expect("a sentence");
+    assert!(
+        method.contains("of the temperatures of isotherms"),
+        "{method}"
+    );
+    let before = "covariance.relative = [\n    [";
+    let broken = folder
+        .text("out/material.toml")
+        .replace(before, &format!("{before}1.0, "));
+    folder.write("broken.toml", broken);
+    folder.write("scene.toml", ball("broken.toml", ""));
+    folder.ends(
+        "run scene.toml",
+        2,
+        "material.prony.covariance.relative[0]: ",
+    );
+}
+
+/// Only where it is asked for.
+#[test]
+fn an_answer_has_the_error_of_its_material() {
+    let folder = fitted("material-error");
+    let name = "friction_coefficient_material_error";
+    let plain = folder.json("scene.toml");
+    assert_eq!(plain.get(name), None, "not asked for");
+    let answer = folder.json("scene.toml --sensitivity");
+    let [friction, error] = ["friction_coefficient", name].map(|name| number(&answer, name));
+    assert!(
+        (1e-6..0.3).contains(&(error / friction)),
+        "{friction} ± {error}"
+    );
+    let uncertain =
+        "uncertainty = { \"material.file.temperature\" = 0.5, \"load.normal_force\" = 0.02 }";
+    folder.write("uncertain.toml", ball("out/material.toml", uncertain));
+    let printed = folder.done("run uncertain.toml --sensitivity").stdout;
+    for source in [
+        "numerics",
+        "material",
+        "load.normal_force",
+        "material.file.temperature",
+        "total",
+    ] {
+        let row = format!("| {source} ");
+        assert!(printed.contains(&row), "{source}: {printed}");
+    }
+}
+
+#[test]
+fn a_sweep_has_the_band_of_the_material() {
+    let folder = fitted("band");
+    let vary = "--vary load.velocity=1e-3:1e-1:3:log --out v.csv";
+    folder.done(format!("sweep scene.toml --sensitivity {vary}"));
+    let header = folder.text("v.csv");
+    let name = "friction_coefficient_material_error";
+    let place = header.split(',').position(|column| column == name);
+    let errors = folder.column("v.csv", place.expect("a column"));
+    let is_known = errors.len() == 3 && errors.iter().all(|error| *error > 0.0);
+    assert!(is_known, "{errors:?}");
+    assert!(folder.text("v.svg").contains("fill-opacity"), "a band");
+    // Rows without these columns are those of another sweep.
+    folder.ends(
+        format!("sweep scene.toml --resume {vary}").as_str(),
+        2,
+        "other values",
+    );
+}

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use rheology::{PronyExpansion, RelaxationBranch, Shift};
+use rheology::{PronyExpansion, RelaxationBranch, RheologyError, Shift};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 use toml::Table;
 
-use super::SceneError;
 use super::source::checked;
+use super::{Covariance, SceneError};
 
 /// The half space; every kind may have a Poisson ratio.
 #[derive(
@@ -100,6 +100,8 @@ pub enum MaterialTable {
         shift: Option<Shift>,
         /// How well it stands for another law, where it does; the error is then in all bars.
         approximation: Option<Approximation>,
+        /// How well its moduli are known, where that was found.
+        covariance: Option<Covariance>,
     },
     /// Between spring and dashpot: G* = K (iω)^a.
     Springpot {
@@ -197,6 +199,7 @@ impl From<&PronyExpansion> for MaterialTable {
                 relative_error: expansion.relative_error,
                 time_range: expansion.time_range,
             }),
+            covariance: None,
         }
     }
 }
@@ -233,6 +236,45 @@ impl MaterialTable {
             Self::Prony { shift, .. } => *shift,
             _ => None,
         }
+    }
+
+    /// How well the moduli are known, where that was found.
+    pub const fn covariance(&self) -> Option<&Covariance> {
+        match self {
+            Self::Prony { covariance, .. } => covariance.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The same material at another temperature \[°C], by its shift law.
+    pub(crate) fn at(mut self, celsius: f64) -> Result<Self, SceneError> {
+        let key = "material.file.temperature";
+        let Self::Prony {
+            viscosity,
+            branches,
+            valid_frequencies,
+            shift: Some(shift),
+            approximation,
+            ..
+        } = &mut self
+        else {
+            let problem = "the file has no shift law, as fit-material writes it for isotherms of several temperatures";
+            return Err(SceneError::at(key, problem));
+        };
+        let wrong = |error: RheologyError| SceneError::at(key, error.to_string());
+        let factor = 10_f64.powf(shift.log10_factor(celsius).map_err(wrong)?);
+        *viscosity *= factor;
+        for branch in branches {
+            branch.relaxation_time *= factor;
+        }
+        for end in valid_frequencies.iter_mut().flatten() {
+            *end /= factor;
+        }
+        if let Some(known) = approximation {
+            known.time_range = known.time_range.map(|time| time * factor);
+        }
+        *shift = shift.about(celsius).map_err(wrong)?;
+        Ok(self)
     }
 
     /// The window of frequencies in which the material was measured, where it is given here.

@@ -2,6 +2,7 @@
 //!
 //! Tables are externally tagged, because only then an error knows the line and the key it belongs to.
 
+mod covariance;
 mod error;
 mod files;
 mod height_map;
@@ -13,12 +14,14 @@ mod motion;
 mod solve;
 mod source;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::str::FromStr;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use covariance::Covariance;
 pub use error::SceneError;
 pub use files::profile;
 pub use height_map::{HeightMapTable, HeightsAre, LengthUnit, in_file};
@@ -58,6 +61,10 @@ pub struct Scene {
     /// What is asked, and how well.
     #[serde(default)]
     pub solve: Solve,
+    /// Relative standard uncertainties ≥ 0 of numbers of the scene, by their paths in quotes such as "load.normal_force"; that of
+    /// "material.file.temperature" in K.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub uncertainty: BTreeMap<String, f64>,
 }
 
 impl Scene {
@@ -69,6 +76,7 @@ impl Scene {
             layer: None,
             load,
             solve: Solve::default(),
+            uncertainty: BTreeMap::new(),
         }
     }
 }

@@ -13,7 +13,7 @@ use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
-use super::sensitivity::{Sensitivity, SpectralSensitivity};
+use super::sensitivity::{Budget, Sensitivity, SpectralSensitivity};
 use crate::scene::{Method, Model};
 
 /// One result in SI; what a method does not know is left out.
@@ -64,10 +64,12 @@ pub struct Answer {
     pub not_modelled: Vec<&'static str>,
     /// Parts of the method that the scene did not need.
     pub left_out: Vec<Omission>,
-    /// How much it depends on the numbers of its scene, where [they](super::sensitivities()) were asked for.
+    /// How much it depends on the numbers of its scene, where [that](super::with_sensitivity()) was asked for.
     pub sensitivity: Vec<Sensitivity>,
     /// How much it depends on the modulus at each frequency, where [that](super::spectral_sensitivity()) was asked for.
     pub spectral_sensitivity: Option<SpectralSensitivity>,
+    /// What makes it uncertain, where that was asked for and its scene says what is uncertain.
+    pub budget: Budget,
     /// The finest boundary elements.
     pub(crate) grid: Option<Grid>,
     /// Those of a stationary contact.
@@ -193,6 +195,7 @@ impl Answer {
             left_out: Vec::new(),
             sensitivity: Vec::new(),
             spectral_sensitivity: None,
+            budget: Budget::default(),
             stationary: None,
             grid: None,
             fields: Fields::default(),
@@ -358,10 +361,14 @@ impl Serialize for Answer {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("method", &self.method)?;
         map.serialize_entry("model", &self.model)?;
+        let of_material = self.budget.material();
         for (name, known) in self.quantities() {
             if let Some(known) = known {
                 map.serialize_entry(name, &known.value)?;
                 map.serialize_entry(&format!("{name}_error"), &known.error)?;
+            }
+            if let Some(error) = of_material.of(name) {
+                map.serialize_entry(&format!("{name}_material_error"), &error)?;
             }
         }
         if let Some(persson) = self.rough.and_then(|rough| rough.persson) {
@@ -388,6 +395,9 @@ impl Serialize for Answer {
         }
         if let Some(spectral) = &self.spectral_sensitivity {
             map.serialize_entry("spectral_sensitivity", spectral)?;
+        }
+        if !self.budget.entries.is_empty() {
+            map.serialize_entry("budget", &self.budget)?;
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;

@@ -29,15 +29,6 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// With all times multiplied by a factor.
-    pub(crate) fn shifted(self, factor: f64) -> Self {
-        Self {
-            time_range: self.time_range.map(|time| time * factor),
-            creeps_until: self.creeps_until * factor,
-            ..self
-        }
-    }
-
     /// The part of the friction of a line contact that waves make which strain the element for longer than its series creeps,
     /// at most: the power of the waves in dq is |p̂|² ω J''(ω)/q dq ∼ q^−a dq from q = 0 to the reciprocal of the contact length.
     pub(super) fn beyond(&self, contact_time: f64) -> f64 {

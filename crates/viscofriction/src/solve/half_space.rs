@@ -11,7 +11,7 @@ use rheology::{
 
 use super::expansion::{Expansion, expanded};
 use crate::files::Files;
-use crate::scene::{Approximation, Branch, MaterialTable, SceneError, Shift, Source};
+use crate::scene::{Approximation, Branch, MaterialTable, SceneError, Source};
 use crate::text::WrongInput;
 
 /// The material of a scene.
@@ -30,6 +30,14 @@ pub struct HalfSpace {
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
+    if let MaterialTable::Prony {
+        branches,
+        covariance: Some(covariance),
+        ..
+    } = table
+    {
+        covariance.check(&table.key(), branches.len())?;
+    }
     let mut found = in_shear(table, files)?;
     let ratio = table.poisson_ratio();
     let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
@@ -50,11 +58,11 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
 }
 
 /// The material that another file holds, at its own temperature or at another one \[°C].
-fn of_file(
+pub(super) fn of_file(
     file: &Path,
     temperature: Option<f64>,
     files: &Files<'_>,
-) -> Result<HalfSpace, SceneError> {
+) -> Result<MaterialTable, SceneError> {
     let material = || {
         let (file, contents) = files.material(file)?;
         let source = Source::new(&file, contents)?;
@@ -63,35 +71,15 @@ fn of_file(
             read: no_file,
             ..*files
         };
-        let read = |table: MaterialTable| Ok((half_space(&table, &none)?, table.shift()));
-        table.and_then(read).map_err(|error| source.locate(&error))
+        let checked = |table: MaterialTable| half_space(&table, &none).map(|_| table);
+        let table = table.and_then(checked);
+        table.map_err(|error| source.locate(&error))
     };
     let wrong = |WrongInput(problem)| SceneError::at("material.file.path", problem);
-    let (found, shift) = material().map_err(wrong)?;
-    let Some(temperature) = temperature else {
-        return Ok(found);
-    };
-    let key = "material.file.temperature";
-    let shift = shift.ok_or_else(|| {
-        let problem = "the file has no shift law, as fit-material writes it for isotherms of several temperatures";
-        SceneError::at(key, problem)
-    })?;
-    found
-        .shifted(shift, temperature)
-        .map_err(|error| SceneError::at(key, error.to_string()))
-}
-
-impl HalfSpace {
-    /// The same at another temperature \[°C].
-    fn shifted(self, shift: Shift, temperature: f64) -> Result<Self, RheologyError> {
-        let factor = 10_f64.powf(shift.log10_factor(temperature)?);
-        let spectrum = self.material.relaxation().shifted(factor)?;
-        let material = Compressible::new(&Prony::new(spectrum)?, self.material.poisson_ratio())?;
-        Ok(Self {
-            material: Box::new(material),
-            window: self.window.map(|ends| ends.map(|end| end / factor)),
-            expansion: self.expansion.map(|expansion| expansion.shifted(factor)),
-        })
+    let table = material().map_err(wrong)?;
+    match temperature {
+        Some(temperature) => table.at(temperature),
+        None => Ok(table),
     }
 }
 
@@ -142,7 +130,7 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
         }
         MaterialTable::File {
             path, temperature, ..
-        } => return of_file(path, *temperature, files),
+        } => return half_space(&of_file(path, *temperature, files)?, files),
     };
     let material = material.map_err(|error| refused(&table.key(), error))?;
     Ok(HalfSpace {

@@ -39,7 +39,8 @@ pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
 pub use sensitivity::{
-    ByFrequency, Sensitivity, SpectralSensitivity, sensitivities, spectral_sensitivity,
+    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties,
+    spectral_sensitivity, with_sensitivity,
 };
 pub use with_fields::with_fields;
 

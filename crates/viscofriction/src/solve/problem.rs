@@ -11,6 +11,7 @@ use super::body::{Body, BodyOfScene, body};
 use super::error::SolveError;
 use super::expansion::Expansion;
 use super::half_space::{Simple, half_space, simple};
+use super::sensitivity::check_uncertainties;
 use crate::files::{Files, ReadFile};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::WrongInput;
@@ -133,6 +134,7 @@ impl Problem {
             max_memory: files.memory,
         };
         problem.check_control()?;
+        check_uncertainties(scene, folder, read)?;
         Ok(problem)
     }
 

@@ -4,8 +4,8 @@ use toml::{Table, Value};
 
 use super::vary::{MOST_POINTS, Varied, Vary};
 use crate::files::{Files, ReadFile};
-use crate::scene::{SceneError, Source, scene_file, split_index};
-use crate::solve::{self, Answer, Problem, plan_of, solve};
+use crate::scene::{Scene, SceneError, Source, scene_file, split_index};
+use crate::solve::{Answer, Problem, Uncertainties, plan_of, solve, with_sensitivity};
 use crate::text::WrongInput;
 
 /// Keys of a scene whose values are names of files.
@@ -19,6 +19,8 @@ pub struct Plan {
     vary: Vec<Vary>,
     /// Of the scene, the contents of the files that it names, and what varies, whatever comments and order.
     pub fingerprint: String,
+    /// Whether rows say what the covariance of the material and the uncertainties of the scene make of them.
+    pub sensitivity: bool,
     /// Memory that a point may take where the scene does not say, \[bytes].
     pub max_memory: Option<u64>,
     read: ReadFile,
@@ -57,6 +59,7 @@ impl Plan {
             source,
             table,
             vary: vary.to_vec(),
+            sensitivity: false,
             max_memory: None,
             read,
         })
@@ -104,10 +107,59 @@ impl Plan {
     /// # Errors
     /// [`WrongInput`] as of [`Self::validate`].
     pub fn solve(&self, point: usize) -> Result<SweepRow, WrongInput> {
-        let answer = solve(&self.problem(point)?);
+        let (scene, problem) = self.scene_and_problem(point)?;
+        let mut answer = solve(&problem);
+        let mut failure = answer
+            .as_ref()
+            .err()
+            .map(|error| one_line(&error.to_string()));
+        if self.sensitivity
+            && let Ok(alone) = &answer
+        {
+            let files = (self.source.folder(), self.read);
+            match with_sensitivity(&scene, files, &problem, alone.clone()) {
+                Ok(found) => answer = Ok(found),
+                Err(error) => failure = Some(one_line(&error.to_string())),
+            }
+        }
+        let found = match &answer {
+            Ok(answer) => Some(answer),
+            Err(error) => error.reached(),
+        };
         let mut fields = identity(self, point);
-        fields.extend(results(&answer));
+        fields.extend(self.results(found));
+        fields.push(failure.unwrap_or_default());
         Ok(SweepRow { point, fields })
+    }
+
+    /// The names of the columns of results.
+    fn columns(&self) -> Vec<String> {
+        let uncertainties = Uncertainties::default().named().into_iter();
+        let uncertainties = uncertainties.flat_map(|(name, _)| {
+            [
+                format!("{name}_material_error"),
+                format!("{name}_uncertainty"),
+            ]
+        });
+        let asked = uncertainties.filter(|_| self.sensitivity);
+        Answer::columns().into_iter().chain(asked).collect()
+    }
+
+    /// What comes behind the [`identity`], but for why there is none.
+    fn results(&self, found: Option<&Answer>) -> Vec<String> {
+        let Some(answer) = found else {
+            return vec![String::new(); self.columns().len() + 4];
+        };
+        let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
+        let numbers = answer.numbers().into_iter().map(|(_, value)| value);
+        let [material, total] = [answer.budget.material(), answer.budget.total()];
+        let uncertainties = material.named().into_iter().zip(total.named());
+        let uncertainties = uncertainties.flat_map(|((_, one), (_, other))| [one, other]);
+        let numbers = numbers.chain(uncertainties.filter(|_| self.sensitivity));
+        let numbers = numbers.map(|value| value.map_or(String::new(), written));
+        let warnings = one_line(&answer.warnings.join(BETWEEN_WARNINGS));
+        let after = [answer.unknowns.to_string(), warnings];
+        names.into_iter().chain(numbers).chain(after).collect()
     }
 
     /// The problem of a point.
@@ -115,14 +167,19 @@ impl Plan {
     /// # Errors
     /// [`WrongInput`] as of [`Self::validate`].
     pub fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
+        self.scene_and_problem(point).map(|(_, problem)| problem)
+    }
+
+    fn scene_and_problem(&self, point: usize) -> Result<(Scene, Problem), WrongInput> {
         let values = self.values(point);
         let mut table = self.table.clone();
         let build = || {
             for (key, value) in self.keys().zip(&values) {
                 set(&mut table, key, value)?;
             }
-            let problem = Problem::new(&scene_file(table)?, self.source.folder(), self.read)?;
-            Ok(problem.or_max_memory(self.max_memory))
+            let scene = scene_file(table)?;
+            let problem = Problem::new(&scene, self.source.folder(), self.read)?;
+            Ok((scene, problem.or_max_memory(self.max_memory)))
         };
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);
@@ -164,7 +221,7 @@ pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
     let before = before.chain([CHECK, "method", "model"]).map(str::to_owned);
     let after = ["unknowns", "warnings", "failure"].map(str::to_owned);
-    before.chain(Answer::columns()).chain(after).collect()
+    before.chain(plan.columns()).chain(after).collect()
 }
 
 /// One row of a sweep: which point it is, and what came out; times are not among the fields, because they differ from run to
@@ -197,27 +254,6 @@ impl SweepRow {
         let sentences = sentences.split(BETWEEN_WARNINGS);
         sentences.filter(|sentence| !sentence.is_empty()).collect()
     }
-}
-
-/// What comes behind the [`identity`]: the answer, or what was found and why that is none.
-fn results(answer: &solve::Result<Answer>) -> Vec<String> {
-    let (found, failure) = match answer {
-        Ok(answer) => (Some(answer), String::new()),
-        Err(error) => (error.reached(), one_line(&error.to_string())),
-    };
-    let mut fields = match found {
-        Some(answer) => {
-            let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
-            let numbers = answer.numbers().into_iter();
-            let numbers = numbers.map(|(_, value)| value.map_or(String::new(), written));
-            let warnings = one_line(&answer.warnings.join(BETWEEN_WARNINGS));
-            let after = [answer.unknowns.to_string(), warnings];
-            names.into_iter().chain(numbers).chain(after).collect()
-        }
-        None => vec![String::new(); Answer::columns().len() + 4],
-    };
-    fields.push(failure);
-    fields
 }
 
 /// Between the sentences of a cell.

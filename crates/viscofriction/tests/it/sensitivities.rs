@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use numerics::Estimate;
-use viscofriction::solve::{Sensitivity, sensitivities, spectral_sensitivity};
+use viscofriction::solve::{Sensitivity, Source, spectral_sensitivity, with_sensitivity};
 use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
 
 fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
@@ -14,8 +14,9 @@ fn answered(text: &str) -> (Answer, Result<Vec<Sensitivity>, SolveError>) {
     let scene: Scene = text.parse().expect("a scene");
     let problem = Problem::try_from(&scene).expect("a problem");
     let answer = solve(&problem).expect("an answer");
-    let known = sensitivities(&scene, (Path::new(""), no_file), &problem, &answer);
-    (answer, known)
+    let files = (Path::new(""), no_file as _);
+    let known = with_sensitivity(&scene, files, &problem, answer.clone());
+    (answer, known.map(|answer| answer.sensitivity))
 }
 
 fn of<'a>(known: &'a [Sensitivity], parameter: &str) -> &'a Sensitivity {
@@ -161,5 +162,101 @@ fn derivatives_by_frequencies_are_those_by_the_numbers_of_the_material() {
             (sum - expected.value).abs() < allowed && allowed < 0.06,
             "{name}: {sum} instead of {expected:?}, {allowed}"
         );
+    }
+}
+
+/// d³ ∝ F²/G² (Hertz 1881), with two moduli in parallel of which only the sum is known, and with the error bar in its place.
+#[test]
+fn a_budget_adds_up_its_sources() {
+    let scene = |covariance: &str, uncertainty: &str| {
+        let text = format!(
+            "indenter.paraboloid.curvature = 5.0\nload = {{ normal_force = 2.0, velocity = 0.0 }}\nsolve.duration = 1e-9\n\
+             material.prony = {{ equilibrium_modulus = 1e6, branches = [{{ modulus = 3e6, relaxation_time = 1e3 }}], \
+             covariance.relative = {covariance} }}\n{uncertainty}"
+        );
+        let scene: Scene = text.parse().expect("a scene");
+        let problem = Problem::try_from(&scene).expect("a problem");
+        let files = (Path::new(""), no_file as _);
+        let answer = solve(&problem).expect("an answer");
+        with_sensitivity(&scene, files, &problem, answer).expect("derivatives")
+    };
+    // 1e6 ± 30 % and 3e6 ∓ 10 % have the sum 4e6, and as independent ones 4e6 ± 0.424e6.
+    let uncertainty = "uncertainty.\"load.normal_force\" = 0.02";
+    for (covariance, material) in [
+        ("[[0.09, -0.03], [-0.03, 0.01]]", 0.0),
+        ("[[0.09, 0.0], [0.0, 0.01]]", 0.3 * 2.0_f64.sqrt() / 4.0),
+    ] {
+        let answer = scene(covariance, uncertainty);
+        let depth = answer.indentation_depth.expect("a depth");
+        let of = |source: &Source| {
+            let entry = answer.budget.entries.iter().find(|(one, _)| one == source);
+            let known = entry.and_then(|(_, known)| known.indentation_depth);
+            known.unwrap_or_else(|| panic!("{source:?} in {:?}", answer.budget))
+        };
+        let number = of(&Source::Number("load.normal_force".to_owned()));
+        let parts = [of(&Source::Numerics), of(&Source::Material), number];
+        let expected = [
+            depth.error / 3.0_f64.sqrt(),
+            2.0 / 3.0 * material * depth.value,
+            2.0 / 3.0 * 0.02 * depth.value,
+        ];
+        for (part, expected) in parts.into_iter().zip(expected) {
+            let off = (part - expected).abs() / depth.value;
+            assert!(off < 1e-5, "{part} and not {expected}");
+        }
+        let total = answer.budget.total().indentation_depth.expect("a total");
+        let squares: f64 = parts.iter().map(|part| part * part).sum();
+        assert!((total / squares.sqrt() - 1.0).abs() < 1e-12, "{total}");
+        let json = serde_json::to_value(&answer).expect("JSON");
+        let of_material = &json["indentation_depth_material_error"];
+        assert_eq!(of_material.as_f64(), Some(parts[1]), "{json}");
+        assert_eq!(json["budget"][3]["source"], "total", "{json}");
+    }
+}
+
+#[test]
+fn uncertainties_of_what_is_no_number_are_refused() {
+    let prony =
+        "prony = { equilibrium_modulus = 1e6, branches = [], covariance.relative = [[0.01]] }";
+    let elastic = "elastic.shear_modulus = 1e6";
+    for (material, uncertainty, needed) in [
+        (
+            elastic,
+            "\"load.normal_force\" = -0.01",
+            "uncertainty.load.normal_force must be finite and at least 0, but is -0.01",
+        ),
+        (
+            elastic,
+            "\"load.normal_force\" = nan",
+            "uncertainty.load.normal_force must be",
+        ),
+        (
+            elastic,
+            "\"load.force\" = 0.01",
+            "uncertainty.load.force: no number of the scene, which has indenter.",
+        ),
+        (
+            elastic,
+            "\"material.file.temperature\" = 0.5",
+            "only a material of a file",
+        ),
+        (elastic, "load.normal_force = 0.5", "expected a number"),
+        (
+            prony,
+            "\"material.prony.equilibrium_modulus\" = 0.1",
+            "the covariance of the material says",
+        ),
+    ] {
+        let text = format!(
+            "indenter.paraboloid.curvature = 5.0\nmaterial.{material}\nload = {{ normal_force = 2.0, velocity = 0.0 }}\n\
+             solve.duration = 1.0\nuncertainty.{uncertainty}"
+        );
+        let scene = text.parse::<Scene>().map_err(|error| error.to_string());
+        let refused = scene.and_then(|scene| {
+            let problem = Problem::try_from(&scene);
+            problem.map(drop).map_err(|error| error.to_string())
+        });
+        let refused = refused.expect_err(needed);
+        assert!(refused.contains(needed), "{needed}: {refused}");
     }
 }

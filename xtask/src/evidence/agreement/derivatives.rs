@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result};
 use toml::Value;
 use viscofriction::Estimate;
 use viscofriction::WrongInput;
-use viscofriction::solve::{Answer, Sensitivity, SolveError, sensitivities};
+use viscofriction::solve::{Answer, Sensitivity, SolveError, with_sensitivity};
 
 use super::judge::quantities;
 use super::relation::Answered;
@@ -32,13 +32,9 @@ pub(super) fn sums(first: Answered) -> Result<Vec<Sum>> {
         return Ok(Vec::new());
     }
     let problem = case.problem(first.folder)?;
-    let known = match sensitivities(
-        &case.scene,
-        (Path::new(""), no_file),
-        &problem,
-        first.answer,
-    ) {
-        Ok(known) => known,
+    let answer = first.answer.clone();
+    let known = match with_sensitivity(&case.scene, (Path::new(""), no_file), &problem, answer) {
+        Ok(answer) => answer.sensitivity,
         Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
         Err(error) => return Err(error.into()),
     };

@@ -254,6 +254,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             layer: is_thin.then_some(Layer { thickness }),
             load: Load::default(),
             solve: Solve::default(),
+            uncertainty: BTreeMap::new(),
         },
         lengths: sample.lengths.take(),
         material: of_file.transpose()?,

@@ -17,19 +17,19 @@ use crate::solve::problem::{Motion, Problem};
 const STEP: f64 = 1e-5;
 
 pub(super) fn sensitivities(
-    numbers: &Numbers,
+    (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
     load: &SlidingLoad,
     answer: &Answer,
 ) -> Result<Vec<Sensitivity>> {
     let contact = contact(problem, load, answer)?;
-    let of = |number: Number| {
-        let ends = neighbours(numbers, &number)?;
-        let change = change(&contact, &number, &ends)?;
+    let of = |number: &Number| {
+        let ends = neighbours(numbers, number)?;
+        let change = change(&contact, number, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
         Ok(relative(number.path(), answer, change, width))
     };
-    numbers.all().into_iter().map(of).collect()
+    all.iter().map(of).collect()
 }
 
 /// The contact of an answer with its adjoint loads.

@@ -14,12 +14,12 @@ use crate::solve::work::work;
 const STEP: f64 = 1e-4;
 
 pub(super) fn sensitivities(
-    numbers: &Numbers,
+    (numbers, all): (&Numbers, &[Number]),
     method: Method,
     answer: &Answer,
 ) -> Result<Vec<Sensitivity>> {
-    let all = numbers.all().into_iter();
-    all.map(|number| sensitivity(numbers, &number, method, answer))
+    let all = all.iter();
+    all.map(|number| sensitivity(numbers, number, method, answer))
         .collect()
 }
 

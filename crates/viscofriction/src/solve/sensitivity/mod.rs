@@ -1,6 +1,7 @@
 //! How much an answer depends on each number of its scene.
 
 mod adjoint;
+mod budget;
 mod differences;
 mod parameters;
 mod spectral;
@@ -15,7 +16,10 @@ use super::error::{Result, SolveError};
 use super::problem::{Motion, Problem};
 use crate::files::ReadFile;
 use crate::scene::{Method, Scene};
-use parameters::Numbers;
+use budget::budget;
+pub use budget::{Budget, Source, Uncertainties};
+pub(super) use parameters::check_uncertainties;
+use parameters::{Number, Numbers, TEMPERATURE};
 pub use spectral::{ByFrequency, SpectralSensitivity, spectral_sensitivity};
 
 /// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
@@ -40,29 +44,41 @@ pub struct Sensitivity {
     pub contact_area: Option<Estimate>,
 }
 
-/// The derivatives of an answer by all numbers of its scene that are moduli, times, ratios, loads, speeds or lengths.
+/// An answer with its derivatives by all numbers of its scene that are moduli, times, ratios, loads, speeds or lengths, and with
+/// what the covariance of its material and the uncertainties of the scene make of it, where there are some.
 ///
 /// # Errors
 /// [`SolveError::NoSensitivity`] for methods and motions without.
-pub fn sensitivities(
+pub fn with_sensitivity(
     scene: &Scene,
     (folder, read): (&Path, ReadFile),
     problem: &Problem,
-    answer: &Answer,
-) -> Result<Vec<Sensitivity>> {
+    answer: Answer,
+) -> Result<Answer> {
     let numbers = Numbers::new(scene, folder, read)?;
     let asked = answer.requested_quantity();
     let is_exact = asked.error <= EXACT * asked.value.abs();
-    match (answer.method, problem.motion()) {
+    let all = numbers.all().into_iter();
+    let all: Vec<Number> = all.chain(numbers.uncertain_temperature()).collect();
+    let mut sensitivity = match (answer.method, problem.motion()) {
         (Method::BemSteady, Motion::Sliding(load)) => {
-            adjoint::sensitivities(&numbers, problem, &load, answer)
+            adjoint::sensitivities((&numbers, &all), problem, &load, &answer)
         }
         (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
         (Method::Analytic | Method::MdrSteady, _) if is_exact => {
-            differences::sensitivities(&numbers, answer.method, answer)
+            differences::sensitivities((&numbers, &all), answer.method, &answer)
         }
         (method, _) => Err(SolveError::NoSensitivity { method }),
-    }
+    }?;
+    let material = numbers.material()?;
+    let budget = budget(&material, scene, &all, &sensitivity, &answer);
+    // Of a temperature in °C there is no logarithm.
+    sensitivity.retain(|one| one.parameter != TEMPERATURE);
+    Ok(Answer {
+        sensitivity,
+        budget,
+        ..answer
+    })
 }
 
 impl Sensitivity {

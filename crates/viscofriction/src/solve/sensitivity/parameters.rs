@@ -1,29 +1,42 @@
 //! The numbers of a scene that an answer can be differentiated by.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use numerics::not_negative;
+use rheology::KELVIN_AT_ZERO_CELSIUS;
 use toml::{Table, Value};
 
-use crate::files::ReadFile;
-use crate::scene::{Scene, SceneError};
+use crate::files::{Files, ReadFile};
+use crate::scene::{MaterialTable, Scene, SceneError};
+use crate::solve::half_space::of_file;
 use crate::solve::problem::Problem;
 
 /// Tables with moduli, times, loads, speeds and lengths.
 const TABLES: [&str; 5] = ["indenter", "material", "layer", "load", "solve"];
 /// Keys below them that are none of these: ranges of the material, and what chooses rather than describes.
-const OTHERS: [&str; 7] = [
+const OTHERS: [&str; 9] = [
     "approximation",
+    "covariance",
     "relative_error",
     "shortest_wavelength",
     "seed",
+    "shift",
     "temperature",
     "time_range",
     "valid_frequencies",
 ];
 
+/// The temperature of the material of a file, by which an answer is differentiated only where it is uncertain.
+pub(super) const TEMPERATURE: &str = "material.file.temperature";
+
 /// A scene, and the files that it names.
 pub(super) struct Numbers<'a> {
+    /// The material of a file is that of the scene itself.
     scene: Table,
+    /// The scene as it is written, and the temperature of its material, \[K], where that may be another one.
+    of_file: Option<(Table, f64)>,
+    uncertainty: BTreeMap<String, f64>,
     folder: &'a Path,
     read: ReadFile,
 }
@@ -44,13 +57,64 @@ enum Step {
 
 impl<'a> Numbers<'a> {
     pub(super) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
-        let scene = Table::try_from(scene);
-        let scene = scene.map_err(|error| SceneError::at("scene", error.to_string()))?;
+        let mut scene = scene.clone();
+        // What is uncertain is asked of the scene, and of no other value of its numbers.
+        let uncertainty = std::mem::take(&mut scene.uncertainty);
+        let written = as_table(&scene)?;
+        let (resolved, celsius) = without_file(scene, folder, read)?;
         Ok(Self {
-            scene,
+            scene: resolved,
+            of_file: celsius.map(|celsius| (written, celsius + KELVIN_AT_ZERO_CELSIUS)),
+            uncertainty,
             folder,
             read,
         })
+    }
+
+    /// The material of the scene or of its file.
+    pub(super) fn material(&self) -> Result<MaterialTable, SceneError> {
+        Ok(Scene::try_from(self.scene.clone())?.material)
+    }
+
+    /// The temperature of the material of a file, \[K], where the scene says how uncertain it is.
+    pub(super) fn uncertain_temperature(&self) -> Option<Number> {
+        let (_, kelvin) = self.of_file.as_ref()?;
+        let is_uncertain = self.uncertainty.contains_key(TEMPERATURE);
+        is_uncertain.then(|| Number {
+            steps: TEMPERATURE
+                .split('.')
+                .map(|key| Step::Key(key.to_owned()))
+                .collect(),
+            value: *kelvin,
+        })
+    }
+
+    /// Refuses uncertainties that are none, and those of what is no number of the scene.
+    fn check(&self) -> Result<(), SceneError> {
+        let known: Vec<String> = self.all().iter().map(Number::path).collect();
+        let has_covariance = self.material()?.covariance().is_some();
+        for (path, value) in &self.uncertainty {
+            let key = format!("uncertainty.{path}");
+            not_negative("", *value).map_err(|refused| SceneError::value(key.clone(), refused))?;
+            let problem = match &path[..] {
+                TEMPERATURE if self.of_file.is_some() => continue,
+                TEMPERATURE => {
+                    "only a material of a file with a shift law has another temperature".to_owned()
+                }
+                _ if !known.contains(path) => {
+                    format!("no number of the scene, which has {}", known.join(", "))
+                }
+                _ if has_covariance
+                    && path.starts_with("material.")
+                    && path.ends_with("modulus") =>
+                {
+                    "the covariance of the material says how well its moduli are known".to_owned()
+                }
+                _ => continue,
+            };
+            return Err(SceneError::at(key, problem));
+        }
+        Ok(())
     }
 
     pub(super) fn all(&self) -> Vec<Number> {
@@ -65,7 +129,12 @@ impl<'a> Numbers<'a> {
 
     /// The problem with another value of a number.
     pub(super) fn problem(&self, number: &Number, value: f64) -> Result<Problem, SceneError> {
-        let mut scene = self.scene.clone();
+        let (mut scene, value) = match &self.of_file {
+            Some((written, _)) if number.is_temperature() => {
+                (written.clone(), value - KELVIN_AT_ZERO_CELSIUS)
+            }
+            _ => (self.scene.clone(), value),
+        };
         let mut steps = number.steps.iter();
         let first = steps.next().and_then(|step| match step {
             Step::Key(key) => scene.get_mut(key),
@@ -73,7 +142,10 @@ impl<'a> Numbers<'a> {
         });
         let place = steps.try_fold(first, |place, step| {
             Some(match (place, step) {
-                (Some(Value::Table(table)), Step::Key(key)) => table.get_mut(key),
+                (Some(Value::Table(table)), Step::Key(key)) => {
+                    // A temperature may be that of the file, and left out.
+                    Some(table.entry(key.clone()).or_insert(Value::Float(value)))
+                }
                 (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
                 _ => None,
             })
@@ -83,6 +155,60 @@ impl<'a> Numbers<'a> {
         }
         Problem::new(&Scene::try_from(scene)?, self.folder, self.read)
     }
+}
+
+/// Refuses uncertainties of a scene that are none, and those of what is no number of it.
+pub(crate) fn check_uncertainties(
+    scene: &Scene,
+    folder: &Path,
+    read: ReadFile,
+) -> Result<(), SceneError> {
+    if scene.uncertainty.is_empty() {
+        return Ok(());
+    }
+    Numbers::new(scene, folder, read)?.check()
+}
+
+/// A scene as keys and values, without the file that its material comes from, and the temperature of the material \[°C] where a
+/// file has a shift law.
+fn without_file(
+    mut scene: Scene,
+    folder: &Path,
+    read: ReadFile,
+) -> Result<(Table, Option<f64>), SceneError> {
+    let MaterialTable::File {
+        path,
+        temperature,
+        poisson_ratio,
+        valid_frequencies,
+    } = &scene.material
+    else {
+        return Ok((as_table(&scene)?, None));
+    };
+    let window = valid_frequencies.map(|ends| Value::from(ends.to_vec()));
+    let given = [
+        ("poisson_ratio", poisson_ratio.map(Value::Float)),
+        ("valid_frequencies", window),
+    ];
+    let files = Files::of(&scene, folder, read)?;
+    scene.material = of_file(path, *temperature, &files)?;
+    let mut table = as_table(&scene)?;
+    let kinds = table.get_mut("material").and_then(Value::as_table_mut);
+    for (_, kind) in kinds.into_iter().flatten() {
+        let keys = given
+            .iter()
+            .filter_map(|(key, value)| Some((*key, value.clone()?)));
+        for (key, value) in keys {
+            kind.as_table_mut()
+                .map(|kind| kind.insert(key.to_owned(), value));
+        }
+    }
+    let celsius = scene.material.shift().map(|shift| shift.temperature);
+    Ok((table, celsius))
+}
+
+fn as_table(scene: &Scene) -> Result<Table, SceneError> {
+    Table::try_from(scene).map_err(|error| SceneError::at("scene", error.to_string()))
 }
 
 fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
@@ -118,6 +244,19 @@ impl Number {
             }
         }
         path
+    }
+
+    fn is_temperature(&self) -> bool {
+        self.path() == TEMPERATURE
+    }
+
+    /// A standard uncertainty as a part of the number; that of a temperature is in K.
+    pub(super) fn relative(&self, given: f64) -> f64 {
+        if self.is_temperature() {
+            given / self.value
+        } else {
+            given
+        }
     }
 
     /// The first and the last key.

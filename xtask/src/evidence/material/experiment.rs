@@ -1,0 +1,314 @@
+//! One experiment: a material that is known, measured with errors, fitted, and slid over.
+
+use std::f64::consts::{LN_10, TAU};
+use std::path::Path;
+
+use anyhow::{Context as _, Result};
+use measurements::moduli::{Shifting, master_curve};
+use rheology::fit::{Identification, IdentifyOptions, Isotherm, ModulusPoint, identify};
+use rheology::{RelaxationBranch, RelaxationSpectrum, WlfShift};
+use serde::{Deserialize, Serialize};
+use viscofriction::WrongInput;
+use viscofriction::scene::{Branch, Covariance, MaterialTable, Scene};
+use viscofriction::solve::{Answer, Problem, solve, with_sensitivity};
+
+use crate::random::Random;
+
+/// What `experiments.toml` holds.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Experiments {
+    pub(super) count: u32,
+    pub(super) quick_count: u32,
+    noise: [f64; 2],
+    temperature: [f64; 2],
+    factor: [f64; 2],
+    isotherms: [f64; 2],
+    step: [f64; 2],
+    points: [f64; 2],
+    frequency: [f64; 2],
+    wlf: [f64; 2],
+    inside: [f64; 2],
+    outside: [f64; 2],
+    material: Vec<TrueMaterial>,
+    scene: Scene,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TrueMaterial {
+    name: String,
+    equilibrium_modulus: f64,
+    per_decade: f64,
+    #[serde(default)]
+    peaks: Vec<Peak>,
+    power: Option<Power>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Peak {
+    modulus: f64,
+    time: f64,
+    decades: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Power {
+    modulus: f64,
+    exponent: f64,
+}
+
+/// What came of an experiment.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Found {
+    pub(super) material: String,
+    pub(super) isotherms: usize,
+    noise_storage: f64,
+    noise_loss: f64,
+    temperature_scatter_k: f64,
+    factor_scatter: f64,
+    branches: usize,
+    velocity_m_per_s: f64,
+    friction: f64,
+    true_friction: f64,
+    /// Standard uncertainty of the friction by the covariance of the moduli.
+    pub(super) material_error: f64,
+    /// Deviation over this uncertainty.
+    pub(super) deviation: f64,
+    /// Whether the answer beyond the window says so.
+    pub(super) warns_outside: bool,
+}
+
+impl Found {
+    pub(super) fn relative_error(&self) -> f64 {
+        self.material_error / self.friction
+    }
+}
+
+/// Decades of τ of the true materials.
+const DECADES: [f64; 2] = [-9.0, 3.0];
+/// Temperature of the middle isotherm, at which the material is wanted, \[°C].
+const WANTED: f64 = 20.0;
+
+impl TrueMaterial {
+    fn spectrum(&self) -> Result<RelaxationSpectrum> {
+        let n = ((DECADES[1] - DECADES[0]) * self.per_decade).round();
+        let decades = std::iter::successors(Some(0.0), |k| Some(k + 1.0));
+        let decades = decades.take_while(|k| *k <= n);
+        let branch = |k: f64| {
+            let decade = DECADES[0] + k / self.per_decade;
+            let peaks = self.peaks.iter().map(|peak| {
+                let distance = (decade - peak.time.log10()) / peak.decades;
+                peak.modulus * (-distance * distance).exp()
+            });
+            let power = self.power.as_ref();
+            let power = power.map_or(0.0, |power| {
+                power.modulus * 10_f64.powf(-power.exponent * decade)
+            });
+            RelaxationBranch::new(peaks.sum::<f64>() + power, 10_f64.powf(decade))
+        };
+        let branches = decades.map(branch).collect();
+        Ok(RelaxationSpectrum::new(
+            self.equilibrium_modulus,
+            0.0,
+            branches,
+        )?)
+    }
+}
+
+/// The numbers of one experiment, drawn in this order.
+struct Drawn {
+    random: Random,
+    isotherms: usize,
+    noise: [f64; 2],
+    temperature: f64,
+    factor: f64,
+}
+
+impl Experiments {
+    /// The experiment of a number.
+    pub(super) fn run(&self, number: u32) -> Result<Found> {
+        let mut random = Random::new(u64::from(number));
+        let n_isotherms = self.isotherms[0]
+            + (random.uniform() * (self.isotherms[1] - self.isotherms[0] + 1.0)).floor();
+        let drawn = Drawn {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a handful"
+            )]
+            isotherms: n_isotherms as usize,
+            noise: [random.between(self.noise), random.between(self.noise)],
+            temperature: random.between(self.temperature),
+            factor: random.between(self.factor),
+            random,
+        };
+        let material = &self.material[number as usize % self.material.len()];
+        let found = self.fitted(material, drawn);
+        found.with_context(|| format!("experiment {number}"))
+    }
+
+    fn fitted(&self, material: &TrueMaterial, mut drawn: Drawn) -> Result<Found> {
+        let truth = material.spectrum()?;
+        let isotherms = self.measured(&truth, &mut drawn)?;
+        let (fit, window) = fit(&isotherms)?;
+        let [true_table, fitted_table] = [
+            series(&truth, None, window),
+            series(&fit.spectrum, Some(&fit), window),
+        ];
+        let part = drawn.random.between(self.inside);
+        let omega = (window[0].ln() + part * (window[1] / window[0]).ln()).exp();
+        let velocity = self.velocity(&truth, omega)?;
+        let known = answered(&self.slid(&true_table, velocity), false)?;
+        let found = answered(&self.slid(&fitted_table, velocity), true)?;
+        let factor = drawn.random.between(self.outside);
+        let omega = if drawn.random.uniform() < 0.5 {
+            window[0] / factor
+        } else {
+            window[1] * factor
+        };
+        let beyond = answered(
+            &self.slid(&fitted_table, self.velocity(&truth, omega)?),
+            false,
+        )?;
+        let friction = |answer: &Answer| {
+            answer
+                .friction_coefficient
+                .context("a friction")
+                .map(|mu| mu.value)
+        };
+        let [friction, true_friction] = [friction(&found)?, friction(&known)?];
+        let material_error = found.budget.material().friction_coefficient;
+        let material_error = material_error.context("a covariance")?;
+        Ok(Found {
+            material: material.name.clone(),
+            isotherms: drawn.isotherms,
+            noise_storage: drawn.noise[0],
+            noise_loss: drawn.noise[1],
+            temperature_scatter_k: drawn.temperature,
+            factor_scatter: drawn.factor,
+            branches: fit.spectrum.branches().len(),
+            velocity_m_per_s: velocity,
+            friction,
+            true_friction,
+            material_error,
+            deviation: (friction - true_friction) / material_error,
+            warns_outside: beyond
+                .warnings
+                .iter()
+                .any(|one| one.contains("was not measured")),
+        })
+    }
+
+    /// The isotherms as they are measured.
+    fn measured(&self, truth: &RelaxationSpectrum, drawn: &mut Drawn) -> Result<Vec<Isotherm>> {
+        let law = WlfShift::new(self.wlf[0], self.wlf[1], WANTED)?;
+        let step = drawn.random.between(self.step);
+        let n_points = drawn.random.between(self.points).round();
+        let ratio = (self.frequency[1] / self.frequency[0]).ln() / (n_points - 1.0);
+        let middle = (drawn.isotherms / 2) as f64;
+        let isotherm = |place: usize| {
+            let temperature = WANTED + step * (place as f64 - middle);
+            let own = temperature + drawn.temperature * normal(&mut drawn.random);
+            let log_factor = LN_10 * law.log10_factor(own)?;
+            let factor = 1.0 + drawn.factor * normal(&mut drawn.random);
+            let places = std::iter::successors(Some(0.0), |k| Some(k + 1.0));
+            let points = places.take_while(|k| *k < n_points).map(|k| {
+                let omega = TAU * self.frequency[0] * (ratio * k).exp();
+                let modulus = truth.complex_modulus(omega * log_factor.exp())?;
+                let [storage, loss] = drawn
+                    .noise
+                    .map(|noise| factor * (1.0 + noise * normal(&mut drawn.random)));
+                Ok(ModulusPoint {
+                    angular_frequency: omega,
+                    storage: modulus.storage * storage,
+                    loss: modulus.loss * loss,
+                })
+            });
+            let points = points.collect::<Result<_>>()?;
+            Ok(Isotherm {
+                temperature,
+                points,
+            })
+        };
+        (0..drawn.isotherms).map(isotherm).collect()
+    }
+
+    /// The speed at which the radius of Hertz' contact is passed in 1/ω.
+    fn velocity(&self, truth: &RelaxationSpectrum, omega: f64) -> Result<f64> {
+        let modulus = truth.complex_modulus(omega)?;
+        let modulus = modulus.storage.hypot(modulus.loss);
+        let force = self.scene.load.normal_force.context("a force")?;
+        Ok(omega * (3.0 * force * RADIUS / (16.0 * modulus)).cbrt())
+    }
+
+    fn slid(&self, material: &MaterialTable, velocity: f64) -> Scene {
+        let mut scene = self.scene.clone();
+        scene.material = material.clone();
+        scene.load.velocity = Some(velocity);
+        scene
+    }
+}
+
+/// The series of isotherms as `fit-material` finds it, and the window of frequencies.
+fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
+    let shifting = Shifting {
+        reference_temperature: Some(WANTED),
+        law: None,
+    };
+    let curve = master_curve(isotherms, true, shifting)?.master.curve;
+    let found = identify(&curve, &IdentifyOptions::default())?;
+    Ok((found, curve.frequencies()))
+}
+
+/// Of the ball, \[m]; only for the speed.
+const RADIUS: f64 = 5e-3;
+
+/// A number from the standard normal distribution (Box & Muller 1958).
+fn normal(random: &mut Random) -> f64 {
+    let radius = (-2.0 * (1.0 - random.uniform()).ln()).sqrt();
+    radius * (TAU * random.uniform()).cos()
+}
+
+/// The material of a scene, measured in a window.
+fn series(
+    spectrum: &RelaxationSpectrum,
+    fit: Option<&Identification>,
+    window: [f64; 2],
+) -> MaterialTable {
+    let branch = |one: &RelaxationBranch| Branch {
+        modulus: one.modulus,
+        relaxation_time: one.relaxation_time,
+    };
+    let covariance = fit.and_then(|fit| fit.covariance.as_ref());
+    MaterialTable::Prony {
+        equilibrium_modulus: spectrum.equilibrium_modulus(),
+        viscosity: 0.0,
+        branches: spectrum.branches().iter().map(branch).collect(),
+        poisson_ratio: 0.5,
+        valid_frequencies: Some(window),
+        shift: None,
+        approximation: None,
+        covariance: covariance.map(|known| Covariance {
+            relative: known.relative.clone(),
+            method: Some(known.in_words()),
+        }),
+    }
+}
+
+fn answered(scene: &Scene, with_derivatives: bool) -> Result<Answer> {
+    let problem = Problem::try_from(scene)?;
+    let answer = solve(&problem)?;
+    if !with_derivatives {
+        return Ok(answer);
+    }
+    let no_file = |path: &Path, _| Err(WrongInput(format!("{}: no file", path.display())));
+    Ok(with_sensitivity(
+        scene,
+        (Path::new(""), no_file),
+        &problem,
+        answer,
+    )?)
+}

@@ -1,0 +1,122 @@
+//! Whether the band that the covariance of a fitted material gives a friction coefficient holds the friction of the true material.
+
+mod experiment;
+
+use anyhow::Result;
+use serde::Serialize;
+
+use super::{Report, Table};
+use crate::tasks::in_parallel;
+use experiment::{Experiments, Found};
+
+/// Standard deviations of a normal distribution that hold 95 per cent of it to either side.
+const OF_95_PERCENT: f64 = 1.96;
+/// The shares that are asked for.
+const ASKED: [f64; 2] = [0.92, 0.98];
+/// Standard deviations by which a share of a few experiments may miss them by chance.
+const CHANCE: f64 = 3.0;
+
+/// Experiments that have something in common.
+#[derive(Debug, Serialize)]
+struct Group {
+    experiments: String,
+    number: usize,
+    inside_95_percent_band: f64,
+    inside_68_percent_band: f64,
+    median_relative_material_error: f64,
+    warns_outside: f64,
+}
+
+/// Measures, fits and slides all experiments; a quick run takes a few.
+pub(super) fn report(quick: bool) -> Result<Report> {
+    let experiments: Experiments = toml::from_str(include_str!("experiments.toml"))?;
+    let count = if quick {
+        experiments.quick_count
+    } else {
+        experiments.count
+    };
+    let numbers: Vec<u32> = (0..count).collect();
+    let found = in_parallel("fitted materials", &numbers, |number| {
+        experiments.run(*number)
+    })?;
+    let groups = groups(&found);
+    let table = Table::new("material_groups", &groups)?;
+    let columns = "experiments number inside_95_percent_band inside_68_percent_band \
+                   median_relative_material_error warns_outside";
+    let all = &groups[0];
+    let chance = CHANCE * (0.05 * 0.95 / all.number as f64).sqrt();
+    let chance = if quick { chance } else { 0.0 };
+    let share = all.inside_95_percent_band;
+    let holds =
+        share >= ASKED[0] - chance && share <= ASKED[1] + chance && all.warns_outside >= 1.0;
+    let [lowest, highest] = ASKED.map(|share| 100.0 * share);
+    let verdict = if holds { "as asked" } else { "NOT as asked" };
+    let summary = format!(
+        "{:.1} % of {} true frictions are inside the 95 % band ({lowest} to {highest} % asked): {verdict}\n{}",
+        100.0 * share,
+        all.number,
+        table.markdown(columns)?
+    );
+    let failure =
+        (!holds).then(|| "the material error of fitted materials is not as asked".to_owned());
+    Ok(Report {
+        name: "material",
+        tables: vec![table, Table::new("material", &found)?],
+        summary,
+        failure,
+        ..Report::default()
+    })
+}
+
+/// All experiments, those of each material, and those of each number of isotherms.
+fn groups(found: &[Found]) -> Vec<Group> {
+    let mut groups = vec![Group::of("all", found.iter())];
+    let mut materials: Vec<&str> = found.iter().map(|one| &*one.material).collect();
+    materials.sort_unstable();
+    materials.dedup();
+    for material in materials {
+        groups.push(Group::of(
+            material,
+            found.iter().filter(|one| one.material == material),
+        ));
+    }
+    let mut isotherms: Vec<usize> = found.iter().map(|one| one.isotherms).collect();
+    isotherms.sort_unstable();
+    isotherms.dedup();
+    for number in isotherms {
+        let of_them = found.iter().filter(|one| one.isotherms == number);
+        groups.push(Group::of(&format!("{number} isotherms"), of_them));
+    }
+    groups
+}
+
+impl Group {
+    fn of<'a>(name: &str, found: impl Iterator<Item = &'a Found>) -> Self {
+        let found: Vec<&Found> = found.collect();
+        let share = |is: &dyn Fn(&Found) -> bool| {
+            found.iter().filter(|one| is(one)).count() as f64 / found.len() as f64
+        };
+        let mut errors: Vec<f64> = found.iter().map(|one| one.relative_error()).collect();
+        errors.sort_by(f64::total_cmp);
+        Self {
+            experiments: name.to_owned(),
+            number: found.len(),
+            inside_95_percent_band: share(&|one| one.deviation.abs() <= OF_95_PERCENT),
+            inside_68_percent_band: share(&|one| one.deviation.abs() <= 1.0),
+            median_relative_material_error: errors[errors.len() / 2],
+            warns_outside: share(&|one| one.warns_outside),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::report;
+
+    /// A share that is off by more than chance, or an answer beyond the window without a warning, is a failure.
+    #[test]
+    fn the_bands_of_a_few_fitted_materials_hold() {
+        let report = report(true).expect("fits and answers");
+        assert_eq!(report.failure, None, "{}", report.summary);
+    }
+}
