@@ -8,6 +8,7 @@ mod indentation;
 mod input;
 mod material;
 mod output;
+mod page;
 mod progress;
 mod run;
 mod surface;

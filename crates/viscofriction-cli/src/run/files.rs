@@ -5,37 +5,54 @@ use std::iter;
 use anyhow::Result;
 use viscofriction::Estimate;
 use viscofriction::npy::to_npy;
+use viscofriction::scene::Source;
 use viscofriction::solve::{Answer, Curve, HistoryRow, Problem};
 
-use super::{Timed, pictures, spectrum};
+use super::{Timed, pictures, report, spectrum};
+use viscofriction_plot::Figure;
+
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
-pub(super) const NAMES: &str = "result.json history.csv history.svg history.png history_over_time.svg history_over_time.png \
+pub(super) const NAMES: &str = "result.json report.html history.csv history.svg history.png history_over_time.svg history_over_time.png \
     motion.csv motion.svg motion.png motion_over_time.svg motion_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
     spectral_sensitivity.csv spectral_sensitivity.svg spectral_sensitivity.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
 
-/// Writes what the answer has; result.json comes last: with it the others are there.
-pub(super) fn write(problem: &Problem, timed: &Timed<'_>, out: &OutputFolder) -> Result<()> {
+/// Pictures by the names of their files.
+pub(super) type Pictures = Vec<(&'static str, Figure)>;
+
+/// Writes what the answer has and the page that shows it all; result.json comes last: with it the others are there.
+pub(super) fn write(
+    (source, problem): (&Source, &Problem),
+    timed: &Timed<'_>,
+    out: &OutputFolder,
+) -> Result<()> {
     let answer = timed.answer;
+    let mut pictures = Pictures::new();
     if let Some(spectral) = &answer.spectral_sensitivity {
         let (names, columns): (Vec<String>, Vec<Vec<f64>>) = spectral.columns().into_iter().unzip();
         let row = |band: usize| columns.iter().map(move |values| values[band]);
         let rows = (0..spectral.bands.len()).map(|band| row(band).collect::<Vec<f64>>());
         out.write("spectral_sensitivity.csv", &to_csv(&names.join(" "), rows)?)?;
-        out.draw("spectral_sensitivity", &spectrum::figure(problem, spectral))?;
+        let figure = spectrum::figure(problem, spectral);
+        pictures.push(("spectral_sensitivity", figure));
     }
-    write_pressure(answer, out)?;
-    write_line(answer, out)?;
-    write_history(answer, out)?;
+    write_pressure(answer, (out, &mut pictures))?;
+    write_line(answer, (out, &mut pictures))?;
+    write_history(answer, (out, &mut pictures))?;
+    for (name, figure) in &pictures {
+        out.draw(name, figure)?;
+    }
+    let page = report::page((source, problem), timed, &pictures)?;
+    out.write("report.html", page.as_bytes())?;
     let result = format!("{}\n", serde_json::to_string_pretty(timed)?);
     out.write("result.json", result.as_bytes())
 }
 
-fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
+fn write_pressure(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
     };
@@ -55,11 +72,12 @@ fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
     out.write("pressure.npy", &to_npy(&pressures, &[y.len(), x.len()]))?;
     out.write("pressure_x.npy", &to_npy(&x, &[x.len()]))?;
     out.write("pressure_y.npy", &to_npy(&y, &[y.len()]))?;
-    out.draw("pressure", &pictures::pressure(answer, field)?)
+    pictures.push(("pressure", pictures::pressure(answer, field)?));
+    Ok(())
 }
 
 /// What is known along a line: the name of its files, its column in tables, and its label on axes.
-fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
+fn write_line(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
     let (load, pressure) = (&answer.fields.line_load, &answer.fields.line_pressure);
     let load = ("line_load", "load_n_per_m", "load per length [N/m]", load);
     let pressure = ("line_pressure", "pressure_pa", "pressure [Pa]", pressure);
@@ -72,7 +90,7 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
         let array = to_npy(&points.concat(), &[points.len(), 2]);
         out.write(&format!("{name}.npy"), &array)?;
         let figure = pictures::curve("position x [m]", label, points.clone());
-        out.draw(name, &figure)?;
+        pictures.push((name, figure));
     }
     Ok(())
 }
@@ -92,7 +110,7 @@ fn write_columns(curve: &Curve, out: &OutputFolder) -> Result<()> {
 }
 
 /// A motion: its points with their errors, and of all steps the friction force over the position and over time.
-fn write_motion(answer: &Answer, out: &OutputFolder) -> Result<()> {
+fn write_motion(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
     write_columns(&answer.fields.curve, out)?;
     let steps = &answer.fields.motion_steps;
     let force = "tangential force F_t [N]";
@@ -104,13 +122,14 @@ fn write_motion(answer: &Answer, out: &OutputFolder) -> Result<()> {
         let points = points.map(|step| [step[axis], step[2]]);
         pictures::curve(x, force, points.collect())
     };
-    out.draw("motion", &over("position x [m]", 1))?;
-    out.draw("motion_over_time", &over("time t [s]", 0))
+    pictures.push(("motion", over("position x [m]", 1)));
+    pictures.push(("motion_over_time", over("time t [s]", 0)));
+    Ok(())
 }
 
 /// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
 /// and the one that was found over time.
-fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
+fn write_curve(curve: &Curve, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
     write_columns(curve, out)?;
     let times = &curve.times;
     let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
@@ -122,10 +141,8 @@ fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
             .iter()
             .zip(force)
             .map(|(depth, force)| [depth.value, force.value]);
-        out.draw(
-            "history",
-            &pictures::points(labels[1], labels[0], points.collect()),
-        )?;
+        let figure = pictures::points(labels[1], labels[0], points.collect());
+        pictures.push(("history", figure));
     }
     let is_found = depth.iter().any(|depth| depth.error > 0.0);
     let found = if is_found { depth } else { force };
@@ -138,15 +155,16 @@ fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
         labels[usize::from(is_found)],
         points.collect(),
     );
-    out.draw("history_over_time", &figure)
+    pictures.push(("history_over_time", figure));
+    Ok(())
 }
 
-fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
+fn write_history(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
     if !answer.fields.motion_steps.is_empty() {
-        return write_motion(answer, out);
+        return write_motion(answer, (out, pictures));
     }
     if !answer.fields.curve.times.is_empty() {
-        return write_curve(&answer.fields.curve, out);
+        return write_curve(&answer.fields.curve, (out, pictures));
     }
     let rows = &answer.fields.history;
     if rows.is_empty() {
@@ -156,5 +174,6 @@ fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
     let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];
     let points = rows.iter().map(point).collect();
     let figure = pictures::curve("sliding distance s [m]", "friction coefficient μ", points);
-    out.draw("history", &figure)
+    pictures.push(("history", figure));
+    Ok(())
 }

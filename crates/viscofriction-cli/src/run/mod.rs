@@ -2,6 +2,7 @@
 
 mod files;
 mod pictures;
+mod report;
 mod spectrum;
 mod table;
 
@@ -19,7 +20,7 @@ use viscofriction::solve::{
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
-use crate::output::{ABOUT_WARNINGS, OutputFolder, markdown, print_line, say};
+use crate::output::{ABOUT_WARNINGS, OutputFolder, print_line, say};
 use crate::progress;
 pub(crate) use pictures::{around, arrow};
 
@@ -104,7 +105,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let answer = Timed { answer, seconds };
     // Before anything is printed, because a pipe that is closed ends the program.
     if let Some(out) = &out {
-        files::write(&problem, &answer, out)?;
+        files::write((&source, &problem), &answer, out)?;
     }
     print(&problem, &answer, options.format)?;
     if let (Some(out), Format::Table) = (&out, options.format) {
@@ -195,11 +196,7 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
 
 /// Says what the scene did not need; a result as JSON stays alone on the standard output.
 fn explain(problem: &Problem, answer: &Answer, format: Format) -> Result<()> {
-    let mut omissions = markdown("left out | because | what that saves");
-    for &omission in &answer.left_out {
-        let saved = omission.saves(problem, answer);
-        omissions.add_row([omission.name(), omission.because().to_owned(), saved]);
-    }
+    let omissions = table::omissions(problem, answer);
     match format {
         Format::Json => say(&omissions.to_string()),
         Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,

@@ -75,12 +75,12 @@ pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
     let percent = |part: f64| format!("{:.1} %", 100.0 * part);
     let rest = percent((all - shown) / all);
     let mut words =
-        format!("of the absolute values of the friction, bands without a row have {rest}");
+        format!("Of the absolute values of the friction, bands without a row have {rest}");
     if let Some(outside) = spectral.outside_valid_frequencies {
         let outside = percent(outside);
         words += &format!(", and frequencies at which the material was not measured {outside}");
     }
-    (table, words)
+    (table, words + ".")
 }
 
 /// The master curve, and below it the derivatives of the friction by both moduli per decade of frequency.
@@ -90,18 +90,7 @@ pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figur
         .collect();
     let ends = bands.iter().flat_map(|band| band.frequencies);
     let x = Axis::decades("angular frequency ω [rad/s]", ends);
-    let solid = Line::thick(Dash::Solid);
-    let moduli = master_curve(problem, x.range);
-    let master = [0, 1].map(|part| {
-        let points = moduli.iter().map(|row| [row[0], row[1 + part]]);
-        let points = points.filter(|point| point[1] > 0.0).collect();
-        Series::line(points, solid, COLOURS[part]).labelled(["G′", "G″"][part])
-    });
-    let y = Axis::decades(
-        "modulus [Pa]",
-        master.iter().flat_map(|s| &s.points).map(|p| p[1]),
-    );
-    let above = Chart::new(x.clone(), y, master.into());
+    let above = master_curve(problem, x.clone());
     let by = [0, 1].map(|part| per_decade(&bands, part));
     let ends = by.iter().flat_map(|series| {
         let pairs = series.points.iter().zip(&series.errors);
@@ -140,9 +129,9 @@ fn per_decade(bands: &[&ByFrequency], part: usize) -> Series {
     .labelled(["by ln G′", "by ln G″"][part])
 }
 
-/// Frequency, storage and loss modulus where they are known.
-fn master_curve(problem: &Problem, range: [f64; 2]) -> Vec<[f64; 3]> {
-    let [first, last] = range.map(|end| (POINTS_PER_DECADE * end.log10()).round());
+/// Storage and loss modulus where they are known.
+pub(super) fn master_curve(problem: &Problem, x: Axis) -> Chart {
+    let [first, last] = x.range.map(|end| (POINTS_PER_DECADE * end.log10()).round());
     #[expect(clippy::cast_possible_truncation, reason = "logarithms of numbers")]
     let points = first as i32..=last as i32;
     let at = |index: i32| {
@@ -150,5 +139,15 @@ fn master_curve(problem: &Problem, range: [f64; 2]) -> Vec<[f64; 3]> {
         let modulus = problem.material().complex_modulus(frequency).ok()?;
         Some([frequency, modulus.storage, modulus.loss])
     };
-    points.filter_map(at).collect()
+    let moduli: Vec<[f64; 3]> = points.filter_map(at).collect();
+    let curves = [0, 1].map(|part| {
+        let points = moduli.iter().map(|row| [row[0], row[1 + part]]);
+        let points = points.filter(|point| point[1] > 0.0).collect();
+        let line = Line::thick(Dash::Solid);
+        Series::line(points, line, COLOURS[part]).labelled(["G′", "G″"][part])
+    });
+    let values = curves.iter().flat_map(|curve| &curve.points);
+    let y = Axis::decades("modulus [Pa]", values.map(|point| point[1]));
+    let curves = curves.into_iter().filter(|curve| curve.points.len() > 1);
+    Chart::new(x, y, curves.collect())
 }

@@ -150,6 +150,16 @@ pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
+/// What the scene did not need, why, and what that saves.
+pub(super) fn omissions(problem: &Problem, answer: &Answer) -> Table {
+    let mut omissions = markdown("left out | because | what that saves");
+    for &omission in &answer.left_out {
+        let saved = omission.saves(problem, answer);
+        omissions.add_row([omission.name(), omission.because().to_owned(), saved]);
+    }
+    omissions
+}
+
 /// The model in words.
 pub(super) fn model(problem: &Problem, answer: &Answer) -> String {
     match answer.model {

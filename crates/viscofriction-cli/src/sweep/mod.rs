@@ -22,6 +22,7 @@ use crate::progress;
 pub(crate) use file::RowTable;
 use file::{Existing, SweepFile, checked, line};
 use picture::PictureFiles;
+pub(crate) use picture::labelled;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]

@@ -367,7 +367,7 @@ const NAMES: [(&str, &str); 21] = [
 ];
 
 /// What stands at the axis of a key: its quantity, or the key itself where that is not known.
-fn labelled(key: &str) -> String {
+pub(crate) fn labelled(key: &str) -> String {
     let name = key.rsplit('.').next().unwrap_or(key);
     let mut names = NAMES.iter();
     match names.find(|(known, _)| *known == name) {

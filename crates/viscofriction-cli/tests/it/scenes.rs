@@ -40,10 +40,47 @@ fn every_method_writes_the_files_of_what_it_knows() {
             let data = fs::metadata(folder.path("out").join(name)).expect("a file");
             assert!(data.len() > 50, "{line}: {name}: {data:?}");
         }
-        names.retain(|name| name != "result.json");
+        let of_all = ["report.html", "result.json"];
+        names.retain(|name| !of_all.contains(&&name[..]));
         assert_eq!(names.join(" "), written, "{line}");
-        assert!(folder.path("out/result.json").exists(), "{line}: no result");
+        for name in of_all {
+            assert!(folder.path("out").join(name).exists(), "{line}: no {name}");
+        }
     }
+}
+
+/// What a browser shows of an answer, read as XML.
+#[test]
+fn a_report_is_one_page_that_needs_no_other_file() {
+    let folder = Folder::new("report");
+    let command = "IN/sphere-standard-solid.toml --sensitivity --spectral-sensitivity";
+    let answer = folder.json(&format!("{command} --out a&b"));
+    let page = fs::read_to_string(folder.path("a&b/report.html")).expect("a page");
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: true,
+        ..roxmltree::ParsingOptions::default()
+    };
+    let page = roxmltree::Document::parse_with_options(&page, options).expect("a page");
+    let text: String = page.descendants().filter_map(|node| node.text()).collect();
+    let friction = answer["friction_coefficient"].as_f64().expect("a friction");
+    for part in [
+        "A sphere slides over a standard solid material",
+        &format!("{friction:.9}"),
+        "speed v [m/s]",
+        "material.standard-solid.viscosity",
+        "adhesion",
+        "'a&b'",
+    ] {
+        assert!(text.contains(part), "{part}");
+    }
+    let pictures = page
+        .descendants()
+        .filter(|node| node.has_tag_name("figure"));
+    assert_eq!(pictures.count(), 2, "pressure and frequencies");
+    let mut attributes = page.descendants().flat_map(|node| node.attributes());
+    let other = attributes
+        .find(|one| ["src", "href"].contains(&one.name()) && !one.value().starts_with('#'));
+    assert!(other.is_none(), "{other:?}");
 }
 
 #[test]

@@ -37,6 +37,11 @@ impl Source {
         &self.path
     }
 
+    /// What stands in it.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Where the files are that a scene names.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))

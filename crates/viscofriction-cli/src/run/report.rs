@@ -1,0 +1,257 @@
+//! report.html: one page about one answer.
+
+use anyhow::Result;
+use toml::{Table, Value};
+use viscofriction::scene::{Method, Model, Source};
+use viscofriction::solve::{Answer, Motion, Problem};
+use viscofriction_plot::{Axis, Figure};
+
+use super::files::Pictures;
+use super::{CHEAPEST, Timed, spectrum, table};
+use crate::output::markdown;
+use crate::page::Page;
+use crate::sweep::labelled;
+
+/// The page, with everything that was computed and the line that computes it again.
+pub(super) fn page(
+    (source, problem): (&Source, &Problem),
+    timed: &Timed<'_>,
+    pictures: &Pictures,
+) -> Result<String> {
+    let answer = timed.answer;
+    let scene = source.table()?;
+    let mut page = Page::new(&title(&scene, problem));
+    page.paragraph(&how(problem, timed));
+    page.table(&numbers(&scene));
+    page.hidden("the scene file", source.text());
+    page.heading("The answer");
+    if let Some(why) = &answer.not_reached {
+        page.paragraph(&format!("What was asked is not reached: {why}."));
+    }
+    page.table(&table::table(answer));
+    page.paragraph(BARS);
+    if let Some(parts) = table::parts(&answer.error_parts) {
+        page.paragraph(&format!("Parts of the error bar: {parts}."));
+    }
+    page.heading("How far to trust it");
+    if answer.warnings.is_empty() {
+        page.paragraph("No warning: slopes and depths are within linear theory, as far as this program can tell.");
+    } else {
+        page.list(&answer.warnings);
+    }
+    page.paragraph(&modelled(problem, answer));
+    if !answer.not_modelled.is_empty() {
+        let words = answer.not_modelled.join(", ");
+        page.paragraph(&format!(
+            "Not modelled, though a measurement has it: {words}."
+        ));
+    }
+    add_pictures(&mut page, (problem, answer), pictures)?;
+    derivatives(&mut page, answer);
+    page.heading("What was left out");
+    page.table(&table::omissions(problem, answer));
+    page.heading("The same again");
+    page.command(&again(source));
+    page.paragraph(&format!(
+        "viscofriction {}; the same numbers to the last bit with any number of threads.",
+        env!("CARGO_PKG_VERSION")
+    ));
+    Ok(page.finish())
+}
+
+const BARS: &str = "The true value of what is modelled lies within the error of the value; without an error it is given, or exact.";
+
+/// The body and what it does.
+fn title(scene: &Table, problem: &Problem) -> String {
+    let kind = |table: &str, otherwise: &str| {
+        let table = scene.get(table).and_then(Value::as_table);
+        let kind = table.and_then(|table| table.keys().next());
+        kind.map_or(otherwise, String::as_str).replace('-', " ")
+    };
+    let does = match problem.motion() {
+        Motion::Sliding(_) => "slides over",
+        Motion::Pressing(_) => "is pressed into",
+        Motion::History(_) => "is pressed along a history into",
+        Motion::Moving(_) => "moves over",
+    };
+    let body = kind("indenter", "body");
+    let article = if body.starts_with(['a', 'e', 'i', 'o', 'u']) {
+        "An"
+    } else {
+        "A"
+    };
+    let material = match &kind("material", "material")[..] {
+        "file" => "a material from a file".to_owned(),
+        "prony" => "a material with a Prony series".to_owned(),
+        name if name.starts_with('e') => format!("an {name} material"),
+        name => format!("a {name} material"),
+    };
+    format!("{article} {body} {does} {material}")
+}
+
+/// The method and its model.
+fn how(problem: &Problem, timed: &Timed<'_>) -> String {
+    let Timed { answer, seconds } = timed;
+    let model = table::model(problem, answer);
+    let is_chosen = problem.method().is_none();
+    let cheapest = if is_chosen { CHEAPEST } else { "" };
+    let by = match answer.method {
+        Method::Analytic => "closed forms, quadrature and tables",
+        Method::MdrSteady => "the stationary state of elements that do not know of each other",
+        Method::MdrTransient => "elements that do not know of each other, from first touch on",
+        Method::BemSteady => "boundary elements in the stationary state",
+        Method::BemTransient => "boundary elements, from first touch on",
+    };
+    let name = answer.method.name();
+    format!("Solved by {name}{cheapest}: {by}, on a {model}, in {seconds:.3} s.")
+}
+
+/// The numbers of a scene, with the names and symbols of what they are.
+fn numbers(scene: &Table) -> comfy_table::Table {
+    let mut rows = markdown("key | quantity | value");
+    let keys = [
+        "indenter",
+        "material",
+        "layer",
+        "load",
+        "solve",
+        "uncertainty",
+    ];
+    for key in keys {
+        if let Some(value) = scene.get(key) {
+            add_numbers(key, value, &mut rows);
+        }
+    }
+    rows
+}
+
+fn add_numbers(path: &str, value: &Value, rows: &mut comfy_table::Table) {
+    match value {
+        Value::Table(table) => {
+            for (key, value) in table {
+                add_numbers(&format!("{path}.{key}"), value, rows);
+            }
+        }
+        Value::Array(list) if list.iter().any(|one| one.is_table() || one.is_array()) => {
+            rows.add_row([path, "", &format!("{} entries", list.len())]);
+        }
+        value => {
+            let label = labelled(path);
+            let label = if label == path { "" } else { &label };
+            rows.add_row([path, label, &value.to_string()]);
+        }
+    }
+}
+
+/// What the answer rests on, where that was asked for.
+fn derivatives(page: &mut Page, answer: &Answer) {
+    if !answer.budget.entries.is_empty() {
+        page.heading("What makes it uncertain");
+        page.table(&table::budget(answer));
+        page.paragraph(
+            "Standard uncertainties to first order; independent ones add up as squares.",
+        );
+    }
+    if !answer.sensitivity.is_empty() {
+        page.heading("What it rests on");
+        page.paragraph("One per cent more of a number changes a quantity by so many per cent.");
+        page.table(&table::sensitivity(answer));
+    }
+    if let Some(spectral) = &answer.spectral_sensitivity {
+        let (table, words) = spectrum::table(spectral);
+        page.heading("Which frequencies of the material it rests on");
+        page.table(&table);
+        page.paragraph(&words);
+    }
+}
+
+/// What the model has.
+fn modelled(problem: &Problem, answer: &Answer) -> String {
+    let body = match answer.model {
+        Model::Line => {
+            "elements of a line, which stand for a half space by the method of dimensionality reduction"
+        }
+        Model::HalfSpace if problem.thickness().is_finite() => {
+            "a layer that is bonded to a rigid base"
+        }
+        Model::HalfSpace => "a half space",
+    };
+    format!(
+        "Modelled: a rigid body, without friction of its own, on {body}, of a linear viscoelastic material, with small slopes."
+    )
+}
+
+fn add_pictures(
+    page: &mut Page,
+    (problem, answer): (&Problem, &Answer),
+    pictures: &Pictures,
+) -> Result<()> {
+    page.heading("Pictures");
+    for (name, figure) in pictures {
+        page.picture(figure, caption(name))?;
+    }
+    let has_spectrum = pictures
+        .iter()
+        .any(|(name, _)| *name == "spectral_sensitivity");
+    if let Some(figure) = material(problem, answer).filter(|_| !has_spectrum) {
+        page.picture(
+            &figure,
+            "Storage and loss modulus of the material, over angular frequencies around v/L with the length L of the contact.",
+        )?;
+    }
+    Ok(())
+}
+
+/// The moduli around the frequency of waves as long as the contact, of what slides and dissipates.
+fn material(problem: &Problem, answer: &Answer) -> Option<Figure> {
+    let Motion::Sliding(load) = problem.motion() else {
+        return None;
+    };
+    let contact = answer.contact_box.as_ref()?;
+    let middle = load.velocity() / (contact.x[1] - contact.x[0]);
+    let dissipates = answer.friction_coefficient?.value > 0.0;
+    let is_drawn = dissipates && middle > 0.0 && middle.is_finite();
+    is_drawn.then(|| {
+        let ends = [AROUND.recip(), AROUND].map(|factor| factor * middle);
+        let x = Axis::decades("angular frequency ω [rad/s]", ends.into_iter());
+        Figure::single(spectrum::master_curve(problem, x))
+    })
+}
+
+/// From the middle of the frequencies in a picture of the material to their ends.
+const AROUND: f64 = 1e3;
+
+/// The words that were typed; what a shell would take for more than a word is quoted.
+fn again(source: &Source) -> String {
+    let is_plain = |sign: char| sign.is_alphanumeric() || "-_./=,:+".contains(sign);
+    let quoted = |word: String| {
+        if !word.is_empty() && word.chars().all(is_plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    };
+    let words: Vec<String> = std::env::args().skip(1).map(quoted).collect();
+    let from = if source.path().as_os_str() == "-" {
+        " < SCENE"
+    } else {
+        ""
+    };
+    format!("viscofriction {}{from}", words.join(" "))
+}
+
+fn caption(name: &str) -> &'static str {
+    match name {
+        "pressure" => "Pressure over the contact.",
+        "line_load" => "Load per length along the line of the one-dimensional model.",
+        "line_pressure" => "Pressure along the middle of the contact.",
+        "motion" => "Tangential force over the position.",
+        "motion_over_time" => "Tangential force over time.",
+        "history_over_time" => "The quantity that was found, over time.",
+        "spectral_sensitivity" => {
+            "Above: storage and loss modulus of the material. Below: what one per cent more of either changes of the friction, \
+             in per cent, per decade of frequency; the ends of what was measured are dashed."
+        }
+        _ => "The history.",
+    }
+}
