@@ -38,7 +38,7 @@ use memory::Limited;
 pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
-pub use sensitivity::{Budget, Sensitivity, Source, Uncertainties, with_sensitivity};
+pub use sensitivity::{Budget, Sensitivity, Source, Uncertainties, sampled, with_sensitivity};
 pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;
