@@ -251,6 +251,22 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         }
         dictionary.set_item("sensitivity", known)?;
     }
+    if !answer.budget.entries.is_empty() {
+        let budget = PyDict::new(py);
+        let total = answer.budget.total();
+        let entries = answer.budget.entries.iter();
+        let entries = entries.map(|(source, known)| (source.name(), *known));
+        for (source, known) in entries.chain([("total", total)]) {
+            let of_source = PyDict::new(py);
+            for (name, known) in known.named() {
+                if let Some(known) = known {
+                    of_source.set_item(name, known)?;
+                }
+            }
+            budget.set_item(source, of_source)?;
+        }
+        dictionary.set_item("budget", budget)?;
+    }
     if let Some(field) = answer.fields.pressure {
         let shape = field.grid.shape();
         let pressure = field.pressure.into_pyarray(py).reshape(shape)?;
