@@ -6,7 +6,9 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
-use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields, with_sensitivity};
+use viscofriction::solve::{
+    BodyOfScene, Budget, Sensitivity, body, body_of_heights, with_fields, with_sensitivity,
+};
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
 use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
 
@@ -238,34 +240,10 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     let left_out: Vec<&str> = left_out.collect();
     dictionary.set_item("left_out", left_out)?;
     if !answer.sensitivity.is_empty() {
-        let known = PyDict::new(py);
-        for one in &answer.sensitivity {
-            let derivatives = PyDict::new(py);
-            for (name, known) in one.named() {
-                if let Some(known) = known {
-                    derivatives.set_item(name, known.value)?;
-                    derivatives.set_item(format!("{name}_error"), known.error)?;
-                }
-            }
-            known.set_item(&one.parameter, derivatives)?;
-        }
-        dictionary.set_item("sensitivity", known)?;
+        dictionary.set_item("sensitivity", sensitivity(py, &answer.sensitivity)?)?;
     }
     if !answer.budget.entries.is_empty() {
-        let budget = PyDict::new(py);
-        let total = answer.budget.total();
-        let entries = answer.budget.entries.iter();
-        let entries = entries.map(|(source, known)| (source.name(), *known));
-        for (source, known) in entries.chain([("total", total)]) {
-            let of_source = PyDict::new(py);
-            for (name, known) in known.named() {
-                if let Some(known) = known {
-                    of_source.set_item(name, known)?;
-                }
-            }
-            budget.set_item(source, of_source)?;
-        }
-        dictionary.set_item("budget", budget)?;
+        dictionary.set_item("budget", budget(py, &answer.budget)?)?;
     }
     if let Some(field) = answer.fields.pressure {
         let shape = field.grid.shape();
@@ -298,6 +276,39 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         }
     }
     Ok(dictionary)
+}
+
+/// Derivatives by number and quantity.
+fn sensitivity<'py>(py: Python<'py>, all: &[Sensitivity]) -> PyResult<Bound<'py, PyDict>> {
+    let numbers = PyDict::new(py);
+    for one in all {
+        let derivatives = PyDict::new(py);
+        for (name, known) in one.named() {
+            if let Some(known) = known {
+                derivatives.set_item(name, known.value)?;
+                derivatives.set_item(format!("{name}_error"), known.error)?;
+            }
+        }
+        numbers.set_item(&one.parameter, derivatives)?;
+    }
+    Ok(numbers)
+}
+
+/// Uncertainties by source and quantity, with their total.
+fn budget<'py>(py: Python<'py>, budget: &Budget) -> PyResult<Bound<'py, PyDict>> {
+    let entries = budget.entries.iter();
+    let entries = entries.map(|(source, known)| (source.name(), *known));
+    let sources = PyDict::new(py);
+    for (source, known) in entries.chain([("total", budget.total())]) {
+        let of_source = PyDict::new(py);
+        for (name, known) in known.named() {
+            if let Some(known) = known {
+                of_source.set_item(name, known)?;
+            }
+        }
+        sources.set_item(source, of_source)?;
+    }
+    Ok(sources)
 }
 
 /// The warnings of many answers, each once, with how many answers have it.
