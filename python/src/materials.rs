@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::path::PathBuf;
 
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rheology::fit::{
@@ -172,7 +172,7 @@ fn series<'py>(py: Python<'py>, spectrum: &RelaxationSpectrum) -> PyResult<Bound
     Ok(dictionary)
 }
 
-fn fitted<'py>(
+pub(crate) fn fitted<'py>(
     py: Python<'py>,
     curve: Result<MeasuredCurve, RheologyError>,
     options: &Options,
@@ -188,5 +188,10 @@ fn fitted<'py>(
     dictionary.set_item("storage_error", pair(found.storage_error))?;
     dictionary.set_item("loss_error", pair(found.loss_error))?;
     dictionary.set_item("max_relative_error", found.max_relative_error)?;
+    if let Some(covariance) = found.covariance {
+        dictionary.set_item("covariance_method", covariance.in_words())?;
+        let relative = PyArray2::from_vec2(py, &covariance.relative).map_err(wrong)?;
+        dictionary.set_item("relative_covariance", relative)?;
+    }
     Ok(dictionary)
 }

@@ -8,9 +8,11 @@ use measurements::moduli::{
 };
 use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rheology::fit::{Isotherm, ModulusPoint};
 use viscofriction::scene::Shift;
 
+use crate::materials::{Options, fitted};
 use crate::reading::read_table;
 use crate::tables::wrong;
 
@@ -87,18 +89,16 @@ pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoi
 /// One isotherm as [`read_moduli`] returns it.
 type Given<'py> = (f64, [PyReadonlyArray1<'py, f64>; 3]);
 
-/// Isotherms shifted onto one another: frequencies, storage and loss moduli, pairs of temperature and log₁₀ of the factor, the
-/// temperature of the curve, and as JSON the shift law.
-type Master<'py> = (Vec<Column<'py>>, Vec<[f64; 2]>, f64, Option<String>);
-
-/// The master curve of isotherms at a temperature, or at that of the one in the middle.
+/// The series of the master curve of isotherms at a temperature, or at that of the one in the middle, as `fit_oscillation`, and
+/// with it pairs of temperature and log₁₀ of the factor, the temperature of the curve, and as JSON the shift law.
 #[pyfunction]
-pub(crate) fn master_curve<'py>(
+pub(crate) fn fit_isotherms<'py>(
     py: Python<'py>,
     isotherms: Vec<Given<'py>>,
     celsius: bool,
     reference_temperature: Option<f64>,
-) -> PyResult<Master<'py>> {
+    options: Options,
+) -> PyResult<Bound<'py, PyDict>> {
     let isotherm = |(temperature, columns): &Given<'py>| Isotherm {
         temperature: *temperature,
         points: points(columns),
@@ -111,12 +111,11 @@ pub(crate) fn master_curve<'py>(
     let found = moduli::master_curve(&isotherms, celsius, shifting).map_err(wrong)?;
     let master = found.master;
     let shift = found.shift.map(|shift| serde_json::to_string(&shift));
-    Ok((
-        columns_of(py, &master.points),
-        master.log10_factors,
-        master.reference_temperature,
-        shift.transpose().map_err(wrong)?,
-    ))
+    let dictionary = fitted(py, Ok(master.curve), &options)?;
+    dictionary.set_item("log10_factors", master.log10_factors)?;
+    dictionary.set_item("temperature", master.reference_temperature)?;
+    dictionary.set_item("shift", shift.transpose().map_err(wrong)?)?;
+    Ok(dictionary)
 }
 
 /// The factor of all times to a temperature \[°C], by a shift law as JSON.

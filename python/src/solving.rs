@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{
-    BodyOfScene, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
+    BodyOfScene, Budget, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
     with_sensitivity,
 };
 use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
@@ -288,6 +288,9 @@ fn add_derivatives<'py>(
     if !answer.sensitivity.is_empty() {
         dictionary.set_item("sensitivity", derivatives(py, &answer.sensitivity)?)?;
     }
+    if !answer.budget.entries.is_empty() {
+        dictionary.set_item("budget", budget(py, &answer.budget)?)?;
+    }
     if let Some(spectral) = &answer.spectral_sensitivity {
         let columns = PyDict::new(py);
         for (name, values) in spectral.columns() {
@@ -319,6 +322,23 @@ fn derivatives<'py>(
         by_number.set_item(&sensitivity.parameter, by_quantity)?;
     }
     Ok(by_number)
+}
+
+/// Uncertainties by source and quantity, with their total.
+fn budget<'py>(py: Python<'py>, budget: &Budget) -> PyResult<Bound<'py, PyDict>> {
+    let entries = budget.entries.iter();
+    let entries = entries.map(|(source, known)| (source.name(), *known));
+    let sources = PyDict::new(py);
+    for (source, known) in entries.chain([("total", budget.total())]) {
+        let of_source = PyDict::new(py);
+        for (name, known) in known.named() {
+            if let Some(known) = known {
+                of_source.set_item(name, known)?;
+            }
+        }
+        sources.set_item(source, of_source)?;
+    }
+    Ok(sources)
 }
 
 /// The warnings of many answers, each once, with how many answers have it.

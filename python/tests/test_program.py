@@ -90,6 +90,10 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
         assert abs(factor - 0.1 * (20.0 - temperature)) < 1e-3
     assert fit.material.valid_frequencies == tuple(theirs["valid_frequencies"])
     assert fit.temperature == 20.0 and fit.shift == theirs.get("shift")
+    relative = np.array(theirs["covariance"]["relative"])
+    moduli = np.array([theirs["equilibrium_modulus"], *(one["modulus"] for one in theirs["branches"])])
+    assert fit.covariance is not None and np.array_equal(fit.covariance, relative * np.outer(moduli, moduli))
+    assert fit.covariance_method == theirs["covariance"]["method"]
     if len(temperatures) > 1:
         wanted = vf.fit_material(table, reference_temperature=24.0)
         shifted = fit.at(24.0)

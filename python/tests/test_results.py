@@ -280,3 +280,28 @@ def test_derivatives_by_frequencies_add_up_to_the_unit_of_stress() -> None:
         vf.slide(vf.Sphere(5e-3), SOLID, normal_force=1.0, velocity=0.1).spectral_sensitivity  # noqa: B018
     with pytest.raises(vf.NotReached, match="derivatives"):
         vf.slide(vf.Cone(0.1), SOLID, normal_force=1.0, velocity=0.1, model="line", spectral_sensitivity=True)
+
+def test_an_answer_has_the_error_of_its_material() -> None:
+    rubber = vf.Prony(1e6, [(1e7, 1e-3), (3e6, 1e-1)], relative_covariance=np.diag([0.0, 0.01, 0.01]))
+    scene = {
+        "indenter": vf.Cone(0.1),
+        "material": rubber,
+        "load": {"normal_force": 1.0, "velocity": 0.1},
+        "solve": {"model": "line"},
+        "uncertainty": {"load.normal_force": 0.02},
+    }
+    answer = vf.solve(scene, sensitivity=True)
+    slopes = [answer.sensitivity[f"material.prony.branches[{branch}].modulus"]["friction_coefficient"] for branch in (0, 1)]
+    expected = 0.1 * np.hypot(*slopes) * answer.mu
+    assert answer.friction_coefficient_material_error == pytest.approx(expected, rel=1e-9)
+    squares = sum(answer.budget[source]["friction_coefficient"] ** 2 for source in ("numerics", "material", "load.normal_force"))
+    assert answer.budget["total"]["friction_coefficient"] == pytest.approx(np.sqrt(squares))
+    assert answer.to_dict()["friction_coefficient_material_error"] == answer.friction_coefficient_material_error
+    plain = vf.solve(scene)
+    assert plain.friction_coefficient_material_error is None
+    with pytest.raises(AttributeError, match="sensitivity=True"):
+        plain.budget  # noqa: B018
+    speeds = vf.slide(vf.Cone(0.1), rubber, normal_force=1.0, velocity=[0.1, 0.2], model="line", sensitivity=True)
+    assert np.shape(speeds.friction_coefficient_material_error) == (2,)
+    with pytest.raises(ValueError, match="covariance.relative"):
+        vf.slide(vf.Cone(0.1), vf.Prony(1e6, [(1e7, 1e-3)], relative_covariance=[[0.1]]), normal_force=1.0, velocity=0.1)

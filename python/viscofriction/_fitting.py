@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -39,6 +39,10 @@ class Fit:
     temperature: float | None = None
     #: The shift law as in a scene's ``shift``, in °C, where several isotherms have one.
     shift: dict[str, Any] | None = None
+    #: Covariance [Pa²] of the moduli: the equilibrium modulus, and the branches in their order.
+    covariance: Numbers | None = field(default=None, compare=False, repr=False)
+    #: How it was found.
+    covariance_method: str | None = None
 
     @property
     def material_with_error(self) -> Prony:
@@ -72,6 +76,7 @@ class Fit:
             [{"modulus": modulus, "relaxation_time": time * factor} for modulus, time in material.branches],
             poisson_ratio=material.poisson_ratio,
             valid_frequencies=window and (window[0] / factor, window[1] / factor),
+            relative_covariance=material.relative_covariance,
         )
 
 
@@ -163,10 +168,10 @@ def _fit_table(
     if celsius is None:
         omega, storage, loss = isotherms[0][1]
         return _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
-    (omega, storage, loss), factors, temperature, shift = _native.master_curve(isotherms, celsius, reference)
-    fit = _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
-    pairs = tuple((one, factor) for one, factor in factors) if len(isotherms) > 1 else ()
-    return replace(fit, log10_factors=pairs, temperature=temperature, shift=json.loads(shift) if shift else None)
+    found = _native.fit_isotherms(isotherms, celsius, reference, options)
+    pairs = tuple((one, factor) for one, factor in found["log10_factors"]) if len(isotherms) > 1 else ()
+    shift = json.loads(found["shift"]) if found["shift"] else None
+    return replace(_fit(found, poisson_ratio), log10_factors=pairs, temperature=found["temperature"], shift=shift)
 
 
 def fit_relaxation(
@@ -193,11 +198,17 @@ def scaling_factor(exponent: float) -> tuple[float, float]:
 
 def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:
     branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in found["branches"]]
+    relative = found.get("relative_covariance")
     material = Prony(
         found["equilibrium_modulus"],
         branches,
         poisson_ratio=poisson_ratio,
         valid_frequencies=found["valid_frequencies"],
+        relative_covariance=relative,
     )
     errors = (found[name] for name in ("rms_relative_error", "max_relative_error", "storage_error", "loss_error"))
-    return Fit(material, *errors)
+    fit = Fit(material, *errors)
+    if relative is None:
+        return fit
+    moduli = np.array([found["equilibrium_modulus"], *(modulus for modulus, _ in found["branches"])])
+    return replace(fit, covariance=relative * np.outer(moduli, moduli), covariance_method=found["covariance_method"])

@@ -143,6 +143,9 @@ class Prony(Material):
 
     A series that stands for another law has an ``approximation`` ``(relative_error, (shortest, longest))``, the largest relative
     error of its moduli at these times [s] and at the frequencies 1/t, which is then in all bars.
+
+    Of a fit, ``relative_covariance`` says how well the moduli are known: covariances over the products of the two moduli, of the spring
+    and of the branches in their order, as many rows as columns.
     """
 
     equilibrium_modulus: float
@@ -152,6 +155,7 @@ class Prony(Material):
     poisson_ratio: float = 0.5
     valid_frequencies: tuple[float, float] | None = None
     approximation: tuple[float, tuple[float, float]] | None = None
+    relative_covariance: tuple[tuple[float, ...], ...] | None = None
     _kind = "prony"
 
     def __init__(
@@ -165,6 +169,7 @@ class Prony(Material):
         poisson_ratio: float = 0.5,
         valid_frequencies: tuple[float, float] | None = None,
         approximation: tuple[float, tuple[float, float]] | None = None,
+        relative_covariance: ArrayLike | None = None,
     ) -> None:
         if branches is not None:
             if moduli is not None or relaxation_times is not None:
@@ -185,6 +190,10 @@ class Prony(Material):
         }
         for name, value in values.items():
             object.__setattr__(self, name, as_value(value))
+        rows = None
+        if relative_covariance is not None:
+            rows = tuple(tuple(float(entry) for entry in row) for row in np.atleast_2d(np.asarray(relative_covariance, float)))
+        object.__setattr__(self, "relative_covariance", rows)
 
     @classmethod
     def from_relaxation(
@@ -217,6 +226,9 @@ class Prony(Material):
         if self.approximation is not None:
             error, times = self.approximation
             table[self._kind]["approximation"] = {"relative_error": error, "time_range": times}
+        table[self._kind].pop("relative_covariance", None)
+        if self.relative_covariance is not None:
+            table[self._kind]["covariance"] = {"relative": [list(row) for row in self.relative_covariance]}
         return table
 
 

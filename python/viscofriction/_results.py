@@ -258,9 +258,32 @@ class Answer(Compared):
     @property
     def sensitivity(self) -> dict[str, dict[str, NDArray[np.float64]]]:
         """d ln(quantity)/d ln(number) by the number of the scene and the quantity, with errors, if it was asked for."""
-        answers = [(answer or {}).get("sensitivity", {}) for answer in self._answers]
-        if not any(answers):
+        known = self._by_number("sensitivity")
+        if not known:
             raise AttributeError("derivatives are there where they were asked for: slide(…, sensitivity=True)")
+        return known
+
+    @property
+    def budget(self) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """Standard uncertainties by their source and the quantity: "numerics", "material", the uncertain numbers of the scene, and
+        "total". They are there with ``sensitivity=True``, for a material with a covariance or a scene with uncertainties."""
+        known = self._by_number("budget")
+        if not known:
+            needed = "sensitivity=True, and a material with a covariance or a scene with uncertainty"
+            raise AttributeError(f"a budget is there where it was asked for: {needed}")
+        return known
+
+    @property
+    def friction_coefficient_material_error(self) -> Values | None:
+        """Standard uncertainty of the friction coefficient by the covariance of the moduli; None where that is not known or was not
+        asked for, with ``sensitivity=True``."""
+        of_material = self._by_number("budget").get("material", {})
+        known = of_material.get("friction_coefficient")
+        return None if known is None else known[()]
+
+    def _by_number(self, name: str) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """Numbers of all answers by a number of the scene and a quantity, NaN where they are not known."""
+        answers = [(answer or {}).get(name, {}) for answer in self._answers]
         numbers = dict.fromkeys(number for known in answers for number in known)
         quantities = dict.fromkeys(name for known in answers for one in known.values() for name in one)
 

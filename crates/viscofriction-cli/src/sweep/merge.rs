@@ -9,7 +9,7 @@ use viscofriction::sweep::SweepRow;
 
 use super::file::RowTable;
 use super::picture::PictureFiles;
-use super::{say_warnings, wrong_row};
+use super::{say_samples, say_warnings, wrong_row};
 use crate::input::read_table;
 use crate::output::{OutputFile, print_text, say};
 
@@ -30,6 +30,7 @@ pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> R
         print_text(&table.text()?)?;
     }
     say_warnings(&table.rows);
+    say_samples(&table.header, &table.rows);
     let points = table.rows.first();
     let points = points.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
     let has = |point: usize| table.rows.binary_search_by_key(&point, |row| row.point);

@@ -6,6 +6,7 @@
 mod file;
 mod merge;
 mod picture;
+mod samples;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
@@ -23,6 +24,7 @@ pub(crate) use file::RowTable;
 use file::{Existing, SweepFile, checked, line};
 use picture::PictureFiles;
 pub(crate) use picture::labelled;
+use samples::Samples;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
@@ -39,10 +41,14 @@ pub(crate) struct Sweep {
     #[arg(
         long,
         value_name = "KEY=START:STOP:COUNT[:log]",
-        required_unless_present = "merge",
+        required_unless_present_any = ["merge", "samples"],
         conflicts_with = "merge"
     )]
     vary: Vec<Vary>,
+    /// Draw what is uncertain in the scene so many times, as the column `sample`, of which 0 is the scene itself with what its
+    /// uncertainties make of it to first order; says and draws how the answers are distributed.
+    #[arg(long, value_name = "N", conflicts_with = "merge")]
+    samples: Option<usize>,
     /// Also say what the covariance of the material and the uncertainties of the scene make of every point, and draw the band of
     /// the material.
     #[arg(long, conflicts_with = "merge")]
@@ -69,8 +75,10 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
-    let mut plan = Plan::new(read_scene(scene)?, &options.vary, read_input)?;
-    plan.sensitivity = options.sensitivity;
+    let samples = options.samples.map(Vary::samples);
+    let vary: Vec<Vary> = options.vary.iter().cloned().chain(samples).collect();
+    let mut plan = Plan::new(read_scene(scene)?, &vary, read_input)?;
+    plan.sensitivity = options.sensitivity || options.samples.is_some();
     // As many points are computed at the same time.
     let at_once = plan.n_points().min(rayon::current_num_threads()) as u64;
     plan.max_memory = half_of_free_memory().map(|bytes| bytes / at_once);
@@ -91,6 +99,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         }
     };
     say_warnings(&rows);
+    say_samples(&header(&plan), &rows);
     let n_failed = rows.iter().filter(|row| row.failed()).count();
     if n_failed > 0 {
         let n_points = rows.len();
@@ -99,6 +108,17 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Says how the answers of samples are distributed.
+fn say_samples(header: &[String], rows: &[SweepRow]) {
+    let table = RowTable {
+        header: header.to_vec(),
+        rows: rows.to_vec(),
+    };
+    if let Some(samples) = Samples::of(&table) {
+        say(&samples.table().to_string());
+    }
 }
 
 /// Says what the points warn of, each once; the column `warnings` has them all.

@@ -9,19 +9,20 @@ use viscofriction::numerics::InWords;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
+use super::samples::Samples;
 use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
 use crate::run::around;
 
 /// What may be drawn, as its column and as the label of its axis: friction where something slides, the depth where a force
 /// is given, and else the force.
-const QUANTITIES: [(&str, &str); 3] = [
+pub(super) const QUANTITIES: [(&str, &str); 3] = [
     ("friction_coefficient", "friction coefficient μ"),
     ("indentation_depth", "depth d [m]"),
     ("normal_force", "normal force F [N]"),
 ];
 /// The column before the keys that vary, and the one behind them.
-const AROUND_KEYS: [&str; 2] = ["points", "check"];
+pub(super) const AROUND_KEYS: [&str; 2] = ["points", "check"];
 /// Values that follow each other by an equal step or factor do so up to this part of it.
 const EQUAL: f64 = 1e-6;
 /// Values of a list that span a larger factor are drawn over their logarithm.
@@ -101,6 +102,9 @@ fn signature(fingerprint: &str) -> String {
 }
 
 fn figure(table: &RowTable) -> Result<Figure> {
+    if let Some(samples) = Samples::of(table) {
+        return Ok(samples.figure());
+    }
     let place = |name: &str| table.header.iter().position(|column| column == name);
     let [before, behind] = AROUND_KEYS.map(place);
     let keys = before.zip(behind);
@@ -315,7 +319,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
 }
 
 /// Standard deviations of a normal distribution that hold 95 per cent of it to either side.
-const OF_95_PERCENT: f64 = 1.96;
+pub(super) const OF_95_PERCENT: f64 = 1.96;
 
 /// An axis with some room at its ends, so that no mark is cut by the frame.
 fn axis(key: &str, places: &[f64]) -> Axis {

@@ -430,3 +430,44 @@ fn a_sweep_has_the_band_of_the_material() {
         "other values",
     );
 }
+
+/// Where errors are small samples and a straight line have the same friction; in two shards as in one.
+#[test]
+fn samples_of_a_fit_scatter_as_its_first_order_says() {
+    let folder = fitted("samples");
+    let uncertain =
+        "uncertainty = { \"load.normal_force\" = 0.05, \"material.file.temperature\" = 0.2 }";
+    folder.write("scene.toml", ball("out/material.toml", uncertain));
+    let said = folder.done("sweep scene.toml --samples 60 --out all.csv");
+    let row = |name: &str| -> Vec<f64> {
+        let line = said.stderr.lines().find(|line| line.contains(name));
+        let cells = line
+            .unwrap_or_else(|| panic!("{name} in {said:?}"))
+            .split('|')
+            .skip(2);
+        cells.filter_map(|cell| cell.trim().parse().ok()).collect()
+    };
+    let [samples, line] = ["60 samples", "first order"].map(row);
+    // A standard deviation of 60 samples is known to a tenth, their mean to an eighth of it.
+    let is_same =
+        (samples[1] / line[1] - 1.0).abs() < 0.3 && (samples[0] - line[0]).abs() < 0.4 * line[1];
+    assert!(is_same, "{samples:?}, {line:?}");
+    for shard in 1..=2 {
+        folder.done(format!(
+            "sweep scene.toml --samples 60 --shard {shard}/2 --out {shard}.csv"
+        ));
+    }
+    folder.done("sweep --merge 1.csv 2.csv --out both.csv");
+    assert_eq!(folder.text("all.csv"), folder.text("both.csv"), "shards");
+    folder.write(
+        "sure.toml",
+        ball("out/material.toml", "")
+            .replace("file]", "elastic]\nshear_modulus = 1e6")
+            .replace("path = \"out/material.toml\"", ""),
+    );
+    folder.ends(
+        "sweep sure.toml --samples 3",
+        2,
+        "samples need a number that is uncertain",
+    );
+}

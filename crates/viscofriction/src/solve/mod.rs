@@ -39,7 +39,7 @@ pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
 pub use sensitivity::{
-    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties,
+    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties, sampled,
     spectral_sensitivity, with_sensitivity,
 };
 pub use with_fields::with_fields;

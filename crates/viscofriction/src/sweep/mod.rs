@@ -5,5 +5,5 @@ mod vary;
 mod warnings;
 
 pub use plan::{Plan, SweepRow, header, identity};
-pub use vary::{Shard, Varied, Vary};
+pub use vary::{SAMPLE, Shard, Varied, Vary};
 pub use warnings::{SharedWarning, each_once};

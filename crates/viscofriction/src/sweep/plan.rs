@@ -1,11 +1,12 @@
 //! The points of a sweep, the scene of each, and the row of its answer.
 
+use numerics::whole_part;
 use toml::{Table, Value};
 
-use super::vary::{MOST_POINTS, Varied, Vary};
+use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::scene::{Scene, SceneError, Source, scene_file, split_index};
-use crate::solve::{Answer, Problem, Uncertainties, plan_of, solve, with_sensitivity};
+use crate::solve::{Answer, Problem, Uncertainties, plan_of, sampled, solve, with_sensitivity};
 use crate::text::WrongInput;
 
 /// Keys of a scene whose values are names of files.
@@ -94,12 +95,42 @@ impl Plan {
     /// [`WrongInput`] with the place in the scene and the values of the point.
     pub fn validate(&self) -> Result<Option<usize>, WrongInput> {
         let mut threads = None;
+        self.check_samples()?;
         for point in 0..self.n_points() {
             let problem = self.problem(point)?;
             plan_of(&self.source, &problem)?;
             threads = problem.threads();
         }
         Ok(threads)
+    }
+
+    /// Refuses samples of a scene in which nothing is uncertain.
+    fn check_samples(&self) -> Result<(), WrongInput> {
+        if self.keys().all(|key| key != SAMPLE) {
+            return Ok(());
+        }
+        let check = || {
+            let scene = scene_file(self.table.clone())?;
+            let files = (self.source.folder(), self.read);
+            let [one, other] = [1, 2].map(|sample| sampled(&scene, files, sample));
+            if one? == other? {
+                let problem =
+                    "samples need a number that is uncertain, or a material with a covariance";
+                return Err(SceneError::at("uncertainty", problem));
+            }
+            Ok(())
+        };
+        check().map_err(|error| self.source.locate(&error))
+    }
+
+    /// The sample of a point, where samples are among what varies.
+    fn sample(&self, point: usize) -> Option<f64> {
+        let values = self.values(point);
+        let (_, value) = self.keys().zip(values).find(|(key, _)| *key == SAMPLE)?;
+        match value {
+            Varied::Number(number) => Some(*number),
+            Varied::Text(_) => Some(f64::NAN),
+        }
     }
 
     /// The row of a point; what a method could not reach is part of it.
@@ -174,10 +205,14 @@ impl Plan {
         let values = self.values(point);
         let mut table = self.table.clone();
         let build = || {
-            for (key, value) in self.keys().zip(&values) {
+            for (key, value) in self.keys().zip(&values).filter(|(key, _)| *key != SAMPLE) {
                 set(&mut table, key, value)?;
             }
-            let scene = scene_file(table)?;
+            let mut scene = scene_file(table)?;
+            if let Some(sample) = self.sample(point) {
+                let sample = whole(SAMPLE, sample)?;
+                scene = sampled(&scene, (self.source.folder(), self.read), sample)?;
+            }
             let problem = Problem::new(&scene, self.source.folder(), self.read)?;
             Ok((scene, problem.or_max_memory(self.max_memory)))
         };
@@ -281,6 +316,15 @@ pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
 
 fn checksum(identity: &[String]) -> String {
     format!("{:016x}", hashed(EMPTY, identity.join(",").as_bytes()))
+}
+
+/// A number of samples.
+fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
+    if number.fract() == 0.0 && number >= 0.0 && number <= MOST_POINTS as f64 {
+        return Ok(whole_part(number));
+    }
+    let problem = format!("a whole number is needed, but it is {number}");
+    Err(SceneError::at(key, problem))
 }
 
 /// Sets a key; the table it is in must be there.

@@ -12,6 +12,20 @@ pub struct Vary {
     pub values: Vec<Varied>,
 }
 
+/// The key by which the samples of a scene vary.
+pub const SAMPLE: &str = "sample";
+
+impl Vary {
+    /// The scene itself, and so many samples of what is uncertain in it.
+    pub fn samples(count: usize) -> Self {
+        let values = (0..=count).map(|sample| Varied::Number(sample as f64));
+        Self {
+            key: SAMPLE.to_owned(),
+            values: values.collect(),
+        }
+    }
+}
+
 /// A value that a key takes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Varied {

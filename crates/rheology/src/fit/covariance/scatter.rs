@@ -78,16 +78,17 @@ impl Scatter {
         residuals: &Residuals,
     ) {
         let parts = residuals.parts();
-        let of_isotherms = joined.factors.column_iter();
-        let means =
-            of_isotherms.map(|factors| factors.dot(&fit.residuals) / factors.norm_squared());
-        let means = DVector::from_vec(means.collect::<Vec<_>>());
-        let alone = &fit.residuals - &joined.factors * means;
         let squares: Vec<f64> = joined
             .factors
             .column_iter()
             .map(|one| one.norm_squared())
             .collect();
+        let of_isotherms = joined.factors.column_iter().zip(&squares);
+        // All points of an isotherm may have been averaged with those of others; its sums are then 0.
+        let means = of_isotherms
+            .map(|(factors, squares)| factors.dot(&fit.residuals) / squares.max(f64::MIN_POSITIVE));
+        let means = DVector::from_vec(means.collect::<Vec<_>>());
+        let alone = &fit.residuals - &joined.factors * means;
         let taken = |row: usize| {
             let isotherm = rows[row].isotherm;
             squares

@@ -110,7 +110,9 @@ impl Joined {
 fn astray(fit: &Linear, rows: &[Measurement], pair: [usize; 2]) -> nalgebra::RowDVector<f64> {
     let [fixed, moved] = pair.map(|isotherm| {
         let is_own = |row: &usize| {
-            rows[*row].isotherm == isotherm && rows[*row].quantity == Quantity::Storage
+            let row = &rows[*row];
+            // A modulus of zero has no logarithm.
+            row.isotherm == isotherm && row.quantity == Quantity::Storage && row.value > 0.0
         };
         (0..rows.len()).filter(is_own).collect::<Vec<_>>()
     });
@@ -121,7 +123,7 @@ fn astray(fit: &Linear, rows: &[Measurement], pair: [usize; 2]) -> nalgebra::Row
     let mut shift = nalgebra::RowDVector::zeros(rows.len());
     let mut squares = 0.0;
     for (own, other, sign) in [(&moved, &fixed, 1.0), (&fixed, &moved, -1.0)] {
-        for &row in own.iter().filter(|row| rows[**row].value > 0.0) {
+        for &row in own {
             let next = other.partition_point(|place| rows[*place].at < rows[row].at);
             let Some((&below, &above)) = next
                 .checked_sub(1)

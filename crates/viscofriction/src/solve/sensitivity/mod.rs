@@ -4,6 +4,7 @@ mod adjoint;
 mod budget;
 mod differences;
 mod parameters;
+mod sampling;
 mod spectral;
 
 use std::path::Path;
@@ -20,6 +21,7 @@ use budget::budget;
 pub use budget::{Budget, Source, Uncertainties};
 pub(super) use parameters::check_uncertainties;
 use parameters::{Number, Numbers, TEMPERATURE};
+pub use sampling::sampled;
 pub use spectral::{ByFrequency, SpectralSensitivity, spectral_sensitivity};
 
 /// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
@@ -70,7 +72,7 @@ pub fn with_sensitivity(
         }
         (method, _) => Err(SolveError::NoSensitivity { method }),
     }?;
-    let material = numbers.material()?;
+    let material = numbers.scene()?.material;
     let budget = budget(&material, scene, &all, &sensitivity, &answer);
     // Of a temperature in °C there is no logarithm.
     sensitivity.retain(|one| one.parameter != TEMPERATURE);

@@ -71,9 +71,17 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// The material of the scene or of its file.
-    pub(super) fn material(&self) -> Result<MaterialTable, SceneError> {
-        Ok(Scene::try_from(self.scene.clone())?.material)
+    /// The scene without the file of its material, and without uncertainties.
+    pub(super) fn scene(&self) -> Result<Scene, SceneError> {
+        Scene::try_from(self.scene.clone())
+    }
+
+    /// The standard uncertainty of a number that the scene gives, or 0.
+    pub(super) fn uncertainty(&self, number: &Number) -> f64 {
+        self.uncertainty
+            .get(&number.path())
+            .copied()
+            .unwrap_or_default()
     }
 
     /// The temperature of the material of a file, \[K], where the scene says how uncertain it is.
@@ -92,7 +100,7 @@ impl<'a> Numbers<'a> {
     /// Refuses uncertainties that are none, and those of what is no number of the scene.
     fn check(&self) -> Result<(), SceneError> {
         let known: Vec<String> = self.all().iter().map(Number::path).collect();
-        let has_covariance = self.material()?.covariance().is_some();
+        let has_covariance = self.scene()?.material.covariance().is_some();
         for (path, value) in &self.uncertainty {
             let key = format!("uncertainty.{path}");
             not_negative("", *value).map_err(|refused| SceneError::value(key.clone(), refused))?;
@@ -129,6 +137,11 @@ impl<'a> Numbers<'a> {
 
     /// The problem with another value of a number.
     pub(super) fn problem(&self, number: &Number, value: f64) -> Result<Problem, SceneError> {
+        Problem::new(&self.scene_with(number, value)?, self.folder, self.read)
+    }
+
+    /// The scene with another value of a number.
+    pub(super) fn scene_with(&self, number: &Number, value: f64) -> Result<Scene, SceneError> {
         let (mut scene, value) = match &self.of_file {
             Some((written, _)) if number.is_temperature() => {
                 (written.clone(), value - KELVIN_AT_ZERO_CELSIUS)
@@ -153,7 +166,7 @@ impl<'a> Numbers<'a> {
         if let Some(Some(place)) = place {
             *place = Value::Float(value);
         }
-        Problem::new(&Scene::try_from(scene)?, self.folder, self.read)
+        Scene::try_from(scene)
     }
 }
 

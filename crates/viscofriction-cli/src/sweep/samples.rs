@@ -1,0 +1,121 @@
+//! How the answers of the samples of a scene are distributed, beside what a straight line says.
+
+use std::f64::consts::TAU;
+
+use comfy_table::Table;
+use viscofriction::sweep::SAMPLE;
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
+
+use super::file::RowTable;
+use super::picture::{AROUND_KEYS, OF_95_PERCENT, QUANTITIES};
+use crate::output::markdown;
+use crate::run::around;
+
+/// The answers of a sweep over samples alone.
+pub(super) struct Samples {
+    label: &'static str,
+    /// That of the scene itself, and its standard uncertainty to first order.
+    nominal: [f64; 2],
+    /// The least first.
+    sorted: Vec<f64>,
+}
+
+impl Samples {
+    /// None of another sweep, or where too few have an answer.
+    pub(super) fn of(table: &RowTable) -> Option<Self> {
+        let place = |name: &str| table.header.iter().position(|column| column == name);
+        let [before, behind] = AROUND_KEYS.map(place);
+        let key =
+            place(SAMPLE).filter(|key| before == key.checked_sub(1) && behind == Some(key + 1))?;
+        let number = |row: usize, column: usize| table.rows[row].fields[column].parse::<f64>().ok();
+        let is_nominal = |row: &usize| number(*row, key) == Some(0.0);
+        let row = (0..table.rows.len()).find(is_nominal)?;
+        // What was given has no uncertainty.
+        let known = |(name, label): (&str, &'static str)| {
+            let uncertainty = number(row, place(&format!("{name}_uncertainty"))?)?;
+            let column = place(name)?;
+            Some((label, column, [number(row, column)?, uncertainty]))
+        };
+        let (label, column, nominal) = QUANTITIES.into_iter().find_map(known)?;
+        let others = (0..table.rows.len()).filter(|row| !is_nominal(row));
+        let mut sorted: Vec<f64> = others.filter_map(|row| number(row, column)).collect();
+        sorted.sort_by(f64::total_cmp);
+        (sorted.len() > 1).then_some(Self {
+            label,
+            nominal,
+            sorted,
+        })
+    }
+
+    /// Mean, standard deviation and quantiles of the samples, and the same to first order.
+    pub(super) fn table(&self) -> Table {
+        let n = self.sorted.len() as f64;
+        let mean = self.sorted.iter().sum::<f64>() / n;
+        let squares: f64 = self.sorted.iter().map(|value| (value - mean).powi(2)).sum();
+        let [nominal, uncertainty] = self.nominal;
+        let half = OF_95_PERCENT * uncertainty;
+        let [low, middle, high] = [0.025, 0.5, 0.975].map(|part| self.quantile(part));
+        let rows = [
+            (
+                format!("{n} samples"),
+                [mean, (squares / (n - 1.0)).sqrt(), low, middle, high],
+            ),
+            (
+                "first order".to_owned(),
+                [
+                    nominal,
+                    uncertainty,
+                    nominal - half,
+                    nominal,
+                    nominal + half,
+                ],
+            ),
+        ];
+        let mut table = markdown("of the | mean | standard deviation | 2.5 % | 50 % | 97.5 %");
+        for (name, numbers) in rows {
+            let numbers = numbers.map(|number| format!("{number:.6e}"));
+            table.add_row(std::iter::once(name).chain(numbers));
+        }
+        table
+    }
+
+    /// Between the two samples around it.
+    fn quantile(&self, part: f64) -> f64 {
+        let last = self.sorted.len() - 1;
+        let place = part * last as f64;
+        let below = viscofriction::numerics::whole_part(place).min(last);
+        let above = (below + 1).min(last);
+        let rest = place - below as f64;
+        self.sorted[below] + rest * (self.sorted[above] - self.sorted[below])
+    }
+
+    /// Which part of the samples is below a value.
+    pub(super) fn figure(&self) -> Figure {
+        let n = self.sorted.len() as f64;
+        let values = self.sorted.iter().enumerate();
+        let drawn = values.map(|(place, value)| [*value, (place as f64 + 0.5) / n]);
+        let drawn = Series::line(drawn.collect(), Line::thick(Dash::Solid), Colour::Blue);
+        let [nominal, uncertainty] = self.nominal;
+        let steps = f64::from(STEPS);
+        let mut below = 0.0;
+        let normal = (-STEPS..=STEPS).map(|step| {
+            let z = FARTHEST * f64::from(step) / steps;
+            let height = (-0.5 * z * z).exp() / TAU.sqrt() * FARTHEST / steps;
+            below += height;
+            [nominal + z * uncertainty, below - 0.5 * height]
+        });
+        let normal = Series::line(normal.collect(), Line::thin(Dash::Dashed), Colour::Red);
+        let series = [drawn.labelled("samples"), normal.labelled("first order")];
+        let ends = series
+            .iter()
+            .flat_map(|one| &one.points)
+            .map(|point| point[0]);
+        let x = Axis::linear(self.label, around(ends));
+        let y = Axis::linear("part of the samples below", [0.0, 1.0]);
+        Figure::single(Chart::new(x, y, series.into()))
+    }
+}
+
+/// Standard deviations of a normal distribution that are drawn to either side, in so many steps.
+const FARTHEST: f64 = 4.0;
+const STEPS: i32 = 200;
