@@ -43,11 +43,6 @@ impl Page {
         self.body += "</ul>\n";
     }
 
-    /// Words for a shell.
-    pub(crate) fn command(&mut self, line: &str) {
-        self.tagged("pre", &line);
-    }
-
     /// Text that opens when its summary is clicked.
     pub(crate) fn hidden(&mut self, summary: &str, text: &str) {
         let [summary, text] = [summary, text].map(escaped);
@@ -84,7 +79,14 @@ impl Page {
         Ok(())
     }
 
-    pub(crate) fn finish(self) -> String {
+    /// The page, with the command that makes it again at its end.
+    pub(crate) fn finish(mut self) -> String {
+        self.heading("The same again");
+        self.tagged("pre", &typed());
+        self.paragraph(&format!(
+            "viscofriction {}; the numbers are the same to the last bit with any number of threads.",
+            env!("CARGO_PKG_VERSION")
+        ));
         let Self { title, body } = self;
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -92,6 +94,21 @@ impl Page {
              <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n{body}</body>\n</html>\n"
         )
     }
+}
+
+/// The words that were typed; what a shell would take for more than a word is quoted.
+fn typed() -> String {
+    let is_plain = |sign: char| sign.is_alphanumeric() || "-_./=,:+".contains(sign);
+    let quoted = |word: String| {
+        if !word.is_empty() && word.chars().all(is_plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    };
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| quoted(word.to_string_lossy().into_owned()));
+    format!("viscofriction {}", words.collect::<Vec<_>>().join(" "))
 }
 
 fn escaped(text: &str) -> String {

@@ -50,12 +50,6 @@ pub(super) fn page(
     derivatives(&mut page, answer);
     page.heading("What was left out");
     page.table(&table::omissions(problem, answer));
-    page.heading("The same again");
-    page.command(&again(source));
-    page.paragraph(&format!(
-        "viscofriction {}; the same numbers to the last bit with any number of threads.",
-        env!("CARGO_PKG_VERSION")
-    ));
     Ok(page.finish())
 }
 
@@ -177,7 +171,7 @@ fn modelled(problem: &Problem, answer: &Answer) -> String {
         Model::HalfSpace => "a half space",
     };
     format!(
-        "Modelled: a rigid body, without friction of its own, on {body}, of a linear viscoelastic material, with small slopes."
+        "Modelled: a rigid body, without friction of its own, on {body} of a linear viscoelastic material, with small slopes."
     )
 }
 
@@ -220,25 +214,6 @@ fn material(problem: &Problem, answer: &Answer) -> Option<Figure> {
 
 /// From the middle of the frequencies in a picture of the material to their ends.
 const AROUND: f64 = 1e3;
-
-/// The words that were typed; what a shell would take for more than a word is quoted.
-fn again(source: &Source) -> String {
-    let is_plain = |sign: char| sign.is_alphanumeric() || "-_./=,:+".contains(sign);
-    let quoted = |word: String| {
-        if !word.is_empty() && word.chars().all(is_plain) {
-            word
-        } else {
-            format!("'{}'", word.replace('\'', "'\\''"))
-        }
-    };
-    let words: Vec<String> = std::env::args().skip(1).map(quoted).collect();
-    let from = if source.path().as_os_str() == "-" {
-        " < SCENE"
-    } else {
-        ""
-    };
-    format!("viscofriction {}{from}", words.join(" "))
-}
 
 fn caption(name: &str) -> &'static str {
     match name {

@@ -23,7 +23,7 @@ pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> R
     let files = files.transpose()?;
     if let Some((out, pictures)) = files {
         out.write(table.text()?.as_bytes())?;
-        pictures.draw(&table)?;
+        pictures.draw(&table, None)?;
         let n_rows = table.rows.len();
         say(&format!("{n_rows} points in {}", out.path().display()));
     } else {

@@ -6,6 +6,7 @@
 mod file;
 mod merge;
 mod picture;
+mod report;
 mod samples;
 
 use std::path::{Path, PathBuf};
@@ -170,7 +171,7 @@ fn into_file(
     points.retain(|point| !there.contains(point));
     compute(plan, &points, threads, |row| file.append(row))?;
     let table = file.finish()?;
-    pictures.draw(&table)?;
+    pictures.draw(&table, Some(plan.scene_text()))?;
     let n_rows = table.rows.len();
     let (n_computed, path) = (points.len(), path.display());
     say(&format!("{n_computed} points computed, {n_rows} in {path}"));

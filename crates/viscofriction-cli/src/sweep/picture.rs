@@ -9,6 +9,7 @@ use viscofriction::numerics::InWords;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
+use super::report::page;
 use super::samples::Samples;
 use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
@@ -28,19 +29,21 @@ const EQUAL: f64 = 1e-6;
 /// Values of a list that span a larger factor are drawn over their logarithm.
 const WIDE: f64 = 100.0;
 
-/// The picture of a sweep, as SVG and as PNG.
+/// The picture of a sweep, as SVG and as PNG, and the page about it.
 pub(super) struct PictureFiles {
     svg: OutputFile,
     png: OutputFile,
+    html: OutputFile,
 }
 
 impl PictureFiles {
     /// The files beside that of the rows.
     pub(super) fn new(rows: &Path, overwrite: bool) -> Result<Self, WrongInput> {
-        let [svg, png] = ["svg", "png"].map(|extension| beside(rows, extension));
+        let file = |extension| OutputFile::new(&beside(rows, extension), overwrite);
         Ok(Self {
-            svg: OutputFile::new(&svg, overwrite)?,
-            png: OutputFile::new(&png, overwrite)?,
+            svg: file("svg")?,
+            png: file("png")?,
+            html: file("html")?,
         })
     }
 
@@ -53,33 +56,41 @@ impl PictureFiles {
     /// Makes the pictures that are to be replaced those of this sweep, so that it goes on with them when it is taken up again;
     /// the caller holds the lock of the rows.
     pub(super) fn claim(&self, fingerprint: &str) -> Result<()> {
-        let is_there = [&self.svg, &self.png].map(|file| file.path().exists());
-        if is_there == [false; 2] {
+        if !self.all().iter().any(|file| file.path().exists()) {
             return Ok(());
         }
         let empty = format!("{EMPTY}{}", signature(fingerprint));
         self.svg.write(empty.as_bytes())
     }
 
+    const fn all(&self) -> [&OutputFile; 3] {
+        [&self.svg, &self.png, &self.html]
+    }
+
     /// Removes what a sweep that was killed has left of them; the caller holds the lock of the rows.
     pub(super) fn remove_parts(&self) {
-        for file in [&self.svg, &self.png] {
+        for file in self.all() {
             remove_parts(folder_of(file.path()), &[&name_of(file.path())]);
         }
     }
 
-    /// Draws what can be drawn, and says why where nothing can.
-    pub(super) fn draw(&self, table: &RowTable) -> Result<()> {
-        let (svg, png) = match figure(table).and_then(|figure| picture(&figure)) {
-            Ok(files) => files,
+    /// Draws what can be drawn, and says why where nothing can; writes the page with the scene, where that is known.
+    pub(super) fn draw(&self, table: &RowTable, scene: Option<&str>) -> Result<()> {
+        let drawn = figure(table).and_then(|figure| Ok((picture(&figure)?, figure)));
+        let figure = match drawn {
+            Ok(((svg, png), figure)) => {
+                let fingerprint = table.rows.first().map_or("", |row| &row.fields[0]);
+                self.svg.write((svg + &signature(fingerprint)).as_bytes())?;
+                self.png.write(&png)?;
+                Some(figure)
+            }
             Err(problem) => {
                 say(&format!("no picture: {problem:#}"));
-                return Ok(());
+                None
             }
         };
-        let fingerprint = table.rows.first().map_or("", |row| &row.fields[0]);
-        self.svg.write((svg + &signature(fingerprint)).as_bytes())?;
-        self.png.write(&png)
+        let page = page(table, figure.as_ref(), scene)?;
+        self.html.write(page.as_bytes())
     }
 }
 

@@ -66,6 +66,11 @@ impl Plan {
         })
     }
 
+    /// The text of the scene.
+    pub fn scene_text(&self) -> &str {
+        self.source.text()
+    }
+
     /// Number of points, all combinations of the values.
     pub fn n_points(&self) -> usize {
         self.vary.iter().map(|vary| vary.values.len()).product()

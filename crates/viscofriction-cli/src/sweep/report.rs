@@ -1,0 +1,86 @@
+//! One page about a sweep.
+
+use anyhow::Result;
+use viscofriction::sweep::each_once;
+use viscofriction_plot::Figure;
+
+use super::file::RowTable;
+use super::picture::{AROUND_KEYS, labelled};
+use super::samples::Samples;
+use crate::output::markdown;
+use crate::page::Page;
+
+/// Columns with errors that a row of the page has where a point knows them, with their names.
+const COLUMNS: [(&str, &str); 5] = [
+    ("friction_coefficient", "friction coefficient"),
+    ("normal_force", "normal force [N]"),
+    ("indentation_depth", "depth [m]"),
+    ("contact_area", "contact area [m²]"),
+    ("peak_pressure", "peak pressure [Pa]"),
+];
+/// What a failure stands in.
+const FAILURE: &str = "failure";
+
+/// The page, with the text of the scene where that is known.
+pub(super) fn page(
+    table: &RowTable,
+    figure: Option<&Figure>,
+    scene: Option<&str>,
+) -> Result<String> {
+    let place = |name: &str| table.header.iter().position(|column| column == name);
+    let [before, behind] = AROUND_KEYS.map(|name| place(name).unwrap_or(0));
+    let keys = before + 1..behind.max(before + 1);
+    let names: Vec<&str> = keys.clone().map(|key| &*table.header[key]).collect();
+    let mut page = Page::new(&format!("A sweep over {}", names.join(" and ")));
+    page.paragraph(&format!("{} points.", table.rows.len()));
+    if let Some(scene) = scene {
+        page.hidden("the scene file", scene);
+    }
+    if let Some(figure) = figure {
+        page.picture(figure, "")?;
+    }
+    if let Some(samples) = Samples::of(table) {
+        page.heading("How the answers are distributed");
+        page.table(&samples.table());
+    }
+    page.heading("The answers");
+    page.table(&rows(table, keys));
+    page.heading("How far to trust them");
+    let warnings = each_once(table.rows.iter().map(|row| row.warnings()));
+    if warnings.is_empty() {
+        page.paragraph("No point has a warning.");
+    } else {
+        page.list(&warnings);
+    }
+    Ok(page.finish())
+}
+
+/// The keys and what is known at each point; why there is no answer, where there is none.
+fn rows(table: &RowTable, keys: std::ops::Range<usize>) -> comfy_table::Table {
+    let place = |name: &str| table.header.iter().position(|column| column == name);
+    let is_known = |column: usize| table.rows.iter().any(|row| !row.fields[column].is_empty());
+    let columns = COLUMNS.into_iter().filter_map(|(name, label)| {
+        let column = place(name).filter(|&column| is_known(column))?;
+        Some((column, place(&format!("{name}_error")), label))
+    });
+    let columns: Vec<(usize, Option<usize>, &str)> = columns.collect();
+    let failure = place(FAILURE).filter(|&column| is_known(column));
+    let heads = keys.clone().map(|key| labelled(&table.header[key]));
+    let heads = heads.chain(columns.iter().map(|(_, _, label)| (*label).to_owned()));
+    let heads = heads.chain(failure.map(|_| "no answer, because".to_owned()));
+    let mut shown = markdown(&heads.collect::<Vec<_>>().join(" | "));
+    for row in &table.rows {
+        let number = |column: usize| row.fields[column].parse::<f64>().ok();
+        let known = columns.iter().map(|&(column, error, _)| {
+            let error = error.and_then(number).filter(|error| *error > 0.0);
+            match (number(column), error) {
+                (None, _) => String::new(),
+                (Some(value), None) => format!("{value:.6e}"),
+                (Some(value), Some(error)) => format!("{value:.6e} ± {error:.1e}"),
+            }
+        });
+        let cells = keys.clone().map(|key| row.fields[key].clone()).chain(known);
+        shown.add_row(cells.chain(failure.map(|column| row.fields[column].clone())));
+    }
+    shown
+}
