@@ -45,7 +45,7 @@ fn a_sweep_killed_at_any_moment_keeps_its_rows_and_goes_on_to_the_same() {
     folder.write("out/.rows.png.viscofriction-0.part", "");
     assert_eq!(swept(&folder, "out/rows.csv", "--resume"), expected);
     let left = folder.names("out").join(" ");
-    assert_eq!(left, "rows.csv rows.png rows.svg", "what is left");
+    assert_eq!(left, "rows.csv rows.html rows.png rows.svg", "what is left");
 }
 
 #[test]
