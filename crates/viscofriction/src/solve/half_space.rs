@@ -55,19 +55,12 @@ fn of_file(
     temperature: Option<f64>,
     files: &Files<'_>,
 ) -> Result<HalfSpace, SceneError> {
-    let material = || {
-        let (file, contents) = files.material(file)?;
-        let source = Source::new(&file, contents)?;
-        let table = MaterialTable::try_from(source.table()?);
-        let none = Files {
-            read: no_file,
-            ..*files
-        };
-        let read = |table: MaterialTable| Ok((half_space(&table, &none)?, table.shift()));
-        table.and_then(read).map_err(|error| source.locate(&error))
+    let none = Files {
+        read: no_file,
+        ..*files
     };
-    let wrong = |WrongInput(problem)| SceneError::at("material.file.path", problem);
-    let (found, shift) = material().map_err(wrong)?;
+    let read = |table: MaterialTable| Ok((half_space(&table, &none)?, table.shift()));
+    let (found, shift) = of_table_in(file, files, read)?;
     let Some(temperature) = temperature else {
         return Ok(found);
     };
@@ -79,6 +72,22 @@ fn of_file(
     found
         .shifted(shift, temperature)
         .map_err(|error| SceneError::at(key, error.to_string()))
+}
+
+/// What the table of a material in another file stands for.
+pub(crate) fn of_table_in<T>(
+    file: &Path,
+    files: &Files<'_>,
+    read: impl FnOnce(MaterialTable) -> Result<T, SceneError>,
+) -> Result<T, SceneError> {
+    let of_table = || {
+        let (file, contents) = files.material(file)?;
+        let source = Source::new(&file, contents)?;
+        let table = MaterialTable::try_from(source.table()?);
+        table.and_then(read).map_err(|error| source.locate(&error))
+    };
+    let wrong = |WrongInput(problem)| SceneError::at("material.file.path", problem);
+    of_table().map_err(wrong)
 }
 
 impl HalfSpace {

@@ -14,7 +14,9 @@ use super::error::{Result, SolveError};
 use super::problem::{Motion, Problem};
 use crate::files::ReadFile;
 use crate::scene::{Method, Scene};
-use parameters::Numbers;
+#[cfg(feature = "fit")]
+pub(crate) use parameters::Number;
+pub(crate) use parameters::Numbers;
 
 /// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
 /// one-dimensional model.

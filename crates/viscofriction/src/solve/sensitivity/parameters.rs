@@ -22,7 +22,8 @@ const OTHERS: [&str; 7] = [
 ];
 
 /// A scene, and the files that it names.
-pub(super) struct Numbers<'a> {
+#[derive(Debug)]
+pub(crate) struct Numbers<'a> {
     scene: Table,
     folder: &'a Path,
     read: ReadFile,
@@ -30,10 +31,10 @@ pub(super) struct Numbers<'a> {
 
 /// One number of a scene.
 #[derive(Debug, Clone)]
-pub(super) struct Number {
+pub(crate) struct Number {
     steps: Vec<Step>,
     /// Not 0.
-    pub(super) value: f64,
+    pub(crate) value: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -43,7 +44,7 @@ enum Step {
 }
 
 impl<'a> Numbers<'a> {
-    pub(super) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
+    pub(crate) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
         let scene = Table::try_from(scene);
         let scene = scene.map_err(|error| SceneError::at("scene", error.to_string()))?;
         Ok(Self {
@@ -53,7 +54,7 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    pub(super) fn all(&self) -> Vec<Number> {
+    pub(crate) fn all(&self) -> Vec<Number> {
         let mut numbers = Vec::new();
         for table in TABLES {
             if let Some(value) = self.scene.get(table) {
@@ -65,23 +66,34 @@ impl<'a> Numbers<'a> {
 
     /// The problem with another value of a number.
     pub(super) fn problem(&self, number: &Number, value: f64) -> Result<Problem, SceneError> {
+        let scene = self.scene([(number, value)].into_iter())?;
+        Problem::new(&scene, self.folder, self.read)
+    }
+
+    /// The scene with other values of some numbers.
+    pub(crate) fn scene<'n>(
+        &self,
+        values: impl Iterator<Item = (&'n Number, f64)>,
+    ) -> Result<Scene, SceneError> {
         let mut scene = self.scene.clone();
-        let mut steps = number.steps.iter();
-        let first = steps.next().and_then(|step| match step {
-            Step::Key(key) => scene.get_mut(key),
-            Step::Index(_) => None,
-        });
-        let place = steps.try_fold(first, |place, step| {
-            Some(match (place, step) {
-                (Some(Value::Table(table)), Step::Key(key)) => table.get_mut(key),
-                (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
-                _ => None,
-            })
-        });
-        if let Some(Some(place)) = place {
-            *place = Value::Float(value);
+        for (number, value) in values {
+            let mut steps = number.steps.iter();
+            let first = steps.next().and_then(|step| match step {
+                Step::Key(key) => scene.get_mut(key),
+                Step::Index(_) => None,
+            });
+            let place = steps.try_fold(first, |place, step| {
+                Some(match (place, step) {
+                    (Some(Value::Table(table)), Step::Key(key)) => table.get_mut(key),
+                    (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
+                    _ => None,
+                })
+            });
+            if let Some(Some(place)) = place {
+                *place = Value::Float(value);
+            }
         }
-        Problem::new(&Scene::try_from(scene)?, self.folder, self.read)
+        Scene::try_from(scene)
     }
 }
 
@@ -108,7 +120,7 @@ fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
 
 impl Number {
     /// The path of its key, such as `material.prony.branches[0].modulus`.
-    pub(super) fn path(&self) -> String {
+    pub(crate) fn path(&self) -> String {
         let mut path = String::new();
         for step in &self.steps {
             match step {
@@ -121,7 +133,7 @@ impl Number {
     }
 
     /// The first and the last key.
-    pub(super) fn ends(&self) -> [&str; 2] {
+    pub(crate) fn ends(&self) -> [&str; 2] {
         let mut keys = self.steps.iter().filter_map(|step| match step {
             Step::Key(key) => Some(&key[..]),
             Step::Index(_) => None,
