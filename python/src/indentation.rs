@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use measurements::Finding;
 use measurements::indentation::{
-    CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness,
+    CurveOptions, FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness,
     fit_indentation, indentation_curve,
 };
 use numpy::{IntoPyArray as _, PyReadonlyArray1};

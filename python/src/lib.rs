@@ -5,6 +5,7 @@
 //! not be reached comes back as data, from which Python makes its own exception.
 
 mod background;
+mod friction;
 mod indentation;
 mod materials;
 mod moduli;
@@ -16,6 +17,8 @@ mod tables;
 /// The native module.
 #[pyo3::pymodule(name = "_native")]
 mod native {
+    #[pymodule_export]
+    use super::friction::fit_points;
     #[pymodule_export]
     use super::indentation::fit_curve;
     #[pymodule_export]

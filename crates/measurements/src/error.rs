@@ -26,6 +26,16 @@ pub enum MeasurementError {
     /// The body is none whose force on a sample of finite thickness is known.
     #[error(transparent)]
     Sample(FrictionError),
+    /// Too few points for the parameters.
+    #[error(
+        "at least {needed} points are needed for these parameters and the size of the noise, but there are {given}"
+    )]
+    TooFewPoints {
+        /// How many are needed.
+        needed: usize,
+        /// How many there are.
+        given: usize,
+    },
     /// No start leads to a minimum.
     #[error("no material of this kind has a force like that of the curve")]
     NotConverged,

@@ -1,7 +1,8 @@
 //! Measured curves and moduli of viscoelastic materials, and what they say.
 //!
 //! [`moduli`] reads tables of moduli as instruments export them and makes one curve of isotherms; [`indentation`] finds the
-//! material behind a curve of force over depth, with intervals that hold.
+//! material behind a curve of force over depth, with intervals that hold; [`friction`] reads tables of friction over speed, and
+//! says which parameters of any model of friction explain them.
 //!
 //! ```
 //! use indenters::{Control, HistoryPoint, Sphere};
@@ -31,6 +32,8 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod error;
+mod finding;
+pub mod friction;
 pub mod indentation;
 pub mod moduli;
 mod table;
@@ -43,3 +46,4 @@ struct ReadMe;
 /// The crates whose types are arguments and results, so that no other dependency is needed.
 pub use ::{indenters, rheology};
 pub use error::MeasurementError;
+pub use finding::Finding;

@@ -100,7 +100,7 @@ fn unread(path: &Path, error: &io::Error) -> WrongInput {
 }
 
 /// Parameters of the libraries, and the options that give them.
-const OPTIONS: [(&str, &str); 13] = [
+const OPTIONS: [(&str, &str); 14] = [
     ("n_branches", "--branches"),
     ("branches", "--branches"),
     ("tolerance", "--parsimony"),
@@ -114,6 +114,7 @@ const OPTIONS: [(&str, &str); 13] = [
     ("sensitivity", "--sensitivity"),
     ("ramp_rate", "--ramp-rate"),
     ("thickness", "--thickness"),
+    ("prior", "--prior"),
 ];
 
 /// The option that gave what a library refuses.

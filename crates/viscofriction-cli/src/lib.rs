@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod check;
+mod friction;
 mod indentation;
 mod input;
 mod material;
@@ -56,6 +57,8 @@ enum Command {
     FitMaterial(material::FitMaterial),
     /// Find the material behind measured curves of force over depth: findings with intervals, CSV, SVG and PNG.
     FitIndentation(indentation::FitIndentation),
+    /// Find the moduli of a scene's material from measured friction over speed: findings with intervals, CSV, SVG and PNG.
+    FitFriction(friction::FitFriction),
     /// Say what a measured surface is like: roughness parameters, power spectra, pictures, and a tidied copy.
     Surface(surface::Surface),
     /// Print the JSON Schema of scene files.
@@ -78,6 +81,7 @@ pub fn execute() -> ExitCode {
         Command::Sweep(options) => sweep::sweep(&options),
         Command::FitMaterial(options) => material::fit(&options),
         Command::FitIndentation(options) => indentation::fit(&options),
+        Command::FitFriction(options) => friction::fit(&options),
         Command::Surface(options) => surface::describe(&options),
         Command::SceneSchema => scene_schema(),
         Command::Completions { shell } => completions(shell),

@@ -27,6 +27,8 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod files;
+#[cfg(feature = "fit")]
+pub mod friction_fit;
 pub mod npy;
 pub mod scene;
 pub mod solve;

@@ -9,20 +9,19 @@
 //! of a smoothed depth is added to both.
 
 use numerics::Estimate;
-use numerics::least_squares::{inverse, minimise};
+use numerics::least_squares::{Minimum, Profile, inverse, profile_end};
 
+use super::IndentationCurve;
 use super::model::{Forces, Kind, Model};
 use super::noise::{Linear, Noise, RIDGE, correlated_points, normal_matrix};
 use super::search::Found;
-use super::{Finding, IndentationCurve};
-use crate::MeasurementError;
+use crate::{Finding, MeasurementError};
 
 /// 95 % of a normal distribution are within so many standard deviations.
 const NORMAL: f64 = 1.959_963_984_540_054;
 /// A logarithm with a larger standard error wants a profile.
 const WIDE: f64 = 0.4;
-/// Steps of the search for an end of a profile, and how close its distance has to be.
-const STEPS: usize = 20;
+/// How close the distance of an end of a profile has to be.
 const CLOSE: f64 = 0.01;
 /// Part of the range of depths by which a knot is moved to see what it does.
 const SHIFT: f64 = 1e-4;
@@ -120,48 +119,19 @@ impl Statistics {
 
     /// Where the least sum with a parameter held has risen; none up to the bound of its range.
     fn profile_end(&self, found: &Found, parameter: usize, side: f64) -> Option<f64> {
-        let best = &found.parameters;
-        let least = found.linearised(best)?.sum;
-        let most = self.rises[parameter];
-        let rise = |place: f64| {
-            let mut ranges = found.ranges.clone();
-            ranges[parameter].bounds = [place; 2];
-            // Not from where another place has led, which may be another minimum.
-            let mut start = best.clone();
-            start[parameter] = place;
-            let sum = |parameters: &[f64]| found.linearised(parameters);
-            let held = minimise(sum, start, &ranges, 3e-3 * most / least);
-            let held = held.map(|held| held.linearised.sum);
-            // Nearly linear in the distance from the best one; where there is no force, the end is before.
-            held.map_or(f64::INFINITY, |sum| (sum - least).max(0.0) / most)
-                .sqrt()
+        let best = Minimum {
+            linearised: found.linearised(&found.parameters)?,
+            parameters: found.parameters.clone(),
         };
-        let range = found.ranges[parameter];
-        let end = range.bounds[usize::from(side > 0.0)];
-        let room = side * (end - best[parameter]);
-        let [mut inner, mut outer] = [[0.0; 2], [f64::INFINITY; 2]];
-        let step = NORMAL * self.deviation(parameter);
-        let mut step = step.min(range.largest_step).min(room);
-        for _ in 0..STEPS {
-            let at = rise(best[parameter] + side * step);
-            if (at - 1.0).abs() < CLOSE {
-                return Some(best[parameter] + side * step);
-            }
-            if at < 1.0 && step >= room {
-                return None;
-            }
-            *(if at < 1.0 { &mut inner } else { &mut outer }) = [step, at];
-            let part = (1.0 - inner[1]) / (outer[1] - inner[1]);
-            step = if outer[0].is_infinite() {
-                (2.0 * step).min(room)
-            } else if outer[1].is_infinite() {
-                0.5 * (inner[0] + outer[0])
-            } else {
-                inner[0] + part.clamp(0.02, 0.98) * (outer[0] - inner[0])
-            };
-        }
-        // The nearest place where the sum has certainly risen enough.
-        Some(best[parameter] + side * outer[0]).filter(|end| end.is_finite())
+        let profile = Profile {
+            parameter,
+            side,
+            rise: self.rises[parameter],
+            first_step: NORMAL * self.deviation(parameter),
+            close: CLOSE,
+        };
+        let sum = |parameters: &[f64]| found.linearised(parameters);
+        profile_end(sum, &best, &found.ranges, profile)
     }
 }
 

@@ -24,7 +24,7 @@ use indenters::Axisymmetric;
 use mdr_core::MdrError;
 use rheology::Prony;
 
-use crate::MeasurementError;
+use crate::{Finding, MeasurementError};
 pub use flag::Flag;
 pub use read::{CurveOptions, indentation_curve};
 
@@ -117,20 +117,6 @@ impl Default for FitOptions {
             profile: false,
         }
     }
-}
-
-/// What a curve says about one quantity.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Finding {
-    /// Name, as G_inf.
-    pub name: String,
-    /// SI unit.
-    pub unit: &'static str,
-    /// The value with its standard error, where the curve determines it.
-    pub estimate: Option<numerics::Estimate>,
-    /// Ends of the 95 % interval; none where the curve sets no bound on that side.
-    pub interval: [Option<f64>; 2],
 }
 
 /// A material found in a curve.

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use super::Deformation;
 use Quantity::{
-    Deflection, Depth, Force, Frequency, Height, Loss, LossFactor, Other, Piezo, Relaxation, Set,
-    Storage, Temperature, Time, Tip,
+    Deflection, Depth, Force, Frequency, Friction, FrictionError, FrictionForce, Height, Loss,
+    LossFactor, Other, Piezo, Relaxation, Set, Storage, Temperature, Time, Tip, Velocity,
 };
 
 /// What a column holds.
@@ -30,6 +30,14 @@ pub(crate) enum Quantity {
     /// Position of the tip, away from the sample.
     Tip,
     Deflection,
+    /// Of sliding or rolling.
+    Velocity,
+    /// Friction coefficient.
+    Friction,
+    /// Standard error of the friction coefficient.
+    FrictionError,
+    /// Along the surface.
+    FrictionForce,
     /// A name of which only a part is known.
     Other,
 }
@@ -149,6 +157,10 @@ impl Quantity {
             Piezo => ("piezo", "m mm um nm pm A"),
             Height => ("height", "m mm um nm pm A"),
             Tip => ("tip position", "m mm um nm pm A"),
+            Velocity => ("v", "m/s mm/s um/s cm/s km/h"),
+            Friction => ("mu", "-  1 %"),
+            FrictionError => ("standard error of mu", "-  1 %"),
+            FrictionForce => ("friction force", "N mN uN nN pN kN"),
             // As a force, as a length, and what a detector says.
             Deflection => ("deflection", "N mN uN nN pN m um nm pm V mV"),
             Other => ("", "-  1"),
@@ -184,6 +196,9 @@ impl Quantity {
             "min" => return 60.0,
             "h" => return 3600.0,
             "A" => return 1e-10,
+            "m/s" => return 1.0,
+            "cm/s" | "%" => return 0.01,
+            "km/h" => return 1.0 / 3.6,
             _ => 1.0,
         };
         let factors = [1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9];

@@ -425,6 +425,21 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// The same in °C.
+    pub(crate) fn celsius(&self, line: &Line) -> Result<Option<f64>> {
+        let is_kelvin = self
+            .find(Quantity::Temperature)
+            .is_some_and(|column| column.unit == "K");
+        let zero = if is_kelvin {
+            KELVIN_AT_ZERO_CELSIUS
+        } else {
+            0.0
+        };
+        Ok(self
+            .temperature(line)?
+            .map(|temperature| temperature - zero))
+    }
+
     /// What is wrong with a frequency or time.
     pub(crate) fn wrong_first(&self, line: &Line, expected: &str) -> MeasurementError {
         let first = self.find(self.needed[0]).unwrap_or(&self.columns[0]);

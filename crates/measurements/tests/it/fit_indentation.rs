@@ -3,9 +3,8 @@
 use std::fmt::Write as _;
 
 use indenters::{Axisymmetric, FlatPunch, PowerProfile, Sphere};
-use measurements::indentation::{
-    Finding, FitOptions, Flag, IndentationCurve, Rheology, fit_indentation,
-};
+use measurements::Finding;
+use measurements::indentation::{FitOptions, Flag, IndentationCurve, Rheology, fit_indentation};
 use rayon::prelude::*;
 
 use crate::support::{Normal, assert_close};

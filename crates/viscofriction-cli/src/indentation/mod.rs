@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
 use clap::Args;
-use measurements::MeasurementError;
 use measurements::indentation::{
-    CurveOptions, Finding, FitOptions, IndentationFit, Rheology, Thickness, fit_indentation,
+    CurveOptions, FitOptions, IndentationFit, Rheology, Thickness, fit_indentation,
     indentation_curve,
 };
+use measurements::{Finding, MeasurementError};
 use rayon::prelude::*;
 use rheology::Material as _;
 use viscofriction::WrongInput;
@@ -274,7 +274,7 @@ fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option
 }
 
 /// Value, standard error and ends of the interval.
-fn numbers(finding: &Finding) -> [Option<f64>; 4] {
+pub(crate) fn numbers(finding: &Finding) -> [Option<f64>; 4] {
     let [lower, upper] = finding.interval;
     let estimate = finding.estimate.map(|one| [one.value, one.error]);
     let [value, error] = estimate.map_or([None; 2], |pair| pair.map(Some));
@@ -308,7 +308,7 @@ impl FitIndentation {
 }
 
 /// A finding times a factor.
-fn row(name: &str, factor: f64, finding: &Finding) -> [String; 5] {
+pub(crate) fn row(name: &str, factor: f64, finding: &Finding) -> [String; 5] {
     let digits = |number: f64| format!("{:.4e}", factor * number);
     let [value, error] = match finding.estimate {
         Some(estimate) => [estimate.value, estimate.error].map(digits),

@@ -2,6 +2,7 @@
 
 mod documented_commands;
 mod files;
+mod fit_friction;
 mod fit_indentation;
 mod fit_material;
 mod fuzzed_inputs;

@@ -63,24 +63,32 @@ pub(super) fn of_file(
     temperature: Option<f64>,
     files: &Files<'_>,
 ) -> Result<MaterialTable, SceneError> {
-    let material = || {
-        let (file, contents) = files.material(file)?;
-        let source = Source::new(&file, contents)?;
-        let table = MaterialTable::try_from(source.table()?);
-        let none = Files {
-            read: no_file,
-            ..*files
-        };
-        let checked = |table: MaterialTable| half_space(&table, &none).map(|_| table);
-        let table = table.and_then(checked);
-        table.map_err(|error| source.locate(&error))
+    let none = Files {
+        read: no_file,
+        ..*files
     };
-    let wrong = |WrongInput(problem)| SceneError::at("material.file.path", problem);
-    let table = material().map_err(wrong)?;
+    let read = |table: MaterialTable| half_space(&table, &none).map(|_| table);
+    let table = of_table_in(file, files, read)?;
     match temperature {
         Some(temperature) => table.at(temperature),
         None => Ok(table),
     }
+}
+
+/// What the table of a material in another file stands for.
+pub(crate) fn of_table_in<T>(
+    file: &Path,
+    files: &Files<'_>,
+    read: impl FnOnce(MaterialTable) -> Result<T, SceneError>,
+) -> Result<T, SceneError> {
+    let of_table = || {
+        let (file, contents) = files.material(file)?;
+        let source = Source::new(&file, contents)?;
+        let table = MaterialTable::try_from(source.table()?);
+        table.and_then(read).map_err(|error| source.locate(&error))
+    };
+    let wrong = |WrongInput(problem)| SceneError::at("material.file.path", problem);
+    of_table().map_err(wrong)
 }
 
 fn no_file(file: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {

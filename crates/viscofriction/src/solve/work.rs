@@ -19,9 +19,9 @@ use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, M
 use crate::scene::{Accuracy, Control, Model};
 
 /// What one method computes, with all that it needs.
-pub(super) type Work<'a> = Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + Send + 'a>;
+pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + Send + 'a>;
 /// Or why it does not.
-type Offer<'a> = Result<Work<'a>, Refusal>;
+pub(crate) type Offer<'a> = Result<Work<'a>, Refusal>;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
@@ -344,21 +344,24 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
             ready(move |_| pressed(1.0).map(without_friction))
         }
         (Sliding(load), _, Model::HalfSpace) => closed_half_space(problem, body, load, asked),
-        (Sliding(load), _, Model::Line) => closed_line(problem, body, load),
+        (Sliding(load), _, Model::Line) => {
+            require(problem.window().is_none(), NO_SHARE)?;
+            closed_line(problem.simple(), body, load)
+        }
     }
 }
 
-fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad) -> Offer<'a> {
-    require(problem.window().is_none(), NO_SHARE)?;
+/// The closed form of the one-dimensional model, whatever is known of the window of the material.
+pub(crate) fn closed_line<'a>(
+    material: Option<&'a Simple>,
+    body: &'a Revolution,
+    load: SlidingLoad,
+) -> Offer<'a> {
     let cone_or_paraboloid = match body {
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
         _ => None,
     };
-    match (
-        problem.simple(),
-        load.sliding_distance(),
-        cone_or_paraboloid,
-    ) {
+    match (material, load.sliding_distance(), cone_or_paraboloid) {
         (Some(Simple::Viscous(material)), None, _) => {
             ready(move |_| analytic::viscous_line(body, material, &load))
         }
@@ -367,7 +370,7 @@ fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad
                 "only of cone and paraboloid the state before the stationary one has a closed form",
             )?;
             require(
-                has_force(problem),
+                matches!(load.control(), Control::NormalForce(_)),
                 "the state before the stationary one has a closed form under a force only",
             )?;
             ready(move |_| analytic::viscous_transient(profile, material, &load, distance))

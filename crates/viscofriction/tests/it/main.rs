@@ -6,6 +6,8 @@
 
 mod answers_agree;
 mod explained_omissions;
+#[cfg(feature = "fit")]
+mod friction_fits;
 mod height_maps_of_numpy;
 mod histories;
 mod histories_on_layers;

@@ -1,7 +1,7 @@
 //! The stationary state with an error bar of every quantity.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request, Unwatched, Watch};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request, Unwatched, Watch, positive};
 use rheology::Material as _;
 
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
@@ -54,6 +54,20 @@ fn plan(
 ) -> Result<GridPlan, BemError> {
     let load = SlidingLoad::with(load.control(), load.velocity())?;
     GridPlan::sliding(surface, elastomer, &load)
+}
+
+/// The grid of about so many elements along the contact, at least 1, and half as wide.
+///
+/// # Errors
+/// As for [`steady`], before anything is solved.
+pub fn steady_grid(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<SteadyOptions, BemError> {
+    positive("elements", elements as f64)?;
+    Ok(grid(&plan(&surface, elastomer, load)?, elements))
 }
 
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {

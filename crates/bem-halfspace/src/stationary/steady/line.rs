@@ -10,7 +10,7 @@
 //! length along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
 
 use indenters::{SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Request};
+use numerics::{Accuracy, ErrorParts, Estimate, Request, positive};
 use rheology::Material as _;
 
 use crate::estimate::bars::{self, ContactEstimate};
@@ -112,11 +112,8 @@ pub fn steady_line<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<LineEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
-    let creep = SlidingCreep::new(elastomer, load.velocity())?;
     let force = load.require_normal_force()?;
-    let [_, length] = scale_of_profile(profile, &creep, force)?;
-    let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
-    let footprint = [-REAR * length, front * length];
+    let (length, footprint) = lengths(profile, elastomer, load)?;
     let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
     let problem = SteadyProblem {
@@ -132,7 +129,7 @@ pub fn steady_line<'w>(
         watch: request.watch,
     };
     let is_elastic = elastomer.material().creep().is_elastic();
-    let has_depth = creep.base().is_rigid();
+    let has_depth = elastomer.base().is_rigid();
     let of_line = |known| {
         let mut found = of_line(known, force);
         if is_elastic {
@@ -153,6 +150,38 @@ pub fn steady_line<'w>(
         }
         Accuracy::Elements(_) => of_line(with_elements(&problem, strip.length, request)?),
     }
+}
+
+/// Half the length of the contact, about, and where it may occur, \[m].
+fn lengths(
+    profile: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+) -> Result<(f64, [f64; 2]), BemError> {
+    let creep = SlidingCreep::new(elastomer, load.velocity())?;
+    let [_, length] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
+    let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
+    Ok((length, [-REAR * length, front * length]))
+}
+
+/// The grid of a number of elements, at least 1, along the contact of a cylinder on an elastic half space.
+///
+/// # Errors
+/// As for [`steady_line`], before anything is solved.
+pub fn steady_line_grid(
+    profile: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<LineOptions, BemError> {
+    let elements = positive("elements", elements as f64)?;
+    let (length, footprint) = lengths(&profile, elastomer, load)?;
+    let spacing = ELEMENTS_OF_CYLINDER / COARSEST * length / elements;
+    let grid = SteadyOptions::new([spacing; 2], Footprint::square(length));
+    Ok(LineOptions {
+        footprint,
+        ..LineOptions::of(&grid)
+    })
 }
 
 /// The estimate of a strip as that of a line that bears a force per length.

@@ -46,9 +46,11 @@ use crate::parallel::chunks::in_pool;
 use crate::{BemError, Elastomer, Footprint};
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
-pub use estimate::{steady, steady_memory, steady_refined};
+pub use estimate::{steady, steady_grid, steady_memory, steady_refined};
 pub use kernel::wake_influence;
-pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_on_grid};
+pub use line::{
+    LineEstimate, LineOptions, LineSliding, steady_line, steady_line_grid, steady_line_on_grid,
+};
 use loading::Loading;
 use mesh::Mesh;
 use pivoting::Solution;

@@ -19,8 +19,9 @@ use crate::files::ReadFile;
 use crate::scene::{Method, Scene};
 use budget::budget;
 pub use budget::{Budget, Source, Uncertainties};
+use parameters::TEMPERATURE;
 pub(super) use parameters::check_uncertainties;
-use parameters::{Number, Numbers, TEMPERATURE};
+pub(crate) use parameters::{Number, Numbers};
 pub use sampling::sampled;
 pub use spectral::{ByFrequency, SpectralSensitivity, spectral_sensitivity};
 

@@ -31,7 +31,8 @@ const OTHERS: [&str; 9] = [
 pub(super) const TEMPERATURE: &str = "material.file.temperature";
 
 /// A scene, and the files that it names.
-pub(super) struct Numbers<'a> {
+#[derive(Debug)]
+pub(crate) struct Numbers<'a> {
     /// The material of a file is that of the scene itself.
     scene: Table,
     /// The scene as it is written, and the temperature of its material, \[K], where that may be another one.
@@ -43,10 +44,10 @@ pub(super) struct Numbers<'a> {
 
 /// One number of a scene.
 #[derive(Debug, Clone)]
-pub(super) struct Number {
+pub(crate) struct Number {
     steps: Vec<Step>,
     /// Not 0.
-    pub(super) value: f64,
+    pub(crate) value: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -56,7 +57,7 @@ enum Step {
 }
 
 impl<'a> Numbers<'a> {
-    pub(super) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
+    pub(crate) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
         let mut scene = scene.clone();
         // What is uncertain is asked of the scene, and of no other value of its numbers.
         let uncertainty = std::mem::take(&mut scene.uncertainty);
@@ -125,7 +126,7 @@ impl<'a> Numbers<'a> {
         Ok(())
     }
 
-    pub(super) fn all(&self) -> Vec<Number> {
+    pub(crate) fn all(&self) -> Vec<Number> {
         let mut numbers = Vec::new();
         for table in TABLES {
             if let Some(value) = self.scene.get(table) {
@@ -148,23 +149,19 @@ impl<'a> Numbers<'a> {
             }
             _ => (self.scene.clone(), value),
         };
-        let mut steps = number.steps.iter();
-        let first = steps.next().and_then(|step| match step {
-            Step::Key(key) => scene.get_mut(key),
-            Step::Index(_) => None,
-        });
-        let place = steps.try_fold(first, |place, step| {
-            Some(match (place, step) {
-                (Some(Value::Table(table)), Step::Key(key)) => {
-                    // A temperature may be that of the file, and left out.
-                    Some(table.entry(key.clone()).or_insert(Value::Float(value)))
-                }
-                (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
-                _ => None,
-            })
-        });
-        if let Some(Some(place)) = place {
-            *place = Value::Float(value);
+        set(&mut scene, number, value);
+        Scene::try_from(scene)
+    }
+
+    /// The scene with other values of some numbers, none of them a temperature.
+    #[cfg(feature = "fit")]
+    pub(crate) fn scene_with_all<'n>(
+        &self,
+        values: impl Iterator<Item = (&'n Number, f64)>,
+    ) -> Result<Scene, SceneError> {
+        let mut scene = self.scene.clone();
+        for (number, value) in values {
+            set(&mut scene, number, value);
         }
         Scene::try_from(scene)
     }
@@ -224,6 +221,28 @@ fn as_table(scene: &Scene) -> Result<Table, SceneError> {
     Table::try_from(scene).map_err(|error| SceneError::at("scene", error.to_string()))
 }
 
+/// Puts a value in the place of a number.
+fn set(scene: &mut Table, number: &Number, value: f64) {
+    let mut steps = number.steps.iter();
+    let first = steps.next().and_then(|step| match step {
+        Step::Key(key) => scene.get_mut(key),
+        Step::Index(_) => None,
+    });
+    let place = steps.try_fold(first, |place, step| {
+        Some(match (place, step) {
+            (Some(Value::Table(table)), Step::Key(key)) => {
+                // A temperature may be that of the file, and left out.
+                Some(table.entry(key.clone()).or_insert(Value::Float(value)))
+            }
+            (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
+            _ => None,
+        })
+    });
+    if let Some(Some(place)) = place {
+        *place = Value::Float(value);
+    }
+}
+
 fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
     let below = |step: Step| [steps, &[step]].concat();
     match value {
@@ -247,7 +266,7 @@ fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
 
 impl Number {
     /// The path of its key, such as `material.prony.branches[0].modulus`.
-    pub(super) fn path(&self) -> String {
+    pub(crate) fn path(&self) -> String {
         let mut path = String::new();
         for step in &self.steps {
             match step {
@@ -273,7 +292,7 @@ impl Number {
     }
 
     /// The first and the last key.
-    pub(super) fn ends(&self) -> [&str; 2] {
+    pub(crate) fn ends(&self) -> [&str; 2] {
         let mut keys = self.steps.iter().filter_map(|step| match step {
             Step::Key(key) => Some(&key[..]),
             Step::Index(_) => None,

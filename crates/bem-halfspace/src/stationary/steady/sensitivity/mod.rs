@@ -67,8 +67,15 @@ pub struct ByModuli {
 #[derive(Debug)]
 #[must_use]
 pub struct SteadySensitivity {
-    fine: Vec<State>,
-    coarse: Vec<State>,
+    fine: SensitivityOnGrid,
+    coarse: SensitivityOnGrid,
+}
+
+/// A stationary contact with its adjoint loads, on shifted grids of one spacing, without bars.
+#[derive(Debug)]
+#[must_use]
+pub struct SensitivityOnGrid {
+    states: Vec<State>,
 }
 
 impl SteadySensitivity {
@@ -84,11 +91,8 @@ impl SteadySensitivity {
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        let loading = Loading::new(&surface, elastomer, load, &options.footprint)?;
-        let given = matches!(loading.control, Control::IndentationDepth(_));
-        let fluidity = loading.creep.fluidity();
-        in_range("fluidity", fluidity, !given || fluidity <= 0.0, AT_A_DEPTH)?;
-        Self::of(&surface, &loading, options, PHASES)
+        let loading = loading(&surface, elastomer, load, options)?;
+        Self::of(&surface, &loading, options, &PHASES)
     }
 
     /// The same in plane strain, as of [`steady_line`](super::steady_line()).
@@ -103,28 +107,27 @@ impl SteadySensitivity {
     ) -> Result<Self, BemError> {
         let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
         let strip = Strip::new(&profile, &loading);
-        Self::of(&strip, &loading, &options.on_strip(&strip), PHASES_OF_STRIP)
+        let options = options.on_strip(&strip);
+        Self::of(&strip, &loading, &options, &PHASES_OF_STRIP)
     }
 
     fn of(
         surface: &dyn Surface,
         loading: &Loading,
         options: &SteadyOptions,
-        phases: [[f64; 2]; 2],
+        phases: &[[f64; 2]],
     ) -> Result<Self, BemError> {
         let mut reuse = Reuse::default();
-        let mut states = |factor: f64| -> Result<Vec<State>, BemError> {
-            let grids = phases.map(|phase| SteadyOptions {
+        let mut on_grids = |factor: f64| {
+            let options = SteadyOptions {
                 spacing: loading.scaled(options.spacing, factor),
-                phase,
                 ..*options
-            });
-            let state = |options| State::new(surface, loading, options, &mut reuse);
-            grids.into_iter().map(state).collect()
+            };
+            SensitivityOnGrid::of(surface, loading, &options, (phases, &mut reuse))
         };
-        let coarse = states(COARSER)?;
+        let coarse = on_grids(COARSER)?;
         Ok(Self {
-            fine: states(1.0)?,
+            fine: on_grids(1.0)?,
             coarse,
         })
     }
@@ -134,7 +137,7 @@ impl SteadySensitivity {
     /// # Errors
     /// [`BemError::InvalidParameter`] where a height in the contact is not finite.
     pub fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Change<Estimate>, BemError> {
-        self.change(|state| state.between_bodies(bodies))
+        self.change(|grids| grids.mean_of(|state| state.between_bodies(bodies)))
     }
 
     /// The change from one material and velocity to another, both near those of the state, on the same base; fast where all
@@ -147,9 +150,7 @@ impl SteadySensitivity {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        let [from, to] = [0, 1].map(|end| SlidingCreep::new(materials[end], velocities[end]));
-        let ends = [from?, to?];
-        self.change(|state| state.between_materials(ends.each_ref()))
+        self.change(|grids| grids.mean_between(materials, velocities))
     }
 
     /// The same with a base each, as layers of other thicknesses or Poisson ratios have.
@@ -163,25 +164,26 @@ impl SteadySensitivity {
     ) -> Result<Change<Estimate>, BemError> {
         let [from, to] = [0, 1].map(|end| SlidingCreep::new(elastomers[end], velocities[end]));
         let ends = [from?, to?];
-        self.change(|state| state.between_elastomers(ends.each_ref()))
+        self.change(|grids| grids.mean_of(|state| state.between_elastomers(ends.each_ref())))
     }
 
     /// The friction coefficient on these grids.
     pub fn friction_coefficient(&self) -> Estimate {
-        let of = |states: &[State]| {
+        let of = |grids: &SensitivityOnGrid| {
             let change = |state: &State| Change {
                 friction_coefficient: state.friction_coefficient,
                 indentation_depth: None,
                 normal_force: None,
             };
-            mean(states.iter().map(change).collect())
+            mean(grids.states.iter().map(change).collect())
         };
         compared(of(&self.fine), of(&self.coarse)).friction_coefficient
     }
 
     /// The derivative by the normal force, per newton, or by the depth, per metre, whichever is given.
     pub fn by_load(&self) -> Change<Estimate> {
-        let of = |states: &[State]| mean(states.iter().map(State::by_load).collect());
+        let of =
+            |grids: &SensitivityOnGrid| mean(grids.states.iter().map(State::by_load).collect());
         compared(of(&self.fine), of(&self.coarse))
     }
 
@@ -204,8 +206,8 @@ impl SteadySensitivity {
             not_negative("frequency", from)?;
             in_range("frequency", to, to > from, "greater than the one before")?;
         }
-        let of = |states: &[State]| -> Result<Vec<[Mean; 2]>, BemError> {
-            let found = states.iter().map(|state| state.by_moduli(&bands));
+        let of = |grids: &SensitivityOnGrid| -> Result<Vec<[Mean; 2]>, BemError> {
+            let found = grids.states.iter().map(|state| state.by_moduli(&bands));
             let found = found.collect::<Result<Vec<_>, _>>()?;
             let of_band = |band: usize| {
                 [0, 1].map(|part| mean(found.iter().map(|state| state[band][part]).collect()))
@@ -227,14 +229,117 @@ impl SteadySensitivity {
 
     fn change(
         &self,
-        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
+        of: impl Fn(&SensitivityOnGrid) -> Result<Mean, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        let mean_of = |states: &[State]| -> Result<Mean, BemError> {
-            let changes = states.iter().map(&of).collect::<Result<_, _>>()?;
-            Ok(mean(changes))
-        };
-        Ok(compared(mean_of(&self.fine)?, mean_of(&self.coarse)?))
+        Ok(compared(of(&self.fine)?, of(&self.coarse)?))
     }
+}
+
+impl SensitivityOnGrid {
+    /// Around the stationary state on one grid, such as [`steady_grid`](super::steady_grid) makes.
+    ///
+    /// # Errors
+    /// As for [`SteadySensitivity::new`].
+    pub fn new(
+        surface: &(impl Surface + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        options: &SteadyOptions,
+    ) -> Result<Self, BemError> {
+        let loading = loading(&surface, elastomer, load, options)?;
+        let phases = [options.phase];
+        Self::of(
+            &surface,
+            &loading,
+            options,
+            (&phases, &mut Reuse::default()),
+        )
+    }
+
+    /// The same in plane strain, on a grid such as [`steady_line_grid`](super::steady_line_grid) makes.
+    ///
+    /// # Errors
+    /// As for [`SteadySensitivity::of_line`].
+    pub fn of_line(
+        profile: &(impl Surface + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        options: &LineOptions,
+    ) -> Result<Self, BemError> {
+        let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
+        let strip = Strip::new(&profile, &loading);
+        let options = options.on_strip(&strip);
+        let phases = [options.phase];
+        Self::of(&strip, &loading, &options, (&phases, &mut Reuse::default()))
+    }
+
+    fn of(
+        surface: &dyn Surface,
+        loading: &Loading,
+        options: &SteadyOptions,
+        (phases, reuse): (&[[f64; 2]], &mut Reuse),
+    ) -> Result<Self, BemError> {
+        let grids = phases
+            .iter()
+            .map(|&phase| SteadyOptions { phase, ..*options });
+        let state = |options| State::new(surface, loading, options, reuse);
+        Ok(Self {
+            states: grids.map(state).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The friction coefficient.
+    pub fn friction_coefficient(&self) -> f64 {
+        let all = self.states.iter().map(|state| state.friction_coefficient);
+        all.sum::<f64>() / self.states.len() as f64
+    }
+
+    /// The change of the friction coefficient as of [`SteadySensitivity::between_materials`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn between_materials(
+        &self,
+        materials: [&dyn Material; 2],
+        velocities: [f64; 2],
+    ) -> Result<f64, BemError> {
+        let [change, _] = self
+            .mean_between(materials, velocities)?
+            .friction_coefficient;
+        Ok(change)
+    }
+
+    fn mean_between(
+        &self,
+        materials: [&dyn Material; 2],
+        velocities: [f64; 2],
+    ) -> Result<Mean, BemError> {
+        let [from, to] = [0, 1].map(|end| SlidingCreep::new(materials[end], velocities[end]));
+        let ends = [from?, to?];
+        self.mean_of(|state| state.between_materials(ends.each_ref()))
+    }
+
+    fn mean_of(
+        &self,
+        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
+    ) -> Result<Mean, BemError> {
+        let changes = self.states.iter().map(of).collect::<Result<_, _>>()?;
+        Ok(mean(changes))
+    }
+}
+
+/// A load under which the contact has derivatives.
+fn loading(
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    options: &SteadyOptions,
+) -> Result<Loading, BemError> {
+    let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
+    let given = matches!(loading.control, Control::IndentationDepth(_));
+    let fluidity = loading.creep.fluidity();
+    in_range("fluidity", fluidity, !given || fluidity <= 0.0, AT_A_DEPTH)?;
+    Ok(loading)
 }
 
 /// A mean over shifted grids, and how far they are apart.

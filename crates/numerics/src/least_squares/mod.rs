@@ -2,7 +2,13 @@
 //!
 //! Levenberg's and Marquardt's method (Marquardt 1963, DOI 10.1137/0111030) with the damping on the diagonal.
 
+mod profile;
+mod student;
+
 use nalgebra::{DMatrix, DVector};
+
+pub use profile::{Profile, profile_end};
+pub use student::student_quantile;
 
 /// A sum at one place, and its second-order model: sum(p + s) ≈ sum − 2 descent·s + s·matrix·s.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,23 +41,82 @@ pub struct Minimum {
 }
 
 const MAX_STEPS: usize = 100;
+/// Part of what is enough, below which a step has changed nothing.
+const STALLED: f64 = 0.1;
+/// Damping that keeps a matrix positive and changes no step that counts.
+const UNDAMPED: f64 = 1e-9;
+
+impl Linearised {
+    /// By how much the sum falls by its model.
+    fn lowered(&self, from: &[f64], to: &[f64]) -> f64 {
+        let moved: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+        let rows = self.matrix.chunks(moved.len()).zip(&self.descent);
+        let by_row = rows.zip(&moved).map(|((row, descent), step)| {
+            let product: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
+            step * (2.0 * descent - product)
+        });
+        by_row.sum()
+    }
+}
 
 /// Goes down from a start within the ranges; the last step is the first that lowers the sum by less than `sufficient` of
 /// it.
 ///
 /// None where `linearise` has no finite sum at the start; where it has none on the way, steps become shorter.
 pub fn minimise(
-    mut linearise: impl FnMut(&[f64]) -> Option<Linearised>,
+    linearise: impl FnMut(&[f64]) -> Option<Linearised>,
     start: Vec<f64>,
     ranges: &[Range],
     sufficient: f64,
+) -> Option<Minimum> {
+    descend(linearise, start, ranges, Ending::Fraction(sufficient))
+}
+
+/// The same; a step within the ranges that would lower the sum by less than `enough` by its model is the last one, and is taken
+/// by the model alone: the sum that is returned is that of the model. A step that lowers it by less than a tenth of that is the
+/// last one, too.
+///
+/// None where `linearise` has no finite sum at the start.
+pub fn minimise_by_model(
+    linearise: impl FnMut(&[f64]) -> Option<Linearised>,
+    start: Vec<f64>,
+    ranges: &[Range],
+    enough: f64,
+) -> Option<Minimum> {
+    descend(linearise, start, ranges, Ending::Model(enough))
+}
+
+/// When a search ends.
+#[derive(Clone, Copy)]
+enum Ending {
+    /// When a step lowers the sum by less than this part.
+    Fraction(f64),
+    /// When the model lowers it by less, in units of the sum.
+    Model(f64),
+}
+
+fn descend(
+    mut linearise: impl FnMut(&[f64]) -> Option<Linearised>,
+    start: Vec<f64>,
+    ranges: &[Range],
+    ending: Ending,
 ) -> Option<Minimum> {
     let finite = |linearised: &Linearised| linearised.sum.is_finite();
     let mut parameters = start;
     let mut linearised = linearise(&parameters).filter(finite)?;
     let mut damping = 1e-3;
     for _ in 0..MAX_STEPS {
-        let mut gained = None;
+        if let Ending::Model(enough) = ending
+            && let Some(moved) = step(&linearised, &parameters, ranges, UNDAMPED)
+            && is_whole([&parameters, &moved], ranges)
+            && let lowered = linearised.lowered(&parameters, &moved)
+            && lowered < enough
+        {
+            linearised.sum -= lowered.max(0.0);
+            parameters = moved;
+            break;
+        }
+        let (mut gained, before) = (None, linearised.sum);
         while gained.is_none() && damping < 1e9 {
             let moved = step(&linearised, &parameters, ranges, damping);
             let trial = moved.and_then(|moved| Some((linearise(&moved).filter(finite)?, moved)));
@@ -64,13 +129,27 @@ pub fn minimise(
                 None => damping *= 4.0,
             }
         }
-        if gained.is_none_or(|fraction| fraction < sufficient) {
+        let is_last = |fraction: f64| match ending {
+            Ending::Fraction(sufficient) => fraction < sufficient,
+            Ending::Model(enough) => fraction * before < STALLED * enough,
+        };
+        if gained.is_none_or(is_last) {
             break;
         }
     }
     Some(Minimum {
         parameters,
         linearised,
+    })
+}
+
+/// Whether no parameter was held back by the bounds or the largest step of its range, unless both of its bounds are the same.
+fn is_whole([from, to]: [&[f64]; 2], ranges: &[Range]) -> bool {
+    let mut pairs = from.iter().zip(to).zip(ranges);
+    pairs.all(|((from, to), range)| {
+        let [lowest, highest] = range.bounds;
+        let is_inside = lowest < *to && *to < highest;
+        (is_inside && (to - from).abs() < 0.999 * range.largest_step) || lowest >= highest
     })
 }
 
@@ -147,6 +226,10 @@ mod tests {
         let found = minimise(valley, start(), &[range(2.0); 2], 1e-12).expect("a minimum");
         let off = (found.parameters[0] - 1.0).hypot(found.parameters[1] - 1.0);
         assert!(off < 1e-9, "{:?}", found.parameters);
+        // Where the model says that hardly anything is left, it is right.
+        let found = minimise_by_model(valley, start(), &[range(2.0); 2], 1e-6).expect("a minimum");
+        let off = (found.parameters[0] - 1.0).hypot(found.parameters[1] - 1.0);
+        assert!(off < 1e-4 && found.linearised.sum < 1e-7, "{found:?}");
         // On x = 1/2 the least is y = x² with the sum 1/4.
         let ranges = [range(0.5), range(2.0)];
         let found = minimise(valley, start(), &ranges, 1e-12).expect("a minimum");

@@ -1,0 +1,64 @@
+//! Student's distribution, by which errors of an unknown size are judged.
+
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+
+use crate::root::bracketed_root;
+
+/// The number t of standard errors, estimated with so many degrees of freedom, at least 1, between −t and t of which the part
+/// `coverage` of all deviations lies; none where that is no part between 0 and 1.
+///
+/// ```
+/// use numerics::least_squares::student_quantile;
+///
+/// let [one, ten] = [1, 10].map(|freedom| student_quantile(0.95, freedom).unwrap());
+/// assert!((one - 12.706_204_7).abs() < 1e-6 && (ten - 2.228_138_9).abs() < 1e-6);
+/// ```
+pub fn student_quantile(coverage: f64, freedom: usize) -> Option<f64> {
+    let angle = bracketed_root(|angle| within(angle, freedom) - coverage, [0.0, FRAC_PI_2]);
+    let quantile = angle?.tan() * (freedom as f64).sqrt();
+    (freedom > 0 && quantile.is_finite()).then_some(quantile)
+}
+
+/// P(|T| < t) with t = √ν tan θ (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4).
+fn within(angle: f64, freedom: usize) -> f64 {
+    let (sine, cosine) = angle.sin_cos();
+    let is_odd = freedom % 2 == 1;
+    let (mut term, mut power) = if is_odd { (cosine, 3) } else { (1.0, 2) };
+    let mut sum = if freedom > 1 { term } else { 0.0 };
+    while power < freedom {
+        let order = power as f64;
+        term *= cosine * cosine * (order - 1.0) / order;
+        sum += term;
+        power += 2;
+    }
+    if is_odd {
+        FRAC_2_PI * (angle + sine * sum)
+    } else {
+        sine * sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two-sided 5 % points of Fisher and Yates, and the normal distribution.
+    #[test]
+    fn quantiles_are_those_of_tables() {
+        let known = [
+            (1, 12.7062),
+            (2, 4.3027),
+            (3, 3.1824),
+            (4, 2.7764),
+            (5, 2.5706),
+            (30, 2.0423),
+            (120, 1.9799),
+            (1_000_000, 1.959_97),
+        ];
+        for (freedom, expected) in known {
+            let found = student_quantile(0.95, freedom).expect("a quantile");
+            assert!((found - expected).abs() < 6e-5, "{freedom}: {found}");
+        }
+        assert_eq!(student_quantile(0.95, 0), None, "no freedom");
+    }
+}

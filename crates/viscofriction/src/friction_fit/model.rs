@@ -1,0 +1,341 @@
+//! Friction of the points of a table over the parameters of a material, with its derivatives.
+//!
+//! On the half space every point is solved on one coarse grid, whose friction is multiplied by what it lacks from a solution with
+//! an error bar at parameters nearby: the ratio hardly changes with them.
+
+use std::sync::{Mutex, PoisonError};
+
+use bem_halfspace::Layer;
+use bem_halfspace::steady::sensitivity::SensitivityOnGrid;
+use bem_halfspace::steady::{steady, steady_grid, steady_line, steady_line_grid};
+use indenters::{Control, Cylinder, SlidingLoad, Surface};
+use measurements::friction::{FrictionModel, FrictionPoint, ModelledPoint};
+use numerics::{Estimate, Unwatched};
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
+use rheology::Material;
+
+use super::FrictionFitError;
+use super::family::Family;
+use crate::scene::{Method, Model as Dimensions, SceneError};
+use crate::solve::body::{Body, Revolution};
+use crate::solve::half_space::simple;
+use crate::solve::mdr;
+use crate::solve::work::closed_line;
+use crate::solve::{Motion, Problem, Result, SolveError};
+
+/// Elements along the contact. Their friction is 1 % off, which a correction mends, and its derivatives by logarithms up to 5 %
+/// (docs/fit-friction.md).
+const ELEMENTS: usize = 8;
+/// The same where a search begins.
+const FEW_ELEMENTS: usize = 5;
+/// Relative error that is asked of the solutions that the grids are corrected by.
+const CORRECTION: f64 = 5e-3;
+/// Relative error of the one-dimensional model.
+const EXACT: f64 = 1e-9;
+/// Step of a logarithm for adjoint derivatives, and for differences of friction.
+const STEP: f64 = 1e-5;
+const LONG_STEP: f64 = 1e-4;
+
+/// What is solved for a point.
+enum Forward<'a> {
+    Surface(&'a dyn Surface),
+    Cylinder(&'a Cylinder),
+    Line(&'a Revolution),
+}
+
+pub(super) struct Model<'a> {
+    family: &'a Family<'a>,
+    forward: Forward<'a>,
+    thickness: f64,
+    track: Option<f64>,
+    control: Control,
+    elements: usize,
+    pub(super) points: Vec<FrictionPoint>,
+    /// What the friction of each point is multiplied by.
+    corrections: Vec<f64>,
+    /// What was refused last.
+    pub(super) refused: Mutex<Option<FrictionFitError>>,
+}
+
+/// The materials on both sides of each parameter, and the one between them.
+struct Materials {
+    own: Box<dyn Material>,
+    beside: Vec<[Box<dyn Material>; 2]>,
+}
+
+impl<'a> Model<'a> {
+    pub(super) fn new(
+        family: &'a Family<'a>,
+        problem: &'a Problem,
+        points: &[FrictionPoint],
+    ) -> std::result::Result<Self, FrictionFitError> {
+        let control = match problem.motion() {
+            Motion::Sliding(load) if load.sliding_distance().is_none() => load.control(),
+            _ => {
+                let problem = "a body that slides or rolls without end is needed: a velocity, and no duration, distance or \
+                               history";
+                return Err(SceneError::at("load", problem).into());
+            }
+        };
+        let is_known = family.n_of_material() == 0 || matches!(control, Control::NormalForce(_));
+        if !is_known {
+            let problem = "at a given depth the friction stays the same when all moduli are multiplied by one number, so that it does \
+                           not tell them; give normal_force";
+            return Err(SceneError::at("load.indentation_depth", problem).into());
+        }
+        Ok(Self {
+            forward: forward(problem)?,
+            family,
+            thickness: problem.thickness(),
+            track: problem.track(),
+            control,
+            elements: ELEMENTS,
+            points: points.to_vec(),
+            corrections: vec![1.0; points.len()],
+            refused: Mutex::new(None),
+        })
+    }
+
+    /// Some of the points, on coarser grids.
+    pub(super) fn some(&self, step: usize) -> Self {
+        let some = |index: &usize| index.is_multiple_of(step);
+        let places = || (0..self.points.len()).filter(some);
+        Self {
+            forward: match self.forward {
+                Forward::Surface(surface) => Forward::Surface(surface),
+                Forward::Cylinder(cylinder) => Forward::Cylinder(cylinder),
+                Forward::Line(body) => Forward::Line(body),
+            },
+            points: places().map(|index| self.points[index]).collect(),
+            corrections: places().map(|index| self.corrections[index]).collect(),
+            elements: FEW_ELEMENTS,
+            refused: Mutex::new(None),
+            ..*self
+        }
+    }
+
+    /// Corrects the grids near these parameters; the largest relative error that is left.
+    pub(super) fn correct(
+        &mut self,
+        parameters: &[f64],
+    ) -> std::result::Result<f64, FrictionFitError> {
+        if let Forward::Line(_) = self.forward {
+            return Ok(EXACT);
+        }
+        let materials = self.materials(parameters, false)?;
+        let of_point = |point: &FrictionPoint| {
+            let load = self.load(point, parameters)?;
+            let coarse = self.on_grid(&*materials.own, &load)?.friction_coefficient();
+            let fine = self.refined(&*materials.own, &load)?;
+            Ok((fine.value / coarse, fine.error / fine.value))
+        };
+        let found = self.of_all(of_point)?;
+        let worst = found.iter().map(|(_, error)| *error);
+        let worst = worst.fold(0.0, f64::max);
+        self.corrections = found.into_iter().map(|(ratio, _)| ratio).collect();
+        Ok(worst)
+    }
+
+    /// In parallel, in the order of the points.
+    fn of_all<T: Send>(
+        &self,
+        of_point: impl Fn(&FrictionPoint) -> Result<T> + Sync,
+    ) -> std::result::Result<Vec<T>, FrictionFitError> {
+        let numbered = |(index, point): (usize, &FrictionPoint)| {
+            of_point(point).map_err(|why| FrictionFitError::NotSolved {
+                point: index + 1,
+                velocity: point.velocity,
+                why,
+            })
+        };
+        #[cfg(feature = "rayon")]
+        let found: Vec<_> = self.points.par_iter().enumerate().map(numbered).collect();
+        #[cfg(not(feature = "rayon"))]
+        let found: Vec<_> = self.points.iter().enumerate().map(numbered).collect();
+        // The first of the refused points, whichever was refused first.
+        found.into_iter().collect()
+    }
+
+    fn materials(
+        &self,
+        parameters: &[f64],
+        with_neighbours: bool,
+    ) -> std::result::Result<Materials, SceneError> {
+        let n = if with_neighbours {
+            self.family.n_of_material()
+        } else {
+            0
+        };
+        let beside = (0..n).map(|k| {
+            let at = |side: f64| {
+                let mut moved = parameters.to_vec();
+                moved[k] += side * self.step();
+                self.family.material(&moved)
+            };
+            Ok([at(-1.0)?, at(1.0)?])
+        });
+        Ok(Materials {
+            own: self.family.material(parameters)?,
+            beside: beside.collect::<std::result::Result<_, SceneError>>()?,
+        })
+    }
+
+    const fn step(&self) -> f64 {
+        match self.forward {
+            Forward::Line(_) => LONG_STEP,
+            _ => STEP,
+        }
+    }
+
+    /// The load of a point at the speed that its temperature makes of it.
+    fn load(&self, point: &FrictionPoint, parameters: &[f64]) -> Result<SlidingLoad> {
+        let (shift, _) = self.family.shift_of(point, parameters)?;
+        let control = point
+            .normal_force
+            .map_or(self.control, Control::NormalForce);
+        Ok(SlidingLoad::with(control, point.velocity * shift.exp())?)
+    }
+
+    fn on_grid(&self, material: &dyn Material, load: &SlidingLoad) -> Result<SensitivityOnGrid> {
+        let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
+        Ok(match self.forward {
+            Forward::Cylinder(cylinder) => {
+                let grid = steady_line_grid(cylinder, &layer, load, self.elements)?;
+                SensitivityOnGrid::of_line(cylinder, &layer, load, &grid)?
+            }
+            Forward::Surface(surface) => {
+                let grid = steady_grid(surface, &layer, load, self.elements)?;
+                SensitivityOnGrid::new(surface, &layer, load, &grid)?
+            }
+            Forward::Line(_) => return Err(no_derivatives(Method::MdrSteady)),
+        })
+    }
+
+    fn refined(&self, material: &dyn Material, load: &SlidingLoad) -> Result<Estimate> {
+        let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
+        Ok(match self.forward {
+            Forward::Cylinder(cylinder) => {
+                steady_line(cylinder, &layer, load, CORRECTION)?.friction_coefficient
+            }
+            Forward::Surface(surface) => {
+                steady(surface, &layer, load, CORRECTION)?.friction_coefficient
+            }
+            Forward::Line(body) => Estimate::exact(self.on_line(body, material, load)?),
+        })
+    }
+
+    fn on_line(
+        &self,
+        body: &Revolution,
+        material: &dyn Material,
+        load: &SlidingLoad,
+    ) -> Result<f64> {
+        let simple = simple(material)?;
+        let closed = closed_line(simple.as_ref(), body, *load);
+        let answer = match closed.ok().filter(|_| self.track.is_none()) {
+            Some(closed) => closed(&Unwatched)?,
+            None => mdr::stationary(&**body, material, load, self.track, EXACT)?,
+        };
+        let friction = answer.friction_coefficient.map(|friction| friction.value);
+        friction.ok_or_else(|| no_derivatives(answer.method))
+    }
+
+    /// Friction, its derivatives by the parameters of the material, and that by the speed where that is asked for.
+    fn with_derivatives(
+        &self,
+        materials: &Materials,
+        load: &SlidingLoad,
+    ) -> Result<(f64, Vec<f64>, f64)> {
+        let (velocity, step) = (load.velocity(), self.step());
+        let faster = [-1.0, 1.0].map(|side: f64| velocity * (side * step).exp());
+        if let Forward::Line(body) = self.forward {
+            let of = |material: &dyn Material, load: &SlidingLoad| {
+                Ok::<f64, SolveError>(self.on_line(body, material, load)?.ln())
+            };
+            let log = of(&*materials.own, load)?;
+            let slopes = materials.beside.iter().map(|[below, above]| {
+                Ok((of(&**above, load)? - of(&**below, load)?) / (2.0 * step))
+            });
+            let slopes = slopes.collect::<Result<_>>()?;
+            let at = |velocity: f64| {
+                of(
+                    &*materials.own,
+                    &SlidingLoad::with(load.control(), velocity)?,
+                )
+            };
+            let by_speed = if self.family.shift_is_free() {
+                (at(faster[1])? - at(faster[0])?) / (2.0 * step)
+            } else {
+                0.0
+            };
+            return Ok((log.exp(), slopes, by_speed));
+        }
+        let grid = self.on_grid(&*materials.own, load)?;
+        let friction = grid.friction_coefficient();
+        let relative = |ends: [&dyn Material; 2], velocities: [f64; 2]| -> Result<f64> {
+            Ok(grid.between_materials(ends, velocities)? / (2.0 * step * friction))
+        };
+        let slopes = materials
+            .beside
+            .iter()
+            .map(|[below, above]| relative([&**below, &**above], [velocity; 2]));
+        let slopes = slopes.collect::<Result<_>>()?;
+        let by_speed = if self.family.shift_is_free() {
+            relative([&*materials.own; 2], faster)?
+        } else {
+            0.0
+        };
+        Ok((friction, slopes, by_speed))
+    }
+
+    fn all(&self, parameters: &[f64]) -> std::result::Result<Vec<ModelledPoint>, FrictionFitError> {
+        let materials = self.materials(parameters, true)?;
+        let mut modelled = self.of_all(|point| {
+            let load = self.load(point, parameters)?;
+            let (friction, mut slopes, by_speed) = self.with_derivatives(&materials, &load)?;
+            let (_, by_law) = self.family.shift_of(point, parameters)?;
+            slopes.extend(by_law.iter().map(|slope| by_speed * slope));
+            Ok(ModelledPoint {
+                friction_coefficient: friction,
+                slopes,
+            })
+        })?;
+        for (point, correction) in modelled.iter_mut().zip(&self.corrections) {
+            point.friction_coefficient *= correction;
+        }
+        Ok(modelled)
+    }
+}
+
+impl FrictionModel for Model<'_> {
+    fn friction(&self, parameters: &[f64]) -> Option<Vec<ModelledPoint>> {
+        match self.all(parameters) {
+            Ok(modelled) => Some(modelled),
+            Err(why) => {
+                *self.refused.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
+                None
+            }
+        }
+    }
+}
+
+fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitError> {
+    match (problem.model(), problem.body()) {
+        (Dimensions::Line, Body::Revolution(body)) => Ok(Forward::Line(body)),
+        (Dimensions::HalfSpace, Body::Cylinder(cylinder)) => Ok(Forward::Cylinder(cylinder)),
+        (Dimensions::HalfSpace, body) if body.surface().is_some() => {
+            let surface = body.surface();
+            let none = || SceneError::at("indenter", ONE_BODY);
+            Ok(Forward::Surface(surface.ok_or_else(none)?))
+        }
+        _ => Err(SceneError::at("indenter", ONE_BODY).into()),
+    }
+}
+
+const ONE_BODY: &str = "friction has derivatives for a single body or a cylinder on the half space, and for a body of revolution \
+     in the one-dimensional model";
+
+const fn no_derivatives(method: Method) -> SolveError {
+    SolveError::NoSensitivity { method }
+}

@@ -1,0 +1,339 @@
+//! Moduli and shift laws come back from friction that was computed with them, with intervals that say what is not determined.
+
+use std::path::Path;
+
+use measurements::Finding;
+use measurements::friction::{FrictionNoise, FrictionPoint};
+use viscofriction::friction_fit::{
+    FittedFriction, Free, FrictionFitError, FrictionFitOptions, fit_friction,
+};
+use viscofriction::scene::{MaterialTable, Shift, ShiftLaw};
+use viscofriction::{Problem, Scene, WrongInput, solve};
+
+const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[load]\nnormal_force = 1.0\nvelocity = 1.0\n";
+const LINE: &str = "[solve]\nmodel = \"line\"\n";
+
+/// A ball on a rubber with a spring and a slow and a fast branch, and what stands beside its moduli.
+fn rubber([spring, slow, fast]: [f64; 3], beside: &str, solve: &str) -> Scene {
+    let text = format!(
+        "{BALL}[material.prony]\nequilibrium_modulus = {spring:e}\n{beside}\nbranches = [{{ modulus = {slow:e}, \
+         relaxation_time = 0.1 }}, {{ modulus = {fast:e}, relaxation_time = 1e-3 }}]\n{solve}"
+    );
+    text.parse().expect("a scene")
+}
+
+const TRUE: [f64; 3] = [1e6, 5e5, 2e6];
+const START: [f64; 3] = [1e6; 3];
+
+/// A material without times of its own under a paraboloid, which has a closed form in the one-dimensional model.
+fn damped(spring: f64, viscosity: f64, beside: &str) -> Scene {
+    format!(
+        "[indenter.paraboloid]\ncurvature = 100.0\n[load]\nnormal_force = 1.0\nvelocity = 1.0\n[material.prony]\n\
+         equilibrium_modulus = {spring:e}\nviscosity = {viscosity:e}\nbranches = []\n{beside}\n{LINE}"
+    )
+    .parse()
+    .expect("a scene")
+}
+
+/// Friction at these speeds, with the standard error.
+fn measured(scene: &Scene, speeds: &[f64], error: Option<f64>) -> Vec<FrictionPoint> {
+    let point = |&velocity: &f64| {
+        let mut scene = scene.clone();
+        scene.load.velocity = Some(velocity);
+        let problem = Problem::try_from(&scene).expect("a problem");
+        let friction = solve(&problem).expect("an answer").friction_coefficient;
+        let friction = friction.expect("a friction").value;
+        FrictionPoint {
+            velocity,
+            friction_coefficient: friction,
+            standard_error: error.map(|error| error * friction),
+            ..FrictionPoint::default()
+        }
+    };
+    speeds.iter().map(point).collect()
+}
+
+fn speeds(slowest: f64, fastest: f64, n: i32) -> Vec<f64> {
+    let at = |k: i32| slowest * (fastest / slowest).powf(f64::from(k) / f64::from(n - 1));
+    (0..n).map(at).collect()
+}
+
+fn fit(
+    scene: &Scene,
+    points: &[FrictionPoint],
+    options: FrictionFitOptions,
+) -> Result<FittedFriction, FrictionFitError> {
+    let no_files = |path: &Path, _| Err(WrongInput(path.display().to_string()));
+    fit_friction(scene, (Path::new(""), no_files), points, &options)
+}
+
+#[track_caller]
+fn assert_near(finding: &Finding, truth: f64, deviations: f64) {
+    let found = finding.estimate.expect("determined");
+    assert!(
+        (found.value - truth).abs() <= deviations * found.error,
+        "{}: {} ± {}, and {truth} is true",
+        finding.name,
+        found.value,
+        found.error
+    );
+}
+
+/// Without noise the fit is the truth, up to what the last step leaves.
+#[test]
+fn moduli_come_back_from_the_one_dimensional_model() {
+    let points = measured(&rubber(TRUE, "", LINE), &speeds(1e-4, 3.0, 8), Some(0.02));
+    let found = fit(
+        &rubber(START, "", LINE),
+        &points,
+        FrictionFitOptions::default(),
+    );
+    let found = found.expect("a fit");
+    let names = [
+        "branches[0].modulus",
+        "branches[1].modulus",
+        "equilibrium_modulus",
+    ];
+    let truth = [TRUE[1], TRUE[2], TRUE[0]];
+    for ((finding, name), truth) in found.fit.findings.iter().zip(names).zip(truth) {
+        assert_eq!(finding.name, format!("prony.{name}"), "the order");
+        assert_near(finding, truth, 0.05);
+    }
+    assert!(
+        found.fit.residual < 1e-2 && found.fit.flags.is_empty(),
+        "{:?}",
+        found.fit
+    );
+}
+
+/// The grids of the fit are coarse, and what they lack is corrected: below a quarter of the noise of 2 % of each point.
+#[test]
+fn moduli_come_back_from_the_half_space_on_any_number_of_threads() {
+    let points = measured(&rubber(TRUE, "", ""), &speeds(1e-3, 3.0, 6), Some(0.02));
+    let on_threads = |n: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build();
+        let options = FrictionFitOptions::default();
+        let fit = || fit(&rubber(START, "", ""), &points, options).expect("a fit");
+        pool.expect("threads").install(fit)
+    };
+    let found = on_threads(2);
+    let truth = [TRUE[1], TRUE[2], TRUE[0]];
+    for (finding, truth) in found.fit.findings.iter().zip(truth) {
+        assert_near(finding, truth, 0.25);
+    }
+    assert_eq!(found, on_threads(1), "on one thread");
+}
+
+/// Where the dashpot bears everything, the spring may be as soft as it likes.
+#[test]
+fn what_friction_does_not_tell_is_not_determined() {
+    let points = measured(&damped(1e6, 1e4, ""), &speeds(1.0, 10.0, 8), Some(0.05));
+    let found = fit(
+        &damped(2e6, 3e3, ""),
+        &points,
+        FrictionFitOptions::default(),
+    );
+    let findings = found.expect("a fit").fit.findings;
+    let spring = &findings[0];
+    assert_eq!(
+        (spring.estimate, spring.interval[0]),
+        (None, None),
+        "{spring:?}"
+    );
+    assert!(
+        spring.interval[1].is_some_and(|upper| upper > 1e6),
+        "{spring:?}"
+    );
+    assert_near(&findings[1], 1e4, 0.05);
+}
+
+/// A fast branch beside a slow one at low speeds is not determined; what is known beforehand is, of branches that relax at the
+/// frequencies at which the material was measured.
+#[test]
+fn priors_are_for_measured_frequencies() {
+    let points = measured(&rubber(TRUE, "", LINE), &speeds(1e-4, 5e-3, 6), Some(0.02));
+    let fast = |window: &str| {
+        let options = FrictionFitOptions {
+            prior: Some(0.1),
+            ..FrictionFitOptions::default()
+        };
+        let found = fit(&rubber(START, window, LINE), &points, options).expect("a fit");
+        found.fit.findings[1].clone()
+    };
+    let free = fast("valid_frequencies = [0.01, 1.0]");
+    assert_eq!((free.estimate, free.interval[0]), (None, None), "{free:?}");
+    let known = fast("valid_frequencies = [500.0, 2e3]");
+    let spread = known.estimate.expect("determined").error / START[2];
+    assert!((0.05..0.11).contains(&spread), "{known:?}");
+}
+
+/// Friction of a material with a shift law, at the same speeds over the shift factor of each temperature.
+fn at_temperatures(shift: Shift) -> Vec<FrictionPoint> {
+    let mut points = Vec::new();
+    for temperature in [-10.0, 5.0, 20.0, 40.0, 60.0] {
+        let factor = 10_f64.powf(shift.log10_factor(temperature).expect("a factor"));
+        // The colder, the slower is the material.
+        let faster = speeds(1e-3, 1.0, 6);
+        let faster: Vec<f64> = faster.iter().map(|speed| speed * factor).collect();
+        let row = measured(&damped(1e6, 1e4, ""), &faster, Some(0.02));
+        points.extend(row.into_iter().map(|point| FrictionPoint {
+            velocity: point.velocity / factor,
+            temperature: Some(temperature),
+            ..point
+        }));
+    }
+    points
+}
+
+#[test]
+fn shift_laws_come_back_from_several_temperatures() {
+    let laws = [
+        (ShiftLaw::Wlf([12.0, 70.0]), ShiftLaw::Wlf([17.44, 51.6])),
+        (ShiftLaw::Arrhenius(1.2e5), ShiftLaw::Arrhenius(5e4)),
+    ];
+    for (truth, start) in laws {
+        let shift = Shift {
+            temperature: 20.0,
+            temperature_range: [-20.0, 60.0],
+            law: truth,
+        };
+        let points = at_temperatures(shift);
+        let mut scene = damped(1e6, 1e4, "");
+        if let MaterialTable::Prony { shift: own, .. } = &mut scene.material {
+            *own = Some(Shift {
+                law: start,
+                ..shift
+            });
+        }
+        let options = FrictionFitOptions {
+            free: Free::Shift,
+            ..FrictionFitOptions::default()
+        };
+        let found = fit(&scene, &points, options).expect("a fit");
+        let constants = match truth {
+            ShiftLaw::Wlf(constants) => constants.to_vec(),
+            ShiftLaw::Arrhenius(energy) => vec![energy],
+        };
+        let findings = &found.fit.findings;
+        assert_eq!(findings.len(), constants.len(), "{findings:?}");
+        for (finding, truth) in findings.iter().zip(constants) {
+            assert_near(finding, truth, 0.05);
+        }
+        let written: Scene = format!("{}{BALL}", found.material_file().expect("TOML"))
+            .parse()
+            .expect("a scene");
+        assert_eq!(
+            written.material, found.material,
+            "what is written is what was found"
+        );
+    }
+}
+
+/// The law of fractional elements is found as a whole.
+#[test]
+fn power_laws_come_back() {
+    let scene = |coefficient: f64, exponent: f64| -> Scene {
+        format!(
+            "{BALL}[material.springpot]\ncoefficient = {coefficient:e}\nexponent = {exponent}\ntime_range = [1e-6, 1e3]\n\
+             {LINE}relative_error = 1e-4\n"
+        )
+        .parse()
+        .expect("a scene")
+    };
+    let points = measured(&scene(1e6, 0.3), &speeds(1e-3, 1.0, 5), Some(0.02));
+    let found = fit(&scene(3e6, 0.2), &points, FrictionFitOptions::default()).expect("a fit");
+    for (finding, truth) in found.fit.findings.iter().zip([1e6, 0.3]) {
+        assert_near(finding, truth, 0.05);
+    }
+}
+
+#[test]
+fn a_wrong_model_is_flagged() {
+    let mut points = measured(&rubber(TRUE, "", LINE), &speeds(1e-4, 3.0, 24), Some(0.02));
+    let one_time = damped(1e6, 1e4, "");
+    let found = fit(&one_time, &points, FrictionFitOptions::default()).expect("a fit");
+    assert_eq!(found.fit.flags.len(), 2, "{:?}", found.fit.flags);
+    for point in &mut points {
+        point.standard_error = None;
+    }
+    for noise in [FrictionNoise::Relative, FrictionNoise::Absolute] {
+        let options = FrictionFitOptions {
+            noise,
+            ..FrictionFitOptions::default()
+        };
+        let found = fit(&one_time, &points, options).expect("a fit");
+        assert!(
+            found.fit.flags[0].contains("neighbouring speeds"),
+            "{:?}",
+            found.fit.flags
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_fitted_is_refused_with_its_key() {
+    let at = |temperature| FrictionPoint {
+        velocity: 0.1,
+        friction_coefficient: 0.1,
+        temperature,
+        ..FrictionPoint::default()
+    };
+    let given = |more: &str| rubber(START, more, "");
+    let few = vec![at(None); 3];
+    let many = vec![at(None); 9];
+    let warm = vec![at(Some(20.0)); 9];
+    let mut deep = rubber(START, "", "");
+    deep.load.normal_force = None;
+    deep.load.indentation_depth = Some(1e-5);
+    let elastic: Scene = "indenter.sphere = { radius = 5e-3 }\nmaterial.elastic = { shear_modulus = 1e6 }\nload = { normal_force = 1.0 }"
+        .parse()
+        .expect("a scene");
+    let law = "shift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { arrhenius = 1e5 } }";
+    let moduli = [
+        (given(""), &few, "at least 4 points"),
+        (given(""), &Vec::new(), "at least 1 points"),
+        (deep, &many, "load.indentation_depth"),
+        (elastic, &many, "material.elastic"),
+        (given(""), &warm, "has no shift law"),
+    ];
+    let shift = [
+        (given(""), &many, "needs one to begin with"),
+        (given(law), &warm, "other temperatures"),
+    ];
+    let moduli = moduli.map(|case| (case, Free::Moduli));
+    let shift = shift.map(|case| (case, Free::Shift));
+    for ((scene, points, expected), free) in moduli.into_iter().chain(shift) {
+        let options = FrictionFitOptions {
+            free,
+            ..FrictionFitOptions::default()
+        };
+        let refused = fit(&scene, points, options)
+            .expect_err(expected)
+            .to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let point = FrictionPoint {
+        velocity: 0.1,
+        friction_coefficient: 0.1,
+        ..FrictionPoint::default()
+    };
+    let many = vec![point; 9];
+    let mut some = many.clone();
+    some[0].standard_error = Some(0.01);
+    let options = FrictionFitOptions::default();
+    let refused = fit(&rubber(START, "", ""), &some, options).expect_err("not of all");
+    assert!(
+        refused.to_string().contains("number of standard errors"),
+        "{refused}"
+    );
+    let options = FrictionFitOptions {
+        prior: Some(-1.0),
+        ..FrictionFitOptions::default()
+    };
+    let refused = fit(&rubber(START, "", ""), &many, options).expect_err("a spread below 0");
+    assert!(refused.to_string().contains("prior"), "{refused}");
+}

@@ -1,0 +1,98 @@
+//! The moduli of a scene's material from measured friction.
+
+use std::path::PathBuf;
+
+use measurements::friction::{FrictionNoise, FrictionPoint, friction_points};
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use viscofriction::Scene;
+use viscofriction::friction_fit::{Free, FrictionFitOptions, fit_friction};
+
+use crate::reading::{read_file, read_table};
+use crate::tables::{table, wrong};
+
+/// What [`fit_points`] is asked.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Measured<'py> {
+    scene: Bound<'py, PyDict>,
+    /// Where the files are that the scene names.
+    folder: PathBuf,
+    /// Where the points are read, which else are `columns`: speed and friction, and where there are some standard errors,
+    /// temperatures \[°C] and normal forces.
+    file: Option<PathBuf>,
+    columns: Option<[Option<PyReadonlyArray1<'py, f64>>; 5]>,
+    free: String,
+    noise: String,
+    prior: Option<f64>,
+}
+
+impl Measured<'_> {
+    fn points(&self) -> PyResult<Vec<FrictionPoint>> {
+        let Some(columns) = &self.columns else {
+            let file = self.file.clone().unwrap_or_default();
+            let contents = read_table(&file).map_err(wrong)?;
+            return friction_points(&file, &contents).map_err(wrong);
+        };
+        let columns = columns.each_ref();
+        let columns = columns.map(|one| one.as_ref().map(|one| one.as_array().to_vec()));
+        let [
+            velocity,
+            friction,
+            standard_error,
+            temperature,
+            normal_force,
+        ] = columns;
+        let at = |column: &Option<Vec<f64>>, row: usize| column.as_ref().map(|all| all[row]);
+        let pairs = velocity.iter().flatten().zip(friction.iter().flatten());
+        let points = pairs
+            .enumerate()
+            .map(|(row, (velocity, friction))| FrictionPoint {
+                velocity: *velocity,
+                friction_coefficient: *friction,
+                standard_error: at(&standard_error, row),
+                temperature: at(&temperature, row),
+                normal_force: at(&normal_force, row),
+            });
+        Ok(points.collect())
+    }
+
+    fn options(&self) -> PyResult<FrictionFitOptions> {
+        let free = match &self.free[..] {
+            "moduli" => Free::Moduli,
+            "shift" => Free::Shift,
+            "both" => Free::Both,
+            other => {
+                let allowed = "\"moduli\", \"shift\" or \"both\"";
+                return Err(wrong(format!("free must be {allowed}, but is {other:?}")));
+            }
+        };
+        let noise = match &self.noise[..] {
+            "relative" => FrictionNoise::Relative,
+            "absolute" => FrictionNoise::Absolute,
+            other => {
+                let allowed = "\"relative\" or \"absolute\"";
+                return Err(wrong(format!("noise must be {allowed}, but is {other:?}")));
+            }
+        };
+        Ok(FrictionFitOptions {
+            free,
+            noise,
+            prior: self.prior,
+        })
+    }
+}
+
+/// What friction says of a material, as JSON.
+#[pyfunction]
+pub(crate) fn fit_points(py: Python<'_>, measured: Measured<'_>) -> PyResult<String> {
+    let scene = Scene::try_from(table(&measured.scene, "")?).map_err(wrong)?;
+    let (points, options) = (measured.points()?, measured.options()?);
+    let folder = measured.folder.clone();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(scene.solve.threads.unwrap_or(0));
+    let pool = pool.build().map_err(wrong)?;
+    let fit = || fit_friction(&scene, (&folder, read_file), &points, &options);
+    let found = py.detach(|| pool.install(fit)).map_err(wrong)?;
+    serde_json::to_string(&found).map_err(wrong)
+}

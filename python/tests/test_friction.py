@@ -1,0 +1,78 @@
+"""The moduli behind measured friction."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscofriction as vf
+
+SPEEDS = np.logspace(-3, 0, 8)
+
+
+def scene(modulus: float, viscosity: float) -> dict[str, object]:
+    return {
+        "indenter": vf.Paraboloid(100.0),
+        "material": vf.KelvinVoigt(modulus, viscosity),
+        "load": {"normal_force": 1.0},
+        "solve": {"model": "line"},
+    }
+
+
+def measured() -> np.ndarray:
+    known = scene(1e6, 1e4)
+    found = vf.slide(known["indenter"], known["material"], normal_force=1.0, velocity=SPEEDS, model="line")
+    return found.mu
+
+
+def test_moduli_come_back_and_the_result_is_plain() -> None:
+    mu = measured()
+    fit = vf.fit_friction(SPEEDS, mu, scene=scene(3e6, 2e3), standard_error=0.02 * mu)
+    for (name, one), truth in zip(fit.findings.items(), (1e6, 1e4), strict=True):
+        assert one.value is not None and one.error is not None, name
+        assert abs(one.value - truth) < 0.05 * one.error, name
+    assert "kelvin-voigt.viscosity" in repr(fit)
+    plain = fit.to_dict()
+    assert json.loads(json.dumps(plain)) == plain
+    again = vf.solve({**scene(1.0, 1.0), "material": fit.material, "load": {"normal_force": 1.0, "velocity": 0.01}})
+    assert again.mu == pytest.approx(np.interp(0.01, SPEEDS, mu), rel=0.2)
+
+
+def test_a_table_is_what_the_program_fits(program: Callable[..., str], tmp_path: Path) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(
+        "[indenter.paraboloid]\ncurvature = 100.0\n[material.kelvin-voigt]\nshear_modulus = 3e6\nviscosity = 2e3\n"
+        "[load]\nnormal_force = 1.0\n[solve]\nmodel = 'line'\n"
+    )
+    table = tmp_path / "friction.csv"
+    mu = measured() * (1 + 0.02 * np.random.default_rng(3).standard_normal(SPEEDS.size))
+    rows = "".join(f"{v!r},{m!r}\n" for v, m in zip(SPEEDS.tolist(), mu.tolist(), strict=True))
+    table.write_text("v (m/s),mu\n" + rows)
+    fit = vf.fit_friction(table, scene=file)
+    known = json.loads(program("fit-friction", str(table), str(file), "--format", "json"))
+    estimates = [one["estimate"]["value"] for one in known["fit"]["findings"]]
+    assert [one.value for one in fit.findings.values()] == estimates
+    assert fit == vf.fit_friction(SPEEDS, mu, scene=file)
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ({"mu": None}, "mu is needed"),
+        ({"mu": -np.ones(8)}, "mu must be greater than 0"),
+        ({"mu": np.ones(7)}, "as many values"),
+        ({"free": "times"}, "free must be"),
+        ({"noise": "none"}, "noise must be"),
+        ({"prior": 0.0}, "prior must be"),
+    ],
+)
+def test_wrong_input_is_named(given: dict[str, object], expected: str) -> None:
+    arguments = {"mu": measured(), "scene": scene(1e6, 1e4)} | given
+    with pytest.raises(ValueError, match=expected):
+        vf.fit_friction(SPEEDS, **arguments)
+
+

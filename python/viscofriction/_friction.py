@@ -1,0 +1,149 @@
+"""Friction as a rheometer: the moduli of a material from measured friction over speed and temperature."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._arrays import Compared, columns
+from ._indentation import Finding
+from ._solving import Scene, given, read
+
+Numbers = NDArray[np.float64]
+
+__all__ = ["FrictionFit", "fit_friction"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FrictionFit(Compared):
+    """The material behind measured friction."""
+
+    #: By the path of each number below ``material``: "prony.branches[0].modulus"; of a shift law "C1" and "C2", or "E_a".
+    findings: Mapping[str, Finding]
+    #: The material that was found, as a table for scenes: ``vf.solve({"material": fit.material, …})``.
+    material: Mapping[str, Any]
+    #: Speeds [m/s] as measured, and at the temperature of the material.
+    velocity: Numbers
+    shifted_velocity: Numbers
+    #: Friction coefficients as measured, and of the fit.
+    mu: Numbers
+    fitted_mu: Numbers
+    #: Standard errors, where all points have one.
+    standard_error: Numbers | None
+    #: Standard deviation of the residuals: over the standard errors where they are given, else relative to the friction, or of
+    #: the friction coefficient (``noise="absolute"``).
+    residual: float
+    #: Points and priors less parameters.
+    freedom: int
+    #: Largest relative error of the computed friction.
+    solver_error: float
+    #: What is doubtful about it.
+    flags: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        rows = [f"  {name}: {one}" for name, one in self.findings.items()]
+        head = f"fit of {self.mu.size} points of friction"
+        return "\n".join([head, *rows, *(f"  flag: {flag}" for flag in self.flags)])
+
+    def to_dict(self) -> dict[str, Any]:
+        """All that is known, under the names of the attributes, as numbers, texts, lists and dictionaries of them."""
+        known = {field.name: getattr(self, field.name) for field in fields(self)}
+        known["findings"] = {name: asdict(one) for name, one in self.findings.items()}
+        plain: dict[str, Any] = json.loads(json.dumps(known, default=np.ndarray.tolist))
+        return plain
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws measured and fitted friction over the speed at the temperature of the material; returns the axes of matplotlib."""
+        from . import _plotting
+
+        axes = _plotting.axes(ax)
+        order = np.argsort(self.shifted_velocity)
+        axes.errorbar(self.shifted_velocity, self.mu, self.standard_error, fmt=".", color="0.5", label="measured")
+        axes.plot(self.shifted_velocity[order], self.fitted_mu[order], label="fit")
+        axes.set_xscale("log")
+        axes.legend()
+        return _plotting.tidy(axes, "speed v a_T [m/s]", "friction coefficient μ", (None, None))
+
+
+def fit_friction(
+    velocity: ArrayLike | str | os.PathLike[str],
+    mu: ArrayLike | None = None,
+    *,
+    scene: Scene,
+    standard_error: ArrayLike | None = None,
+    temperature: ArrayLike | None = None,
+    normal_force: ArrayLike | None = None,
+    free: str = "moduli",
+    noise: str = "relative",
+    prior: float | None = None,
+) -> FrictionFit:
+    """The moduli of a scene's material from friction coefficients ``mu`` over speed [m/s], with 95 % intervals.
+
+    The scene is a file or a dictionary, as of ``vf.solve``: a body, its load, and a material with the moduli to begin with; its
+    speed does not matter. Instead of arrays the name of a table will do, whose columns and units are found. Beside the friction
+    there may be its ``standard_error``, the ``temperature`` [°C] and the ``normal_force`` [N] of each point.
+
+    ``free`` is what is sought: "moduli", the constants of the material's "shift" law, or "both". Without standard errors ``noise``
+    is "relative" to the friction or "absolute". ``prior`` is the relative spread of the moduli about those of the scene, known
+    beforehand, of elements that relax within the valid frequencies of the material.
+
+    Raises ValueError for wrong input, and where no material explains the points, with the reason.
+    """
+    table, folder, heights = read(scene)
+    if heights is not None:
+        raise ValueError("a HeightMapFile is needed in the place of a HeightMap")
+    table.setdefault("load", {})
+    request: dict[str, Any] = {
+        "scene": table,
+        "folder": folder,
+        "file": None,
+        "columns": None,
+        "free": free,
+        "noise": noise,
+        "prior": prior,
+    }
+    beside = given(standard_error=standard_error, temperature=temperature, normal_force=normal_force)
+    if isinstance(velocity, str | os.PathLike):
+        if mu is not None or beside:
+            raise ValueError("mu, standard_error, temperature and normal_force: a file has its own")
+        request["file"] = os.fspath(velocity)
+    else:
+        if mu is None:
+            raise ValueError("mu is needed beside velocity")
+        names = ["velocity", "mu", *beside]
+        found = dict(zip(names, columns(velocity=velocity, mu=mu, **beside), strict=True))
+        for name in ("velocity", "mu", "standard_error", "normal_force"):
+            if name in found and not (found[name] > 0).all():
+                raise ValueError(f"{name} must be greater than 0")
+        request["columns"] = [found.get(name) for name in ("velocity", "mu", "standard_error", "temperature", "normal_force")]
+    return _fit(json.loads(_native.fit_points(request)))
+
+
+def _fit(found: dict[str, Any]) -> FrictionFit:
+    fit, points = found["fit"], found["points"]
+    findings = {}
+    for one in fit["findings"]:
+        estimate = one["estimate"] or {"value": None, "error": None}
+        lower, upper = one["interval"]
+        findings[one["name"]] = Finding(estimate["value"], estimate["error"], one["unit"], (lower, upper))
+    errors = [point["standard_error"] for point in points]
+    return FrictionFit(
+        findings,
+        found["material"],
+        np.array([point["velocity"] for point in points]),
+        np.array(found["shifted_velocities"]),
+        np.array([point["friction_coefficient"] for point in points]),
+        np.array(fit["fitted"]),
+        None if None in errors else np.array(errors),
+        fit["residual"],
+        fit["freedom"],
+        found["solver_error"],
+        tuple(fit["flags"]),
+    )
