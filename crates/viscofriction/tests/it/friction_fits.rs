@@ -167,22 +167,22 @@ fn priors_are_for_measured_frequencies() {
     assert!((0.05..0.11).contains(&spread), "{known:?}");
 }
 
-/// Friction of a material with a shift law, at the same speeds over the shift factor of each temperature.
+/// Friction at several temperatures by this law.
 fn at_temperatures(shift: Shift) -> Vec<FrictionPoint> {
-    let mut points = Vec::new();
-    for temperature in [-10.0, 5.0, 20.0, 40.0, 60.0] {
+    let isotherm = |temperature: f64| {
         let factor = 10_f64.powf(shift.log10_factor(temperature).expect("a factor"));
         // The colder, the slower is the material.
         let faster = speeds(1e-3, 1.0, 6);
         let faster: Vec<f64> = faster.iter().map(|speed| speed * factor).collect();
         let row = measured(&damped(1e6, 1e4, ""), &faster, Some(0.02));
-        points.extend(row.into_iter().map(|point| FrictionPoint {
+        row.into_iter().map(move |point| FrictionPoint {
             velocity: point.velocity / factor,
             temperature: Some(temperature),
             ..point
-        }));
-    }
-    points
+        })
+    };
+    let temperatures = [-10.0, 5.0, 20.0, 40.0, 60.0];
+    temperatures.into_iter().flat_map(isotherm).collect()
 }
 
 #[test]
@@ -214,9 +214,13 @@ fn shift_laws_come_back_from_several_temperatures() {
             ShiftLaw::Wlf(constants) => constants.to_vec(),
             ShiftLaw::Arrhenius(energy) => vec![energy],
         };
-        let findings = &found.fit.findings;
-        assert_eq!(findings.len(), constants.len(), "{findings:?}");
-        for (finding, truth) in findings.iter().zip(constants) {
+        assert_eq!(
+            found.fit.findings.len(),
+            constants.len(),
+            "{:?}",
+            found.fit.findings
+        );
+        for (finding, truth) in found.fit.findings.iter().zip(constants) {
             assert_near(finding, truth, 0.05);
         }
         let written: Scene = format!("{}{BALL}", found.material_file().expect("TOML"))
@@ -272,45 +276,37 @@ fn a_wrong_model_is_flagged() {
 
 #[test]
 fn what_cannot_be_fitted_is_refused_with_its_key() {
-    let at = |temperature| FrictionPoint {
-        velocity: 0.1,
-        friction_coefficient: 0.1,
-        temperature,
-        ..FrictionPoint::default()
-    };
-    let given = |more: &str| rubber(START, more, "");
-    let few = vec![at(None); 3];
-    let many = vec![at(None); 9];
-    let warm = vec![at(Some(20.0)); 9];
     let mut deep = rubber(START, "", "");
     deep.load.normal_force = None;
     deep.load.indentation_depth = Some(1e-5);
-    let elastic: Scene = "indenter.sphere = { radius = 5e-3 }\nmaterial.elastic = { shear_modulus = 1e6 }\nload = { normal_force = 1.0 }"
-        .parse()
-        .expect("a scene");
+    let elastic = format!("{BALL}[material.elastic]\nshear_modulus = 1e6\n");
+    let elastic: Scene = elastic.parse().expect("a scene");
     let law = "shift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { arrhenius = 1e5 } }";
-    let moduli = [
-        (given(""), &few, "at least 4 points"),
-        (given(""), &Vec::new(), "at least 1 points"),
-        (deep, &many, "load.indentation_depth"),
-        (elastic, &many, "material.elastic"),
-        (given(""), &warm, "has no shift law"),
+    let (moduli, shift) = (Free::Moduli, Free::Shift);
+    let plain = || rubber(START, "", "");
+    let (cold, warm) = (None, Some(20.0));
+    let cases = [
+        (plain(), 3, cold, moduli, "at least 4 points"),
+        (plain(), 0, cold, moduli, "at least 1 points"),
+        (deep, 9, cold, moduli, "load.indentation_depth"),
+        (elastic, 9, cold, moduli, "material.elastic"),
+        (plain(), 9, cold, shift, "needs one to begin with"),
+        (rubber(START, law, ""), 9, warm, shift, "other temperatures"),
+        (plain(), 9, warm, moduli, "has no shift law"),
     ];
-    let shift = [
-        (given(""), &many, "needs one to begin with"),
-        (given(law), &warm, "other temperatures"),
-    ];
-    let moduli = moduli.map(|case| (case, Free::Moduli));
-    let shift = shift.map(|case| (case, Free::Shift));
-    for ((scene, points, expected), free) in moduli.into_iter().chain(shift) {
+    for (scene, n_points, temperature, free, expected) in cases {
+        let point = FrictionPoint {
+            velocity: 0.1,
+            friction_coefficient: 0.1,
+            temperature,
+            ..FrictionPoint::default()
+        };
         let options = FrictionFitOptions {
             free,
             ..FrictionFitOptions::default()
         };
-        let refused = fit(&scene, points, options)
-            .expect_err(expected)
-            .to_string();
-        assert!(refused.contains(expected), "{refused}");
+        let refused = fit(&scene, &vec![point; n_points], options).expect_err(expected);
+        assert!(refused.to_string().contains(expected), "{refused}");
     }
 }
 
@@ -322,18 +318,34 @@ fn numbers_out_of_range_are_refused() {
         ..FrictionPoint::default()
     };
     let many = vec![point; 9];
-    let mut some = many.clone();
-    some[0].standard_error = Some(0.01);
-    let options = FrictionFitOptions::default();
-    let refused = fit(&rubber(START, "", ""), &some, options).expect_err("not of all");
-    assert!(
-        refused.to_string().contains("number of standard errors"),
-        "{refused}"
-    );
-    let options = FrictionFitOptions {
-        prior: Some(-1.0),
-        ..FrictionFitOptions::default()
+    let refused = |points: &[FrictionPoint], prior| {
+        let options = FrictionFitOptions {
+            prior,
+            ..FrictionFitOptions::default()
+        };
+        let refused = fit(&rubber(START, "", ""), points, options);
+        refused.expect_err("out of range").to_string()
     };
-    let refused = fit(&rubber(START, "", ""), &many, options).expect_err("a spread below 0");
-    assert!(refused.to_string().contains("prior"), "{refused}");
+    let with = |change: fn(&mut FrictionPoint)| {
+        let mut points = many.clone();
+        change(&mut points[0]);
+        points
+    };
+    let cases = [
+        (
+            with(|one| one.standard_error = Some(0.01)),
+            "number of standard errors",
+        ),
+        (
+            with(|one| one.friction_coefficient = -0.1),
+            "friction coefficient",
+        ),
+        (with(|one| one.velocity = 0.0), "velocity"),
+    ];
+    for (points, expected) in cases {
+        let refused = refused(&points, None);
+        assert!(refused.contains(expected), "{refused}");
+    }
+    let refused = refused(&many, Some(-1.0));
+    assert!(refused.contains("prior"), "{refused}");
 }
