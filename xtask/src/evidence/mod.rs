@@ -4,6 +4,7 @@
 
 mod agreement;
 mod calibration;
+mod derivatives;
 mod fit;
 mod material;
 mod report;
@@ -57,6 +58,8 @@ enum Experiment {
     Agreement(sample::Options),
     /// Compare the error bars of every method with its deviations on random scenes.
     Calibration(sample::Options),
+    /// Compare derivatives of answers with differences on random scenes; fails when their bars hold too seldom.
+    Derivatives(sample::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
     SpeedRange,
     /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
@@ -91,6 +94,7 @@ impl Experiment {
             Self::Stability(options) => stability::report(options, quick),
             Self::Agreement(options) => agreement::report(options, out, quick),
             Self::Calibration(options) => calibration::report(options, quick),
+            Self::Derivatives(options) => derivatives::report(options, quick),
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),
             Self::Rough => rough::report(out, quick),
