@@ -4,6 +4,7 @@
 
 mod agreement;
 mod calibration;
+mod derivatives;
 mod fit;
 mod friction_fit;
 mod material;
@@ -60,6 +61,8 @@ enum Experiment {
     Calibration(sample::Options),
     /// Fit moduli to synthetic friction: do their intervals hold?
     FrictionFit,
+    /// Compare derivatives of answers with differences on random scenes; fails when their bars hold too seldom.
+    Derivatives(sample::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
     SpeedRange,
     /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
@@ -95,6 +98,7 @@ impl Experiment {
             Self::Agreement(options) => agreement::report(options, out, quick),
             Self::Calibration(options) => calibration::report(options, quick),
             Self::FrictionFit => friction_fit::report(quick),
+            Self::Derivatives(options) => derivatives::report(options, quick),
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),
             Self::Rough => rough::report(out, quick),

@@ -24,7 +24,7 @@ use draw::Sample;
 /// Which scenes.
 #[derive(Debug, Default, Args)]
 pub(super) struct Options {
-    /// Number of scenes, from 1 to 100000 [default: 5000 of agreement, 300 of calibration, fewer of a quick run].
+    /// Number of scenes, from 1 to 100000 [default: 5000 of agreement, 300 of calibration, 200 of derivatives, fewer of a quick run].
     #[arg(long, value_name = "N")]
     scenes: Option<usize>,
     /// Which scenes; the same seed gives the same ones [default: 2014].

@@ -78,7 +78,8 @@ fn change(
             scaled(contact.by_load(), ends[1].1 - ends[0].1)
         }
         ["indenter", _] => contact.between_bodies([surface(from)?, surface(to)?])?,
-        ["layer", _] | ["material", "poisson_ratio"] if is_layer => {
+        ["layer", _] => scaled(contact.by_thickness(), (ends[1].1 / ends[0].1).ln()),
+        ["material", "poisson_ratio"] if is_layer => {
             let [from, to] = [from.elastomer()?, to.elastomer()?];
             contact.between_elastomers([&from as &dyn Elastomer, &to], velocities)?
         }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use numerics::InvalidParameter;
 use rheology::ComplexCompliance;
 use rustfft::num_complex::Complex;
 
@@ -16,7 +17,7 @@ use crate::stationary::steady::sliding_creep::{
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{Base, BemError};
 
-/// Relative step of the differences by the length of a memory; their error is its square.
+/// Relative step of the differences by the length of a memory or the thickness of a layer; their error is its square.
 const STEP: f64 = 1e-3;
 /// Wave number of what does not change along x, over the longest of those that do.
 const LONGEST_WAVE: f64 = 1e-6;
@@ -110,6 +111,14 @@ impl Basis {
         (instant + flow + delayed.sum::<f64>()) / self.kernel.compliance
     }
 
+    /// By the logarithm of the velocity.
+    pub(super) fn by_velocity(&self) -> f64 {
+        let delays = self.creep.delays.iter().zip(&self.delays);
+        let delayed = delays.map(|([compliance, _], of)| of.by_memory * compliance);
+        let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
+        (delayed.sum::<f64>() - flow) / self.kernel.compliance
+    }
+
     /// Whether each delay of another creep belongs to one of these; of some that are alike it is not known which.
     pub(super) fn has_delays_of(&self, creep: &MovingCreep) -> bool {
         let differ = |pair: &[[f64; 2]]| (pair[1][1] / pair[0][1]).ln().abs() > APART;
@@ -157,16 +166,61 @@ impl Basis {
         bands.iter().map(of_band).collect()
     }
 
-    /// The change from one creep on its base to another.
-    pub(super) fn between_elastomers(&self, ends: [&SlidingCreep; 2]) -> Result<f64, BemError> {
-        let kernel = &self.kernel;
-        let value = |creep: &SlidingCreep| -> Result<f64, BemError> {
-            let mut part = creep.over(kernel.spacing)?;
-            part.shift = kernel.shift;
-            let compliance = creep.compliance(kernel.spacing)?;
-            Ok(compliance / kernel.compliance * kernel.sum_of(&self.offsets, &part))
+    /// The change of quantities of one contact from one creep on its base to another.
+    pub(super) fn between_elastomers(
+        quantities: &[&Self],
+        ends: [&SlidingCreep; 2],
+    ) -> Result<Vec<f64>, BemError> {
+        let [from, to] = ends.map(|creep| {
+            let in_elements = |kernel: &Kernel| creep.base().in_units_of(kernel.spacing);
+            Self::on_base(quantities, creep, in_elements)
+        });
+        let pairs = from?.into_iter().zip(to?);
+        Ok(pairs.map(|(from, to)| to - from).collect())
+    }
+
+    /// By the logarithm of the thickness of the layer.
+    pub(super) fn by_thickness(quantities: &[&Self]) -> Result<Vec<f64>, BemError> {
+        if quantities
+            .iter()
+            .all(|basis| basis.kernel.base.is_half_space())
+        {
+            return Ok(vec![0.0; quantities.len()]);
+        }
+        let [thin, thick] = [1.0 - STEP, 1.0 + STEP].map(|factor: f64| {
+            let scaled = |kernel: &Kernel| kernel.base.in_units_of(factor.recip());
+            let material = quantities.first().map(|basis| &basis.kernel.material);
+            material.map_or(Ok(Vec::new()), |material| {
+                Self::on_base(quantities, material, scaled)
+            })
+        });
+        let pairs = thin?.into_iter().zip(thick?);
+        Ok(pairs
+            .map(|(thin, thick)| (thick - thin) / (2.0 * STEP))
+            .collect())
+    }
+
+    /// The sums of quantities of one contact with the kernel of a creep on a base, which is computed once.
+    fn on_base(
+        quantities: &[&Self],
+        creep: &SlidingCreep,
+        base: impl Fn(&Kernel) -> Result<Base, InvalidParameter>,
+    ) -> Result<Vec<f64>, BemError> {
+        let Some(Self {
+            kernel, offsets, ..
+        }) = quantities.first()
+        else {
+            return Ok(Vec::new());
         };
-        Ok(value(ends[1])? - value(ends[0])?)
+        let part = ElementCreep {
+            shift: kernel.shift,
+            base: base(kernel)?,
+            ..creep.over(kernel.spacing)?
+        };
+        let table = WakeTable::of(&part, kernel.aspect, offsets.reach());
+        let unit = creep.compliance(kernel.spacing)? / kernel.compliance;
+        let sum = |basis: &&Self| unit * basis.offsets.with_kernel(&table);
+        Ok(quantities.iter().map(sum).collect())
     }
 }
 

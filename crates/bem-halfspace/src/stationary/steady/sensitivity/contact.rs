@@ -26,6 +26,8 @@ pub(super) struct Adjoint {
     pub(super) friction: Vec<f64>,
     /// For a unit depth.
     pub(super) depth: Vec<f64>,
+    /// For the derivative of the logarithm of the area that the loads are spread over, `(Σ x)²/Σ x²`.
+    pub(super) area: Vec<f64>,
 }
 
 impl<'mesh> Contact<'mesh> {
@@ -81,9 +83,21 @@ impl<'mesh> Contact<'mesh> {
         let mean = mean.sum::<f64>() / self.total;
         let by_loads = slopes.at_elements.iter().zip(&slopes.by_others);
         let by_loads = by_loads.map(|(here, others)| (here + others - mean) / self.total);
-        let right = [by_loads.collect(), vec![1.0; self.elements.len()]];
-        let [friction, depth] = solve_transposed(self.mesh, plans, &self.elements, right)?;
-        Ok((mean, Adjoint { friction, depth }))
+        let squares: Vec<f64> = self.loads.iter().map(|load| load * load).collect();
+        let squares = self.sum(&squares);
+        let spread = |load: &f64| 2.0 / self.total - 2.0 * load / squares;
+        let right = [
+            by_loads.collect(),
+            vec![1.0; self.elements.len()],
+            self.loads.iter().map(spread).collect(),
+        ];
+        let [friction, depth, area] = solve_transposed(self.mesh, plans, &self.elements, right)?;
+        let adjoint = Adjoint {
+            friction,
+            depth,
+            area,
+        };
+        Ok((mean, adjoint))
     }
 
     /// The slopes of the body alone.

@@ -10,6 +10,18 @@
 //! (Tardieu & Constantinescu 2000). The contact itself moves, but where the pressure vanishes at its edge its motion counts in
 //! second order only. Everything that is asked for afterwards is a sum: over the offsets between elements for the material,
 //! over the elements for the body.
+//!
+//! On a grid the contact moves by elements, and what this leaves is the largest part of the error. Of the motion that changes its
+//! size it is known: if all lengths are λ times as long, those of the body, of the layer and of the sliding per time, and the
+//! force is λ² times as large, friction stays as it is and the depth is λ times as large. What the derivatives with these
+//! elements lack to that is what the elements have to change when the contact grows by λ,
+//!
+//! ```text
+//! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dα/dθ)/(∂α/∂ln λ),      α = ln((Σ x)²/Σ x²)
+//! ```
+//!
+//! with the area α that the loads are spread over as a measure of the size. Then the derivatives add up in units of length, as
+//! they do in those of stress and time without it.
 
 mod adjoint;
 mod basis;
@@ -81,6 +93,24 @@ pub struct SensitivityOnGrid {
 impl SteadySensitivity {
     /// Around the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one that is
     /// coarser by √2.
+    ///
+    /// ```
+    /// use bem_halfspace::indenters::Sphere;
+    /// use bem_halfspace::rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+    /// use bem_halfspace::steady::sensitivity::SteadySensitivity;
+    /// use bem_halfspace::{SlidingLoad, steady};
+    ///
+    /// let ball = Sphere::new(5e-3)?;
+    /// let branch = RelaxationBranch { modulus: 9e6, relaxation_time: 1e-2 };
+    /// let rubber = Prony::new(RelaxationSpectrum::new(1e6, 0.0, vec![branch])?)?;
+    /// let load = SlidingLoad::new(2.0, 0.05)?;
+    /// let state = steady(&ball, &rubber, &load, 1e-2)?;
+    /// let near = SteadySensitivity::new(&ball, &rubber, &load, &state.options)?;
+    /// // In per cent of the friction by a per cent of the force; μ ∝ F^(1/3) where the shape of the contact stays as it is.
+    /// let by_force = near.by_load().friction_coefficient * (2.0 / state.friction_coefficient.value);
+    /// assert!(by_force.value > 0.0 && by_force.value < 1.0 && by_force.error < 0.02);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] at a depth on a half space that
@@ -184,6 +214,12 @@ impl SteadySensitivity {
     pub fn by_load(&self) -> Change<Estimate> {
         let of =
             |grids: &SensitivityOnGrid| mean(grids.states.iter().map(State::by_load).collect());
+        compared(of(&self.fine), of(&self.coarse))
+    }
+
+    /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
+    pub fn by_thickness(&self) -> Change<Estimate> {
+        let of = |states: &[State]| mean(states.iter().map(State::by_thickness).collect());
         compared(of(&self.fine), of(&self.coarse))
     }
 

@@ -12,6 +12,9 @@ use crate::stationary::steady::sensitivity::offsets::Offsets;
 use crate::stationary::steady::sliding_creep::{MovingCreep, SlidingCreep};
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
 
+/// Relative step of the differences by all lengths of a body.
+const DILATION: f64 = 1e-5;
+
 /// A contact, and what each of its quantities asks of a change.
 #[derive(Debug)]
 pub(super) struct State {
@@ -20,10 +23,26 @@ pub(super) struct State {
     points: Points,
     /// Part of the load on each element, its image included.
     shares: Vec<f64>,
-    /// Of the friction, and of the depth under a force or the force at a depth, where that has a meaning.
+    /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and of the area that the
+    /// loads are spread over.
     gradients: Vec<Gradient>,
+    /// Of each of them by the logarithm of the thickness of a layer.
+    by_thickness: Vec<f64>,
     control: Control,
+    pub(super) dilation: Option<Dilation>,
 }
+
+/// What the dilation of all lengths changes, with the elements where they are; see the [module](super).
+#[derive(Debug)]
+pub(super) struct Dilation {
+    /// Of each quantity, beyond what it has to be.
+    excess: Vec<f64>,
+    /// Of the logarithm of the area.
+    area: f64,
+}
+
+/// A height of a body, \[m], by a point.
+type Height<'a> = &'a dyn Fn([f64; 2]) -> f64;
 
 /// A quantity in the units of the mesh.
 #[derive(Debug)]
@@ -70,7 +89,7 @@ impl State {
         reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
         let contact = Contact::new(&mesh, &solution);
         let points = Points::new(&contact, loading);
-        let own = points.own_slopes(surface)?;
+        let own = points.own_slopes(&|point| surface.height(point))?;
         let slopes = match points.slope {
             Slope::OfBody => contact.slopes_of_body(own),
             _ => contact.slopes_of_surface(&own, &mut reuse.plans),
@@ -84,13 +103,63 @@ impl State {
             adjoint,
             slope: points.slope,
         };
-        Ok(Self {
+        let gradients = gradients.all()?;
+        let bases: Vec<&Basis> = gradients.iter().map(|one| &one.basis).collect();
+        let by_thickness = gradients.iter().zip(Basis::by_thickness(&bases)?);
+        let by_thickness = by_thickness.map(|(one, change)| one.unit * change);
+        let mut state = Self {
             friction_coefficient: friction * points.slope_unit(),
             shares: shares.collect(),
-            gradients: gradients.all()?,
+            by_thickness: by_thickness.collect(),
+            gradients,
             points,
             control: loading.control,
-        })
+            dilation: None,
+        };
+        // Elements at the edge of a body stay where they are.
+        if !loading.has_edges {
+            state.dilation = Some(state.dilated(surface, loading.strip.is_some())?);
+        }
+        Ok(state)
+    }
+
+    /// The excess R of each quantity, and ∂α/∂ln λ.
+    fn dilated(&self, surface: &dyn Surface, is_strip: bool) -> Result<Dilation, BemError> {
+        let scaled = |[wide, high]: [f64; 2]| {
+            move |[x, y]: [f64; 2]| high * surface.height([x / wide, y / wide])
+        };
+        let changed = |[from, to]: [[f64; 2]; 2]| {
+            let changes = self.between_heights([&scaled(from), &scaled(to)])?;
+            let width = (to[1] / from[1]).ln();
+            Ok::<_, BemError>(changes.into_iter().map(move |change| change / width))
+        };
+        let by_height = changed([[1.0, 1.0 - DILATION], [1.0, 1.0 + DILATION]])?;
+        let by_lengths = changed([[1.0 - DILATION; 2], [1.0 + DILATION; 2]])?;
+        // Powers of a length in the load that is given, and in the other one.
+        let power_of_force = if is_strip { 1.0 } else { 2.0 };
+        let (given, power, power_of_other) = match self.control {
+            Control::NormalForce(force) => (force, power_of_force, 1.0),
+            Control::IndentationDepth(depth) => (depth, 1.0, power_of_force),
+        };
+        let by_lengths = by_lengths.zip(by_height).zip(&self.gradients);
+        let mut excess = Vec::new();
+        for (index, ((by_lengths, by_height), gradient)) in by_lengths.enumerate() {
+            let by_load = given * gradient.by_load;
+            let changed = by_lengths
+                + self.by_thickness[index]
+                + power * by_load
+                + gradient.unit * gradient.basis.by_velocity();
+            // Equations with these elements are linear: heights and load together scale depth and force.
+            let is_other = index == 1 && self.gradients.len() > 2;
+            let expected = if is_other {
+                power_of_other * (by_height + by_load)
+            } else {
+                0.0
+            };
+            excess.push(changed - expected);
+        }
+        let area = excess.pop().unwrap_or(f64::NAN);
+        Ok(Dilation { excess, area })
     }
 }
 
@@ -99,11 +168,21 @@ impl State {
         &self,
         [from, to]: [&dyn Surface; 2],
     ) -> Result<Change<f64>, BemError> {
+        let heights: [Height; 2] = [&|point| from.height(point), &|point| to.height(point)];
+        Ok(self.of_all(self.between_heights(heights)?))
+    }
+
+    /// The change of each quantity with these elements.
+    fn between_heights(&self, [from, to]: [Height; 2]) -> Result<Vec<f64>, BemError> {
         let heights = differences(self.points.heights(from)?, &self.points.heights(to)?);
         let slopes = differences(self.points.own_slopes(from)?, &self.points.own_slopes(to)?);
-        let mut change = self.change(|gradient| Ok(weighted(&gradient.by_height, &heights)))?;
-        change.friction_coefficient += self.points.slope_unit() * weighted(&self.shares, &slopes);
-        Ok(change)
+        let gradients = self.gradients.iter();
+        let changes = gradients.map(|one| one.unit * weighted(&one.by_height, &heights));
+        let mut changes: Vec<f64> = changes.collect();
+        if let Some(friction) = changes.first_mut() {
+            *friction += self.points.slope_unit() * weighted(&self.shares, &slopes);
+        }
+        Ok(changes)
     }
 
     /// On the base of the state.
@@ -113,7 +192,7 @@ impl State {
     ) -> Result<Change<f64>, BemError> {
         let [from, to] = ends.map(SlidingCreep::moving);
         if [&from, &to].iter().all(|end| self.has_delays_of(end)) {
-            return self.change(|gradient| Ok(gradient.basis.between_creeps([&from, &to])));
+            return Ok(self.change(|basis| basis.between_creeps([&from, &to])));
         }
         self.between_elastomers(ends)
     }
@@ -123,24 +202,29 @@ impl State {
         &self,
         ends: [&SlidingCreep; 2],
     ) -> Result<Change<f64>, BemError> {
-        self.change(|gradient| gradient.basis.between_elastomers(ends))
+        let changes = Basis::between_elastomers(&self.bases(), ends)?;
+        let pairs = self.gradients.iter().zip(changes);
+        Ok(self.of_all(pairs.map(|(one, change)| one.unit * change).collect()))
     }
 
     /// By the logarithms of the storage and of the loss modulus in each band of frequencies.
     pub(super) fn by_moduli(&self, bands: &[[f64; 2]]) -> Result<Vec<[Change<f64>; 2]>, BemError> {
-        let bases: Vec<&Basis> = self.gradients.iter().map(|one| &one.basis).collect();
         let of_band = |sums: Vec<[f64; 2]>| {
             [0, 1].map(|part| {
                 let pairs = self.gradients.iter().zip(&sums);
                 self.of_all(pairs.map(|(one, sums)| one.unit * sums[part]).collect())
             })
         };
-        let sums = Basis::by_moduli(&bases, bands)?;
+        let sums = Basis::by_moduli(&self.bases(), bands)?;
         Ok(sums.into_iter().map(of_band).collect())
     }
 
     pub(super) fn by_load(&self) -> Change<f64> {
         self.of_all(self.gradients.iter().map(|one| one.by_load).collect())
+    }
+
+    pub(super) fn by_thickness(&self) -> Change<f64> {
+        self.of_all(self.by_thickness.clone())
     }
 
     fn has_delays_of(&self, creep: &MovingCreep) -> bool {
@@ -149,16 +233,23 @@ impl State {
             .all(|one| one.basis.has_delays_of(creep))
     }
 
-    fn change(
-        &self,
-        of: impl Fn(&Gradient) -> Result<f64, BemError>,
-    ) -> Result<Change<f64>, BemError> {
-        let of = |gradient: &Gradient| Ok(gradient.unit * of(gradient)?);
-        let changes: Result<Vec<f64>, BemError> = self.gradients.iter().map(of).collect();
-        Ok(self.of_all(changes?))
+    fn bases(&self) -> Vec<&Basis> {
+        self.gradients.iter().map(|one| &one.basis).collect()
     }
 
-    fn of_all(&self, changes: Vec<f64>) -> Change<f64> {
+    fn change(&self, of: impl Fn(&Basis) -> f64) -> Change<f64> {
+        let changes = self.gradients.iter();
+        self.of_all(changes.map(|one| one.unit * of(&one.basis)).collect())
+    }
+
+    /// With the elements that the change brings into the contact, as far as it is similar to itself.
+    fn of_all(&self, mut changes: Vec<f64>) -> Change<f64> {
+        let area = changes.pop().unwrap_or(f64::NAN);
+        if let Some(dilation) = &self.dilation {
+            for (change, excess) in changes.iter_mut().zip(&dilation.excess) {
+                *change -= area / dilation.area * excess;
+            }
+        }
         let other = changes.get(1).copied();
         let (indentation_depth, normal_force) = match self.control {
             Control::NormalForce(_) => (other, None),
@@ -210,9 +301,9 @@ impl Points {
     }
 
     /// Heights in units of the depth scale, so many elements from the centres.
-    fn heights_at(&self, surface: &dyn Surface, shift: f64) -> Result<Vec<f64>, BemError> {
+    fn heights_at(&self, of_body: Height, shift: f64) -> Result<Vec<f64>, BemError> {
         let height = |&[x, y]: &[f64; 2]| {
-            let height = surface.height([x + shift * self.spacing, y]);
+            let height = of_body([x + shift * self.spacing, y]);
             in_range(
                 "height in the contact",
                 height,
@@ -224,16 +315,16 @@ impl Points {
         self.centres.iter().map(height).collect()
     }
 
-    fn heights(&self, surface: &dyn Surface) -> Result<Vec<f64>, BemError> {
-        self.heights_at(surface, self.shift)
+    fn heights(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
+        self.heights_at(of_body, self.shift)
     }
 
     /// What the slope of the body adds to that of which the friction is the mean, in units of the depth scale over the length
     /// of an element.
-    fn own_slopes(&self, surface: &dyn Surface) -> Result<Vec<f64>, BemError> {
+    fn own_slopes(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
         let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
-            let behind = self.heights_at(surface, from)?;
-            Ok(differences(behind, &self.heights_at(surface, to)?))
+            let behind = self.heights_at(of_body, from)?;
+            Ok(differences(behind, &self.heights_at(of_body, to)?))
         };
         match self.slope {
             Slope::OfBody => rise(-0.5, 0.5),
@@ -265,7 +356,7 @@ struct Draft {
 }
 
 impl Gradients<'_> {
-    /// Of the friction, and of the depth under a force or the force at a depth.
+    /// Of the friction, of the depth under a force or the force at a depth, and of the area.
     fn all(&self) -> Result<Vec<Gradient>, BemError> {
         let Loading {
             control,
@@ -274,54 +365,62 @@ impl Gradients<'_> {
             depth_scale,
             ..
         } = self.loading;
-        let mesh = self.contact.mesh;
-        // Derivatives of the total load and of the friction by the depth.
+        // The derivative of the total load by the depth.
         let stiffness = self.contact.sum(&self.adjoint.depth);
-        let rise = self.contact.sum(&self.adjoint.friction);
-        let (by_load, constant, other) = match control {
-            Control::NormalForce(force) => {
-                let constant = rise / stiffness;
-                let per_newton = self.contact.total * strip.unwrap_or(1.0) / force;
+        let other = match control {
+            Control::NormalForce(_) => {
                 let has_depth = creep.fluidity() <= 0.0 && strip.is_none();
-                let by_load = per_newton / stiffness;
-                let depth = || self.of_depth(*depth_scale, stiffness.recip(), by_load);
-                (constant * per_newton, constant, has_depth.then(depth))
+                let by_load = self.per_newton() / stiffness;
+                has_depth.then(|| self.of_depth(*depth_scale, stiffness.recip(), by_load))
             }
             Control::IndentationDepth(_) => {
-                let unit = mesh.loading.force_of(1.0);
-                let force = self.of_depth(unit, -1.0, stiffness / depth_scale);
-                (rise / depth_scale, 0.0, Some(force))
+                let unit = self.contact.mesh.loading.force_of(1.0);
+                Some(self.of_depth(unit, -1.0, stiffness / depth_scale))
             }
         };
-        let mut drafts = vec![self.of_friction(constant, by_load)];
+        let mut drafts = vec![self.of_friction(stiffness)];
         drafts.extend(other);
+        drafts.push(self.of_loads(&self.adjoint.area, 1.0, stiffness));
         self.summed(drafts)
     }
 
-    fn of_friction(&self, constant: f64, by_load: f64) -> Draft {
-        let Adjoint { friction, depth } = &self.adjoint;
-        let pairs = friction.iter().zip(depth);
-        let adjoint: Vec<f64> = pairs.map(|(one, low)| constant * low - one).collect();
-        let mut offsets = self.contact.offsets(&adjoint);
+    /// Total load in the units of the mesh per unit of the given force.
+    fn per_newton(&self) -> f64 {
+        let Loading { control, strip, .. } = self.loading;
+        let (Control::NormalForce(given) | Control::IndentationDepth(given)) = control;
+        self.contact.total * strip.unwrap_or(1.0) / given
+    }
+
+    fn of_friction(&self, stiffness: f64) -> Draft {
+        let unit = self.loading.depth_scale / self.contact.mesh.options.spacing[0];
+        let mut draft = self.of_loads(&self.adjoint.friction, unit, stiffness);
         if self.slope != Slope::OfBody {
-            offsets = offsets.and(&self.contact.offsets_of_slope());
+            draft.offsets = draft.offsets.and(&self.contact.offsets_of_slope());
         }
+        draft
+    }
+
+    /// Of a function of the loads with these adjoint loads.
+    fn of_loads(&self, by_loads: &[f64], unit: f64, stiffness: f64) -> Draft {
+        let rise = self.contact.sum(by_loads);
+        let (constant, by_load) = match self.loading.control {
+            Control::NormalForce(_) => (rise / stiffness, rise / stiffness * self.per_newton()),
+            Control::IndentationDepth(_) => (0.0, rise / self.loading.depth_scale),
+        };
+        let pairs = by_loads.iter().zip(&self.adjoint.depth);
+        let adjoint: Vec<f64> = pairs.map(|(one, low)| constant * low - one).collect();
         Draft {
-            unit: self.loading.depth_scale / self.contact.mesh.options.spacing[0],
+            unit,
+            offsets: self.contact.offsets(&adjoint),
             adjoint,
             by_load,
-            offsets,
         }
     }
 
     /// Of what follows from the depth, with so many times its adjoint loads.
     fn of_depth(&self, unit: f64, factor: f64, by_load: f64) -> Draft {
-        let adjoint: Vec<f64> = self
-            .adjoint
-            .depth
-            .iter()
-            .map(|load| factor * load)
-            .collect();
+        let depth = self.adjoint.depth.iter();
+        let adjoint: Vec<f64> = depth.map(|load| factor * load).collect();
         Draft {
             unit,
             offsets: self.contact.offsets(&adjoint),

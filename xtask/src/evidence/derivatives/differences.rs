@@ -1,0 +1,225 @@
+//! One scene: its derivatives, and differences of far more exact answers.
+
+use std::path::Path;
+
+use anyhow::{Context as _, Result};
+use serde::{Deserialize, Serialize};
+use toml::Value;
+use viscofriction::scene::{Method, Model, Scene};
+use viscofriction::solve::{
+    Answer, Problem, Sensitivity, SolveError, plan, solve, with_sensitivity,
+};
+use viscofriction::{Estimate, WrongInput};
+
+use crate::random::Random;
+
+/// Distances of the answers in steps with their weights: `12 f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`, to the fourth order.
+const POINTS: [[f64; 2]; 4] = [[-2.0, 1.0], [-1.0, -8.0], [1.0, 8.0], [2.0, -1.0]];
+const DIVISOR: f64 = 12.0;
+/// Bodies that end in a flat or have an edge.
+const FLAT: [&str; 3] = ["flat-punch", "flat-cone", "truncated-paraboloid"];
+
+/// A method, and how accurate its answers are to be.
+#[derive(Debug, Clone, Deserialize)]
+pub(super) struct Asked {
+    pub(super) method: Method,
+    model: Model,
+    relative_error: f64,
+    reference_error: f64,
+    step: f64,
+}
+
+/// One derivative of the logarithm of a quantity by that of a number.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Derivative {
+    scene: usize,
+    pub(super) group: String,
+    indenter: String,
+    material: String,
+    parameter: String,
+    quantity: &'static str,
+    value: f64,
+    pub(super) error_bar: f64,
+    reference: f64,
+    pub(super) reference_error: f64,
+    /// The largest derivative of this quantity by a number of the scene.
+    pub(super) largest: f64,
+    pub(super) deviation: f64,
+}
+
+impl Derivative {
+    /// Whether the deviation is within the bar and the error of the reference.
+    pub(super) fn holds(&self) -> bool {
+        self.deviation <= self.error_bar + self.reference_error
+    }
+}
+
+/// A method that could not answer a scene, and why.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Refusal {
+    scene: usize,
+    method: &'static str,
+    reason: String,
+}
+
+impl Refusal {
+    pub(super) fn new(scene: usize, asked: &Asked, error: &anyhow::Error) -> Self {
+        Self {
+            scene,
+            method: asked.method.name(),
+            reason: format!("{error:#}"),
+        }
+    }
+}
+
+/// The quantities of an answer by the names that they have in a [`Sensitivity`].
+fn quantity(answer: &Answer, name: &str) -> Option<Estimate> {
+    match name {
+        "friction_coefficient" => answer.friction_coefficient,
+        "normal_force" => Some(answer.normal_force),
+        "indentation_depth" => answer.indentation_depth,
+        _ => answer.contact_area,
+    }
+}
+
+fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+    Err(WrongInput(format!("{}: no file", path.display())))
+}
+
+/// The derivatives of a scene by some of its numbers, or none where the method has none.
+pub(super) fn compared(
+    (number, scene): (usize, &Scene),
+    asked: &Asked,
+    count: usize,
+) -> Result<Vec<Derivative>> {
+    let scene = asked.scene(scene, asked.relative_error);
+    let problem = Problem::try_from(&scene)?;
+    if plan(&problem).is_err() {
+        return Ok(Vec::new());
+    }
+    let answer = solve(&problem)?;
+    let known = match with_sensitivity(&scene, (Path::new(""), no_file), &problem, answer) {
+        Ok(answer) => answer.sensitivity,
+        Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
+        Err(error) => return Err(error.into()),
+    };
+    let mut random = Random::new(number as u64);
+    let mut derivatives = Vec::new();
+    for one in chosen(&known, &scene, asked, (&mut random, count)) {
+        let answers = asked.answers(&scene, &one.parameter)?;
+        for (quantity, known_as) in one.named() {
+            let (Some(known_as), Some(reference)) =
+                (known_as, difference(&answers, quantity, asked.step))
+            else {
+                continue;
+            };
+            derivatives.push(Derivative {
+                scene: number,
+                group: asked.group(&scene),
+                indenter: scene.indenter.key(),
+                material: scene.material.key(),
+                parameter: one.parameter.clone(),
+                quantity,
+                value: known_as.value,
+                error_bar: known_as.error,
+                reference: reference.value,
+                reference_error: reference.error,
+                largest: largest(&known, quantity),
+                deviation: (known_as.value - reference.value).abs(),
+            });
+        }
+    }
+    Ok(derivatives)
+}
+
+/// Some numbers of a scene that may be larger and smaller.
+fn chosen<'a>(
+    known: &'a [Sensitivity],
+    scene: &Scene,
+    asked: &Asked,
+    (random, count): (&mut Random, usize),
+) -> Vec<&'a Sensitivity> {
+    let may_change = |one: &&Sensitivity| {
+        let largest = asked.changed(scene, &one.parameter, 2.0);
+        largest.is_ok_and(|scene| Problem::try_from(&scene).is_ok())
+    };
+    let mut others: Vec<&Sensitivity> = known.iter().filter(may_change).collect();
+    let mut chosen = Vec::new();
+    while chosen.len() < count && !others.is_empty() {
+        let indices: Vec<usize> = (0..others.len()).collect();
+        chosen.push(others.swap_remove(random.choice(&indices)));
+    }
+    chosen
+}
+
+fn largest(known: &[Sensitivity], quantity: &str) -> f64 {
+    let of = known.iter().flat_map(Sensitivity::named);
+    let of = of.filter(|(name, _)| *name == quantity);
+    let sizes = of.filter_map(|(_, known)| Some(known?.value.abs()));
+    sizes.fold(0.0, f64::max)
+}
+
+/// The derivative of the logarithm of a quantity, whose answers err independently of each other.
+fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for (answer, [_, weight]) in answers.iter().zip(POINTS) {
+        let known = quantity(answer, name)?;
+        sum += weight * known.value.ln();
+        squares += (weight * known.error / known.value).powi(2);
+    }
+    let width = DIVISOR * step;
+    let known = Estimate::new(sum / width, squares.sqrt() / width);
+    (known.value.is_finite() && known.error.is_finite()).then_some(known)
+}
+
+impl Asked {
+    fn scene(&self, scene: &Scene, relative_error: f64) -> Scene {
+        let mut scene = scene.clone();
+        scene.solve.method = Some(self.method);
+        scene.solve.model = Some(self.model);
+        scene.solve.relative_error = Some(relative_error);
+        scene
+    }
+
+    /// The answers around a scene, for differences by a number.
+    fn answers(&self, scene: &Scene, parameter: &str) -> Result<Vec<Answer>> {
+        let exact = self.scene(scene, self.reference_error);
+        let solved = |[steps, _]: [f64; 2]| -> Result<Answer> {
+            let scene = self.changed(&exact, parameter, steps)?;
+            // What was reached is a reference with the error that it has.
+            let solved = solve(&Problem::try_from(&scene)?);
+            let reached = solved.or_else(|failure| failure.reached().cloned().ok_or(failure));
+            Ok(reached?)
+        };
+        POINTS.into_iter().map(solved).collect()
+    }
+
+    /// A scene with a number that is so many steps larger.
+    fn changed(&self, scene: &Scene, path: &str, steps: f64) -> Result<Scene> {
+        let mut value = Value::try_from(scene)?;
+        let mut keys = path.split(['.', '[']);
+        let place = keys.try_fold(&mut value, |place, key| match key.strip_suffix(']') {
+            Some(index) => place.get_mut(index.parse::<usize>().ok()?),
+            None => place.get_mut(key),
+        });
+        let Value::Float(number) = place.with_context(|| format!("no {path}"))? else {
+            anyhow::bail!("{path} is no number");
+        };
+        *number *= (steps * self.step).exp();
+        Ok(value.try_into()?)
+    }
+
+    /// What the table calls such scenes.
+    fn group(&self, scene: &Scene) -> String {
+        let kind = scene.indenter.key();
+        let kind = kind.split('.').nth(1).unwrap_or_default();
+        let body = match kind {
+            _ if self.method != Method::BemSteady => "",
+            _ if scene.layer.is_some() => ", layer",
+            "cylinder" => ", cylinder",
+            _ if FLAT.contains(&kind) => ", flat end",
+            _ => ", half space",
+        };
+        format!("{}{body}", self.method.name())
+    }
+}

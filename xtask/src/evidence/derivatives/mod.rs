@@ -1,0 +1,128 @@
+//! Do the error bars of derivatives hold on random scenes? They are compared with differences of answers that are far more exact.
+
+mod differences;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::Result;
+use serde::Deserialize;
+use viscofriction::scene::Scene;
+
+use super::sample::{Options, Source, sample};
+use super::{Report, Table};
+use crate::meter::median;
+use crate::output::markdown_table;
+use crate::random::Random;
+use crate::tasks::in_parallel;
+use differences::{Asked, Derivative, Refusal, compared};
+
+/// Part of the derivatives that are within their bars, at least, and by how many standard deviations a few may miss it.
+const HOLD: f64 = 0.95;
+const CHANCE: f64 = 3.0;
+
+/// What `requests.toml` holds.
+#[derive(Debug, Deserialize)]
+struct Requests {
+    full: Extent,
+    quick: Extent,
+    method: Vec<Asked>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Extent {
+    scenes: usize,
+    numbers: usize,
+}
+
+/// Compares the derivatives of random scenes; fails where bars hold too seldom.
+pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+    let requests: Requests = toml::from_str(include_str!("requests.toml"))?;
+    let extent = if quick {
+        &requests.quick
+    } else {
+        &requests.full
+    };
+    let source = Source::new("derivatives")?;
+    let mut random = Random::new(options.seed());
+    let mut tasks: Vec<(usize, Scene, &Asked)> = Vec::new();
+    for number in 1..=options.count(extent.scenes)? {
+        let scene = sample(&mut random, &source, Path::new(""))?.scene;
+        let methods = requests.method.iter();
+        tasks.extend(methods.map(|asked| (number, scene.clone(), asked)));
+    }
+    let found = in_parallel("derivatives", &tasks, |(number, scene, asked)| {
+        let compared = compared((*number, scene), asked, extent.numbers);
+        Ok(compared.map_err(|error| Refusal::new(*number, asked, &error)))
+    })?;
+    let (mut rows, mut refusals): (Vec<Derivative>, Vec<Refusal>) = Default::default();
+    for one in found {
+        match one {
+            Ok(some) => rows.extend(some),
+            Err(refusal) => refusals.push(refusal),
+        }
+    }
+    let held = rows.iter().filter(|row| row.holds()).count();
+    Ok(Report {
+        name: "derivatives",
+        summary: format!("{}\n\nnot solved: {}", table(&rows), refusals.len()),
+        tables: vec![
+            Table::new("derivatives", &rows)?,
+            Table::new("derivatives_refused", &refusals)?,
+        ],
+        failure: failure(held, rows.len()),
+        ..Report::default()
+    })
+}
+
+fn failure(held: usize, all: usize) -> Option<String> {
+    let chance = CHANCE * (HOLD * (1.0 - HOLD) / all.max(1) as f64).sqrt();
+    let holds = held as f64 >= (HOLD - chance) * all as f64 && all > 0;
+    (!holds).then(|| format!("derivatives: {held} of {all} are within their bars"))
+}
+
+/// One line per group of scenes.
+fn table(rows: &[Derivative]) -> comfy_table::Table {
+    let mut groups: BTreeMap<&str, Vec<&Derivative>> = BTreeMap::new();
+    for row in rows {
+        groups.entry(&row.group).or_default().push(row);
+    }
+    let header = "method|derivatives|within the bars|median of bar/largest|median of deviation/largest|95 %|worst|\
+                  median of the reference's error/largest";
+    let lines = groups.into_iter().map(|(group, rows)| line(group, &rows));
+    markdown_table(header.split('|'), lines)
+}
+
+fn line(group: &str, rows: &[&Derivative]) -> [String; 8] {
+    let of = |number: fn(&Derivative) -> f64| -> Vec<f64> {
+        let parts = rows.iter().map(|row| number(row) / row.largest);
+        parts.collect()
+    };
+    let mut deviations = of(|row| row.deviation);
+    deviations.sort_by(f64::total_cmp);
+    let held = rows.iter().filter(|row| row.holds()).count();
+    let below = |percent: usize| deviations[((rows.len() - 1) * percent).div_ceil(100)];
+    let short = |value: f64| format!("{value:.1e}");
+    [
+        group.to_owned(),
+        rows.len().to_string(),
+        format!("{:.1} %", 100.0 * held as f64 / rows.len() as f64),
+        short(median(of(|row| row.error_bar))),
+        short(below(50)),
+        short(below(95)),
+        short(below(100)),
+        short(median(of(|row| row.reference_error))),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A derivative that is off by 1 % makes this fail.
+    #[test]
+    fn derivatives_of_a_few_random_scenes_are_within_their_bars() {
+        let report = report(&Options::default(), true).expect("a report");
+        assert_eq!(report.failure, None, "{}", report.summary);
+    }
+}
