@@ -219,7 +219,9 @@ impl SteadySensitivity {
 
     /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
     pub fn by_thickness(&self) -> Change<Estimate> {
-        let of = |states: &[State]| mean(states.iter().map(State::by_thickness).collect());
+        let of = |grids: &SensitivityOnGrid| {
+            mean(grids.states.iter().map(State::by_thickness).collect())
+        };
         compared(of(&self.fine), of(&self.coarse))
     }
 
