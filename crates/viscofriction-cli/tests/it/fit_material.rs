@@ -438,7 +438,7 @@ fn samples_of_a_fit_scatter_as_its_first_order_says() {
     let uncertain =
         "uncertainty = { \"load.normal_force\" = 0.05, \"material.file.temperature\" = 0.2 }";
     folder.write("scene.toml", ball("out/material.toml", uncertain));
-    let said = folder.done("sweep scene.toml --samples 60 --out all.csv");
+    let said = folder.done("sweep scene.toml --samples 30 --out all.csv");
     let row = |name: &str| -> Vec<f64> {
         let line = said.stderr.lines().find(|line| line.contains(name));
         let cells = line
@@ -447,14 +447,14 @@ fn samples_of_a_fit_scatter_as_its_first_order_says() {
             .skip(2);
         cells.filter_map(|cell| cell.trim().parse().ok()).collect()
     };
-    let [samples, line] = ["60 samples", "first order"].map(row);
-    // A standard deviation of 60 samples is known to a tenth, their mean to an eighth of it.
+    let [samples, line] = ["30 samples", "first order"].map(row);
+    // A standard deviation of 30 samples is known to an eighth, their mean to a fifth of it.
     let is_same =
-        (samples[1] / line[1] - 1.0).abs() < 0.3 && (samples[0] - line[0]).abs() < 0.4 * line[1];
+        (samples[1] / line[1] - 1.0).abs() < 0.4 && (samples[0] - line[0]).abs() < 0.5 * line[1];
     assert!(is_same, "{samples:?}, {line:?}");
     for shard in 1..=2 {
         folder.done(format!(
-            "sweep scene.toml --samples 60 --shard {shard}/2 --out {shard}.csv"
+            "sweep scene.toml --samples 30 --shard {shard}/2 --out {shard}.csv"
         ));
     }
     folder.done("sweep --merge 1.csv 2.csv --out both.csv");

@@ -118,13 +118,13 @@ impl State {
         };
         // Elements at the edge of a body stay where they are.
         if !loading.has_edges {
-            state.dilation = Some(state.dilated(surface, loading.strip.is_some())?);
+            state.dilation = Some(state.dilated(surface, loading.strip)?);
         }
         Ok(state)
     }
 
     /// The excess R of each quantity, and ∂α/∂ln λ.
-    fn dilated(&self, surface: &dyn Surface, is_strip: bool) -> Result<Dilation, BemError> {
+    fn dilated(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
         let scaled = |[wide, high]: [f64; 2]| {
             move |[x, y]: [f64; 2]| high * surface.height([x / wide, y / wide])
         };
@@ -136,9 +136,10 @@ impl State {
         let by_height = changed([[1.0, 1.0 - DILATION], [1.0, 1.0 + DILATION]])?;
         let by_lengths = changed([[1.0 - DILATION; 2], [1.0 + DILATION; 2]])?;
         // Powers of a length in the load that is given, and in the other one.
-        let power_of_force = if is_strip { 1.0 } else { 2.0 };
+        let power_of_force = if strip.is_some() { 1.0 } else { 2.0 };
         let (given, power, power_of_other) = match self.control {
-            Control::NormalForce(force) => (force, power_of_force, 1.0),
+            // That on a strip is the force per length on all of it.
+            Control::NormalForce(force) => (force / strip.unwrap_or(1.0), power_of_force, 1.0),
             Control::IndentationDepth(depth) => (depth, 1.0, power_of_force),
         };
         let by_lengths = by_lengths.zip(by_height).zip(&self.gradients);

@@ -6,7 +6,7 @@ use indenters::{Cylinder, FlatCone, PowerProfile, Surface};
 use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 use super::*;
-use crate::stationary::steady::SteadySliding;
+use crate::stationary::steady::{SteadySliding, steady_line};
 use crate::{Footprint, Layer};
 
 /// Relative step of the differences.
@@ -314,6 +314,18 @@ fn a_cylinder_adds_up(thickness: f64) {
     let sensitivity = sensitivity.expect("a sensitivity");
     let change = sensitivity.between_elastomers([&softer, &stiffer], [2.0; 2]);
     let expected = change.expect("a change").friction_coefficient.value / (2.0 * STEP);
+    let ends = [0.9, 1.1].map(|factor| {
+        let load = SlidingLoad::new(0.5 * factor, 2.0).expect("a load");
+        let answer = steady_line(&cylinder, &layer, &load, 1e-4).expect("an answer");
+        answer.friction_coefficient.value
+    });
+    let slope = (ends[1] / ends[0]).ln() / (1.1_f64 / 0.9).ln();
+    let by_load = 0.5 * sensitivity.by_load().friction_coefficient.value;
+    let by_load = by_load / sensitivity.friction_coefficient().value;
+    assert!(
+        (by_load - slope).abs() < 5e-3,
+        "{thickness}: {by_load} instead of {slope}"
+    );
     let bands = sensitivity.by_moduli(&[0.0, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4]);
     let parts = bands.expect("bands").into_iter().map(|band| {
         let by = [band.storage_modulus, band.loss_modulus];
