@@ -152,5 +152,7 @@ fn outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
     let is_outside =
         |band: &&ByFrequency| band.frequencies[1] <= lowest || band.frequencies[0] >= highest;
     let all: f64 = bands.iter().map(size).sum();
-    bands.iter().filter(is_outside).map(size).sum::<f64>() / all
+    // The sum of nothing is -0.
+    let outside = bands.iter().filter(is_outside).map(size);
+    outside.fold(0.0, |sum, size| sum + size) / all
 }
