@@ -5,7 +5,7 @@ mod picture;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use measurements::MeasurementError;
 use measurements::friction::{FrictionNoise, friction_points};
 use viscofriction::WrongInput;
@@ -18,7 +18,7 @@ use viscofriction::solve::scene_of;
 use crate::indentation::row;
 use crate::input::{read_input, read_scene, read_table, wrong_option};
 use crate::material::wrong_table;
-use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
+use crate::output::{Format, OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
 
 /// Arguments of the command.
@@ -51,13 +51,6 @@ pub(crate) struct FitFriction {
     /// Replace files that are in the folder already.
     #[arg(long, requires = "out")]
     overwrite: bool,
-}
-
-/// How a result is printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Table,
-    Json,
 }
 
 const NAMES: &str = "findings.csv fit.csv fit.svg fit.png material.toml";

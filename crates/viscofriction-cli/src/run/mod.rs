@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::{Method, Source};
@@ -20,7 +20,7 @@ use viscofriction::solve::{
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
-use crate::output::{ABOUT_WARNINGS, OutputFolder, print_line, say};
+use crate::output::{ABOUT_WARNINGS, Format, OutputFolder, print_line, say};
 use crate::progress;
 pub(crate) use pictures::{around, arrow};
 
@@ -55,13 +55,6 @@ pub(crate) struct Run {
     /// Replace files that are in the folder already.
     #[arg(long, requires = "out")]
     overwrite: bool,
-}
-
-/// How a result is printed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Table,
-    Json,
 }
 
 /// An answer and the time it took.

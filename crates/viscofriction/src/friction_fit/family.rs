@@ -7,7 +7,6 @@ use numerics::least_squares::Range;
 use rheology::{
     ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, Material, RheologyError, Shift, ShiftLaw, WlfShift,
 };
-use toml::{Table, Value};
 
 use super::{Free, FrictionFitError};
 use crate::files::{Files, ReadFile};
@@ -70,7 +69,10 @@ impl<'a> Family<'a> {
         free: Free,
     ) -> Result<Self, FrictionFitError> {
         let files = Files::of(scene, folder, read)?;
-        let (scene, temperature) = with_material(scene, &files)?;
+        let (mut scene, temperature) = with_material(scene, &files)?;
+        if free != Free::Shift {
+            scene.material = scene.material.without_covariance();
+        }
         let numbers = Numbers::new(&scene, folder, read)?;
         let moduli = match free {
             Free::Shift => Vec::new(),
@@ -363,22 +365,8 @@ fn with_material(scene: &Scene, files: &Files<'_>) -> Result<(Scene, Option<f64>
     else {
         return Ok((scene.clone(), None));
     };
-    let wrong = |error: String| SceneError::at("material.file.path", error);
     let material = of_table_in(path, files, Ok)?;
-    let mut table = Table::try_from(&material).map_err(|error| wrong(error.to_string()))?;
-    if let Some((_, Value::Table(kind))) = table.iter_mut().next() {
-        if let Some(ratio) = poisson_ratio {
-            kind.insert("poisson_ratio".to_owned(), Value::Float(*ratio));
-        }
-        if let Some(window) = valid_frequencies {
-            let window = window.map(Value::Float).to_vec();
-            kind.insert("valid_frequencies".to_owned(), Value::Array(window));
-        }
-    }
-    let material = MaterialTable::try_from(Table::from_iter([(
-        "material".to_owned(),
-        Value::Table(table),
-    )]))?;
+    let material = material.with_given(*poisson_ratio, *valid_frequencies)?;
     if let (Some(_), None) = (temperature, material.shift()) {
         let problem = "the file has no shift law, as fit-material writes it for isotherms of several temperatures";
         return Err(SceneError::at("material.file.temperature", problem));

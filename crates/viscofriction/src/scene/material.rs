@@ -6,7 +6,7 @@ use rheology::{PronyExpansion, RelaxationBranch, RheologyError, Shift};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
-use toml::Table;
+use toml::{Table, Value};
 
 use super::source::checked;
 use super::{Covariance, SceneError};
@@ -244,6 +244,36 @@ impl MaterialTable {
             Self::Prony { covariance, .. } => covariance.as_ref(),
             _ => None,
         }
+    }
+
+    /// The same material without what is known of its moduli, where these become others.
+    #[cfg(feature = "fit")]
+    pub(crate) fn without_covariance(mut self) -> Self {
+        if let Self::Prony { covariance, .. } = &mut self {
+            *covariance = None;
+        }
+        self
+    }
+
+    /// The material of a file with the Poisson ratio and the window of the scene, where that has them.
+    pub(crate) fn with_given(
+        self,
+        poisson_ratio: Option<f64>,
+        valid_frequencies: Option<[f64; 2]>,
+    ) -> Result<Self, SceneError> {
+        let wrong = |error: toml::ser::Error| SceneError::at("material", error.to_string());
+        let mut material = Value::try_from(&self).map_err(wrong)?;
+        let window = valid_frequencies.map(|ends| Value::from(ends.to_vec()));
+        let given = [
+            ("poisson_ratio", poisson_ratio.map(Value::Float)),
+            ("valid_frequencies", window),
+        ];
+        let kinds = material.as_table_mut().into_iter().flatten();
+        for kind in kinds.filter_map(|(_, kind)| kind.as_table_mut()) {
+            let keys = given.iter().cloned();
+            kind.extend(keys.filter_map(|(key, value)| Some((key.to_owned(), value?))));
+        }
+        Self::try_from(Table::from_iter([("material".to_owned(), material)]))
     }
 
     /// The same material at another temperature \[°C], by its shift law.

@@ -195,24 +195,10 @@ fn without_file(
     else {
         return Ok((as_table(&scene)?, None));
     };
-    let window = valid_frequencies.map(|ends| Value::from(ends.to_vec()));
-    let given = [
-        ("poisson_ratio", poisson_ratio.map(Value::Float)),
-        ("valid_frequencies", window),
-    ];
     let files = Files::of(&scene, folder, read)?;
-    scene.material = of_file(path, *temperature, &files)?;
-    let mut table = as_table(&scene)?;
-    let kinds = table.get_mut("material").and_then(Value::as_table_mut);
-    for (_, kind) in kinds.into_iter().flatten() {
-        let keys = given
-            .iter()
-            .filter_map(|(key, value)| Some((*key, value.clone()?)));
-        for (key, value) in keys {
-            kind.as_table_mut()
-                .map(|kind| kind.insert(key.to_owned(), value));
-        }
-    }
+    let material = of_file(path, *temperature, &files)?;
+    scene.material = material.with_given(*poisson_ratio, *valid_frequencies)?;
+    let table = as_table(&scene)?;
     let celsius = scene.material.shift().map(|shift| shift.temperature);
     Ok((table, celsius))
 }
