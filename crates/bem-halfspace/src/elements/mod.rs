@@ -7,3 +7,4 @@ pub(crate) mod grid;
 pub(crate) mod mirror;
 pub(crate) mod pressure_field;
 pub(crate) mod resolution;
+pub(crate) mod spread;

@@ -21,6 +21,7 @@ mod motions;
 mod nested_grids;
 mod periodic_contact;
 mod periodic_march;
+mod periodic_sensitivity;
 mod periodic_sliding;
 mod pressure_spectrum;
 mod stationary_state;

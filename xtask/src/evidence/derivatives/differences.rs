@@ -22,6 +22,9 @@ const FLAT: [&str; 3] = ["flat-punch", "flat-cone", "truncated-paraboloid"];
 /// A method, and how accurate its answers are to be.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Asked {
+    /// What its scenes are drawn from, and of how many one is taken.
+    pub(super) range: String,
+    pub(super) one_scene_of: usize,
     pub(super) method: Method,
     model: Model,
     relative_error: f64,
@@ -215,6 +218,7 @@ impl Asked {
         let kind = kind.split('.').nth(1).unwrap_or_default();
         let body = match kind {
             _ if self.method != Method::BemSteady => "",
+            "self-affine" => ", rough",
             _ if scene.layer.is_some() => ", layer",
             "cylinder" => ", cylinder",
             _ if FLAT.contains(&kind) => ", flat end",

@@ -43,13 +43,15 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     } else {
         &requests.full
     };
-    let source = Source::new("derivatives")?;
-    let mut random = Random::new(options.seed());
+    let count = options.count(extent.scenes)?;
     let mut tasks: Vec<(usize, Scene, &Asked)> = Vec::new();
-    for number in 1..=options.count(extent.scenes)? {
-        let scene = sample(&mut random, &source, Path::new(""))?.scene;
-        let methods = requests.method.iter();
-        tasks.extend(methods.map(|asked| (number, scene.clone(), asked)));
+    for asked in &requests.method {
+        let source = Source::new(&asked.range)?;
+        let mut random = Random::new(options.seed());
+        for number in 1..=count.div_ceil(asked.one_scene_of) {
+            let scene = sample(&mut random, &source, Path::new(""))?.scene;
+            tasks.push((number, scene, asked));
+        }
     }
     let found = in_parallel("derivatives", &tasks, |(number, scene, asked)| {
         let compared = compared((*number, scene), asked, extent.numbers);

@@ -68,6 +68,16 @@ impl Sliding {
         self.base.is_rigid()
     }
 
+    #[cfg(feature = "rough")]
+    pub(super) const fn base(&self) -> &Base {
+        &self.base
+    }
+
+    /// Angular frequency of what passes with a wave number along x, \[rad/s].
+    pub(super) fn frequency(&self, q_x: f64) -> f64 {
+        (q_x * self.velocity).abs()
+    }
+
     /// Largest pressure of a wave along x of this length that lifts a half space by an amplitude, \[Pa].
     pub(super) fn pressure_of(&self, length: f64, amplitude: f64) -> Result<f64, BemError> {
         let wave_number = 2.0 * PI / length;
@@ -82,8 +92,7 @@ impl Sliding {
     /// (1 − ν) [J' + i J''] of every row, before any shift.
     pub(super) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
         let compliance = |q_x: &f64| {
-            let frequency = (q_x * self.velocity).abs();
-            let compliance = self.creep.complex_compliance(frequency)?;
+            let compliance = self.creep.complex_compliance(self.frequency(*q_x))?;
             positive("storage compliance", compliance.storage)?;
             let loss = compliance.loss.copysign(*q_x);
             Ok(Complex::new(compliance.storage, loss) * self.factor)

@@ -29,6 +29,8 @@ mod nested;
 #[cfg(feature = "rough")]
 mod refinement;
 mod search;
+#[cfg(feature = "rough")]
+pub mod sensitivity;
 mod waves;
 
 use std::cell::RefCell;

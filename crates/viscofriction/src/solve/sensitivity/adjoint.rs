@@ -1,9 +1,11 @@
 //! Stationary contacts on the half space: one adjoint solution for each quantity, whatever the number of parameters.
 
 use bem_halfspace::Elastomer;
-use bem_halfspace::steady::sensitivity::{Change, SteadySensitivity};
+use bem_halfspace::periodic::sensitivity::PeriodicSensitivity;
+use bem_halfspace::steady::sensitivity::{ByModuli, Change, SteadySensitivity};
 use indenters::{SlidingLoad, Surface};
 use numerics::Estimate;
+use rheology::Material;
 
 use super::Sensitivity;
 use super::parameters::{Number, Numbers};
@@ -12,9 +14,14 @@ use crate::solve::answer::{Answer, StationaryGrid};
 use crate::solve::body::Body;
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
+use crate::solve::work::rough;
 
 /// Relative step of the numbers; what it leaves out is far below the bars.
 const STEP: f64 = 1e-5;
+/// Of a method without derivatives.
+const NONE: SolveError = SolveError::NoSensitivity {
+    method: Method::BemSteady,
+};
 
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
@@ -22,7 +29,7 @@ pub(super) fn sensitivities(
     load: &SlidingLoad,
     answer: &Answer,
 ) -> Result<Vec<Sensitivity>> {
-    let contact = contact(problem, load, answer)?;
+    let contact = Contact::new(problem, load, answer)?;
     let of = |number: &Number| {
         let ends = neighbours(numbers, number)?;
         let change = change(&contact, number, &ends)?;
@@ -33,23 +40,83 @@ pub(super) fn sensitivities(
 }
 
 /// The contact of an answer with its adjoint loads.
-pub(super) fn contact(
-    problem: &Problem,
-    load: &SlidingLoad,
-    answer: &Answer,
-) -> Result<SteadySensitivity> {
-    let method = Method::BemSteady;
-    let elastomer = problem.elastomer()?;
-    Ok(match (problem.body(), answer.stationary) {
-        (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {
-            SteadySensitivity::of_line(cylinder, &elastomer, load, &options)
+pub(super) enum Contact {
+    Single(SteadySensitivity),
+    Periodic(Box<PeriodicSensitivity>),
+}
+
+impl Contact {
+    pub(super) fn new(problem: &Problem, load: &SlidingLoad, answer: &Answer) -> Result<Self> {
+        let elastomer = problem.elastomer()?;
+        Ok(match (problem.body(), answer.stationary) {
+            (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {
+                let of_line = SteadySensitivity::of_line(cylinder, &elastomer, load, &options);
+                Self::Single(of_line?)
+            }
+            (body, Some(StationaryGrid::Contact(options))) => {
+                let surface = body.surface().ok_or(NONE)?;
+                let near = SteadySensitivity::new(surface, &elastomer, load, &options);
+                Self::Single(near?)
+            }
+            (Body::Periodic(surface), _) => {
+                let pressure = answer.fields.pressure.as_ref().ok_or(NONE)?;
+                let load = rough(problem, surface).map_err(|_| NONE)?.load;
+                let near = PeriodicSensitivity::new(surface, &elastomer, &load, pressure);
+                Self::Periodic(Box::new(near?))
+            }
+            _ => return Err(NONE),
+        })
+    }
+
+    pub(super) fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>> {
+        Ok(match self {
+            Self::Single(near) => near.by_moduli(frequencies),
+            Self::Periodic(near) => near.by_moduli(frequencies),
+        }?)
+    }
+
+    /// By the force or mean pressure, or by the depth, whichever is given.
+    fn by_load(&self) -> Change<Estimate> {
+        match self {
+            Self::Single(near) => near.by_load(),
+            Self::Periodic(near) => near.by_load(),
         }
-        (body, Some(StationaryGrid::Contact(options))) => {
-            let surface = body.surface().ok_or(SolveError::NoSensitivity { method })?;
-            SteadySensitivity::new(surface, &elastomer, load, &options)
-        }
-        _ => return Err(SolveError::NoSensitivity { method }),
-    }?)
+    }
+
+    fn between_bodies(&self, bodies: [&Body; 2]) -> Result<Change<Estimate>> {
+        Ok(match self {
+            Self::Single(near) => {
+                let [from, to] = bodies.map(surface);
+                near.between_bodies([from?, to?])
+            }
+            Self::Periodic(near) => match bodies {
+                [Body::Periodic(from), Body::Periodic(to)] => near.between_surfaces([from, to]),
+                _ => return Err(NONE),
+            },
+        }?)
+    }
+
+    fn between_materials(
+        &self,
+        materials: [&dyn Material; 2],
+        velocities: [f64; 2],
+    ) -> Result<Change<Estimate>> {
+        Ok(match self {
+            Self::Single(near) => near.between_materials(materials, velocities),
+            Self::Periodic(near) => near.between_materials(materials, velocities),
+        }?)
+    }
+
+    fn between_elastomers(
+        &self,
+        elastomers: [&dyn Elastomer; 2],
+        velocities: [f64; 2],
+    ) -> Result<Change<Estimate>> {
+        Ok(match self {
+            Self::Single(near) => near.between_elastomers(elastomers, velocities),
+            Self::Periodic(near) => near.between_elastomers(elastomers, velocities),
+        }?)
+    }
 }
 
 /// The problems on both sides of a number, or from below where it is the largest allowed one, with its values.
@@ -62,7 +129,7 @@ fn neighbours(numbers: &Numbers, number: &Number) -> Result<[(Problem, f64); 2],
 }
 
 fn change(
-    contact: &SteadySensitivity,
+    contact: &Contact,
     number: &Number,
     ends: &[(Problem, f64); 2],
 ) -> Result<Change<Estimate>> {
@@ -74,12 +141,15 @@ fn change(
     let velocities = [from, to].map(velocity);
     let is_layer = to.thickness().is_finite();
     Ok(match number.ends() {
-        ["load", "normal_force" | "indentation_depth"] => {
-            scaled(contact.by_load(), ends[1].1 - ends[0].1)
+        [
+            "load",
+            "normal_force" | "mean_pressure" | "indentation_depth",
+        ] => scaled(contact.by_load(), ends[1].1 - ends[0].1),
+        ["indenter", _] => contact.between_bodies([from.body(), to.body()])?,
+        ["layer", _] if let Contact::Single(near) = contact => {
+            scaled(near.by_thickness(), (ends[1].1 / ends[0].1).ln())
         }
-        ["indenter", _] => contact.between_bodies([surface(from)?, surface(to)?])?,
-        ["layer", _] => scaled(contact.by_thickness(), (ends[1].1 / ends[0].1).ln()),
-        ["material", "poisson_ratio"] if is_layer => {
+        ["layer", _] | ["material", "poisson_ratio"] if is_layer => {
             let [from, to] = [from.elastomer()?, to.elastomer()?];
             contact.between_elastomers([&from as &dyn Elastomer, &to], velocities)?
         }
@@ -87,11 +157,10 @@ fn change(
     })
 }
 
-fn surface(problem: &Problem) -> Result<&dyn Surface> {
-    let method = Method::BemSteady;
-    match problem.body() {
+fn surface(body: &Body) -> Result<&dyn Surface> {
+    match body {
         Body::Cylinder(cylinder) => Ok(cylinder),
-        body => body.surface().ok_or(SolveError::NoSensitivity { method }),
+        body => body.surface().ok_or(NONE),
     }
 }
 
@@ -101,6 +170,7 @@ fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
         friction_coefficient: times(change.friction_coefficient),
         indentation_depth: change.indentation_depth.map(times),
         normal_force: change.normal_force.map(times),
+        contact_area: change.contact_area.map(times),
     }
 }
 
@@ -127,6 +197,6 @@ pub(super) fn relative(
         ),
         normal_force: of(change.normal_force, Some(answer.normal_force)),
         indentation_depth: of(change.indentation_depth, answer.indentation_depth),
-        contact_area: None,
+        contact_area: change.contact_area.map(|change| change * width.recip()),
     }
 }

@@ -25,7 +25,7 @@ pub struct Uncertainties {
     pub normal_force: Option<f64>,
     /// Of the depth, where the force is given.
     pub indentation_depth: Option<f64>,
-    /// Of the contact area; of closed forms only.
+    /// Of the contact area.
     pub contact_area: Option<f64>,
 }
 

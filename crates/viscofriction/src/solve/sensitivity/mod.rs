@@ -43,7 +43,7 @@ pub struct Sensitivity {
     pub normal_force: Option<Estimate>,
     /// Of the depth, where the force is given.
     pub indentation_depth: Option<Estimate>,
-    /// Of the contact area; of closed forms only.
+    /// Of the contact area.
     pub contact_area: Option<Estimate>,
 }
 

@@ -14,10 +14,12 @@ use crate::solve::problem::Problem;
 
 /// Tables with moduli, times, loads, speeds and lengths.
 const TABLES: [&str; 5] = ["indenter", "material", "layer", "load", "solve"];
-/// Keys below them that are none of these: ranges of the material, and what chooses rather than describes.
-const OTHERS: [&str; 9] = [
+/// Keys below them that are none of these: ranges of the material, what chooses waves, and what chooses rather than describes.
+const OTHERS: [&str; 11] = [
     "approximation",
     "covariance",
+    "longest_wavelength",
+    "period",
     "relative_error",
     "shortest_wavelength",
     "seed",

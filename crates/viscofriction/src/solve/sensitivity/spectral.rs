@@ -7,7 +7,7 @@ use numerics::Estimate;
 use serde::Serialize;
 
 use super::Sensitivity;
-use super::adjoint;
+use super::adjoint::{self, Contact};
 use crate::scene::Method;
 use crate::solve::answer::{Answer, StationaryGrid};
 use crate::solve::error::{Result, SolveError};
@@ -53,13 +53,10 @@ pub fn spectral_sensitivity(problem: &Problem, answer: &Answer) -> Result<Spectr
     let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
         return Err(SolveError::NoSensitivity { method });
     };
-    let (Some(spacing), Some(contact)) = (spacing(answer), &answer.contact_box) else {
-        return Err(SolveError::NoSensitivity { method });
-    };
-    let length = contact.x[1] - contact.x[0];
-    let ends = [LOWEST / length, PI / spacing].map(|wave_number| load.velocity() * wave_number);
-    let found =
-        adjoint::contact(problem, &load, answer)?.by_moduli(&edges(ends, problem.window()))?;
+    let wave_numbers = wave_numbers(answer).ok_or(SolveError::NoSensitivity { method })?;
+    let ends = wave_numbers.map(|wave_number| load.velocity() * wave_number);
+    let contact = Contact::new(problem, &load, answer)?;
+    let found = contact.by_moduli(&edges(ends, problem.window()))?;
     let bands: Vec<ByFrequency> = found
         .into_iter()
         .map(|band| of_band(answer, band))
@@ -105,11 +102,20 @@ impl SpectralSensitivity {
     }
 }
 
-const fn spacing(answer: &Answer) -> Option<f64> {
+/// The lowest wave number along x that is told from 0, and that of the shortest wave on the grid.
+fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
+    let of_contact = |spacing: f64| {
+        let [rear, front] = answer.contact_box.as_ref()?.x;
+        Some([LOWEST / (front - rear), PI / spacing])
+    };
     match answer.stationary {
-        Some(StationaryGrid::Contact(options)) => Some(options.spacing[0]),
-        Some(StationaryGrid::Line(options)) => Some(options.spacing),
-        None => None,
+        Some(StationaryGrid::Contact(options)) => of_contact(options.spacing[0]),
+        Some(StationaryGrid::Line(options)) => of_contact(options.spacing),
+        None => {
+            let grid = answer.fields.pressure.as_ref()?.grid;
+            let (rows, spacing) = (grid.shape()[0] as f64, grid.spacing()[0]);
+            Some([2.0 * PI / (rows * spacing), PI / spacing])
+        }
     }
 }
 

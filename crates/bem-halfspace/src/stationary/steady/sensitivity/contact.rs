@@ -2,6 +2,7 @@
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
+use crate::elements::spread::measures_of_area;
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::pivoting::Solution;
@@ -26,8 +27,8 @@ pub(super) struct Adjoint {
     pub(super) friction: Vec<f64>,
     /// For a unit depth.
     pub(super) depth: Vec<f64>,
-    /// For the derivative of the logarithm of the area that the loads are spread over, `(Σ x)²/Σ x²`.
-    pub(super) area: Vec<f64>,
+    /// For the derivatives of two measures of the logarithm of the area, see [`measures_of_area`].
+    pub(super) areas: [Vec<f64>; 2],
 }
 
 impl<'mesh> Contact<'mesh> {
@@ -83,19 +84,15 @@ impl<'mesh> Contact<'mesh> {
         let mean = mean.sum::<f64>() / self.total;
         let by_loads = slopes.at_elements.iter().zip(&slopes.by_others);
         let by_loads = by_loads.map(|(here, others)| (here + others - mean) / self.total);
-        let squares: Vec<f64> = self.loads.iter().map(|load| load * load).collect();
-        let squares = self.sum(&squares);
-        let spread = |load: &f64| 2.0 / self.total - 2.0 * load / squares;
-        let right = [
-            by_loads.collect(),
-            vec![1.0; self.elements.len()],
-            self.loads.iter().map(spread).collect(),
-        ];
-        let [friction, depth, area] = solve_transposed(self.mesh, plans, &self.elements, right)?;
+        let [area, rough_area] = measures_of_area(&self.loads, |powers| self.sum(powers));
+        let ones = vec![1.0; self.elements.len()];
+        let right = [by_loads.collect(), ones, area, rough_area];
+        let [friction, depth, area, rough_area] =
+            solve_transposed(self.mesh, plans, &self.elements, right)?;
         let adjoint = Adjoint {
             friction,
             depth,
-            area,
+            areas: [area, rough_area],
         };
         Ok((mean, adjoint))
     }

@@ -17,11 +17,11 @@
 //! elements lack to that is what the elements have to change when the contact grows by λ,
 //!
 //! ```text
-//! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dα/dθ)/(∂α/∂ln λ),      α = ln((Σ x)²/Σ x²)
+//! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dα/dθ)/(∂α/∂ln λ),      α = Σ wₛ ln Σ xˢ
 //! ```
 //!
-//! with the area α that the loads are spread over as a measure of the size. Then the derivatives add up in units of length, as
-//! they do in those of stress and time without it.
+//! with a measure α of the area that is made of the loads, `elements/spread.rs`. Then the derivatives add up in units of length, as
+//! they do in those of stress and time without it; and `(dα/dθ)/(∂α/∂ln λ)` is how much the contact grows.
 
 mod adjoint;
 mod basis;
@@ -31,7 +31,7 @@ mod state;
 mod waves;
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Estimate, in_range, not_negative};
+use numerics::{Estimate, InvalidParameter, in_range, not_negative};
 use rheology::Material;
 
 use crate::stationary::steady::line::Strip;
@@ -43,6 +43,8 @@ use state::State;
 
 /// Spacing of the grids whose derivatives are compared with those of the finest.
 const COARSER: f64 = std::f64::consts::SQRT_2;
+/// Spacing of a strip over that of the options: few elements give its answer, and take next to no time.
+const FINER_STRIP: f64 = 0.25;
 /// Shifts of the grids that are averaged.
 const PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
 const PHASES_OF_STRIP: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
@@ -51,7 +53,7 @@ const WEIGHT: f64 = 2.5;
 /// Where a depth has derivatives.
 const AT_A_DEPTH: &str = "0 on a half space at a depth, which otherwise belongs to a distance";
 
-/// The change of a stationary state to first order.
+/// The change of a stationary state to first order; of a periodic surface that of one period, and of its mean plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[must_use]
 pub struct Change<T> {
@@ -61,6 +63,8 @@ pub struct Change<T> {
     pub indentation_depth: Option<T>,
     /// Of the normal force at a depth, \[N].
     pub normal_force: Option<T>,
+    /// Of the logarithm of the contact area, or of the width in plane strain; none under bodies with edges.
+    pub contact_area: Option<T>,
 }
 
 /// The derivatives by the complex modulus in a band of frequencies.
@@ -125,7 +129,7 @@ impl SteadySensitivity {
         Self::of(&surface, &loading, options, &PHASES)
     }
 
-    /// The same in plane strain, as of [`steady_line`](super::steady_line()).
+    /// The same in plane strain, as of [`steady_line`](super::steady_line()), on elements of a quarter of the length.
     ///
     /// # Errors
     /// As for [`steady_line_on_grid`](super::steady_line_on_grid).
@@ -137,7 +141,8 @@ impl SteadySensitivity {
     ) -> Result<Self, BemError> {
         let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
         let strip = Strip::new(&profile, &loading);
-        let options = options.on_strip(&strip);
+        let mut options = options.on_strip(&strip);
+        options.spacing[0] *= FINER_STRIP;
         Self::of(&strip, &loading, &options, &PHASES_OF_STRIP)
     }
 
@@ -201,9 +206,10 @@ impl SteadySensitivity {
     pub fn friction_coefficient(&self) -> Estimate {
         let of = |grids: &SensitivityOnGrid| {
             let change = |state: &State| Change {
-                friction_coefficient: state.friction_coefficient,
+                friction_coefficient: [state.friction_coefficient, 0.0],
                 indentation_depth: None,
                 normal_force: None,
+                contact_area: None,
             };
             mean(grids.states.iter().map(change).collect())
         };
@@ -236,15 +242,8 @@ impl SteadySensitivity {
     /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and [`BemError::Material`] where the
     /// material is not known at them.
     pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
-        let bands: Vec<[f64; 2]> = frequencies
-            .windows(2)
-            .map(|ends| [ends[0], ends[1]])
-            .collect();
-        for &[from, to] in &bands {
-            not_negative("frequency", from)?;
-            in_range("frequency", to, to > from, "greater than the one before")?;
-        }
-        let of = |grids: &SensitivityOnGrid| -> Result<Vec<[Mean; 2]>, BemError> {
+        let bands = bands(frequencies)?;
+        let of = |grids: &SensitivityOnGrid| -> Result<Vec<[Change<Apart>; 2]>, BemError> {
             let found = grids.states.iter().map(|state| state.by_moduli(&bands));
             let found = found.collect::<Result<Vec<_>, _>>()?;
             let of_band = |band: usize| {
@@ -267,7 +266,7 @@ impl SteadySensitivity {
 
     fn change(
         &self,
-        of: impl Fn(&SensitivityOnGrid) -> Result<Mean, BemError>,
+        of: impl Fn(&SensitivityOnGrid) -> Result<Change<Apart>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
         Ok(compared(of(&self.fine)?, of(&self.coarse)?))
     }
@@ -351,7 +350,7 @@ impl SensitivityOnGrid {
         &self,
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
-    ) -> Result<Mean, BemError> {
+    ) -> Result<Change<Apart>, BemError> {
         let [from, to] = [0, 1].map(|end| SlidingCreep::new(materials[end], velocities[end]));
         let ends = [from?, to?];
         self.mean_of(|state| state.between_materials(ends.each_ref()))
@@ -359,8 +358,8 @@ impl SensitivityOnGrid {
 
     fn mean_of(
         &self,
-        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
-    ) -> Result<Mean, BemError> {
+        of: impl Fn(&State) -> Result<Change<Apart>, BemError>,
+    ) -> Result<Change<Apart>, BemError> {
         let changes = self.states.iter().map(of).collect::<Result<_, _>>()?;
         Ok(mean(changes))
     }
@@ -380,31 +379,51 @@ fn loading(
     Ok(loading)
 }
 
-/// A mean over shifted grids, and how far they are apart.
-type Mean = Change<[f64; 2]>;
+/// Bands between frequencies that increase.
+pub(crate) fn bands(frequencies: &[f64]) -> Result<Vec<[f64; 2]>, InvalidParameter> {
+    let band = |ends: &[f64]| {
+        not_negative("frequency", ends[0])?;
+        let increases = ends[1] > ends[0];
+        in_range(
+            "frequency",
+            ends[1],
+            increases,
+            "greater than the one before",
+        )?;
+        Ok([ends[0], ends[1]])
+    };
+    frequencies.windows(2).map(band).collect()
+}
 
-fn mean(changes: Vec<Change<f64>>) -> Mean {
-    let of = |values: Vec<f64>| {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let apart = values.iter().map(|value| (value - mean).abs());
+/// A value, and how far two ways to it, or grids, are apart.
+pub(crate) type Apart = [f64; 2];
+
+/// The mean over shifted grids.
+fn mean(changes: Vec<Change<Apart>>) -> Change<Apart> {
+    let of = |values: Vec<Apart>| {
+        let mean = values.iter().map(|[value, _]| value).sum::<f64>() / values.len() as f64;
+        let apart = values
+            .iter()
+            .map(|[value, apart]| (value - mean).abs() + apart);
         [mean, apart.fold(0.0, f64::max)]
     };
-    let optional = |quantity: fn(&Change<f64>) -> Option<f64>| {
-        let values: Option<Vec<f64>> = changes.iter().map(quantity).collect();
+    let optional = |quantity: fn(&Change<Apart>) -> Option<Apart>| {
+        let values: Option<Vec<Apart>> = changes.iter().map(quantity).collect();
         values.map(of)
     };
     Change {
         friction_coefficient: of(changes.iter().map(|one| one.friction_coefficient).collect()),
         indentation_depth: optional(|one| one.indentation_depth),
         normal_force: optional(|one| one.normal_force),
+        contact_area: optional(|one| one.contact_area),
     }
 }
 
-fn compared(fine: Mean, coarse: Mean) -> Change<Estimate> {
-    let estimate = |[value, apart]: [f64; 2], [other, _]: [f64; 2]| {
+pub(crate) fn compared(fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
+    let estimate = |[value, apart]: Apart, [other, _]: Apart| {
         Estimate::new(value, WEIGHT * (value - other).abs() + apart)
     };
-    let both = |fine: Option<[f64; 2]>, coarse: Option<[f64; 2]>| {
+    let both = |fine: Option<Apart>, coarse: Option<Apart>| {
         fine.zip(coarse)
             .map(|(fine, coarse)| estimate(fine, coarse))
     };
@@ -412,6 +431,7 @@ fn compared(fine: Mean, coarse: Mean) -> Change<Estimate> {
         friction_coefficient: estimate(fine.friction_coefficient, coarse.friction_coefficient),
         indentation_depth: both(fine.indentation_depth, coarse.indentation_depth),
         normal_force: both(fine.normal_force, coarse.normal_force),
+        contact_area: both(fine.contact_area, coarse.contact_area),
     }
 }
 

@@ -5,10 +5,10 @@ use numerics::in_range;
 
 use crate::BemError;
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::sensitivity::Change;
 use crate::stationary::steady::sensitivity::basis::Basis;
 use crate::stationary::steady::sensitivity::contact::{Adjoint, Contact};
 use crate::stationary::steady::sensitivity::offsets::Offsets;
+use crate::stationary::steady::sensitivity::{Apart, Change};
 use crate::stationary::steady::sliding_creep::{MovingCreep, SlidingCreep};
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
 
@@ -23,8 +23,8 @@ pub(super) struct State {
     points: Points,
     /// Part of the load on each element, its image included.
     shares: Vec<f64>,
-    /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and of the area that the
-    /// loads are spread over.
+    /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and of both measures of the
+    /// logarithm of the area.
     gradients: Vec<Gradient>,
     /// Of each of them by the logarithm of the thickness of a layer.
     by_thickness: Vec<f64>,
@@ -37,8 +37,9 @@ pub(super) struct State {
 pub(super) struct Dilation {
     /// Of each quantity, beyond what it has to be.
     excess: Vec<f64>,
-    /// Of the logarithm of the area.
-    area: f64,
+    /// Of both measures of the logarithm of the area, and what it has to be.
+    areas: [f64; 2],
+    power_of_area: f64,
 }
 
 /// A height of a body, \[m], by a point.
@@ -151,7 +152,7 @@ impl State {
                 + power * by_load
                 + gradient.unit * gradient.basis.by_velocity();
             // Equations with these elements are linear: heights and load together scale depth and force.
-            let is_other = index == 1 && self.gradients.len() > 2;
+            let is_other = index == 1 && self.gradients.len() > 3;
             let expected = if is_other {
                 power_of_other * (by_height + by_load)
             } else {
@@ -159,8 +160,11 @@ impl State {
             };
             excess.push(changed - expected);
         }
-        let area = excess.pop().unwrap_or(f64::NAN);
-        Ok(Dilation { excess, area })
+        Ok(Dilation {
+            areas: areas_of(&mut excess),
+            excess,
+            power_of_area: power_of_force,
+        })
     }
 }
 
@@ -168,7 +172,7 @@ impl State {
     pub(super) fn between_bodies(
         &self,
         [from, to]: [&dyn Surface; 2],
-    ) -> Result<Change<f64>, BemError> {
+    ) -> Result<Change<Apart>, BemError> {
         let heights: [Height; 2] = [&|point| from.height(point), &|point| to.height(point)];
         Ok(self.of_all(self.between_heights(heights)?))
     }
@@ -190,7 +194,7 @@ impl State {
     pub(super) fn between_materials(
         &self,
         ends: [&SlidingCreep; 2],
-    ) -> Result<Change<f64>, BemError> {
+    ) -> Result<Change<Apart>, BemError> {
         let [from, to] = ends.map(SlidingCreep::moving);
         if [&from, &to].iter().all(|end| self.has_delays_of(end)) {
             return Ok(self.change(|basis| basis.between_creeps([&from, &to])));
@@ -202,14 +206,17 @@ impl State {
     pub(super) fn between_elastomers(
         &self,
         ends: [&SlidingCreep; 2],
-    ) -> Result<Change<f64>, BemError> {
+    ) -> Result<Change<Apart>, BemError> {
         let changes = Basis::between_elastomers(&self.bases(), ends)?;
         let pairs = self.gradients.iter().zip(changes);
         Ok(self.of_all(pairs.map(|(one, change)| one.unit * change).collect()))
     }
 
     /// By the logarithms of the storage and of the loss modulus in each band of frequencies.
-    pub(super) fn by_moduli(&self, bands: &[[f64; 2]]) -> Result<Vec<[Change<f64>; 2]>, BemError> {
+    pub(super) fn by_moduli(
+        &self,
+        bands: &[[f64; 2]],
+    ) -> Result<Vec<[Change<Apart>; 2]>, BemError> {
         let of_band = |sums: Vec<[f64; 2]>| {
             [0, 1].map(|part| {
                 let pairs = self.gradients.iter().zip(&sums);
@@ -220,11 +227,11 @@ impl State {
         Ok(sums.into_iter().map(of_band).collect())
     }
 
-    pub(super) fn by_load(&self) -> Change<f64> {
+    pub(super) fn by_load(&self) -> Change<Apart> {
         self.of_all(self.gradients.iter().map(|one| one.by_load).collect())
     }
 
-    pub(super) fn by_thickness(&self) -> Change<f64> {
+    pub(super) fn by_thickness(&self) -> Change<Apart> {
         self.of_all(self.by_thickness.clone())
     }
 
@@ -238,30 +245,41 @@ impl State {
         self.gradients.iter().map(|one| &one.basis).collect()
     }
 
-    fn change(&self, of: impl Fn(&Basis) -> f64) -> Change<f64> {
+    fn change(&self, of: impl Fn(&Basis) -> f64) -> Change<Apart> {
         let changes = self.gradients.iter();
         self.of_all(changes.map(|one| one.unit * of(&one.basis)).collect())
     }
 
     /// With the elements that the change brings into the contact, as far as it is similar to itself.
-    fn of_all(&self, mut changes: Vec<f64>) -> Change<f64> {
-        let area = changes.pop().unwrap_or(f64::NAN);
-        if let Some(dilation) = &self.dilation {
+    fn of_all(&self, mut changes: Vec<f64>) -> Change<Apart> {
+        let areas = areas_of(&mut changes);
+        let contact_area = self.dilation.as_ref().map(|dilation| {
+            let lengths = [0, 1].map(|measure| areas[measure] / dilation.areas[measure]);
             for (change, excess) in changes.iter_mut().zip(&dilation.excess) {
-                *change -= area / dilation.area * excess;
+                *change -= lengths[0] * excess;
             }
-        }
-        let other = changes.get(1).copied();
+            let apart = (lengths[0] - lengths[1]).abs();
+            [lengths[0], apart].map(|length| dilation.power_of_area * length)
+        });
+        let other = changes.get(1).map(|change| [*change, 0.0]);
         let (indentation_depth, normal_force) = match self.control {
             Control::NormalForce(_) => (other, None),
             Control::IndentationDepth(_) => (None, other),
         };
         Change {
-            friction_coefficient: changes[0],
+            friction_coefficient: [changes[0], 0.0],
             indentation_depth,
             normal_force,
+            contact_area,
         }
     }
+}
+
+/// Takes both measures of the area, which are the last two, from the quantities.
+fn areas_of(quantities: &mut Vec<f64>) -> [f64; 2] {
+    let mut last = || quantities.pop().unwrap_or(f64::NAN);
+    let rough = last();
+    [last(), rough]
 }
 
 fn differences(mut from: Vec<f64>, to: &[f64]) -> Vec<f64> {
@@ -357,7 +375,7 @@ struct Draft {
 }
 
 impl Gradients<'_> {
-    /// Of the friction, of the depth under a force or the force at a depth, and of the area.
+    /// Of the friction, of the depth under a force or the force at a depth, and of both measures of the area.
     fn all(&self) -> Result<Vec<Gradient>, BemError> {
         let Loading {
             control,
@@ -381,7 +399,8 @@ impl Gradients<'_> {
         };
         let mut drafts = vec![self.of_friction(stiffness)];
         drafts.extend(other);
-        drafts.push(self.of_loads(&self.adjoint.area, 1.0, stiffness));
+        let areas = self.adjoint.areas.iter();
+        drafts.extend(areas.map(|area| self.of_loads(area, 1.0, stiffness)));
         self.summed(drafts)
     }
 

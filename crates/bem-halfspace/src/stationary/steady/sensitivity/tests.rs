@@ -6,7 +6,7 @@ use indenters::{Cylinder, FlatCone, PowerProfile, Surface};
 use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 use super::*;
-use crate::stationary::steady::{SteadySliding, steady_line};
+use crate::stationary::steady::{SteadySliding, steady, steady_line};
 use crate::{Footprint, Layer};
 
 /// Relative step of the differences.
@@ -91,7 +91,7 @@ const NAMES: [&str; 7] = [
     "velocity",
 ];
 
-fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
+fn changed(case: &Case, state: &State, index: usize) -> Change<Apart> {
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 7];
         factors[index] += step;
@@ -106,11 +106,12 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
         "load" => {
             let [Control::NormalForce(given) | Control::IndentationDepth(given)] = [case.control];
             let by_load = state.by_load();
-            let times = |value: f64| 2.0 * STEP * given * value;
+            let times = |known: Apart| known.map(|value| 2.0 * STEP * given * value);
             Ok(Change {
                 friction_coefficient: times(by_load.friction_coefficient),
                 indentation_depth: by_load.indentation_depth.map(times),
                 normal_force: by_load.normal_force.map(times),
+                contact_area: by_load.contact_area.map(times),
             })
         }
         name => {
@@ -126,6 +127,15 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
         }
     };
     change.expect("a change")
+}
+
+/// Of the friction, and of the depth or the force.
+fn values(change: &Change<Apart>) -> [f64; 2] {
+    let other = change.indentation_depth.or(change.normal_force);
+    [
+        change.friction_coefficient[0],
+        other.map_or(0.0, |[value, _]| value),
+    ]
 }
 
 fn cases() -> [Case; 5] {
@@ -168,12 +178,15 @@ fn compared(case: &Case, index: usize, options: SteadyOptions) -> [[f64; 2]; 2] 
         case.solved(&factors, options, &solution)
     });
     let change = changed(case, &state, index);
-    let other = change.indentation_depth.or(change.normal_force);
-    let got = [Some(change.friction_coefficient), other];
+    let has_other = change.indentation_depth.or(change.normal_force).is_some();
+    let got = values(&change).map(|change| change / STEP);
     [0, 1].map(|quantity| {
         let expected = (ends[1][quantity] - ends[0][quantity]) / STEP;
-        let got = got[quantity].map_or(expected, |change| change / STEP);
-        [expected, got]
+        if quantity == 0 || has_other {
+            [expected, got[quantity]]
+        } else {
+            [expected; 2]
+        }
     })
 }
 
@@ -244,9 +257,7 @@ fn by_frequencies(
             } else {
                 0.0
             };
-            let other = derivatives[part].indentation_depth;
-            let other = other.or(derivatives[part].normal_force).unwrap_or(0.0);
-            let parts = [derivatives[part].friction_coefficient, other];
+            let parts = values(&derivatives[part]);
             for quantity in 0..2 {
                 sums[quantity] += change * parts[quantity] / STEP;
                 sizes[quantity] += (change * parts[quantity] / STEP).abs();
@@ -264,9 +275,7 @@ fn derivatives_by_frequencies_add_up_to_those_by_moduli_and_times() {
     for case in cases() {
         let (state, _) = case.state(&[1.0; 7], options, None);
         for index in [1, 2] {
-            let expected = changed(&case, &state, index);
-            let other = expected.indentation_depth.or(expected.normal_force);
-            let expected = [expected.friction_coefficient, other.unwrap_or(0.0)];
+            let expected = values(&changed(&case, &state, index));
             let [got, sizes] = by_frequencies(&case, &state, index, options);
             for quantity in 0..2 {
                 let [expected, got] = [expected[quantity] / STEP, got[quantity]];
@@ -350,8 +359,7 @@ fn derivatives_add_up_in_units_of_length() {
         let by_logarithm = NAMES.map(|name| {
             let index = NAMES.iter().position(|other| *other == name);
             let change = changed(case, &state, index.expect("a name"));
-            let other = change.indentation_depth.or(change.normal_force);
-            [change.friction_coefficient, other.unwrap_or(0.0)].map(|change| 0.5 * change / STEP)
+            values(&change).map(|change| 0.5 * change / STEP)
         });
         let [curvature, _, _, _, thickness, load, velocity] = by_logarithm;
         let powers = match case.control {
@@ -375,6 +383,49 @@ fn derivatives_add_up_in_units_of_length() {
         if case.flows {
             let power = load[0] / state.friction_coefficient;
             assert!((power - 0.5).abs() < 1e-6, "{power} instead of 1/2");
+        }
+    }
+}
+
+/// Against differences of areas with bars, over a factor that is wide enough for them.
+#[test]
+fn derivatives_of_areas_are_those_of_counted_ones() {
+    const WIDE: f64 = 1.5;
+    let side = [-1.7, 1.7];
+    let options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
+    for case in cases().iter().filter(|case| case.name != "flat cone") {
+        let grids = |factor: f64| SteadyOptions {
+            spacing: options.spacing.map(|spacing| factor * spacing),
+            ..options
+        };
+        let states = [1.0, COARSER].map(|factor| case.state(&[1.0; 7], grids(factor), None).0);
+        let area = |factors: &Factors| {
+            let (body, material) = ((case.body)(factors[0]), case.material(factors));
+            let layer = Layer::new(&material, case.thickness * factors[4]).expect("a layer");
+            let found = steady(&*body, &layer, &case.load(factors), 1e-3).expect("an answer");
+            found.contact_area
+        };
+        for index in [0, 1, 2, 5, 6] {
+            let [fine, coarse] = [0, 1].map(|grid| changed(case, &states[grid], index));
+            let got = super::compared(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
+            let ends = [WIDE.recip(), WIDE].map(|factor| {
+                let mut factors = [1.0; 7];
+                factors[index] *= factor;
+                area(&factors)
+            });
+            let width = 2.0 * WIDE.ln();
+            let expected = (ends[1].value / ends[0].value).ln() / width;
+            let allowed = ends
+                .map(|end| end.error / end.value / width)
+                .iter()
+                .sum::<f64>();
+            let off = (got.value - expected).abs();
+            let is_near = off < allowed + got.error && off < 0.07;
+            assert!(
+                is_near,
+                "{}, {}: {got:?} instead of {expected}",
+                case.name, NAMES[index]
+            );
         }
     }
 }

@@ -1,0 +1,555 @@
+//! How the stationary contact of a periodic surface changes with what it was solved for, to first order.
+//!
+//! As for [single bodies](crate::steady::sensitivity) one adjoint solution for each quantity serves all derivatives: with the
+//! pressures p in contact, the adjoint loads λ solve
+//!
+//! ```text
+//! Kᵀ λ = η − ∂J/∂p in the contact,      Σ λ = 0,      dJ/dθ = ∂J/∂θ + λᵀ (∂K/∂θ p + ∂h/∂θ),      dJ/dΣp = η
+//! ```
+//!
+//! and Σ λ = 1 with J = 0 for the depth. The transposed kernel is that of a surface that slides the other way, so that the
+//! equations of the contact, turned about, are those of its adjoint loads. The kernel is a factor for each q_x, and what a material
+//! changes is a sum over them.
+//!
+//! The contact moves by whole elements, of which many are at edges, and others on every grid: the bars are made of two grids.
+
+use std::cell::RefCell;
+
+use indenters::rough::PeriodicSurface;
+use numerics::{Estimate, in_range};
+use rheology::Material;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
+use crate::contact::check_length;
+use crate::elements::spread::measures_of_area;
+use crate::parallel::chunks::in_pool;
+use crate::parallel::reductions::{add, dot};
+use crate::stationary::periodic::depth::{Surface, hold};
+use crate::stationary::periodic::equations::Equations;
+use crate::stationary::periodic::kernel::{Kernel, Sliding};
+use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
+use crate::steady::sensitivity::{Apart, ByModuli, Change, bands, compared};
+use crate::{BemError, Elastomer, Grid, PressureField};
+
+/// Residual of the adjoint equations over their right side, and the part of it that is left after a round of directions.
+const TOLERANCE: f64 = 1e-6;
+const ROUND: f64 = 3e-7;
+const MOST_ROUNDS: usize = 20;
+/// Part of a period up to which two are the same.
+const SAME: f64 = 1e-9;
+/// Rounds that leave more of the residual are the last.
+const LEAST_REDUCTION: f64 = 0.7;
+
+/// A stationary contact of a periodic surface with its adjoint loads, on two grids whose difference gives the bars.
+///
+/// Depths are those of the mean plane, and forces those on one period.
+#[derive(Debug)]
+#[must_use]
+pub struct PeriodicSensitivity {
+    fine: State,
+    coarse: State,
+}
+
+/// One contact, and what each of its quantities asks of a change under the same mean pressure.
+#[derive(Debug)]
+struct State {
+    grid: Grid,
+    sliding: Sliding,
+    control: PeriodicControl,
+    /// \[Pa].
+    mean_pressure: f64,
+    /// Without its mean, \[Pa].
+    pressure: Vec<f64>,
+    /// q_x of the rows of a transformed field, \[rad/m].
+    along_x: Vec<f64>,
+    /// Of the friction, of the depth, and of both measures of the logarithm of the area.
+    gradients: [Gradient; 4],
+}
+
+/// The quantities in this order, and their derivatives.
+type Quantities = [f64; 4];
+
+#[derive(Debug)]
+struct Gradient {
+    /// By the height of each element, per metre.
+    by_height: Vec<f64>,
+    /// Of which the real part of the product with the change of the compliance of each row is that of the quantity.
+    by_row: Vec<Complex<f64>>,
+    /// By the mean pressure, per pascal.
+    by_pressure: f64,
+}
+
+impl PeriodicSensitivity {
+    /// Around the stationary state on the grid of a pressure, which is that of the state or near it, such as that of
+    /// [an estimate](super::steady), and on one of half as many elements along each axis.
+    ///
+    /// ```
+    /// use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
+    /// use bem_halfspace::periodic::sensitivity::PeriodicSensitivity;
+    /// use bem_halfspace::rheology::{StandardSolid, StandardSolidParameters};
+    /// use bem_halfspace::{PeriodicLoad, periodic};
+    ///
+    /// let wave = |numbers| Wave { numbers, amplitude: 1e-5, phase: 0.0 };
+    /// let road = PeriodicSurface::new([1e-3; 2], vec![wave([1, 1]), wave([3, -2])])?;
+    /// let rubber = StandardSolid::new(StandardSolidParameters {
+    ///     equilibrium_modulus: 1e6,
+    ///     maxwell_modulus: 9e6,
+    ///     viscosity: 9e2,
+    /// })?;
+    /// let load = PeriodicLoad::new(1e4, 0.1)?;
+    /// let state = periodic::steady(&road, &rubber, &load, 0.05)?;
+    /// let near = PeriodicSensitivity::new(&road, &rubber, &load, &state.finest.pressure)?;
+    /// // In light contact the area grows in proportion to the pressure.
+    /// let by_pressure = near.by_load().contact_area.expect("an area") * 1e4;
+    /// assert!(by_pressure.value > 0.5 && by_pressure.value < 1.1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a grid of other periods, and for
+    /// one that is not twice one on which all waves fit.
+    pub fn new(
+        surface: &PeriodicSurface,
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &PeriodicLoad,
+        pressure: &PressureField,
+    ) -> Result<Self, BemError> {
+        let sliding = Sliding::new(elastomer, load.velocity())?;
+        let control = load.require_stationary()?;
+        let grid = pressure.grid;
+        let names = ["elements along x", "elements along y"];
+        for (name, edge) in names.into_iter().zip(grid.shape()) {
+            in_range(name, edge as f64, edge.is_multiple_of(2), "even")?;
+        }
+        check_length("pressure", pressure.pressure.len(), grid.n_elements())?;
+        let on = |grid: &Grid, guess: Vec<f64>| {
+            check_periods(surface, grid)?;
+            let heights = surface.heights(grid.shape())?;
+            in_pool(grid.n_elements(), || {
+                State::new(&sliding, (grid, &heights), control, guess)
+            })
+        };
+        Ok(Self {
+            fine: on(&grid, pressure.pressure.clone())?,
+            coarse: on(&grid.blocks(), of_blocks(pressure))?,
+        })
+    }
+
+    /// The change from one surface to another, both near that of the state and with its periods.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for other periods, and for waves that do not fit on the grids.
+    pub fn between_surfaces(
+        &self,
+        surfaces: [&PeriodicSurface; 2],
+    ) -> Result<Change<Estimate>, BemError> {
+        for surface in surfaces {
+            check_periods(surface, &self.fine.grid)?;
+        }
+        self.change(|state| state.between_surfaces(surfaces))
+    }
+
+    /// The change from one material and velocity to another, both near those of the state, on the same base.
+    ///
+    /// # Errors
+    /// [`BemError::FlowsUnderWaves`], and [`BemError::Material`].
+    pub fn between_materials(
+        &self,
+        materials: [&dyn Material; 2],
+        velocities: [f64; 2],
+    ) -> Result<Change<Estimate>, BemError> {
+        let [from, to] = [0, 1].map(|end| Sliding::new(materials[end], velocities[end]));
+        let ends = [from?, to?];
+        self.change(|state| state.between_materials(ends.each_ref()))
+    }
+
+    /// The same with a base each, as layers of other thicknesses or Poisson ratios have.
+    ///
+    /// # Errors
+    /// As for [`between_materials`](Self::between_materials).
+    pub fn between_elastomers(
+        &self,
+        elastomers: [&dyn Elastomer; 2],
+        velocities: [f64; 2],
+    ) -> Result<Change<Estimate>, BemError> {
+        let [from, to] = [0, 1].map(|end| Sliding::new(elastomers[end], velocities[end]));
+        let ends = [from?, to?];
+        self.change(|state| state.between_elastomers(ends.each_ref()))
+    }
+
+    /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is given.
+    pub fn by_load(&self) -> Change<Estimate> {
+        compared(self.fine.by_load(), self.coarse.by_load())
+    }
+
+    /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
+    /// [of single bodies](crate::steady::sensitivity::SteadySensitivity::by_moduli). Waves along x pass with the multiples of one
+    /// frequency, 2π v/L_x, and what lies between two of them says nothing.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and [`BemError::Material`] where the
+    /// material is not known at them.
+    pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
+        let of_band = |frequencies: [f64; 2]| {
+            let [fine, coarse] = [&self.fine, &self.coarse].map(|one| one.by_moduli(frequencies));
+            let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
+            Ok(ByModuli {
+                frequencies,
+                storage_modulus: compared(fine_storage, storage),
+                loss_modulus: compared(fine_loss, loss),
+            })
+        };
+        bands(frequencies)?.into_iter().map(of_band).collect()
+    }
+
+    fn change(
+        &self,
+        of: impl Fn(&State) -> Result<Change<Apart>, BemError>,
+    ) -> Result<Change<Estimate>, BemError> {
+        Ok(compared(of(&self.fine)?, of(&self.coarse)?))
+    }
+}
+
+impl State {
+    fn new(
+        sliding: &Sliding,
+        (grid, heights): (&Grid, &[f64]),
+        control: PeriodicControl,
+        guess: Vec<f64>,
+    ) -> Result<Self, BemError> {
+        let surface = Surface {
+            sliding,
+            grid,
+            heights,
+            options: PeriodicOptions::default(),
+        };
+        let mean = guess.iter().sum::<f64>() / guess.len() as f64;
+        let start = RefCell::new(guess);
+        let held = hold(control, &surface, Some(mean), |problem| {
+            solve_from(&mut start.borrow_mut(), problem)
+        })?;
+        let pressure = held.state.pressure.pressure;
+        let waves = Waves::new(grid, sliding.base());
+        let mut adjoint = Adjoint {
+            equations: Equations::new(sliding, grid)?,
+            contact: turned(&pressure, grid).iter().map(|p| *p > 0.0).collect(),
+            waves,
+            sliding,
+            grid,
+            pressure,
+        };
+        let gradients = adjoint.gradients()?;
+        let mean = held.mean_pressure;
+        Ok(Self {
+            along_x: adjoint.waves.along_x.clone(),
+            pressure: adjoint
+                .pressure
+                .iter()
+                .map(|pressure| pressure - mean)
+                .collect(),
+            mean_pressure: mean,
+            grid: *grid,
+            sliding: sliding.clone(),
+            control,
+            gradients,
+        })
+    }
+
+    fn between_surfaces(&self, surfaces: [&PeriodicSurface; 2]) -> Result<Change<Apart>, BemError> {
+        let [from, to] = surfaces.map(|surface| surface.heights(self.grid.shape()));
+        let (from, to) = (from?, to?);
+        let mean = |heights: &[f64]| heights.iter().sum::<f64>() / heights.len() as f64;
+        let lifted = mean(&to) - mean(&from);
+        let changes: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
+        let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &changes));
+        // A depth is that of the mean plane.
+        quantities[1] -= lifted;
+        Ok(self.of_all(quantities))
+    }
+
+    fn between_materials(&self, ends: [&Sliding; 2]) -> Result<Change<Apart>, BemError> {
+        let [from, to] = ends.map(|end| end.compliances(&self.along_x));
+        let (from, to) = (from?, to?);
+        let changes: Vec<_> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
+        let mut quantities = self.of_each(|gradient| real_sum(&gradient.by_row, &changes));
+        quantities[1] += self.sunk(changes[0]);
+        Ok(self.of_all(quantities))
+    }
+
+    fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<Apart>, BemError> {
+        let [mut moved, mut dissipated] = [0; 2].map(|_| vec![0.0; self.pressure.len()]);
+        let mut depth = 0.0;
+        for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
+            let mut kernel = Kernel::new(end, &self.grid)?;
+            let mut field = vec![0.0; self.pressure.len()];
+            // At the centres of the elements.
+            kernel.relax(0.0, &self.pressure, &mut field);
+            add(&mut moved, sign, &field);
+            kernel.dissipate(&self.pressure, &mut field);
+            add(&mut dissipated, sign, &field);
+            depth += sign * end.mean_compliance()? * self.mean_pressure;
+        }
+        let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &moved));
+        quantities[0] += dot(&self.pressure, &dissipated) / self.total();
+        quantities[1] += depth;
+        Ok(self.of_all(quantities))
+    }
+
+    fn by_load(&self) -> Change<Apart> {
+        match self.control {
+            PeriodicControl::MeanPressure(_) => {
+                self.of_all(self.of_each(|gradient| gradient.by_pressure))
+            }
+            // A depth that is not given is one that has changed by itself.
+            PeriodicControl::MeanDepth(_) => self.of_all([0.0, -1.0, 0.0, 0.0]),
+        }
+    }
+
+    fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<Apart>; 2], BemError> {
+        let compliances = self.sliding.compliances(&self.along_x)?;
+        let of = |part: fn(Complex<f64>) -> Complex<f64>| {
+            let rows = compliances.iter().zip(&self.along_x);
+            let changes = rows.map(|(compliance, q_x)| {
+                let frequency = self.sliding.frequency(*q_x);
+                if frequency < from || frequency >= to {
+                    return Complex::default();
+                }
+                -compliance * compliance * part(compliance.inv())
+            });
+            let changes: Vec<_> = changes.collect();
+            let mut quantities = self.of_each(|gradient| real_sum(&gradient.by_row, &changes));
+            quantities[1] += self.sunk(changes[0]);
+            self.of_all(quantities)
+        };
+        Ok([
+            of(|modulus| Complex::new(modulus.re, 0.0)),
+            of(|modulus| Complex::new(0.0, modulus.im)),
+        ])
+    }
+
+    /// How deep the mean pressure presses a layer with another compliance at rest.
+    fn sunk(&self, compliance: Complex<f64>) -> f64 {
+        compliance.re * self.sliding.base().mean() * self.mean_pressure
+    }
+
+    fn of_each(&self, of: impl Fn(&Gradient) -> f64) -> Quantities {
+        self.gradients.each_ref().map(of)
+    }
+
+    /// Of changes under the same mean pressure.
+    fn of_all(&self, changes: Quantities) -> Change<Apart> {
+        let [friction, depth, area, rough_area] = match self.control {
+            PeriodicControl::MeanPressure(_) => changes,
+            PeriodicControl::MeanDepth(_) => {
+                let by_pressure = self.of_each(|gradient| gradient.by_pressure);
+                let pressed = -changes[1] / by_pressure[1];
+                let other = [0, 1, 2, 3].map(|index| changes[index] + pressed * by_pressure[index]);
+                let area = self.grid.element_area() * self.grid.n_elements() as f64;
+                [other[0], pressed * area, other[2], other[3]]
+            }
+        };
+        let other = Some([depth, 0.0]);
+        let (indentation_depth, normal_force) = match self.control {
+            PeriodicControl::MeanPressure(_) => (other, None),
+            PeriodicControl::MeanDepth(_) => (None, other),
+        };
+        Change {
+            friction_coefficient: [friction, 0.0],
+            indentation_depth,
+            normal_force,
+            contact_area: Some([area, (area - rough_area).abs()]),
+        }
+    }
+
+    /// Sum of the pressures, \[Pa].
+    fn total(&self) -> f64 {
+        self.mean_pressure * self.pressure.len() as f64
+    }
+}
+
+/// Makes the derivatives of a contact.
+struct Adjoint<'a> {
+    equations: Equations,
+    /// Turned about.
+    contact: Vec<bool>,
+    waves: Waves,
+    sliding: &'a Sliding,
+    grid: &'a Grid,
+    pressure: Vec<f64>,
+}
+
+impl Adjoint<'_> {
+    fn gradients(&mut self) -> Result<[Gradient; 4], BemError> {
+        let n = self.pressure.len();
+        let total: f64 = self.pressure.iter().sum();
+        let none = || vec![0.0; n];
+        let mut by_load = none();
+        self.equations
+            .kernel
+            .dissipate(&self.pressure, &mut by_load);
+        let friction = dot(&by_load, &self.pressure) / total;
+        for value in &mut by_load {
+            *value = (2.0 * *value - friction) / total;
+        }
+        let [area, rough_area] = measures_of_area(&self.pressure, |powers| powers.iter().sum());
+        let shares: Vec<f64> = self
+            .pressure
+            .iter()
+            .map(|pressure| pressure / total)
+            .collect();
+        let mut lifted = none();
+        let without_mean: Vec<f64> = shares.iter().map(|share| share - 1.0 / n as f64).collect();
+        self.waves
+            .apply(&without_mean, &mut lifted, |_, [_, q]| q.recip().into());
+        let of = |given: [Vec<f64>; 2], adjoint: &mut Self| adjoint.gradient(given, &lifted, total);
+        let mut friction = of([none(), by_load], self)?;
+        let mut depth = of([shares, none()], self)?;
+        depth.by_pressure += self.sliding.mean_compliance()?;
+        let [area, rough_area] = [area, rough_area].map(|area| of([none(), area], self));
+        self.add_dissipation(&mut friction, total);
+        Ok([friction, depth, area?, rough_area?])
+    }
+
+    /// Of a quantity with these derivatives by the pressures, from adjoint loads with the sum of those given; `lifted` is what
+    /// the part of each element in the total pressure moves on a half space of compliance 1 in each row.
+    fn gradient(
+        &mut self,
+        [start, by_pressures]: [Vec<f64>; 2],
+        lifted: &[f64],
+        total: f64,
+    ) -> Result<Gradient, BemError> {
+        let n = start.len() as f64;
+        let (loads, rise) =
+            self.solve([&start, &by_pressures].map(|field| turned(field, self.grid)))?;
+        let mut by_height = vec![0.0; loads.len()];
+        self.equations.kernel.shifted(&loads, &mut by_height);
+        let by_height = turned(&by_height, self.grid);
+        let sums = row_sums([&by_height, lifted], self.grid);
+        let mut by_row: Vec<_> = sums.into_iter().map(|sum| sum * total).collect();
+        let n_rows = by_row.len();
+        if n_rows.is_multiple_of(2) {
+            // The kernel has the absolute value of the compliance there, and the shift its phase.
+            let q_x = self.waves.along_x[n_rows / 2];
+            let compliance = self.sliding.compliances(&[q_x])?[0];
+            by_row[n_rows / 2] *= compliance.conj() / compliance.re;
+        }
+        Ok(Gradient {
+            by_row,
+            by_height,
+            by_pressure: n * rise,
+        })
+    }
+
+    /// The adjoint loads, turned about, and η.
+    fn solve(&mut self, [mut loads, right]: [Vec<f64>; 2]) -> Result<(Vec<f64>, f64), BemError> {
+        let mut gap = vec![0.0; loads.len()];
+        let n_contact = self.contact.iter().filter(|inside| **inside).count() as f64;
+        let (mut first, mut before) = (None, f64::INFINITY);
+        for _ in 0..MOST_ROUNDS {
+            self.equations.displace(&loads, &mut gap);
+            let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+            for (gap, right) in gap.iter_mut().zip(&right) {
+                *gap += right - mean;
+            }
+            let inside = || {
+                let pairs = gap.iter().zip(&self.contact);
+                pairs.filter_map(|(gap, inside)| inside.then_some(*gap))
+            };
+            let rise = inside().sum::<f64>() / n_contact;
+            let residual = inside().map(|gap| (gap - rise).powi(2)).sum::<f64>().sqrt();
+            let first = *first.get_or_insert(residual);
+            if residual <= TOLERANCE * first {
+                return Ok((loads, rise));
+            }
+            if residual > LEAST_REDUCTION * before {
+                break;
+            }
+            before = residual;
+            self.equations.take(&self.contact, &loads, &gap);
+            self.equations.iterate(ROUND, f64::INFINITY, 0.0);
+            self.equations.give(&mut loads, &mut gap);
+        }
+        Err(BemError::ContactNotConverged {
+            iterations: self.equations.products,
+            residual: before / first.unwrap_or(before),
+            tolerance: TOLERANCE,
+        })
+    }
+
+    /// Adds what the material dissipates under pressures that do not change.
+    fn add_dissipation(&mut self, friction: &mut Gradient, total: f64) {
+        let mut moved = vec![0.0; self.pressure.len()];
+        let n_rows = self.grid.shape()[0];
+        self.waves
+            .apply(&self.pressure, &mut moved, |row, [q_x, q]| {
+                // Real fields have the slopes of waves; the shortest one goes neither way.
+                Complex::new(0.0, if 2 * row == n_rows { 0.0 } else { q_x / q })
+            });
+        let sums = row_sums([&self.pressure, &moved], self.grid);
+        for (by_row, sum) in friction.by_row.iter_mut().zip(sums) {
+            *by_row -= sum / total;
+        }
+    }
+}
+
+fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError> {
+    let edges = grid.shape().into_iter().zip(grid.spacing());
+    for (period, (edge, spacing)) in surface.period().into_iter().zip(edges) {
+        let own = edge as f64 * spacing;
+        let is_own = (period - own).abs() <= SAME * own;
+        in_range("period", period, is_own, "that of the grid")?;
+    }
+    Ok(())
+}
+
+/// The mean pressures of elements of twice the edges.
+fn of_blocks(field: &PressureField) -> Vec<f64> {
+    let columns = field.grid.shape()[1];
+    let pairs = field.pressure.chunks_exact(2 * columns);
+    let mean = |pair: &[f64], column: usize| {
+        let rows = [0, columns].map(|row| pair[row + column] + pair[row + column + 1]);
+        0.25 * (rows[0] + rows[1])
+    };
+    let blocks = pairs.flat_map(|pair| {
+        (0..columns)
+            .step_by(2)
+            .map(move |column| mean(pair, column))
+    });
+    blocks.collect()
+}
+
+/// Turned about across the motion.
+fn turned(field: &[f64], grid: &Grid) -> Vec<f64> {
+    let rows = field.chunks_exact(grid.shape()[1]);
+    rows.rev().flatten().copied().collect()
+}
+
+/// For each q_x the sum over q_y of the products of the waves of two fields, that of the first conjugate, over the number of
+/// rows: the sum over the elements of the product of the first with the second, every row of which has a factor, is that of these
+/// with the factors.
+fn row_sums([left, right]: [&[f64]; 2], grid: &Grid) -> Vec<Complex<f64>> {
+    let [rows, columns] = grid.shape();
+    let transform = FftPlanner::new().plan_fft_forward(rows);
+    let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
+    let mut sums = vec![Complex::default(); rows];
+    let mut column = |field: &[f64], index: usize| {
+        let values = field[index..].iter().step_by(columns);
+        let mut values: Vec<Complex<f64>> = values.map(|value| Complex::from(*value)).collect();
+        transform.process_with_scratch(&mut values, &mut scratch);
+        values
+    };
+    for index in 0..columns {
+        let pairs = column(left, index).into_iter().zip(column(right, index));
+        for (sum, (left, right)) in sums.iter_mut().zip(pairs) {
+            *sum += left.conj() * right / rows as f64;
+        }
+    }
+    sums
+}
+
+fn real_sum(left: &[Complex<f64>], right: &[Complex<f64>]) -> f64 {
+    let pairs = left.iter().zip(right);
+    pairs.map(|(left, right)| (left * right).re).sum()
+}
