@@ -72,9 +72,8 @@ impl Cargo {
 
     /// Adds what the closing line of a run says; other lines say nothing.
     fn count(&mut self, line: &str) {
-        let line = line.trim_start();
-        let is_closing = |start: &&str| line.starts_with(start);
-        if !["test result: ", "Summary ["].iter().any(is_closing) {
+        // A test that failed has its own run with it, indented.
+        if !line.starts_with("test result: ") && !line.trim_start().starts_with("Summary [") {
             return;
         }
         let words: Vec<&str> = line.split([' ', ',', ';']).collect();
@@ -106,6 +105,7 @@ mod tests {
             "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.10s",
             "test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 0.20s",
             "     Summary [   1.005s] 9 tests run: 7 passed (1 slow), 2 failed, 4 skipped",
+            "    test result: FAILED. 0 passed; 1 failed; 0 ignored; 0 measured; 9 filtered out; finished in 0.10s",
             "99 passed; this is no result",
         ] {
             cargo.count(line);

@@ -39,6 +39,32 @@ fn points(folder: &Folder) -> Vec<[f64; 2]> {
 }
 
 #[test]
+fn the_material_may_be_that_of_a_file() {
+    let folder = Folder::new("friction-of-file");
+    let rows = points(&folder)
+        .into_iter()
+        .map(|[v, mu]| format!("{v},{mu},{}\n", 0.02 * mu));
+    let table = format!("v (m/s),mu,standard error\n{}", rows.collect::<String>());
+    folder.write("friction.csv", table);
+    let start = SCENE.find("[material").expect("a material");
+    let end = SCENE.find("[load]").expect("a load");
+    folder.write("start.toml", &SCENE[start..end]);
+    let scene = [
+        &SCENE[..start],
+        "[material.file]\npath = \"start.toml\"\n",
+        &SCENE[end..],
+    ];
+    folder.write("scene.toml", scene.concat());
+    folder.done("fit-friction friction.csv scene.toml --out out");
+    let found = folder.column("out/findings.csv", 2);
+    for (found, truth) in found.iter().zip([1e6, 1e4]) {
+        assert_close("of a file", *found, truth, 1e-3);
+    }
+    let material = fs::read_to_string(folder.path("out/material.toml")).expect("a material");
+    assert!(material.contains("[material.kelvin-voigt"), "{material}");
+}
+
+#[test]
 fn names_and_units_are_found_and_the_files_are_those_of_the_fit() {
     let folder = Folder::new("friction");
     folder.write("scene.toml", SCENE);
