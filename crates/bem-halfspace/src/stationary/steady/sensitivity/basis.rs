@@ -17,8 +17,9 @@ use crate::stationary::steady::sliding_creep::{
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{Base, BemError};
 
-/// Relative step of the differences by the length of a memory or the thickness of a layer; their error is its square.
-const STEP: f64 = 1e-3;
+/// Relative step of the differences by the length of a memory or the thickness of a layer, which is about their error: kernels
+/// are smooth to eleven digits.
+const STEP: f64 = 1e-6;
 /// Wave number of what does not change along x, over the longest of those that do.
 const LONGEST_WAVE: f64 = 1e-6;
 /// Logarithm of the ratio of two memories that do not change places.
@@ -37,7 +38,7 @@ pub(super) struct Basis {
 
 /// What is common to all kernels of a grid.
 #[derive(Debug, Clone)]
-struct Kernel {
+pub(super) struct Kernel {
     spacing: f64,
     aspect: f64,
     shift: f64,
@@ -56,23 +57,11 @@ struct OfDelay {
 
 impl Basis {
     /// One for each quantity; the kernels are computed once for all.
-    pub(super) fn of_all(
-        quantities: Vec<Offsets>,
-        creep: &SlidingCreep,
-        mesh: &Mesh,
-    ) -> Result<Vec<Self>, BemError> {
-        let spacing = mesh.options.spacing[0];
-        let on_grid = &mesh.loading.creep;
-        let kernel = Kernel {
-            spacing,
-            aspect: mesh.aspect(),
-            shift: on_grid.shift,
-            base: on_grid.base.clone(),
-            material: creep.clone(),
-            compliance: creep.compliance(spacing)?,
-        };
-        let creep = creep.moving();
-        let steps = [1.0, 1.0 + STEP, 1.0 - STEP];
+    pub(super) fn of_all(mut quantities: Vec<Offsets>, kernel: &Kernel) -> Vec<Self> {
+        Offsets::align(&mut quantities);
+        let spacing = kernel.spacing;
+        let creep = kernel.material.moving();
+        let steps = [1.0, 1.0 + STEP];
         let memories = creep.delays.iter().map(|[_, memory]| *memory);
         let rates = memories.flat_map(|memory| steps.map(|step| spacing / (memory * step)));
         let recovering = kernel.recovering(&quantities, &rates.collect::<Vec<f64>>());
@@ -84,7 +73,7 @@ impl Basis {
                 let delays = sums[1..].chunks_exact(steps.len());
                 let delays = delays.map(|sums| OfDelay {
                     by_compliance: sums[0],
-                    by_memory: (sums[1] - sums[2]) / (2.0 * STEP),
+                    by_memory: (sums[1] - sums[0]) / STEP,
                 });
                 Self {
                     instant: sums[0],
@@ -95,7 +84,7 @@ impl Basis {
                     offsets,
                 }
             });
-        Ok(bases.collect())
+        bases.collect()
     }
 
     /// The change from one creep to another on the same base, to first order; of as many delays as here.
@@ -109,6 +98,15 @@ impl Basis {
                 + of.by_memory * compliance * (to[1] / from[1]).ln()
         });
         (instant + flow + delayed.sum::<f64>()) / self.kernel.compliance
+    }
+
+    /// The sum with all of the kernel.
+    fn whole(&self) -> f64 {
+        let delays = self.creep.delays.iter().zip(&self.delays);
+        let delayed = delays.map(|([compliance, _], of)| of.by_compliance * compliance);
+        let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
+        let at_once = self.instant * self.creep.instant;
+        (at_once + flow + delayed.sum::<f64>()) / self.kernel.compliance
     }
 
     /// By the logarithm of the velocity.
@@ -187,16 +185,14 @@ impl Basis {
         {
             return Ok(vec![0.0; quantities.len()]);
         }
-        let [thin, thick] = [1.0 - STEP, 1.0 + STEP].map(|factor: f64| {
-            let scaled = |kernel: &Kernel| kernel.base.in_units_of(factor.recip());
-            let material = quantities.first().map(|basis| &basis.kernel.material);
-            material.map_or(Ok(Vec::new()), |material| {
-                Self::on_base(quantities, material, scaled)
-            })
+        let scaled = |kernel: &Kernel| kernel.base.in_units_of((1.0 + STEP).recip());
+        let material = quantities.first().map(|basis| &basis.kernel.material);
+        let thicker = material.map_or(Ok(Vec::new()), |material| {
+            Self::on_base(quantities, material, scaled)
         });
-        let pairs = thin?.into_iter().zip(thick?);
+        let pairs = quantities.iter().zip(thicker?);
         Ok(pairs
-            .map(|(thin, thick)| (thick - thin) / (2.0 * STEP))
+            .map(|(own, thicker)| (thicker - own.whole()) / STEP)
             .collect())
     }
 
@@ -231,6 +227,19 @@ fn unit_delay(rate: f64) -> Delay {
 }
 
 impl Kernel {
+    pub(super) fn new(creep: &SlidingCreep, mesh: &Mesh) -> Result<Self, BemError> {
+        let spacing = mesh.options.spacing[0];
+        let on_grid = &mesh.loading.creep;
+        Ok(Self {
+            spacing,
+            aspect: mesh.aspect(),
+            shift: on_grid.shift,
+            base: on_grid.base.clone(),
+            material: creep.clone(),
+            compliance: creep.compliance(spacing)?,
+        })
+    }
+
     /// The sums of each quantity with the kernels of what recovers at once, and of retardation elements of unit compliance.
     fn recovering(&self, quantities: &[Offsets], rates: &[f64]) -> Vec<Vec<f64>> {
         let mut sums = vec![vec![0.0; 1 + rates.len()]; quantities.len()];

@@ -27,6 +27,7 @@ mod adjoint;
 mod basis;
 mod contact;
 mod offsets;
+mod points;
 mod state;
 mod waves;
 
@@ -199,7 +200,10 @@ impl SteadySensitivity {
     ) -> Result<Change<Estimate>, BemError> {
         let [from, to] = [0, 1].map(|end| SlidingCreep::new(elastomers[end], velocities[end]));
         let ends = [from?, to?];
-        self.change(|grids| grids.mean_of(|state| state.between_elastomers(ends.each_ref())))
+        self.change(|grids| {
+            let changes = State::all_between_elastomers(&grids.states, ends.each_ref())?;
+            Ok(mean(changes))
+        })
     }
 
     /// The friction coefficient on these grids.
@@ -319,9 +323,8 @@ impl SensitivityOnGrid {
         let grids = phases
             .iter()
             .map(|&phase| SteadyOptions { phase, ..*options });
-        let state = |options| State::new(surface, loading, options, reuse);
         Ok(Self {
-            states: grids.map(state).collect::<Result<_, _>>()?,
+            states: State::all(surface, loading, grids, reuse)?,
         })
     }
 

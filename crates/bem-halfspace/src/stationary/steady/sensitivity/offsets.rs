@@ -11,7 +11,7 @@ pub(super) struct Field {
 }
 
 /// Weights of the kernel by the offset of an element from the one that is loaded.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Offsets {
     /// Largest offset along x, either way, and along y.
     reach: [usize; 2],
@@ -86,6 +86,27 @@ impl Offsets {
     pub(super) fn and(mut self, other: &Self) -> Self {
         add(&mut self.weights, 1.0, &other.weights);
         self
+    }
+
+    /// Gives all the largest reach among them.
+    pub(super) fn align(all: &mut [Self]) {
+        let reach = all.iter().map(|one| one.reach);
+        let reach = reach.reduce(|one, other| [0, 1].map(|axis| one[axis].max(other[axis])));
+        for one in all.iter_mut().filter(|one| Some(one.reach) != reach) {
+            let Some([rows, columns]) = reach else {
+                return;
+            };
+            let before = rows - one.reach[0];
+            let mut weights = vec![0.0; (2 * rows + 1) * (columns + 1)];
+            let wide = weights.chunks_exact_mut(columns + 1).skip(before);
+            for (wide, narrow) in wide.zip(one.weights.chunks_exact(one.reach[1] + 1)) {
+                wide[..narrow.len()].copy_from_slice(narrow);
+            }
+            *one = Self {
+                reach: [rows, columns],
+                weights,
+            };
+        }
     }
 
     pub(super) const fn reach(&self) -> [usize; 2] {

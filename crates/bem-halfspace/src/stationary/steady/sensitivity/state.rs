@@ -1,13 +1,13 @@
 //! One contact on one grid with the derivatives of its quantities.
 
 use indenters::{Control, Surface};
-use numerics::in_range;
 
 use crate::BemError;
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::sensitivity::basis::Basis;
+use crate::stationary::steady::sensitivity::basis::{Basis, Kernel};
 use crate::stationary::steady::sensitivity::contact::{Adjoint, Contact};
 use crate::stationary::steady::sensitivity::offsets::Offsets;
+use crate::stationary::steady::sensitivity::points::{Height, Points, Slope, differences};
 use crate::stationary::steady::sensitivity::{Apart, Change};
 use crate::stationary::steady::sliding_creep::{MovingCreep, SlidingCreep};
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
@@ -42,9 +42,6 @@ pub(super) struct Dilation {
     power_of_area: f64,
 }
 
-/// A height of a body, \[m], by a point.
-type Height<'a> = &'a dyn Fn([f64; 2]) -> f64;
-
 /// A quantity in the units of the mesh.
 #[derive(Debug)]
 struct Gradient {
@@ -56,31 +53,49 @@ struct Gradient {
     basis: Basis,
 }
 
-/// Where a body is felt.
-#[derive(Debug)]
-struct Points {
-    /// Centres of the elements, \[m], of one half where the contact is mirror symmetric.
-    centres: Vec<[f64; 2]>,
-    /// Where gaps are evaluated, in elements from these.
-    shift: f64,
-    spacing: f64,
-    depth_scale: f64,
-    slope: Slope,
-}
-
-/// What the friction is the mean of under the load.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Slope {
-    /// The slope of the body over each element.
-    OfBody,
-    /// The slope of the displacements at the centre of each element.
-    OfSurface,
-    /// The same where gaps are evaluated.
-    BesidePoints,
+/// A contact whose kernels are not summed yet.
+struct Unsummed {
+    friction_coefficient: f64,
+    points: Points,
+    shares: Vec<f64>,
+    drafts: Vec<Draft>,
+    kernel: Kernel,
 }
 
 impl State {
-    pub(super) fn new(
+    /// Those of shifted grids of one spacing, whose kernels are computed once for all.
+    pub(super) fn all(
+        surface: &dyn Surface,
+        loading: &Loading,
+        grids: impl Iterator<Item = SteadyOptions>,
+        reuse: &mut Reuse,
+    ) -> Result<Vec<Self>, BemError> {
+        let unsummed = grids.map(|options| Unsummed::new(surface, loading, options, reuse));
+        let mut unsummed = unsummed.collect::<Result<Vec<_>, _>>()?;
+        let Some(kernel) = unsummed.first().map(|one| one.kernel.clone()) else {
+            return Ok(Vec::new());
+        };
+        let drafts = unsummed.iter_mut().flat_map(|one| &mut one.drafts);
+        let offsets: Vec<Offsets> = drafts
+            .map(|draft| std::mem::take(&mut draft.offsets))
+            .collect();
+        let bases = Basis::of_all(offsets, &kernel);
+        let by_thickness = Basis::by_thickness(&bases.iter().collect::<Vec<_>>())?;
+        let mut sums = bases.into_iter().zip(by_thickness);
+        let states = unsummed.into_iter().map(|one| {
+            let mut state = one.summed(&mut sums, loading);
+            // Elements at the edge of a body stay where they are.
+            if !loading.has_edges {
+                state.dilation = Some(state.dilated(surface, loading.strip)?);
+            }
+            Ok(state)
+        });
+        states.collect()
+    }
+}
+
+impl Unsummed {
+    fn new(
         surface: &dyn Surface,
         loading: &Loading,
         options: SteadyOptions,
@@ -104,26 +119,39 @@ impl State {
             adjoint,
             slope: points.slope,
         };
-        let gradients = gradients.all()?;
-        let bases: Vec<&Basis> = gradients.iter().map(|one| &one.basis).collect();
-        let by_thickness = gradients.iter().zip(Basis::by_thickness(&bases)?);
-        let by_thickness = by_thickness.map(|(one, change)| one.unit * change);
-        let mut state = Self {
+        Ok(Self {
             friction_coefficient: friction * points.slope_unit(),
             shares: shares.collect(),
-            by_thickness: by_thickness.collect(),
-            gradients,
+            drafts: gradients.all(),
+            kernel: Kernel::new(&loading.creep, &mesh)?,
             points,
-            control: loading.control,
-            dilation: None,
-        };
-        // Elements at the edge of a body stay where they are.
-        if !loading.has_edges {
-            state.dilation = Some(state.dilated(surface, loading.strip)?);
-        }
-        Ok(state)
+        })
     }
 
+    fn summed(self, sums: &mut impl Iterator<Item = (Basis, f64)>, loading: &Loading) -> State {
+        let (mut gradients, mut by_thickness) = (Vec::new(), Vec::new());
+        for (draft, (basis, by_log_thickness)) in self.drafts.into_iter().zip(sums) {
+            by_thickness.push(draft.unit * by_log_thickness);
+            gradients.push(Gradient {
+                unit: draft.unit,
+                by_height: draft.by_height,
+                by_load: draft.unit * draft.by_load,
+                basis,
+            });
+        }
+        State {
+            friction_coefficient: self.friction_coefficient,
+            points: self.points,
+            shares: self.shares,
+            gradients,
+            by_thickness,
+            control: loading.control,
+            dilation: None,
+        }
+    }
+}
+
+impl State {
     /// The excess R of each quantity, and ∂α/∂ln λ.
     fn dilated(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
         let scaled = |[wide, high]: [f64; 2]| {
@@ -202,14 +230,28 @@ impl State {
         self.between_elastomers(ends)
     }
 
-    /// Each on its own base.
+    /// Each on its own base; of one state.
     pub(super) fn between_elastomers(
         &self,
         ends: [&SlidingCreep; 2],
     ) -> Result<Change<Apart>, BemError> {
-        let changes = Basis::between_elastomers(&self.bases(), ends)?;
-        let pairs = self.gradients.iter().zip(changes);
-        Ok(self.of_all(pairs.map(|(one, change)| one.unit * change).collect()))
+        let mut changes = Self::all_between_elastomers(std::slice::from_ref(self), ends)?;
+        Ok(changes.remove(0))
+    }
+
+    /// The same of states whose kernels are computed once for all.
+    pub(super) fn all_between_elastomers(
+        states: &[Self],
+        ends: [&SlidingCreep; 2],
+    ) -> Result<Vec<Change<Apart>>, BemError> {
+        let gradients = states.iter().flat_map(|state| &state.gradients);
+        let bases: Vec<&Basis> = gradients.map(|one| &one.basis).collect();
+        let mut changes = Basis::between_elastomers(&bases, ends)?.into_iter();
+        let of = |state: &Self| {
+            let pairs = state.gradients.iter().zip(&mut changes);
+            state.of_all(pairs.map(|(one, change)| one.unit * change).collect())
+        };
+        Ok(states.iter().map(of).collect())
     }
 
     /// By the logarithms of the storage and of the loss modulus in each band of frequencies.
@@ -282,79 +324,9 @@ fn areas_of(quantities: &mut Vec<f64>) -> [f64; 2] {
     [last(), rough]
 }
 
-fn differences(mut from: Vec<f64>, to: &[f64]) -> Vec<f64> {
-    from.iter_mut()
-        .zip(to)
-        .for_each(|(from, to)| *from = to - *from);
-    from
-}
-
 fn weighted(weights: &[f64], values: &[f64]) -> f64 {
     let pairs = weights.iter().zip(values);
     pairs.map(|(weight, value)| weight * value).sum()
-}
-
-impl Points {
-    fn new(contact: &Contact, loading: &Loading) -> Self {
-        let on_grid = &contact.mesh.loading;
-        let is_solid = on_grid.is_solid_for_elements();
-        let elements = contact.elements.iter();
-        Self {
-            centres: elements
-                .map(|&element| contact.mesh.position(element))
-                .collect(),
-            shift: on_grid.creep.shift,
-            spacing: contact.mesh.options.spacing[0],
-            depth_scale: loading.depth_scale,
-            slope: match loading.has_edges {
-                _ if loading.creep.only_flows() => Slope::OfBody,
-                true if is_solid => Slope::BesidePoints,
-                true => Slope::OfBody,
-                false => Slope::OfSurface,
-            },
-        }
-    }
-
-    fn slope_unit(&self) -> f64 {
-        self.depth_scale / self.spacing
-    }
-
-    /// Heights in units of the depth scale, so many elements from the centres.
-    fn heights_at(&self, of_body: Height, shift: f64) -> Result<Vec<f64>, BemError> {
-        let height = |&[x, y]: &[f64; 2]| {
-            let height = of_body([x + shift * self.spacing, y]);
-            in_range(
-                "height in the contact",
-                height,
-                height.is_finite(),
-                "finite",
-            )?;
-            Ok(height / self.depth_scale)
-        };
-        self.centres.iter().map(height).collect()
-    }
-
-    fn heights(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
-        self.heights_at(of_body, self.shift)
-    }
-
-    /// What the slope of the body adds to that of which the friction is the mean, in units of the depth scale over the length
-    /// of an element.
-    fn own_slopes(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
-        let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
-            let behind = self.heights_at(of_body, from)?;
-            Ok(differences(behind, &self.heights_at(of_body, to)?))
-        };
-        match self.slope {
-            Slope::OfBody => rise(-0.5, 0.5),
-            Slope::BesidePoints => Ok(vec![0.0; self.centres.len()]),
-            Slope::OfSurface => {
-                let beside = rise(self.shift - 1.0, self.shift + 1.0)?;
-                let pairs = rise(-0.5, 0.5)?.into_iter().zip(beside);
-                Ok(pairs.map(|(over, beside)| over - 0.5 * beside).collect())
-            }
-        }
-    }
 }
 
 /// Makes the derivatives of a contact.
@@ -368,7 +340,8 @@ struct Gradients<'a> {
 /// A quantity whose kernel is not summed yet.
 struct Draft {
     unit: f64,
-    adjoint: Vec<f64>,
+    /// By the height of each element, its image included.
+    by_height: Vec<f64>,
     /// In units of the quantity.
     by_load: f64,
     offsets: Offsets,
@@ -376,7 +349,7 @@ struct Draft {
 
 impl Gradients<'_> {
     /// Of the friction, of the depth under a force or the force at a depth, and of both measures of the area.
-    fn all(&self) -> Result<Vec<Gradient>, BemError> {
+    fn all(&self) -> Vec<Draft> {
         let Loading {
             control,
             strip,
@@ -401,7 +374,7 @@ impl Gradients<'_> {
         drafts.extend(other);
         let areas = self.adjoint.areas.iter();
         drafts.extend(areas.map(|area| self.of_loads(area, 1.0, stiffness)));
-        self.summed(drafts)
+        drafts
     }
 
     /// Total load in the units of the mesh per unit of the given force.
@@ -429,42 +402,25 @@ impl Gradients<'_> {
         };
         let pairs = by_loads.iter().zip(&self.adjoint.depth);
         let adjoint: Vec<f64> = pairs.map(|(one, low)| constant * low - one).collect();
-        Draft {
-            unit,
-            offsets: self.contact.offsets(&adjoint),
-            adjoint,
-            by_load,
-        }
+        self.draft(unit, &adjoint, by_load)
     }
 
     /// Of what follows from the depth, with so many times its adjoint loads.
     fn of_depth(&self, unit: f64, factor: f64, by_load: f64) -> Draft {
         let depth = self.adjoint.depth.iter();
         let adjoint: Vec<f64> = depth.map(|load| factor * load).collect();
-        Draft {
-            unit,
-            offsets: self.contact.offsets(&adjoint),
-            adjoint,
-            by_load,
-        }
+        self.draft(unit, &adjoint, by_load)
     }
 
-    fn summed(&self, drafts: Vec<Draft>) -> Result<Vec<Gradient>, BemError> {
+    fn draft(&self, unit: f64, adjoint: &[f64], by_load: f64) -> Draft {
         let Contact { mesh, elements, .. } = self.contact;
-        let (mut offsets, mut others) = (Vec::new(), Vec::new());
-        for draft in drafts {
-            let pairs = elements.iter().zip(&draft.adjoint);
-            let by_height = pairs.map(|(&element, load)| mesh.weight(element) * load);
-            others.push((draft.unit, by_height.collect(), draft.unit * draft.by_load));
-            offsets.push(draft.offsets);
-        }
-        let bases = Basis::of_all(offsets, &self.loading.creep, mesh)?;
-        let gradient = |((unit, by_height, by_load), basis)| Gradient {
+        let pairs = elements.iter().zip(adjoint);
+        let by_height = pairs.map(|(&element, load)| mesh.weight(element) * load);
+        Draft {
             unit,
-            by_height,
+            by_height: by_height.collect(),
             by_load,
-            basis,
-        };
-        Ok(others.into_iter().zip(bases).map(gradient).collect())
+            offsets: self.contact.offsets(adjoint),
+        }
     }
 }

@@ -65,8 +65,10 @@ impl Case {
             solution: start.cloned(),
             ..Reuse::default()
         };
-        let state = State::new(&*surface, &loading.expect("a loading"), options, &mut reuse);
-        (state.expect("a state"), reuse.solution.expect("a solution"))
+        let (loading, grids) = (loading.expect("a loading"), std::iter::once(options));
+        let states = State::all(&*surface, &loading, grids, &mut reuse).expect("a state");
+        let state = states.into_iter().next().expect("one state");
+        (state, reuse.solution.expect("a solution"))
     }
 
     /// Friction, and depth or force.

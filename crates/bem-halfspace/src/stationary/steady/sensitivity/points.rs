@@ -1,0 +1,103 @@
+//! Where a body is felt by the elements of a contact.
+
+use numerics::in_range;
+
+use crate::BemError;
+use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::sensitivity::contact::Contact;
+
+/// A height of a body, \[m], by a point.
+pub(super) type Height<'a> = &'a dyn Fn([f64; 2]) -> f64;
+
+/// Where a body is felt.
+#[derive(Debug)]
+pub(super) struct Points {
+    /// Centres of the elements, \[m], of one half where the contact is mirror symmetric.
+    centres: Vec<[f64; 2]>,
+    /// Where gaps are evaluated, in elements from these.
+    shift: f64,
+    spacing: f64,
+    depth_scale: f64,
+    pub(super) slope: Slope,
+}
+
+/// What the friction is the mean of under the load.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Slope {
+    /// The slope of the body over each element.
+    OfBody,
+    /// The slope of the displacements at the centre of each element.
+    OfSurface,
+    /// The same where gaps are evaluated.
+    BesidePoints,
+}
+
+impl Points {
+    pub(super) fn new(contact: &Contact, loading: &Loading) -> Self {
+        let on_grid = &contact.mesh.loading;
+        let is_solid = on_grid.is_solid_for_elements();
+        let elements = contact.elements.iter();
+        Self {
+            centres: elements
+                .map(|&element| contact.mesh.position(element))
+                .collect(),
+            shift: on_grid.creep.shift,
+            spacing: contact.mesh.options.spacing[0],
+            depth_scale: loading.depth_scale,
+            slope: match loading.has_edges {
+                _ if loading.creep.only_flows() => Slope::OfBody,
+                true if is_solid => Slope::BesidePoints,
+                true => Slope::OfBody,
+                false => Slope::OfSurface,
+            },
+        }
+    }
+
+    pub(super) fn slope_unit(&self) -> f64 {
+        self.depth_scale / self.spacing
+    }
+
+    /// Heights in units of the depth scale, so many elements from the centres.
+    fn heights_at(&self, of_body: Height, shift: f64) -> Result<Vec<f64>, BemError> {
+        let height = |&[x, y]: &[f64; 2]| {
+            let height = of_body([x + shift * self.spacing, y]);
+            in_range(
+                "height in the contact",
+                height,
+                height.is_finite(),
+                "finite",
+            )?;
+            Ok(height / self.depth_scale)
+        };
+        self.centres.iter().map(height).collect()
+    }
+
+    pub(super) fn heights(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
+        self.heights_at(of_body, self.shift)
+    }
+
+    /// What the slope of the body adds to that of which the friction is the mean, in units of the depth scale over the length
+    /// of an element.
+    pub(super) fn own_slopes(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
+        let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
+            let behind = self.heights_at(of_body, from)?;
+            Ok(differences(behind, &self.heights_at(of_body, to)?))
+        };
+        match self.slope {
+            Slope::OfBody => rise(-0.5, 0.5),
+            Slope::BesidePoints => Ok(vec![0.0; self.centres.len()]),
+            Slope::OfSurface => {
+                let beside = rise(self.shift - 1.0, self.shift + 1.0)?;
+                let pairs = rise(-0.5, 0.5)?.into_iter().zip(beside);
+                Ok(pairs.map(|(over, beside)| over - 0.5 * beside).collect())
+            }
+        }
+    }
+}
+
+pub(super) fn differences(mut from: Vec<f64>, to: &[f64]) -> Vec<f64> {
+    from.iter_mut()
+        .zip(to)
+        .for_each(|(from, to)| *from = to - *from);
+    from
+}
