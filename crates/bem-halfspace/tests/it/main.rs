@@ -28,3 +28,4 @@ mod substrates;
 mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;
+mod tracks;

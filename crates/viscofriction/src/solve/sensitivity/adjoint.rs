@@ -78,6 +78,7 @@ fn change(
             scaled(contact.by_load(), ends[1].1 - ends[0].1)
         }
         ["indenter", _] => contact.between_bodies([surface(from)?, surface(to)?])?,
+        ["load", "track"] => scaled(contact.by_track(), (ends[1].1 / ends[0].1).ln()),
         ["layer", _] => scaled(contact.by_thickness(), (ends[1].1 / ends[0].1).ln()),
         ["material", "poisson_ratio"] if is_layer => {
             let [from, to] = [from.elastomer()?, to.elastomer()?];

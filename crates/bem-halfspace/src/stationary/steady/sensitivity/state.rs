@@ -26,8 +26,9 @@ pub(super) struct State {
     /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and of the area that the
     /// loads are spread over.
     gradients: Vec<Gradient>,
-    /// Of each of them by the logarithm of the thickness of a layer.
+    /// Of each of them by the logarithms of the thickness of a layer and of the length of a track.
     by_thickness: Vec<f64>,
+    by_track: Vec<f64>,
     control: Control,
     pub(super) dilation: Option<Dilation>,
 }
@@ -105,12 +106,17 @@ impl State {
         };
         let gradients = gradients.all()?;
         let bases: Vec<&Basis> = gradients.iter().map(|one| &one.basis).collect();
-        let by_thickness = gradients.iter().zip(Basis::by_thickness(&bases)?);
-        let by_thickness = by_thickness.map(|(one, change)| one.unit * change);
+        let in_units = |changes: Vec<f64>| {
+            let pairs = gradients.iter().zip(changes);
+            pairs.map(|(one, change)| one.unit * change).collect()
+        };
+        let by_thickness = in_units(Basis::by_thickness(&bases)?);
+        let by_track = in_units(Basis::by_track(&bases)?);
         let mut state = Self {
             friction_coefficient: friction * points.slope_unit(),
             shares: shares.collect(),
-            by_thickness: by_thickness.collect(),
+            by_thickness,
+            by_track,
             gradients,
             points,
             control: loading.control,
@@ -148,6 +154,7 @@ impl State {
             let by_load = given * gradient.by_load;
             let changed = by_lengths
                 + self.by_thickness[index]
+                + self.by_track[index]
                 + power * by_load
                 + gradient.unit * gradient.basis.by_velocity();
             // Equations with these elements are linear: heights and load together scale depth and force.
@@ -226,6 +233,10 @@ impl State {
 
     pub(super) fn by_thickness(&self) -> Change<f64> {
         self.of_all(self.by_thickness.clone())
+    }
+
+    pub(super) fn by_track(&self) -> Change<f64> {
+        self.of_all(self.by_track.clone())
     }
 
     fn has_delays_of(&self, creep: &MovingCreep) -> bool {
