@@ -57,5 +57,7 @@ def test_a_long_track_is_a_straight_one() -> None:
     assert straight.mu is not None and tracks.mu is not None
     assert tracks.mu[1] == pytest.approx(float(straight.mu), rel=1e-9)
     assert tracks.mu[0] < straight.mu
+    on_half_space = vf.slide(BALL, SOLID, normal_force=2.0, velocity=0.1, track=[15e-3, 10.0], relative_error=1e-2)
+    assert on_half_space.mu is not None and on_half_space.mu[0] < on_half_space.mu[1]
     with pytest.raises(ValueError, match="track"):
-        vf.slide(BALL, SOLID, normal_force=2.0, velocity=0.1, track=0.1)
+        vf.slide(BALL, SOLID, normal_force=2.0, velocity=0.1, track=0.1, method="bem-transient")

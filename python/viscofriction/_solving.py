@@ -51,7 +51,7 @@ def slide(
 
     Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so are a sliding
     distance [m] from first touch, without which the state is stationary, and the thickness [m] of a layer. ``model="line"`` asks for the one-dimensional
-    model, ``method`` for one of the program's methods; it also knows a ``track`` [m], after which the body comes back to the
+    model, ``method`` for one of the program's methods. A ``track`` [m] is the length after which the body comes back to the
     same place. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
     given; ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of
     the scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency.

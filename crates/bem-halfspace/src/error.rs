@@ -195,12 +195,23 @@ pub enum BemError {
         /// Contact lengths of the longest march.
         limit: f64,
     },
-    /// A material that flows gives way to and fro without end.
+    /// A material that flows gives way to and fro, or pass after pass on a track, without end.
     #[error(
-        "a material that flows gives way further in every cycle, and no cycle is like the one before: give it an \
+        "a material that flows gives way further in every cycle or pass, and none is like the one before: give it an \
          equilibrium modulus, or a motion through points"
     )]
     NoCycle,
+    /// Of a track only what is ahead of the body or behind it by less than half its length acts on the contact.
+    #[error(
+        "the track must be twice as long as the part of it on which contact may occur, {} m, but is {} m",
+        InWords(*needed), InWords(*track)
+    )]
+    TrackTooShort {
+        /// Length of the track, \[m].
+        track: f64,
+        /// Twice the length on which contact may occur, \[m].
+        needed: f64,
+    },
     /// Cycle after cycle still changes.
     #[error(
         "after {cycles} cycles of the motion the relative change that may be left is {change:e}, and the tolerance \

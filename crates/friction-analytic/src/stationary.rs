@@ -63,6 +63,7 @@ pub fn stationary_depth(material: &Viscous, load: &SlidingLoad) -> f64 {
 /// The stationary depth, or the reason why it is not a number.
 pub(crate) fn checked_depth(material: &Viscous, load: &SlidingLoad) -> Result<f64, FrictionError> {
     load.require_stationary()?;
+    load.require_fresh_ground()?;
     representable("indentation depth", stationary_depth(material, load))
 }
 

@@ -109,6 +109,14 @@ pub enum IndenterError {
         /// The sliding distance of the load, \[m].
         sliding_distance: f64,
     },
+    /// Only bodies are known that never come back to the same place.
+    #[error(
+        "only bodies on fresh ground are known here, but the load comes back to the same place after {track} m"
+    )]
+    NoTrack {
+        /// Length of the track, \[m].
+        track: f64,
+    },
     /// An integral did not reach the accuracy asked for.
     #[error(
         "the integral {value} is known only to {reached} of itself, but {relative_tolerance} was asked for"

@@ -65,6 +65,8 @@ pub struct SlidingLoad {
     control: Control,
     velocity: f64,
     sliding_distance: Option<f64>,
+    /// Never beside a sliding distance.
+    track: Option<f64>,
 }
 
 impl SlidingLoad {
@@ -96,6 +98,7 @@ impl SlidingLoad {
             control: control.checked()?,
             velocity: positive("velocity", velocity)?,
             sliding_distance: None,
+            track: None,
         })
     }
 
@@ -106,6 +109,20 @@ impl SlidingLoad {
     pub fn after(self, sliding_distance: f64) -> Result<Self, IndenterError> {
         Ok(Self {
             sliding_distance: Some(positive("sliding_distance", sliding_distance)?),
+            track: None,
+            ..self
+        })
+    }
+
+    /// The same load without an end, on a track after whose length > 0 \[m] the body comes back to the same place, as a ball on a
+    /// disc does: ahead of it is what the pass before has left. The curvature of the track is left out.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when the length is not finite and greater than zero.
+    pub fn on_track(self, track: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            sliding_distance: None,
+            track: Some(positive("track", track)?),
             ..self
         })
     }
@@ -123,6 +140,22 @@ impl SlidingLoad {
     /// Sliding distance since first touch, \[m]; none for the stationary state.
     pub const fn sliding_distance(&self) -> Option<f64> {
         self.sliding_distance
+    }
+
+    /// Length after which the body comes back to the same place, \[m]; none where it never does.
+    pub const fn track(&self) -> Option<f64> {
+        self.track
+    }
+
+    /// Refuses a track, for methods that know none.
+    ///
+    /// # Errors
+    /// [`IndenterError::NoTrack`].
+    pub const fn require_fresh_ground(&self) -> Result<(), IndenterError> {
+        match self.track {
+            None => Ok(()),
+            Some(track) => Err(IndenterError::NoTrack { track }),
+        }
     }
 
     /// Normal force F_N, \[N]; none where the depth is prescribed.

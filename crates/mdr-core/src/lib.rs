@@ -54,4 +54,4 @@ pub use motion::{move_along, move_along_memory};
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, indent, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};
-pub use steady::{SteadySliding, steady, steady_on_track};
+pub use steady::{SteadySliding, steady};

@@ -64,6 +64,7 @@ impl<'a> March<'a> {
         options: &GridOptions,
         length: f64,
     ) -> Result<Self, BemError> {
+        load.require_fresh_ground()?;
         let spacing = positive("spacing along x", options.spacing[0])?;
         let distance = load.sliding_distance();
         let distance = distance.ok_or(BemError::SlidingDistanceMissing { why: MARCH_ENDS })?;

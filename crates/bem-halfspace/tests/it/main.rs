@@ -8,6 +8,7 @@ mod arbitrary_motions;
 mod bad_input;
 mod contacts;
 mod cylinders;
+mod dissipated_energy;
 mod ends_of_the_speed_range;
 mod error_bars;
 mod hardness;
@@ -29,3 +30,4 @@ mod substrates;
 mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;
+mod tracks;

@@ -74,6 +74,7 @@ impl ChainMarch {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
+        load.require_fresh_ground()?;
         let (n_elements, spacing) = (sampled.heights.len(), sampled.spacing);
         let (time_step, creep) = (spacing / load.velocity(), material.creep());
         let step = ExponentialStep::creep(&creep, time_step)?;

@@ -25,7 +25,7 @@ mod sweep;
 mod track;
 
 use indenters::{RigidLine, SlidingLoad};
-use numerics::{Estimate, between_zero_and_one, positive};
+use numerics::{Estimate, between_zero_and_one};
 use rheology::Material;
 
 use crate::MdrError;
@@ -58,36 +58,12 @@ pub struct SteadySliding {
 /// Slides a line over a foundation, in the stationary state, until the error of the friction coefficient relative to its
 /// value is at most `relative_error`, above 0 and below 1.
 ///
-/// An elastic material has the friction coefficient 0, exactly, unless the line ends under load behind.
-///
-/// # Errors
-/// - [`MdrError::ForceBeyondEdge`], [`MdrError::DepthBeyondEdge`] when the contact would reach the edge of the body, or the
-///   line ends in front before it carries the force (Remark 4).
-/// - [`MdrError::FrictionDiverges`] when a lone dashpot is under a line with p ≤ 1/2 or a kink that rises (16).
-/// - [`MdrError::NotConverged`] when the estimated error stays above the one asked for.
-/// - [`MdrError::Indenter`] for a load that ends after a distance; see [`slide`](crate::slide()).
-/// - [`MdrError::NotRising`], [`MdrError::TooMuchDetail`], [`MdrError::InvalidHeight`],
-///   [`MdrError::InvalidParameter`], [`MdrError::NonFinite`].
-pub fn steady(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
-    load: &SlidingLoad,
-    relative_error: f64,
-) -> Result<SteadySliding, MdrError> {
-    let relative_error = between_zero_and_one("relative_error", relative_error)?;
-    let control = load.require_stationary()?;
-    let problem = LineProblem::new(line, material, load.velocity())?;
-    problem.check_kinks(control)?;
-    problem.refine(control, relative_error, |state| state.friction_coefficient)
-}
-
-/// The same on a track, after whose length \[m] the line comes back to the same place, as a ball on a disc does: in front of it
-/// is what is left of the pass before. The curvature of the track is left out.
+/// On a [track](SlidingLoad::on_track) the surface ahead of the line is what is left of the pass before.
 ///
 /// ```
 /// use mdr_core::indenters::{EquivalentLine, SlidingLoad, Sphere};
 /// use mdr_core::rheology::{StandardSolid, StandardSolidParameters};
-/// use mdr_core::{steady, steady_on_track};
+/// use mdr_core::steady;
 ///
 /// let rubber = StandardSolid::new(StandardSolidParameters {
 ///     equilibrium_modulus: 1e6,
@@ -99,29 +75,37 @@ pub fn steady(
 /// // Within a retardation time the body comes back four times.
 /// let [once, again] = [
 ///     steady(&line, &rubber, &load, 1e-6)?,
-///     steady_on_track(&line, &rubber, &load, 2.5e-3, 1e-6)?,
+///     steady(&line, &rubber, &load.on_track(2.5e-3)?, 1e-6)?,
 /// ];
 /// assert!(again.friction_coefficient.value < once.friction_coefficient.value);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// An elastic material has the friction coefficient 0, exactly, unless the line ends under load behind.
+///
 /// # Errors
-/// [`MdrError::NoCycle`] for a material that flows; [`MdrError::TrackTooShort`] where the track is not longer than the line is
-/// below the surface; [`MdrError::NotPeriodic`]; otherwise like [`steady`].
-pub fn steady_on_track(
+/// - [`MdrError::ForceBeyondEdge`], [`MdrError::DepthBeyondEdge`] when the contact would reach the edge of the body, or the
+///   line ends in front before it carries the force (Remark 4).
+/// - [`MdrError::FrictionDiverges`] when a lone dashpot is under a line with p ≤ 1/2 or a kink that rises (16).
+/// - [`MdrError::NotConverged`] when the estimated error stays above the one asked for.
+/// - [`MdrError::Indenter`] for a load that ends after a distance; see [`slide`](crate::slide()).
+/// - On a track [`MdrError::NoCycle`] for a material that flows, [`MdrError::TrackTooShort`] where the track is not longer than
+///   the line is below the surface, and [`MdrError::NotPeriodic`].
+/// - [`MdrError::NotRising`], [`MdrError::TooMuchDetail`], [`MdrError::InvalidHeight`],
+///   [`MdrError::InvalidParameter`], [`MdrError::NonFinite`].
+pub fn steady(
     line: &(impl RigidLine + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
-    track: f64,
     relative_error: f64,
 ) -> Result<SteadySliding, MdrError> {
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let control = load.require_stationary()?;
-    if material.creep().fluidity() > 0.0 {
+    if load.track().is_some() && material.creep().fluidity() > 0.0 {
         return Err(MdrError::NoCycle);
     }
     let mut problem = LineProblem::new(line, material, load.velocity())?;
+    problem.track = load.track();
     problem.check_kinks(control)?;
-    problem.track = Some(positive("track", track)?);
     problem.refine(control, relative_error, |state| state.friction_coefficient)
 }

@@ -1,7 +1,7 @@
 //! A line that comes back to the same place: between sliding over fresh ground and over what has relaxed.
 
-use indenters::{Control, EquivalentLine, MovingLoad, MovingPoint, Sphere};
-use mdr_core::{MdrError, SteadySliding, move_along, press, steady, steady_on_track};
+use indenters::{Control, EquivalentLine, IndenterError, MovingLoad, MovingPoint, Sphere};
+use mdr_core::{MdrError, SteadySliding, move_along, press, slide, steady};
 use numerics::Accuracy;
 use rheology::{Material as _, Maxwell, StandardSolid, StandardSolidParameters};
 
@@ -23,8 +23,8 @@ fn rubber() -> StandardSolid {
 }
 
 fn on(track: f64, velocity: f64) -> SteadySliding {
-    let load = load(2.0, velocity);
-    let state = steady_on_track(&EquivalentLine(&ball()), &rubber(), &load, track, 1e-5);
+    let load = load(2.0, velocity).on_track(track).expect("a track");
+    let state = steady(&EquivalentLine(&ball()), &rubber(), &load, 1e-5);
     state.expect("a stationary state")
 }
 
@@ -113,7 +113,8 @@ fn laps_of_a_motion_end_in_the_state_on_the_track() {
     let line = EquivalentLine(&line);
     let moved = move_along(&line, &rubber(), &motion, Accuracy::Elements(96)).expect("laps");
     let load = at_depth(depth, VELOCITY);
-    let state = steady_on_track(&line, &rubber(), &load, track, 1e-6).expect("a state");
+    let on_track = load.on_track(track).expect("a track");
+    let state = steady(&line, &rubber(), &on_track, 1e-6).expect("a state");
     let straight = steady(&line, &rubber(), &load, 1e-6).expect("a state");
     // In the middle of the last lap, where neither of its ends is near.
     let last = f64::from(laps - 1) * (lap + 3.0 * back);
@@ -138,17 +139,29 @@ fn laps_of_a_motion_end_in_the_state_on_the_track() {
 fn tracks_that_have_no_state_are_refused() {
     let line = ball();
     let line = EquivalentLine(&line);
-    let short = steady_on_track(&line, &rubber(), &load(2.0, VELOCITY), 1e-3, 1e-3);
+    let straight = load(2.0, VELOCITY);
+    let on = |track| straight.on_track(track).expect("a track");
+    let short = steady(&line, &rubber(), &on(1e-3), 1e-3);
     assert!(
         matches!(short, Err(MdrError::TrackTooShort { .. })),
         "{short:?}"
     );
     let fluid = Maxwell::new(1e6, 1e5).expect("a fluid");
-    let flows = steady_on_track(&line, &fluid, &load(2.0, VELOCITY), 0.1, 1e-3);
+    let flows = steady(&line, &fluid, &on(0.1), 1e-3);
     assert_eq!(flows, Err(MdrError::NoCycle), "a fluid");
-    let none = steady_on_track(&line, &rubber(), &load(2.0, VELOCITY), 0.0, 1e-3);
+    let none = straight.on_track(0.0);
     assert!(
-        matches!(none, Err(MdrError::InvalidParameter(_))),
+        matches!(none, Err(IndenterError::InvalidParameter(_))),
         "{none:?}"
     );
+    let marched = slide(&line, &rubber(), &on(0.1), 1e-2);
+    assert!(
+        matches!(
+            marched,
+            Err(MdrError::Indenter(IndenterError::NoTrack { .. }))
+        ),
+        "{marched:?}"
+    );
+    let ends = on(0.1).after(1.0).expect("a distance");
+    assert_eq!(ends.track(), None, "a load that ends");
 }

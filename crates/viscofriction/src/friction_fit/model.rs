@@ -194,7 +194,12 @@ impl<'a> Model<'a> {
         let control = point
             .normal_force
             .map_or(self.control, Control::NormalForce);
-        Ok(SlidingLoad::with(control, point.velocity * shift.exp())?)
+        self.at_speed(control, point.velocity * shift.exp())
+    }
+
+    fn at_speed(&self, control: Control, velocity: f64) -> Result<SlidingLoad> {
+        let load = SlidingLoad::with(control, velocity)?;
+        Ok(self.track.map_or(Ok(load), |track| load.on_track(track))?)
     }
 
     fn on_grid(&self, material: &dyn Material, load: &SlidingLoad) -> Result<SensitivityOnGrid> {
@@ -235,7 +240,7 @@ impl<'a> Model<'a> {
         let closed = closed_line(simple.as_ref(), body, *load);
         let answer = match closed.ok().filter(|_| self.track.is_none()) {
             Some(closed) => closed(&Unwatched)?,
-            None => mdr::stationary(&**body, material, load, self.track, EXACT)?,
+            None => mdr::stationary(&**body, material, load, EXACT)?,
         };
         let friction = answer.friction_coefficient.map(|friction| friction.value);
         friction.ok_or_else(|| no_derivatives(answer.method))
@@ -258,12 +263,7 @@ impl<'a> Model<'a> {
                 Ok((of(&**above, load)? - of(&**below, load)?) / (2.0 * step))
             });
             let slopes = slopes.collect::<Result<_>>()?;
-            let at = |velocity: f64| {
-                of(
-                    &*materials.own,
-                    &SlidingLoad::with(load.control(), velocity)?,
-                )
-            };
+            let at = |velocity: f64| of(&*materials.own, &self.at_speed(load.control(), velocity)?);
             let by_speed = if self.family.shift_is_free() {
                 (at(faster[1])? - at(faster[0])?) / (2.0 * step)
             } else {

@@ -34,6 +34,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         | BemError::NotPeriodic { .. } => LARGER_ERROR,
         BemError::ContactReachesBoundary { .. } => LESS_LOAD,
         BemError::VerticalWall { .. } => NO_WALL,
+        BemError::TrackTooShort { .. } => LONGER_TRACK,
         BemError::SlidingDistanceMissing { .. } => DISTANCE,
         BemError::MemoryTooLong { .. } | BemError::NotStationary { .. } => DISTANCE_OR_STEADY,
         BemError::InvalidParameter(_) => UNITS,

@@ -6,7 +6,7 @@ use indenters::{
 };
 use mdr_core::{
     CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along,
-    move_along, slide, steady, steady_on_track,
+    move_along, slide, steady,
 };
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
@@ -22,14 +22,10 @@ pub(crate) fn stationary(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &SlidingLoad,
-    track: Option<f64>,
     relative_error: f64,
 ) -> Result<Answer> {
     let line = EquivalentLine(body);
-    Ok(of_steady(match track {
-        None => steady(&line, material, load, relative_error)?,
-        Some(track) => steady_on_track(&line, material, load, track, relative_error)?,
-    }))
+    Ok(of_steady(steady(&line, material, load, relative_error)?))
 }
 
 /// The answer of a stationary state.

@@ -36,7 +36,6 @@ pub struct Problem {
     motion: Motion,
     history: Vec<HistoryPoint>,
     moving: Option<MovingLoad>,
-    track: Option<f64>,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -126,7 +125,6 @@ impl Problem {
             motion,
             history,
             moving,
-            track: track(scene, motion)?,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
@@ -199,7 +197,10 @@ impl Problem {
 
     /// Length of the track after which the body comes back to the same place, \[m]; none where it never does.
     pub const fn track(&self) -> Option<f64> {
-        self.track
+        match self.motion {
+            Motion::Sliding(load) => load.track(),
+            _ => None,
+        }
     }
 
     /// How long a force or a depth is held, or the parts of a history between two times take and all of it, \[s]; none of
@@ -303,27 +304,14 @@ fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
         }
     };
     SceneError::none_given(&times, problem)?;
-    if let (Motion::History(_), Some(_)) = (motion, scene.load.track) {
-        return Err(SceneError::at("load.track", NO_TRACK));
-    }
+    SceneError::none_given(&[("load.track", scene.load.track)], NO_TRACK)?;
     Ok(motion)
 }
 
 const NO_TRACK: &str =
     "a track is passed with a speed again and again, and nothing slides so; leave this out";
-
-/// The track of a body that slides without end.
-fn track(scene: &Scene, motion: Motion) -> Result<Option<f64>, SceneError> {
-    let track = scene.load.checked_track()?;
-    match (track, motion) {
-        (Some(_), Motion::Sliding(load)) if load.sliding_distance().is_some() => {
-            let problem = "on a track the stationary state is answered, which has no duration and no sliding_distance";
-            Err(SceneError::at("load.track", problem))
-        }
-        (Some(_), Motion::Sliding(_)) | (None, _) => Ok(track),
-        (Some(_), _) => Err(SceneError::at("load.track", NO_TRACK)),
-    }
-}
+const ENDLESS: &str =
+    "on a track the stationary state is answered, which has no duration and no sliding_distance";
 
 fn motion(scene: &Scene, body: &Body) -> Result<Motion, SceneError> {
     let wrong = |error: IndenterError| SceneError::at("load", error.to_string());
@@ -331,11 +319,16 @@ fn motion(scene: &Scene, body: &Body) -> Result<Motion, SceneError> {
     let velocity = scene.load.checked_velocity()?;
     if velocity > 0.0 {
         let load = SlidingLoad::with(control, velocity).map_err(wrong)?;
-        return Ok(Motion::Sliding(match scene.solve.distance(velocity)? {
-            Some(distance) => load.after(distance).map_err(wrong)?,
-            None => load,
-        }));
+        let distance = scene.solve.distance(velocity)?;
+        let load = match (distance, scene.load.checked_track()?) {
+            (Some(_), Some(_)) => return Err(SceneError::at("load.track", ENDLESS)),
+            (Some(distance), None) => load.after(distance),
+            (None, Some(track)) => load.on_track(track),
+            (None, None) => Ok(load),
+        };
+        return load.map(Motion::Sliding).map_err(wrong);
     }
+    SceneError::none_given(&[("load.track", scene.load.track)], NO_TRACK)?;
     let load = PressingLoad::new(control, scene.solve.indentation_time()?);
     load.map(Motion::Pressing).map_err(wrong)
 }

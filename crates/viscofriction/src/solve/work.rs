@@ -39,7 +39,9 @@ const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
 const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
 const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle or pass, and none is like the one before; give it an equilibrium modulus";
-const NO_TRACK: Refusal = "it knows no track on which the body comes back; mdr-steady does, of the one-dimensional model (solve.model = \"line\")";
+const NO_TRACK: Refusal =
+    "it knows no track on which the body comes back; mdr-steady and bem-steady do";
+const OWN_PERIOD: Refusal = "a periodic surface meets each place again after its own period, which is its track; leave load.track out";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
@@ -53,7 +55,9 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     if is_history {
         return followed(problem, method, accuracy);
     }
-    require(problem.track().is_none() || method == MdrSteady, NO_TRACK)?;
+    if problem.track().is_some() {
+        require_track(problem, method)?;
+    }
     let is_elastic = problem.simple() == Some(&Simple::Elastic);
     if let Some(load) = problem.moving() {
         require(is_elastic || has_front(problem.body()), NO_FRONT)?;
@@ -79,6 +83,16 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
             "it needs a body of revolution, and a height map is none; boundary elements take it",
         ),
     }
+}
+
+/// Whether a method answers the problem on its track.
+fn require_track(problem: &Problem, method: Method) -> Result<(), Refusal> {
+    let is_periodic = matches!(problem.body(), Body::Periodic(_));
+    require(!is_periodic, OWN_PERIOD)?;
+    require(matches!(method, MdrSteady | BemSteady), NO_TRACK)?;
+    require(problem.expansion().is_none(), NO_BAR)?;
+    let flows = problem.material().creep().fluidity() > 0.0;
+    require(!flows, NO_CYCLE)
 }
 
 /// Whether a body rises where it ends; a flat punch does not.
@@ -310,11 +324,7 @@ fn one_dimensional<'a>(
                     "it chooses its polynomials itself; give relative_error instead of elements",
                 );
             };
-            let track = problem.track();
-            require(track.is_none() || problem.expansion().is_none(), NO_BAR)?;
-            let flows = material.creep().fluidity() > 0.0;
-            require(track.is_none() || !flows, NO_CYCLE)?;
-            ready(move |_| mdr::stationary(body, material, &load, track, error))
+            ready(move |_| mdr::stationary(body, material, &load, error))
         }
         (MdrSteady, Pressing(_)) | (_, History(_) | Moving(_)) => Err(NOTHING_SLIDES),
         (_, Sliding(load)) => {

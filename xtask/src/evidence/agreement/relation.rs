@@ -228,13 +228,18 @@ fn thick_layer(case: &mut Case) -> Option<()> {
     scene.layer.map(|_| ())
 }
 
-/// A track of a stationary state of the one-dimensional model.
+/// A track of a stationary state of a body that does not repeat itself.
 fn long_track(case: &mut Case) -> Option<()> {
     let track = LONG * case.contact;
-    let Scene { load, solve, .. } = &mut case.scene;
+    let Scene {
+        indenter,
+        load,
+        solve,
+        ..
+    } = &mut case.scene;
     let slides = load.velocity.is_some_and(|velocity| velocity > 0.0);
     let ends = solve.duration.or(solve.sliding_distance).or(load.track);
-    let is_stationary = slides && ends.is_none() && solve.model == Some(Model::Line);
+    let is_stationary = slides && ends.is_none() && !is_periodic(indenter);
     load.track = is_stationary.then_some(track);
     load.track.map(|_| ())
 }

@@ -154,6 +154,7 @@ impl<'a, M: Elastomer + ?Sized> PlannedSlide<'a, M> {
         load: &'a SlidingLoad,
         request: Request<'a>,
     ) -> Result<Self, BemError> {
+        load.require_fresh_ground()?;
         let plan = GridPlan::sliding(surface, elastomer, load)?;
         let creep = elastomer.material().creep();
         Ok(Self {

@@ -14,7 +14,7 @@
 //! D = h(a) = 2 (1 − ν) F' J(a/v)/(2π)
 //! ```
 //!
-//! where a is half the contact of a cylinder on an elastic half space.
+//! where a is half the contact of a cylinder on an elastic half space. On a track J(a/v) is that of the passes before too.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -46,8 +46,7 @@ pub(super) fn depth_scale(
         }
     }
     let depth = |length: f64| -> Result<f64, BemError> {
-        let compliance = creep.compliance(length.min(distance))? * creep.base().softness(length);
-        Ok(0.25 * normal_force * (compliance / length))
+        Ok(0.25 * normal_force * (creep.compliance_of_contact(length, distance)? / length))
     };
     let length = length_of_contact(height, depth, largest)?;
     Ok(positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)?)
@@ -70,7 +69,7 @@ pub(super) fn scale_of_profile(
         0.5 * (rear + front)
     };
     let depth = |length: f64| -> Result<f64, BemError> {
-        Ok(force_per_length / TAU * creep.compliance_of_contact(length)?)
+        Ok(force_per_length / TAU * creep.compliance_of_contact(length, f64::INFINITY)?)
     };
     let length = length_of_contact(height, depth, f64::INFINITY)?;
     let depth = positive("2 (1 - ν) F' J(a/v) / (2π)", depth(length)?)?;
@@ -116,7 +115,7 @@ pub(crate) fn depth_scale_of_surface(
     elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
-    let creep = SlidingCreep::new(elastomer, load.velocity())?;
+    let creep = SlidingCreep::under(elastomer, load)?;
     let force = load.require_normal_force()?;
     let body = surface.as_axisymmetric();
     let height = |distance| match body {

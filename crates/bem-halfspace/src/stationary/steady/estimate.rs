@@ -52,8 +52,11 @@ fn plan(
     elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
 ) -> Result<GridPlan, BemError> {
-    let load = SlidingLoad::with(load.control(), load.velocity())?;
-    GridPlan::sliding(surface, elastomer, &load)
+    let endless = SlidingLoad::with(load.control(), load.velocity())?;
+    let endless = load
+        .track()
+        .map_or(Ok(endless), |track| endless.on_track(track))?;
+    GridPlan::sliding(surface, elastomer, &endless)
 }
 
 /// The grid of about so many elements along the contact, at least 1, and half as wide.
@@ -83,6 +86,9 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// after the distance, up to terms of the order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the
 /// motion from first touch.
 ///
+/// On a [track](SlidingLoad::on_track) the surface ahead of the body is what is left of all passes before, and the track acts on
+/// itself within half its length only.
+///
 /// ```
 /// use bem_halfspace::indenters::PowerProfile;
 /// use bem_halfspace::rheology::{StandardSolid, StandardSolidParameters};
@@ -104,7 +110,8 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// [`BemError::NotReached`] with what was reached on the finest grid allowed;
 /// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
-/// friction is infinite, or a surface that is low everywhere; and the errors of [`steady_on_grid`](super::steady_on_grid).
+/// friction is infinite, or a surface that is low everywhere; on a track [`BemError::NoCycle`] for a material that flows, and
+/// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`](super::steady_on_grid).
 pub fn steady<'w>(
     surface: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
@@ -172,7 +179,7 @@ fn with_elements(
     } else {
         resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
     }
-    let creep = SlidingCreep::new(elastomer, load.velocity())?;
+    let creep = SlidingCreep::under(elastomer, load)?;
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = grid(&plan, elements);
         let state = steady_on_grid(surface, elastomer, load, &options)?;

@@ -158,7 +158,7 @@ fn lengths(
     elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
 ) -> Result<(f64, [f64; 2]), BemError> {
-    let creep = SlidingCreep::new(elastomer, load.velocity())?;
+    let creep = SlidingCreep::under(elastomer, load)?;
     let [_, length] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
     let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
     Ok((length, [-REAR * length, front * length]))

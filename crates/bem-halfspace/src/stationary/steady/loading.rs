@@ -50,7 +50,7 @@ impl Loading {
         load: &SlidingLoad,
         footprint: &Footprint,
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::new(elastomer, load.velocity())?;
+        let creep = SlidingCreep::under(elastomer, load)?;
         let [rear, front] = footprint.x;
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
@@ -82,7 +82,7 @@ impl Loading {
         load: &SlidingLoad,
         [rear, front]: [f64; 2],
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::new(elastomer, load.velocity())?;
+        let creep = SlidingCreep::under(elastomer, load)?;
         let force = load.require_normal_force()?;
         let [depth_scale, _] = scale_of_profile(profile, &creep, force)?;
         let strip = STRIP * (front - rear + creep.memory());

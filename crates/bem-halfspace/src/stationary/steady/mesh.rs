@@ -96,8 +96,22 @@ impl Mesh {
         let parameter = "number of elements of the footprint that may touch";
         positive(parameter, mesh.n_elements() as f64)?;
         let all = mesh.region(0..mesh.n_elements());
+        mesh.check_track(all.shape[0])?;
         mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
         Ok(mesh)
+    }
+
+    /// Refuses a track with fewer than twice as many rows as those that may touch.
+    fn check_track(&self, rows: usize) -> Result<(), BemError> {
+        let needed = 2.0 * rows as f64;
+        let dx = self.options.spacing[0];
+        match self.loading.creep.track {
+            Some(track) if track < needed => Err(BemError::TrackTooShort {
+                track: track * dx,
+                needed: needed * dx,
+            }),
+            _ => Ok(()),
+        }
     }
 
     pub(super) const fn n_elements(&self) -> usize {

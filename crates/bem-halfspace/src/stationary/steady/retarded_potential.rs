@@ -8,6 +8,7 @@
 //! layer adds is singular beside the edges, not nearer than they are.
 
 use std::collections::VecDeque;
+use std::ops::Range;
 
 use crate::Base;
 use crate::parallel::reductions::dot;
@@ -84,7 +85,9 @@ impl RetardedPotential {
                 row_weights: row_rules.each_ref().map(weights),
             }
         });
-        let position = first + 1.0 + (FIRST_ROW - first).max(0.0).ceil();
+        let is_endless = creep.track.is_none();
+        let further = if is_endless { FIRST_ROW - first } else { 0.0 };
+        let position = first + 1.0 + further.max(0.0).ceil();
         let mut start = Self {
             delays: delays.collect(),
             rules,
@@ -96,7 +99,10 @@ impl RetardedPotential {
             increments: vec![0.0; creep.delays.len() * n_columns],
             rows: VecDeque::with_capacity(2 * KEPT),
         };
-        start.integrate_from_infinity();
+        match creep.track {
+            None => start.integrate_from_infinity(),
+            Some(track) => start.integrate_around(track),
+        }
         for row in (1..=2 * KEPT).rev() {
             start.push_row(position - KEPT as f64 + row as f64);
         }
@@ -137,16 +143,48 @@ impl RetardedPotential {
                 length: pair[1] - pair[0],
                 rule,
             };
-            let steps = self.delays.iter();
-            let steps: Vec<_> = steps.map(|delay| self.over_panel(delay, &panel)).collect();
-            for column in 0..self.n_columns {
-                let potentials = self.at_nodes(&panel, column);
-                for (index, (decay, weights)) in steps.iter().enumerate() {
-                    let value = &mut self.values[index * self.n_columns + column];
-                    *value = decay * *value + dot(weights, &potentials);
+            self.go_back_over(&panel, 0..self.n_columns);
+        }
+    }
+
+    /// The values at the first row of a track: the integral once around it, over the part that is forgotten meanwhile.
+    fn integrate_around(&mut self, track: f64) {
+        let half = 0.5 * track;
+        // Only of the first column the edges of the loaded element are singular on the track itself.
+        for columns in [0..1, 1..self.n_columns] {
+            let clearance = self.clearance(columns.start);
+            for part in [[-half, self.position], [self.position, half]] {
+                for panel in panels(part, clearance).iter().rev() {
+                    self.go_back_over(panel, columns.clone());
                 }
             }
         }
+        for (delay, values) in self
+            .delays
+            .iter()
+            .zip(self.values.chunks_exact_mut(self.n_columns))
+        {
+            let forgotten = -(-delay.rate * track).exp_m1();
+            values.iter_mut().for_each(|value| *value /= forgotten);
+        }
+    }
+
+    /// Takes the values of some columns from the front to the rear of a panel.
+    fn go_back_over(&mut self, panel: &Panel, columns: Range<usize>) {
+        let steps = self.delays.iter();
+        let steps: Vec<_> = steps.map(|delay| self.over_panel(delay, panel)).collect();
+        for column in columns {
+            let potentials = self.at_nodes(panel, column);
+            for (index, (decay, weights)) in steps.iter().enumerate() {
+                let value = &mut self.values[index * self.n_columns + column];
+                *value = decay * *value + dot(weights, &potentials);
+            }
+        }
+    }
+
+    /// Distance of a column from the edges of the loaded element across.
+    fn clearance(&self, column: usize) -> f64 {
+        (self.aspect * (column as f64 - 0.5)).max(0.0)
     }
 
     /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
@@ -169,7 +207,7 @@ impl RetardedPotential {
     pub(super) fn step(&mut self, x: f64) {
         self.push_row(x + 1.0 - KEPT as f64);
         for column in 0..self.n_columns {
-            let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
+            let clearance = self.clearance(column);
             let distance = distance_from_edges([x, x + 1.0], clearance);
             if let Some(rule) = shortest(&ROWS, distance) {
                 self.through_rows(column, rule);
@@ -230,7 +268,7 @@ impl RetardedPotential {
         for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
             *increment = 0.0;
         }
-        for panel in panels(x, clearance).iter().rev() {
+        for panel in panels([x, x + 1.0], clearance).iter().rev() {
             let potentials = self.at_nodes(panel, column);
             for (index, delay) in self.delays.iter().enumerate() {
                 let (decay, weights) = self.over_panel(delay, panel);
@@ -273,11 +311,11 @@ fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
     rules.iter().position(|(far, _)| distance >= *far)
 }
 
-/// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
+/// Panels of an interval: divided where the potential is singular, then halved until each is short enough for
 /// one of the rules. The clearance is that of the edges across.
-fn panels(x: f64, clearance: f64) -> Vec<Panel> {
-    let mut ends = vec![x, -0.5, 0.5, x + 1.0];
-    ends.retain(|end| (x..=x + 1.0).contains(end));
+fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<Panel> {
+    let mut ends = vec![start, -0.5, 0.5, end];
+    ends.retain(|place| (start..=end).contains(place));
     ends.dedup();
     let mut panels = Vec::new();
     for pair in ends.windows(2) {
@@ -313,76 +351,132 @@ mod tests {
     use crate::stationary::steady::sliding_creep::Delay;
     use crate::{Elastomer, Layer};
 
-    /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
-    fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2], base: &Base) -> f64 {
-        let end = 60.0 / rate;
+    /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale; on a track
+    /// once around it, with V of the nearest image, over 1 − e^(−q L).
+    fn reference(rate: f64, [x, y]: [f64; 2], base: &Base, scene: &Scene) -> f64 {
+        let track = scene.track.unwrap_or(f64::INFINITY);
+        let [end, turn] = [track.min(60.0 / rate), 0.5 * track - x];
         let decays = (-3..=5).map(|power| 2.0_f64.powi(power) / rate);
-        let distances = (-3..60).map(|power| 0.5 + 2.0_f64.powi(power) - x);
-        let singular = [0.0, -0.5 - x, 0.5 - x, end];
-        let mut ends: Vec<f64> = decays.chain(distances).chain(singular).collect();
+        let from_edges = (-3..60).flat_map(|power| {
+            let distance = 0.5 + 2.0_f64.powi(power);
+            [distance - x, track - distance - x, track + distance - x]
+        });
+        let edges = [-0.5 - x, 0.5 - x, track - 0.5 - x, track + 0.5 - x];
+        let ends = decays.chain(from_edges).chain(edges);
+        let mut ends: Vec<f64> = ends.chain([0.0, turn, end]).collect();
         ends.retain(|distance| (0.0..=end).contains(distance));
         ends.sort_by(f64::total_cmp);
-        let integrand = |s: f64| rate * (-rate * s).exp() * base.influence([x + s, y], edges);
+        let integrand = |s: f64| {
+            let image = if s > turn { x + s - track } else { x + s };
+            rate * (-rate * s).exp() * base.influence([image, y], [1.0, scene.aspect])
+        };
         let parts = ends.windows(2).filter(|pair| pair[0] < pair[1]);
-        parts
-            .map(|pair| integrate(integrand, [pair[0], pair[1]], 1e-13).value)
-            .sum()
+        let parts = parts.map(|pair| integrate(integrand, [pair[0], pair[1]], 1e-13).value);
+        parts.sum::<f64>() / -(-rate * track).exp_m1()
+    }
+
+    #[derive(Debug)]
+    struct Scene {
+        shift: f64,
+        aspect: f64,
+        thickness: f64,
+        track: Option<f64>,
+    }
+
+    impl Scene {
+        fn of_half_space([shift, aspect]: [f64; 2], track: Option<f64>) -> Self {
+            Self {
+                shift,
+                aspect,
+                thickness: f64::INFINITY,
+                track,
+            }
+        }
     }
 
     #[test]
     fn the_recursion_agrees_with_quadrature_for_any_rate() {
         let elements = [
-            (-0.5, 0.5),
-            (-0.37, 0.5),
-            (0.0, 1.0),
-            (-0.1, 1e-3),
-            (-0.2, 1e4),
+            [-0.5, 0.5],
+            [-0.37, 0.5],
+            [0.0, 1.0],
+            [-0.1, 1e-3],
+            [-0.2, 1e4],
         ];
-        for (shift, aspect) in elements {
+        let rows = [30, 80, 98, 120, 129, 130, 131, 160, 230];
+        for element in elements {
             for decade in (-12..=12).step_by(3) {
-                check(10.0_f64.powi(decade), [shift, aspect], f64::INFINITY);
+                let scene = Scene::of_half_space(element, None);
+                check(10.0_f64.powi(decade), &scene, 130, &rows);
             }
         }
         for thickness in [0.04, 0.5, 8.0] {
-            check(0.1, [-0.37, 0.5], thickness);
+            let scene = Scene {
+                thickness,
+                ..Scene::of_half_space([-0.37, 0.5], None)
+            };
+            check(0.1, &scene, 130, &rows);
         }
     }
 
-    fn check(rate: f64, [shift, aspect]: [f64; 2], thickness: f64) {
+    /// On tracks hardly longer than twice the table, and on long ones.
+    #[test]
+    fn on_a_track_the_recursion_agrees_with_quadrature_around_it() {
+        let rows = [0, 20, 29, 30, 31, 60];
+        for (element, track) in [
+            ([-0.5, 0.5], 130.0),
+            ([-0.37, 0.5], 62.3),
+            ([0.0, 1.0], 1e3),
+            ([-0.2, 1e4], 1e5),
+        ] {
+            for decade in (-12..=6).step_by(6) {
+                let scene = Scene::of_half_space(element, Some(track));
+                check(10.0_f64.powi(decade), &scene, 30, &rows);
+            }
+        }
+        let layer = Scene {
+            thickness: 8.0,
+            ..Scene::of_half_space([-0.37, 0.5], Some(70.0))
+        };
+        check(0.1, &layer, 30, &rows);
+    }
+
+    /// Compares some rows of a table that begins so many rows ahead of the load.
+    fn check(rate: f64, scene: &Scene, ahead: i32, rows: &[i32]) {
         let material = Elastic::new(1.0).expect("a modulus");
-        let layer = Layer::new(&material, thickness).expect("a thickness");
+        let layer = Layer::new(&material, scene.thickness).expect("a thickness");
         let delay = Delay {
             rate,
             share: -(-rate).exp_m1(),
         };
         let creep = ElementCreep {
-            shift,
+            shift: scene.shift,
             delays: vec![delay],
+            track: scene.track,
             base: layer.base(),
             ..ElementCreep::default()
         };
-        let first = 130.0 + shift;
-        let mut retarded = RetardedPotential::new(&creep, [first, aspect], 4);
-        for row in 0..=230 {
+        let first = f64::from(ahead) + scene.shift;
+        let mut retarded = RetardedPotential::new(&creep, [first, scene.aspect], 4);
+        for row in 0..=rows[rows.len() - 1] {
             let x = first - f64::from(row);
             retarded.step(x);
-            if ![30, 80, 98, 120, 129, 130, 131, 160, 230].contains(&row) {
+            if !rows.contains(&row) {
                 continue;
             }
             for column in [0, 1, 3] {
-                let y = f64::from(column) * aspect;
-                let by = |base| reference(rate, [x, y], [1.0, aspect], &base);
+                let y = f64::from(column) * scene.aspect;
+                let by = |base| reference(rate, [x, y], &base, scene);
                 let expected = by(layer.base());
                 // A layer leaves little of it far away.
-                let of_half_space = if thickness.is_finite() {
+                let of_half_space = if scene.thickness.is_finite() {
                     by(Base::default())
                 } else {
                     expected
                 };
                 let actual = retarded.value(column as usize);
                 let error = (actual - expected).abs() / of_half_space;
-                let scene = (rate, shift, aspect, [x, y], thickness);
-                assert!(error < 1e-10, "{error:e} at {scene:?}");
+                assert!(error < 1e-10, "{error:e} at {:?}", (rate, scene, [x, y]));
             }
         }
     }

@@ -6,9 +6,11 @@
 //! ```text
 //! u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
 //! ```
+//! On a track of the length L everything comes back, and the integral goes around again and again.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
+use indenters::SlidingLoad;
 use numerics::positive;
 use rheology::{ComplexCompliance, CreepSpectrum, Material as _};
 
@@ -24,6 +26,8 @@ pub(super) struct SlidingCreep {
     /// 2 (1 − ν).
     half_space_factor: f64,
     velocity: f64,
+    /// Length after which the load comes back to the same place, \[m].
+    track: Option<f64>,
     base: Base,
 }
 
@@ -37,6 +41,8 @@ pub(super) struct ElementCreep {
     /// Part of the free flow.
     pub(super) flow: f64,
     pub(super) delays: Vec<Delay>,
+    /// Length after which the load comes back to the same place, in Δx.
+    pub(super) track: Option<f64>,
     /// With lengths in Δx.
     pub(super) base: Base,
 }
@@ -74,6 +80,21 @@ impl Delay {
 }
 
 impl SlidingCreep {
+    /// On the track of a load, if it has one; refuses a material that flows there.
+    pub(super) fn under(
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+    ) -> Result<Self, BemError> {
+        let creep = Self {
+            track: load.track(),
+            ..Self::new(elastomer, load.velocity())?
+        };
+        if creep.track.is_some() && creep.spectrum.fluidity() > 0.0 {
+            return Err(BemError::NoCycle);
+        }
+        Ok(creep)
+    }
+
     pub(super) fn new(
         elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
@@ -85,6 +106,7 @@ impl SlidingCreep {
             spectrum,
             half_space_factor: positive("half-space factor", material.half_space_factor())?,
             velocity: positive("velocity", velocity)?,
+            track: None,
             base,
         })
     }
@@ -134,12 +156,13 @@ impl SlidingCreep {
         &self.base
     }
 
-    /// Distance in which the slowest retardation element forgets, or ahead of which a layer that flows does not feel the
-    /// load, \[m].
+    /// Distance in which the slowest retardation element forgets, or is under the load again, or ahead of which a layer that
+    /// flows does not feel the load, \[m].
     pub(super) fn memory(&self) -> f64 {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
         let memory = self.velocity * times.fold(0.0, f64::max);
+        let memory = memory.min(self.track.unwrap_or(f64::INFINITY));
         if self.spectrum.fluidity() > 0.0 && self.base.is_rigid() {
             memory.max(self.base.reach())
         } else {
@@ -166,9 +189,24 @@ impl SlidingCreep {
         self.half_space_factor * self.spectrum.fluidity() / self.velocity
     }
 
-    /// The same under a load of about that length, by how much less a layer gives way than a half space.
-    pub(super) fn compliance_of_contact(&self, length: f64) -> Result<f64, BemError> {
-        Ok(self.compliance(length)? * self.base.softness(length))
+    /// The same under a load of about that length after a sliding distance, by how much less a layer gives way than a half
+    /// space; on a track with what the passes before have left, `(1 − e^(−length/(vλ)))/(1 − e^(−L/(vλ)))` of a retardation
+    /// element.
+    pub(super) fn compliance_of_contact(
+        &self,
+        length: f64,
+        sliding_distance: f64,
+    ) -> Result<f64, BemError> {
+        let passed = length.min(sliding_distance);
+        let mut parts = self.parts(passed)?;
+        if let Some(track) = self.track {
+            for delay in &mut parts.delays {
+                delay.share /= -(-delay.rate * (track / passed)).exp_m1();
+            }
+        }
+        let compliance = self.half_space_factor * total(&parts);
+        let compliance = positive("compliance over a length", compliance)?;
+        Ok(compliance * self.base.softness(length))
     }
 
     /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
@@ -189,6 +227,7 @@ impl SlidingCreep {
             positive("compliance of a retardation element", delay.compliance())?;
         }
         parts.shift = self.shift(spacing)?;
+        parts.track = self.track.map(|track| track / spacing);
         parts.base = self.base.in_units_of(spacing)?;
         if parts.base.is_rigid() && parts.flow > 0.0 {
             // The slowest element there is.
@@ -212,6 +251,7 @@ impl SlidingCreep {
             instant: self.spectrum.instantaneous_compliance(),
             flow: self.spectrum.fluidity() * time,
             delays: delays.collect::<Result<_, BemError>>()?,
+            track: None,
             base: Base::default(),
         })
     }

@@ -8,8 +8,17 @@
 //! ```
 //!
 //! with lengths in Δx: one recursion along each column of the table, from ahead, for each retardation element.
+//!
+//! On a track of the length L the potential is that of the nearest image of the load, and the recursion, which is the same
+//! within half the length ahead and behind, starts from the integral around the track:
+//!
+//! ```text
+//! k(ξ) = q/(1 − e^(−q L)) ∫_0^L e^(−q s) V(ξ + s) ds,      V(ξ) = V(ξ − L) for ξ > L/2
+//! ```
 
 use std::sync::Arc;
+
+use numerics::whole_part;
 
 use crate::stationary::steady::kernel::wake_influence;
 use crate::stationary::steady::retarded_potential::RetardedPotential;
@@ -130,10 +139,19 @@ impl WakeTable {
         }
     }
 
+    /// The last row within half a track ahead of the load; what is further ahead is not asked for.
+    fn last_on_track(&self) -> usize {
+        let last = 2 * self.reach[0];
+        self.creep.track.map_or(last, |track| {
+            let ahead = 0.5 * track - 1.0 - self.creep.shift;
+            last.min(self.reach[0] + whole_part(ahead.max(0.0)))
+        })
+    }
+
     /// What recovers, at once or with delays, from one and the same potentials.
     fn add_recovering(&mut self) {
         let instant = self.creep.instant;
-        let last = 2 * self.reach[0];
+        let last = self.last_on_track();
         let first = [self.offset(last), self.aspect];
         let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
         for row in (0..=last).rev() {

@@ -149,6 +149,9 @@ fn change(
         ["layer", _] if let Contact::Single(near) = contact => {
             scaled(near.by_thickness(), (ends[1].1 / ends[0].1).ln())
         }
+        ["load", "track"] if let Contact::Single(near) = contact => {
+            scaled(near.by_track(), (ends[1].1 / ends[0].1).ln())
+        }
         ["layer", _] | ["material", "poisson_ratio"] if is_layer => {
             let [from, to] = [from.elastomer()?, to.elastomer()?];
             contact.between_elastomers([&from as &dyn Elastomer, &to], velocities)?

@@ -2,10 +2,12 @@
 
 use std::f64::consts::PI;
 
+use indenters::IndenterError;
 use numerics::InvalidParameter;
 use rheology::ComplexCompliance;
 use rustfft::num_complex::Complex;
 
+use crate::BemError;
 use crate::parallel::reductions::dot;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::retarded_potential::RetardedPotential;
@@ -15,9 +17,8 @@ use crate::stationary::steady::sliding_creep::{
     Delay, ElementCreep, MovingCreep, SLOWEST, SlidingCreep,
 };
 use crate::stationary::steady::wake_table::WakeTable;
-use crate::{Base, BemError};
 
-/// Relative step of the differences by the length of a memory or the thickness of a layer, which is about their error: kernels
+/// Relative step of the differences by the length of a memory or of a track or the thickness of a layer, which is about their error: kernels
 /// are smooth to eleven digits.
 const STEP: f64 = 1e-6;
 /// Wave number of what does not change along x, over the longest of those that do.
@@ -41,8 +42,8 @@ pub(super) struct Basis {
 pub(super) struct Kernel {
     spacing: f64,
     aspect: f64,
-    shift: f64,
-    base: Base,
+    /// The creep over an element without any of its parts: where gaps are evaluated, the track and the base.
+    bare: ElementCreep,
     material: SlidingCreep,
     /// Compliance over the length of an element, \[1/Pa].
     compliance: f64,
@@ -135,11 +136,15 @@ impl Basis {
         let Some(kernel) = quantities.first().map(|basis| &basis.kernel) else {
             return Ok(Vec::new());
         };
+        if let Some(track) = kernel.bare.track {
+            let track = track * kernel.spacing;
+            return Err(IndenterError::NoTrack { track }.into());
+        }
         let waves = Waves {
             quantities: quantities.iter().map(|basis| &basis.offsets).collect(),
-            base: &kernel.base,
+            base: &kernel.bare.base,
             aspect: kernel.aspect,
-            shift: kernel.shift,
+            shift: kernel.bare.shift,
         };
         let of_band = |band: &[f64; 2]| {
             let ends =
@@ -170,8 +175,10 @@ impl Basis {
         ends: [&SlidingCreep; 2],
     ) -> Result<Vec<f64>, BemError> {
         let [from, to] = ends.map(|creep| {
-            let in_elements = |kernel: &Kernel| creep.base().in_units_of(kernel.spacing);
-            Self::on_base(quantities, creep, in_elements)
+            Self::on_other(quantities, creep, |kernel, bare| {
+                bare.base = creep.base().in_units_of(kernel.spacing)?;
+                Ok(())
+            })
         });
         let pairs = from?.into_iter().zip(to?);
         Ok(pairs.map(|(from, to)| to - from).collect())
@@ -179,28 +186,46 @@ impl Basis {
 
     /// By the logarithm of the thickness of the layer.
     pub(super) fn by_thickness(quantities: &[&Self]) -> Result<Vec<f64>, BemError> {
-        if quantities
-            .iter()
-            .all(|basis| basis.kernel.base.is_half_space())
-        {
+        let is_layer = |bare: &ElementCreep| !bare.base.is_half_space();
+        Self::by_length(quantities, is_layer, |bare, factor| {
+            bare.base = bare.base.in_units_of(factor.recip())?;
+            Ok(())
+        })
+    }
+
+    /// By the logarithm of the length of the track.
+    pub(super) fn by_track(quantities: &[&Self]) -> Result<Vec<f64>, BemError> {
+        let has_track = |bare: &ElementCreep| bare.track.is_some();
+        Self::by_length(quantities, has_track, |bare, factor| {
+            bare.track = bare.track.map(|track| factor * track);
+            Ok(())
+        })
+    }
+
+    /// By the logarithm of a length that some kernels have, by differences of whole kernels.
+    fn by_length(
+        quantities: &[&Self],
+        is_there: impl Fn(&ElementCreep) -> bool,
+        scale: impl Fn(&mut ElementCreep, f64) -> Result<(), InvalidParameter>,
+    ) -> Result<Vec<f64>, BemError> {
+        let kernel = quantities.first().map(|basis| &basis.kernel);
+        let Some(kernel) = kernel.filter(|kernel| is_there(&kernel.bare)) else {
             return Ok(vec![0.0; quantities.len()]);
-        }
-        let scaled = |kernel: &Kernel| kernel.base.in_units_of((1.0 + STEP).recip());
-        let material = quantities.first().map(|basis| &basis.kernel.material);
-        let thicker = material.map_or(Ok(Vec::new()), |material| {
-            Self::on_base(quantities, material, scaled)
+        };
+        let longer = Self::on_other(quantities, &kernel.material, |_, bare| {
+            scale(bare, 1.0 + STEP)
         });
-        let pairs = quantities.iter().zip(thicker?);
+        let pairs = quantities.iter().zip(longer?);
         Ok(pairs
-            .map(|(own, thicker)| (thicker - own.whole()) / STEP)
+            .map(|(own, longer)| (longer - own.whole()) / STEP)
             .collect())
     }
 
-    /// The sums of quantities of one contact with the kernel of a creep on a base, which is computed once.
-    fn on_base(
+    /// The sums of quantities of one contact with the kernel of another creep, track or base, which is computed once.
+    fn on_other(
         quantities: &[&Self],
         creep: &SlidingCreep,
-        base: impl Fn(&Kernel) -> Result<Base, InvalidParameter>,
+        change: impl Fn(&Kernel, &mut ElementCreep) -> Result<(), InvalidParameter>,
     ) -> Result<Vec<f64>, BemError> {
         let Some(Self {
             kernel, offsets, ..
@@ -208,9 +233,12 @@ impl Basis {
         else {
             return Ok(Vec::new());
         };
+        let mut bare = kernel.bare.clone();
+        change(kernel, &mut bare)?;
         let part = ElementCreep {
-            shift: kernel.shift,
-            base: base(kernel)?,
+            shift: bare.shift,
+            track: bare.track,
+            base: bare.base,
             ..creep.over(kernel.spacing)?
         };
         let table = WakeTable::of(&part, kernel.aspect, offsets.reach());
@@ -229,12 +257,16 @@ fn unit_delay(rate: f64) -> Delay {
 impl Kernel {
     pub(super) fn new(creep: &SlidingCreep, mesh: &Mesh) -> Result<Self, BemError> {
         let spacing = mesh.options.spacing[0];
-        let on_grid = &mesh.loading.creep;
+        let bare = ElementCreep {
+            instant: 0.0,
+            flow: 0.0,
+            delays: Vec::new(),
+            ..mesh.loading.creep.clone()
+        };
         Ok(Self {
             spacing,
             aspect: mesh.aspect(),
-            shift: on_grid.shift,
-            base: on_grid.base.clone(),
+            bare,
             material: creep.clone(),
             compliance: creep.compliance(spacing)?,
         })
@@ -249,7 +281,7 @@ impl Kernel {
         if rates.is_empty() {
             let part = ElementCreep {
                 instant: 1.0,
-                ..self.part()
+                ..self.bare.clone()
             };
             for (sums, offsets) in sums.iter_mut().zip(quantities) {
                 sums[0] = self.sum_of(offsets, &part);
@@ -258,9 +290,9 @@ impl Kernel {
         }
         let part = ElementCreep {
             delays: rates.iter().copied().map(unit_delay).collect(),
-            ..self.part()
+            ..self.bare.clone()
         };
-        let offset = |row: usize| row as f64 - rows as f64 + self.shift;
+        let offset = |row: usize| row as f64 - rows as f64 + self.bare.shift;
         let first = [offset(2 * rows), self.aspect];
         let mut retarded = RetardedPotential::new(&part, first, columns + 1);
         for row in (0..=2 * rows).rev() {
@@ -274,15 +306,6 @@ impl Kernel {
             }
         }
         sums
-    }
-
-    /// The part of the creep that nothing has been put into.
-    fn part(&self) -> ElementCreep {
-        ElementCreep {
-            shift: self.shift,
-            base: self.base.clone(),
-            ..ElementCreep::default()
-        }
     }
 
     /// The derivatives of the compliance 1/(G' − i G'') to a wave by ln G' and ln G'', over that of an element.
@@ -301,8 +324,8 @@ impl Kernel {
     }
 
     fn flow(&self, offsets: &Offsets) -> f64 {
-        let mut part = self.part();
-        if self.base.is_rigid() {
+        let mut part = self.bare.clone();
+        if part.base.is_rigid() {
             let (rate, share) = (SLOWEST, 1.0);
             part.delays.push(Delay { rate, share });
         } else {

@@ -235,6 +235,13 @@ impl SteadySensitivity {
         compared(of(&self.fine), of(&self.coarse))
     }
 
+    /// The derivatives by the logarithm of the length of the track; 0 without one.
+    pub fn by_track(&self) -> Change<Estimate> {
+        let of =
+            |grids: &SensitivityOnGrid| mean(grids.states.iter().map(State::by_track).collect());
+        compared(of(&self.fine), of(&self.coarse))
+    }
+
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each
     /// between two that follow each other: how much a quantity changes when the modulus does by one e-fold there and stays as it
     /// is elsewhere.
@@ -243,8 +250,8 @@ impl SteadySensitivity {
     /// shorter than two elements, and say nothing.
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and [`BemError::Material`] where the
-    /// material is not known at them.
+    /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, [`BemError::Material`] where the
+    /// material is not known at them, and [`BemError::Indenter`] on a track, into which only some waves fit.
     pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
         let bands = bands(frequencies)?;
         let of = |grids: &SensitivityOnGrid| -> Result<Vec<[Change<Apart>; 2]>, BemError> {

@@ -26,8 +26,9 @@ pub(super) struct State {
     /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and of both measures of the
     /// logarithm of the area.
     gradients: Vec<Gradient>,
-    /// Of each of them by the logarithm of the thickness of a layer.
+    /// Of each of them by the logarithms of the thickness of a layer and of the length of a track.
     by_thickness: Vec<f64>,
+    by_track: Vec<f64>,
     control: Control,
     pub(super) dilation: Option<Dilation>,
 }
@@ -80,8 +81,12 @@ impl State {
             .map(|draft| std::mem::take(&mut draft.offsets))
             .collect();
         let bases = Basis::of_all(offsets, &kernel);
-        let by_thickness = Basis::by_thickness(&bases.iter().collect::<Vec<_>>())?;
-        let mut sums = bases.into_iter().zip(by_thickness);
+        let all: Vec<&Basis> = bases.iter().collect();
+        let by_lengths = Basis::by_thickness(&all)?
+            .into_iter()
+            .zip(Basis::by_track(&all)?);
+        let by_lengths: Vec<(f64, f64)> = by_lengths.collect();
+        let mut sums = bases.into_iter().zip(by_lengths);
         let states = unsummed.into_iter().map(|one| {
             let mut state = one.summed(&mut sums, loading);
             // Elements at the edge of a body stay where they are.
@@ -128,10 +133,16 @@ impl Unsummed {
         })
     }
 
-    fn summed(self, sums: &mut impl Iterator<Item = (Basis, f64)>, loading: &Loading) -> State {
-        let (mut gradients, mut by_thickness) = (Vec::new(), Vec::new());
-        for (draft, (basis, by_log_thickness)) in self.drafts.into_iter().zip(sums) {
+    fn summed(
+        self,
+        sums: &mut impl Iterator<Item = (Basis, (f64, f64))>,
+        loading: &Loading,
+    ) -> State {
+        let (mut gradients, mut by_thickness, mut by_track) = (Vec::new(), Vec::new(), Vec::new());
+        for (draft, (basis, (by_log_thickness, by_log_track))) in self.drafts.into_iter().zip(sums)
+        {
             by_thickness.push(draft.unit * by_log_thickness);
+            by_track.push(draft.unit * by_log_track);
             gradients.push(Gradient {
                 unit: draft.unit,
                 by_height: draft.by_height,
@@ -145,6 +156,7 @@ impl Unsummed {
             shares: self.shares,
             gradients,
             by_thickness,
+            by_track,
             control: loading.control,
             dilation: None,
         }
@@ -177,6 +189,7 @@ impl State {
             let by_load = given * gradient.by_load;
             let changed = by_lengths
                 + self.by_thickness[index]
+                + self.by_track[index]
                 + power * by_load
                 + gradient.unit * gradient.basis.by_velocity();
             // Equations with these elements are linear: heights and load together scale depth and force.
@@ -275,6 +288,10 @@ impl State {
 
     pub(super) fn by_thickness(&self) -> Change<Apart> {
         self.of_all(self.by_thickness.clone())
+    }
+
+    pub(super) fn by_track(&self) -> Change<Apart> {
+        self.of_all(self.by_track.clone())
     }
 
     fn has_delays_of(&self, creep: &MovingCreep) -> bool {

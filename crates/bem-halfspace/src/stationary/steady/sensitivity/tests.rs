@@ -23,8 +23,8 @@ fn prony(scale: f64, time: f64, poisson_ratio: f64) -> Compressible {
     Compressible::new(&material, poisson_ratio).expect("a material")
 }
 
-/// Factors of the numbers of a problem: curvature, a modulus, its time, Poisson ratio, thickness, load, velocity.
-type Factors = [f64; 7];
+/// Factors of the numbers of a problem: curvature, a modulus, its time, Poisson ratio, thickness, load, velocity, track.
+type Factors = [f64; 8];
 
 struct Case {
     name: &'static str,
@@ -32,6 +32,7 @@ struct Case {
     thickness: f64,
     control: Control,
     flows: bool,
+    track: Option<f64>,
 }
 
 impl Case {
@@ -49,7 +50,11 @@ impl Case {
             Control::NormalForce(force) => SlidingLoad::new(force * factors[5], velocity),
             Control::IndentationDepth(depth) => SlidingLoad::at_depth(depth * factors[5], velocity),
         };
-        load.expect("a load")
+        let on_track = |load: SlidingLoad| match self.track {
+            Some(track) => load.on_track(track * factors[7]),
+            None => Ok(load),
+        };
+        load.and_then(on_track).expect("a load")
     }
 
     fn state(
@@ -83,7 +88,7 @@ impl Case {
 }
 
 /// What of a problem a factor changes.
-const NAMES: [&str; 7] = [
+const NAMES: [&str; 8] = [
     "curvature",
     "modulus",
     "time",
@@ -91,11 +96,12 @@ const NAMES: [&str; 7] = [
     "thickness",
     "load",
     "velocity",
+    "track",
 ];
 
 fn changed(case: &Case, state: &State, index: usize) -> Change<Apart> {
     let ends = [-STEP, STEP].map(|step| {
-        let mut factors = [1.0; 7];
+        let mut factors = [1.0; 8];
         factors[index] += step;
         factors
     });
@@ -107,15 +113,9 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<Apart> {
         }
         "load" => {
             let [Control::NormalForce(given) | Control::IndentationDepth(given)] = [case.control];
-            let by_load = state.by_load();
-            let times = |known: Apart| known.map(|value| 2.0 * STEP * given * value);
-            Ok(Change {
-                friction_coefficient: times(by_load.friction_coefficient),
-                indentation_depth: by_load.indentation_depth.map(times),
-                normal_force: by_load.normal_force.map(times),
-                contact_area: by_load.contact_area.map(times),
-            })
+            Ok(scaled(state.by_load(), 2.0 * STEP * given))
         }
+        "track" => Ok(scaled(state.by_track(), 2.0 * STEP)),
         name => {
             let creeps = [0, 1].map(|end| {
                 let thickness = case.thickness * ends[end][4];
@@ -140,7 +140,17 @@ fn values(change: &Change<Apart>) -> [f64; 2] {
     ]
 }
 
-fn cases() -> [Case; 5] {
+fn scaled(change: Change<Apart>, factor: f64) -> Change<Apart> {
+    let times = |known: Apart| known.map(|value| factor * value);
+    Change {
+        friction_coefficient: times(change.friction_coefficient),
+        indentation_depth: change.indentation_depth.map(times),
+        normal_force: change.normal_force.map(times),
+        contact_area: change.contact_area.map(times),
+    }
+}
+
+fn cases() -> [Case; 6] {
     let paraboloid =
         |factor| Box::new(PowerProfile::paraboloid(factor).expect("a body")) as Box<dyn Surface>;
     let cone =
@@ -153,6 +163,7 @@ fn cases() -> [Case; 5] {
         thickness: f64::INFINITY,
         control,
         flows: false,
+        track: None,
     };
     let force = Control::NormalForce(4.0);
     [
@@ -167,15 +178,19 @@ fn cases() -> [Case; 5] {
             ..case("dashpot", paraboloid, force)
         },
         case("flat cone", flat, Control::NormalForce(1.0)),
+        Case {
+            track: Some(8.0),
+            ..case("track", paraboloid, force)
+        },
     ]
 }
 
 /// Derivatives of friction, and of depth or force, by differences and by the adjoint loads.
 fn compared(case: &Case, index: usize, options: SteadyOptions) -> [[f64; 2]; 2] {
-    let (mut state, solution) = case.state(&[1.0; 7], options, None);
+    let (mut state, solution) = case.state(&[1.0; 8], options, None);
     state.dilation = None;
     let ends = [-STEP, STEP].map(|step| {
-        let mut factors = [1.0; 7];
+        let mut factors = [1.0; 8];
         factors[index] += step;
         case.solved(&factors, options, &solution)
     });
@@ -200,7 +215,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
     let mut options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
     options.tolerance = 1e-12;
     for case in cases() {
-        let (state, solution) = case.state(&[1.0; 7], options, None);
+        let (state, solution) = case.state(&[1.0; 8], options, None);
         let found = if case.flows {
             solution.friction_coefficient
         } else {
@@ -208,7 +223,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
         };
         let off = (state.friction_coefficient - found).abs();
         assert!(off < 1e-11, "{}: {off:e}", case.name);
-        let rows = [0, 1, 2, 3, 4, 5, 6].map(|index| compared(&case, index, options));
+        let rows = [0, 1, 2, 3, 4, 5, 6, 7].map(|index| compared(&case, index, options));
         for quantity in 0..2 {
             let sizes = rows.iter().map(|row| row[quantity][0].abs());
             let largest = sizes.fold(0.0, f64::max);
@@ -236,7 +251,7 @@ fn by_frequencies(
 ) -> [[f64; 2]; 2] {
     const PER_DECADE: f64 = 40.0;
     let materials = [-STEP, STEP].map(|step| {
-        let mut factors = [1.0; 7];
+        let mut factors = [1.0; 8];
         factors[index] += step;
         case.material(&factors)
     });
@@ -275,7 +290,12 @@ fn derivatives_by_frequencies_add_up_to_those_by_moduli_and_times() {
     let side = [-1.7, 1.7];
     let options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
     for case in cases() {
-        let (state, _) = case.state(&[1.0; 7], options, None);
+        let (state, _) = case.state(&[1.0; 8], options, None);
+        if case.track.is_some() {
+            let refused = state.by_moduli(&[[0.0, 1.0]]);
+            assert!(matches!(refused, Err(BemError::Indenter(_))), "waves");
+            continue;
+        }
         for index in [1, 2] {
             let expected = values(&changed(&case, &state, index));
             let [got, sizes] = by_frequencies(&case, &state, index, options);
@@ -357,13 +377,13 @@ fn derivatives_add_up_in_units_of_length() {
     let side = [-1.7, 1.7];
     let options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
     for case in cases().iter().filter(|case| case.name != "flat cone") {
-        let (state, solution) = case.state(&[1.0; 7], options, None);
+        let (state, solution) = case.state(&[1.0; 8], options, None);
         let by_logarithm = NAMES.map(|name| {
             let index = NAMES.iter().position(|other| *other == name);
             let change = changed(case, &state, index.expect("a name"));
             values(&change).map(|change| 0.5 * change / STEP)
         });
-        let [curvature, _, _, _, thickness, load, velocity] = by_logarithm;
+        let [curvature, _, _, _, thickness, load, velocity, track] = by_logarithm;
         let powers = match case.control {
             _ if case.flows => [-1.0, 2.0, 0.0],
             Control::NormalForce(_) => [-1.0, 2.0, solution.depth.at(None)],
@@ -377,7 +397,7 @@ fn derivatives_add_up_in_units_of_length() {
                 0.0
             };
             let sum = powers[0] * curvature[quantity] + powers[1] * load[quantity];
-            let sum = sum + velocity[quantity] + layer;
+            let sum = sum + velocity[quantity] + layer + track[quantity];
             let off = (sum - expected[quantity]).abs();
             let size = solution.friction_coefficient + expected[quantity];
             assert!(off < 1e-5 * size, "{}, {quantity}: {sum:e}", case.name);
@@ -400,7 +420,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
             spacing: options.spacing.map(|spacing| factor * spacing),
             ..options
         };
-        let states = [1.0, COARSER].map(|factor| case.state(&[1.0; 7], grids(factor), None).0);
+        let states = [1.0, COARSER].map(|factor| case.state(&[1.0; 8], grids(factor), None).0);
         let area = |factors: &Factors| {
             let (body, material) = ((case.body)(factors[0]), case.material(factors));
             let layer = Layer::new(&material, case.thickness * factors[4]).expect("a layer");
@@ -411,7 +431,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
             let [fine, coarse] = [0, 1].map(|grid| changed(case, &states[grid], index));
             let got = super::compared(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
             let ends = [WIDE.recip(), WIDE].map(|factor| {
-                let mut factors = [1.0; 7];
+                let mut factors = [1.0; 8];
                 factors[index] *= factor;
                 area(&factors)
             });
