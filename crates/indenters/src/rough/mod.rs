@@ -9,6 +9,7 @@ mod self_affine;
 mod spectrum;
 mod through;
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use numerics::{InvalidParameter, finite, in_range, positive};
@@ -101,6 +102,19 @@ impl PeriodicSurface {
         let largest = waves().map(size).fold(0.0, f64::max);
         let left = waves().filter(|wave| size(wave) <= 0.5 * largest);
         Self::new(self.period, left.copied().collect()).ok()
+    }
+
+    /// With the waves of which a grid of so many elements along x and y has more than two each; none where it tells no wave.
+    pub fn told_by(&self, shape: [usize; 2]) -> Option<Cow<'_, Self>> {
+        let is_told = |wave: &&Wave| {
+            let mut numbers = wave.numbers.iter().zip(shape);
+            numbers.all(|(number, elements)| elements > 2 * number.unsigned_abs() as usize)
+        };
+        if self.waves.iter().all(|wave| is_told(&wave)) {
+            return Some(Cow::Borrowed(self));
+        }
+        let waves = self.waves.iter().filter(is_told).copied().collect();
+        Self::new(self.period, waves).ok().map(Cow::Owned)
     }
 
     /// Wave vector of a wave along x and y, \[1/m].

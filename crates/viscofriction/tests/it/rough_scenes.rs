@@ -144,3 +144,28 @@ fn a_periodic_map_is_the_same_surface_on_any_grid() {
         assert_close(name, one, other, 1e-9);
     }
 }
+
+/// With 144 waves in the longer period four elements for each of them need more than are usual, and with little memory twelve do:
+/// the first grid has only the longer waves then.
+#[test]
+fn all_waves_are_answered_where_grids_are_large_or_memory_is_small() {
+    let folder = Folder::new("rough-many-waves");
+    let answer = |waves: f64, memory: &str| {
+        let shortest = 2.0 / waves;
+        let scene = SURFACE.replace(" 0.25,", &format!(" {shortest},"));
+        let scene = scene.replace("= 0.1\nload", &format!("= 0.1\n{memory}load"));
+        folder.answer(format!("{scene}mean_pressure = 0.1\n"))
+    };
+    let many = answer(144.0, "");
+    let [area, bar] = ["area_fraction", "area_fraction_error"].map(|name| number(&many, name));
+    assert!(bar < area && area < 0.3, "{many}");
+    let [little, much] = ["solve.max_memory = \"48 MiB\"\n", ""].map(|memory| answer(40.0, memory));
+    for name in ["friction_coefficient", "area_fraction"] {
+        let [[a, a_bar], [b, b_bar]] = [&little, &much]
+            .map(|one| [name, &format!("{name}_error")].map(|name| number(one, name)));
+        assert!(
+            (a - b).abs() <= a_bar + b_bar && b_bar < a_bar,
+            "{little} {much}"
+        );
+    }
+}
