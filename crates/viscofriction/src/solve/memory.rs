@@ -40,7 +40,7 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
         return Ok(());
     }
     let largest = surface.largest_numbers();
-    let shapes = (1..usize::BITS).map(|power| largest.map(|number| (2 * number >> power).max(1)));
+    let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
     let told = |shape| surface.told_by(shape);
     let mut told = shapes.filter_map(told);
     let Some(kept) = told.find(|kept| periodic::elements_for_bars(kept) <= most) else {

@@ -43,7 +43,7 @@ const MOST_STEPS: f64 = 2e9;
 /// Elements of the largest grid at all, and memory that one of them takes at most, and what contacts of few elements on stiff solids
 /// take besides, \[bytes].
 const LARGEST_GRID: f64 = 268_435_456.0;
-const BYTES_PER_ELEMENT: f64 = 200.0;
+const BYTES_PER_ELEMENT: f64 = 170.0;
 const BYTES_BESIDE: f64 = 33_554_432.0;
 /// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
 const THREE_GRIDS: usize = 4;
@@ -257,8 +257,10 @@ impl Goal<'_> {
     fn check_size(&self, shape: [usize; 2], finer: f64) -> Result<(), BemError> {
         let [rows, columns] = shape.map(|n| n as f64);
         let elements = finer.powi(2) * rows * columns;
-        let steps = self.steps_per_row.map_or(1.0, |steps| steps * finer * rows);
-        let limit = LARGEST_GRID.min(MOST_STEPS / steps);
+        let limit = match self.steps_per_row {
+            None => LARGEST_GRID,
+            Some(steps) => USUAL_GRID.min(MOST_STEPS / (steps * finer * rows)),
+        };
         if elements <= limit {
             return Ok(());
         }
