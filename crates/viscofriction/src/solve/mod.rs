@@ -21,6 +21,7 @@ mod omission;
 mod plan;
 mod problem;
 mod realisations;
+mod road;
 pub(crate) mod sensitivity;
 mod validity;
 mod with_fields;
@@ -40,6 +41,7 @@ pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
 pub use realisations::{Realisation, Scatter};
+pub use road::{CutOff, cut_offs};
 pub use sensitivity::{
     Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties, sampled,
     spectral_sensitivity, with_sensitivity,
