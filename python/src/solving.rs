@@ -122,10 +122,12 @@ impl Loads<'_> {
             (Some(heights), Indenter::HeightMap(table)) => {
                 Some(body_of_heights(table, topography(heights, table)?))
             }
-            (None, Indenter::HeightMap(_) | Indenter::SelfAffine(_)) => Some(
-                Files::of(&scene, &self.folder, read_file)
-                    .and_then(|files| body(&scene.indenter, &files)),
-            ),
+            (None, Indenter::HeightMap(_) | Indenter::SelfAffine(_) | Indenter::Spectrum(_)) => {
+                Some(
+                    Files::of(&scene, &self.folder, read_file)
+                        .and_then(|files| body(&scene.indenter, &files)),
+                )
+            }
             _ => None,
         };
         Ok(Scenes {

@@ -309,3 +309,15 @@ def test_a_rough_surface_is_pressed() -> None:
     assert pressed.pressure is not None and 0.1 < pressed.area_fraction < 0.9
     fluid = vf.press(road, vf.Maxwell(2e6, 1e6), mean_pressure=1e5, duration=0.5, relative_error=0.05)
     assert fluid.area_fraction == pytest.approx(pressed.area_fraction, rel=1e-9)
+
+
+def test_many_surfaces_of_a_spectrum_have_their_mean_and_its_standard_error(tmp_path: Path) -> None:
+    file = tmp_path / "spectrum.csv"
+    file.write_text("wave_number,density\n1250,1e-15\n2600,1e-16\n")
+    rubber, load = vf.Prony(1e6, [(1e7, 1e-3)]), {"mean_pressure": 1e4, "velocity": 0.1, "relative_error": 0.05}
+    single = [vf.slide(vf.Spectrum(file, (1e-2, 1e-2), seed), rubber, **load).mu for seed in (3, 4)]
+    both = vf.slide(vf.Spectrum(file, (1e-2, 1e-2), 3, realisations=2), rubber, **load)
+    assert both.mu == pytest.approx(np.mean(single), rel=1e-12)
+    assert both.standard_error["friction_coefficient"] == pytest.approx(abs(single[0] - single[1]) / 2, rel=1e-9)
+    with pytest.raises(ValueError, match=r"indenter\.spectrum\.realisations must be from 1 to 1000, but is 0"):
+        vf.slide(vf.Spectrum(file, (1e-2, 1e-2), 3, realisations=0), rubber, **load)

@@ -29,6 +29,7 @@ __all__ = [
     "Roughness",
     "RoundTippedCone",
     "SelfAffine",
+    "Spectrum",
     "Sphere",
     "Superposition",
     "TruncatedParaboloid",
@@ -39,6 +40,8 @@ __all__ = [
 Edges = Literal["wall", "periodic", "mirrored"]
 #: Whether heights point out of the body, or are gaps.
 HeightsAre = Literal["surface", "gap"]
+#: What the densities of a power spectrum are.
+Convention = Literal["persson", "surface-topography"]
 #: A unit of heights.
 Unit = Literal["m", "mm", "um", "nm"]
 
@@ -190,7 +193,8 @@ class SelfAffine(Body):
     """A random self-affine surface that repeats itself without end, all lengths in metres; it takes a mean pressure.
 
     Waves from the longest to the shortest wavelength, with a constant spectrum above the roll-off wavelength if there is one;
-    0 < hurst_exponent < 1; rms_slope > 0 is that of this surface; another seed draws another one.
+    0 < hurst_exponent < 1; rms_slope > 0 is that of this surface; another seed draws another one, and with ``realisations`` the
+    answer is the mean of so many.
     """
 
     period: tuple[float, float]
@@ -200,11 +204,35 @@ class SelfAffine(Body):
     shortest_wavelength: float
     seed: int
     roll_off_wavelength: float | None = None
+    realisations: int | None = None
     _kind = "self-affine"
 
     def _table(self) -> dict[str, Any]:
         [(kind, keys)] = super()._table().items()
         return {kind: {key: value for key, value in keys.items() if value is not None}}
+
+
+@dataclass(frozen=True)
+class Spectrum(Body):
+    """A random surface of a power spectrum that repeats itself without end, all lengths in metres; it takes a mean pressure.
+
+    ``file`` is a CSV file with the columns wave_number q = 2π/λ [1/m] and density C [m⁴], such as the spectrum.csv of
+    ``viscofriction surface``. ⟨h²⟩ = 2π ∫ q C dq with ``convention="persson"``; with ``"surface-topography"`` C is 4π² times as
+    large. Waves shorter than ``shortest_wavelength`` are left out, another seed draws another surface, and with ``realisations``
+    the answer is the mean of so many.
+    """
+
+    file: str | os.PathLike[str]
+    period: tuple[float, float]
+    seed: int
+    convention: Convention = "persson"
+    shortest_wavelength: float | None = None
+    realisations: int | None = None
+    _kind = "spectrum"
+
+    def _table(self) -> dict[str, Any]:
+        keys = super()._table()[self._kind]
+        return {self._kind: keys | {"file": os.path.abspath(self.file)}}
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, columns, count, text_of
-from ._bodies import Body, Cylinder, HeightMap, HeightMapFile, Pyramid, SelfAffine
+from ._bodies import Body, Cylinder, HeightMap, HeightMapFile, Pyramid, SelfAffine, Spectrum
 from ._materials import Material, Prony
 from ._results import rounded
 from ._solving import ask, given
@@ -188,7 +188,7 @@ def _of_revolution(body: Body) -> dict[str, Any]:
     """The table of a body whose force the fit knows."""
     if not isinstance(body, Body):
         raise ValueError(f"body must be a Body of this package, but is {text_of(body)}")
-    if isinstance(body, Cylinder | HeightMap | HeightMapFile | SelfAffine):
+    if isinstance(body, Cylinder | HeightMap | HeightMapFile | SelfAffine | Spectrum):
         known = "Sphere, Paraboloid, Cone, Pyramid, FlatPunch, Power and the others that are round about their axis"
         raise ValueError(f"body must be a body of revolution, but is a {type(body).__name__}; these are: {known}")
     return _axisymmetric(body)._table()

@@ -164,6 +164,14 @@ class Answer(Compared):
         return self._values("area_fraction_error")
 
     @property
+    def standard_error(self) -> dict[str, Values]:
+        """Standard errors of ``friction_coefficient`` and ``area_fraction`` as means over random surfaces, beside their numerical
+        errors; empty of one surface."""
+        names = ("friction_coefficient", "area_fraction")
+        known = {name: self._values(f"{name}_standard_error") for name in names}
+        return {name: values for name, values in known.items() if values is not None}
+
+    @property
     def persson(self) -> dict[str, Values]:
         """``area_fraction``, ``friction_coefficient`` (2001) and ``friction_coefficient_2006`` of Persson's theory, of periodic surfaces."""
         names = ("area_fraction", "friction_coefficient", "friction_coefficient_2006")

@@ -54,7 +54,7 @@ pub enum BemError {
     },
     /// The period has too few elements for its shortest waves.
     #[error(
-        "the period has {elements} elements along the edge that has more of them, but at least {needed} are needed, four for \
+        "the period has {elements} elements along the edge that has more of them, but at least {needed} are needed, one for \
          each shortest wave on the coarsest of three grids"
     )]
     PeriodTooCoarse {

@@ -11,6 +11,7 @@ mod material;
 mod output;
 mod page;
 mod progress;
+mod road;
 mod run;
 mod surface;
 mod sweep;
@@ -61,6 +62,8 @@ enum Command {
     FitFriction(friction::FitFriction),
     /// Say what a measured surface is like: roughness parameters, power spectra, pictures, and a tidied copy.
     Surface(surface::Surface),
+    /// Solve a rough scene without its shortest waves, octave by octave: does the answer depend on where they are cut off?
+    Road(road::Road),
     /// Print the JSON Schema of scene files.
     #[command(after_help = "Example: viscofriction scene-schema > scene.schema.json")]
     SceneSchema,
@@ -83,6 +86,7 @@ pub fn execute() -> ExitCode {
         Command::FitIndentation(options) => indentation::fit(&options),
         Command::FitFriction(options) => friction::fit(&options),
         Command::Surface(options) => surface::describe(&options),
+        Command::Road(options) => road::road(&options),
         Command::SceneSchema => scene_schema(),
         Command::Completions { shell } => completions(shell),
     };

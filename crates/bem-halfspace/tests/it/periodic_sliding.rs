@@ -390,3 +390,45 @@ fn a_layer_carries_at_a_depth_what_makes_it() {
         assert_refused(depth, at(depth), "mean_depth");
     }
 }
+
+/// As many waves as a map of 64² heights has, on two elements per height and edge against eight; ratios of moduli and areas as of
+/// roads.
+#[cfg(feature = "rough")]
+#[test]
+fn bars_on_four_elements_per_shortest_wave_hold() {
+    use bem_halfspace::periodic::steady;
+    use numerics::Accuracy;
+
+    use crate::support::assert_bars_agree;
+    for (case, (ratio, pressure)) in [(10.0, 0.02), (100.0, 0.1), (1000.0, 0.3)]
+        .into_iter()
+        .enumerate()
+    {
+        let surface = indenters::rough::SelfAffine {
+            period: [1.0; 2],
+            hurst_exponent: 0.8,
+            rms_slope: 0.1,
+            longest_wavelength: 0.5,
+            shortest_wavelength: 1.0 / 31.0,
+            roll_off_wavelength: 0.25,
+            seed: case as u64,
+        };
+        let surface = surface.surface().expect("a surface");
+        let material = prony([1.0, 0.0], &[(ratio - 1.0, 1.0)]);
+        let load = PeriodicLoad::new(pressure, 0.01).expect("a load");
+        let [coarse, fine] = [128, 512].map(|elements| {
+            let found = steady(&surface, &material, &load, Accuracy::Elements(elements));
+            found.unwrap_or_else(|error| panic!("{ratio}: {error}"))
+        });
+        assert_eq!(coarse.finest.pressure.grid.shape(), [128; 2], "shape");
+        let pairs = [
+            (coarse.friction_coefficient, fine.friction_coefficient, 0.3),
+            (coarse.area_fraction, fine.area_fraction, 2.5),
+        ];
+        for (coarse, fine, most) in pairs {
+            assert_bars_agree(ratio, coarse, fine);
+            let is_useful = coarse.error < most * coarse.value && fine.error < coarse.error;
+            assert!(is_useful, "{ratio}: {coarse:?}, {fine:?}");
+        }
+    }
+}

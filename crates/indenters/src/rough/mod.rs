@@ -4,11 +4,14 @@
 //! h(x, y) = Σ a cos(2π (m x/L_x + n y/L_y) + φ)
 //! ```
 
+mod random;
 mod roughness;
 mod self_affine;
 mod spectrum;
+mod tabulated;
 mod through;
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use numerics::{InvalidParameter, finite, in_range, positive};
@@ -21,6 +24,10 @@ use crate::table::at_least;
 pub use roughness::Roughness;
 pub use self_affine::SelfAffine;
 pub use spectrum::{PowerSpectrum, Ring};
+pub use tabulated::TabulatedSpectrum;
+
+/// Wave lengths that are a whole part of another one count although they are rounded.
+const SLACK: f64 = 1e-12;
 
 /// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,14 +100,40 @@ impl PeriodicSurface {
     /// Without the waves shorter than twice the shortest, which are its shortest octave; none where no wave is left.
     #[must_use]
     pub fn without_shortest_octave(&self) -> Option<Self> {
-        let size = |wave: &Wave| {
-            let [x, y] = self.wave_vector(wave);
-            x.hypot(y)
+        self.without_waves_below(2.0 * self.shortest_wavelength())
+    }
+
+    /// Length of the shortest wave that has an amplitude, \[m]; infinite where none has.
+    pub fn shortest_wavelength(&self) -> f64 {
+        let waves = self.waves.iter().filter(|wave| wave.amplitude != 0.0);
+        TAU / waves.map(|wave| self.wave_number(wave)).fold(0.0, f64::max)
+    }
+
+    /// Without the waves shorter than a length \[m]; none where no wave is left.
+    #[must_use]
+    pub fn without_waves_below(&self, shortest: f64) -> Option<Self> {
+        let largest = TAU / shortest * (1.0 + SLACK);
+        let is_left = |wave: &&Wave| wave.amplitude != 0.0 && self.wave_number(wave) <= largest;
+        let waves = self.waves.iter().filter(is_left).copied().collect();
+        Self::new(self.period, waves).ok()
+    }
+
+    fn wave_number(&self, wave: &Wave) -> f64 {
+        let [x, y] = self.wave_vector(wave);
+        x.hypot(y)
+    }
+
+    /// With the waves of which a grid of so many elements along x and y has more than two each; none where it tells no wave.
+    pub fn told_by(&self, shape: [usize; 2]) -> Option<Cow<'_, Self>> {
+        let is_told = |wave: &&Wave| {
+            let mut numbers = wave.numbers.iter().zip(shape);
+            numbers.all(|(number, elements)| elements > 2 * number.unsigned_abs() as usize)
         };
-        let waves = || self.waves.iter().filter(|wave| wave.amplitude != 0.0);
-        let largest = waves().map(size).fold(0.0, f64::max);
-        let left = waves().filter(|wave| size(wave) <= 0.5 * largest);
-        Self::new(self.period, left.copied().collect()).ok()
+        if self.waves.iter().all(|wave| is_told(&wave)) {
+            return Some(Cow::Borrowed(self));
+        }
+        let waves = self.waves.iter().filter(is_told).copied().collect();
+        Self::new(self.period, waves).ok().map(Cow::Owned)
     }
 
     /// Wave vector of a wave along x and y, \[1/m].

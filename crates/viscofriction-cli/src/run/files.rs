@@ -14,7 +14,7 @@ use viscofriction_plot::Figure;
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
-pub(super) const NAMES: &str = "result.json report.html history.csv history.svg history.png history_over_time.svg history_over_time.png \
+pub(super) const NAMES: &str = "result.json report.html realisations.csv history.csv history.svg history.png history_over_time.svg history_over_time.png \
     motion.csv motion.svg motion.png motion_over_time.svg motion_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
@@ -39,6 +39,9 @@ pub(super) fn write(
         out.write("spectral_sensitivity.csv", &to_csv(&names.join(" "), rows)?)?;
         let figure = spectrum::figure(problem, spectral);
         pictures.push(("spectral_sensitivity", figure));
+    }
+    if !answer.realisations.is_empty() {
+        out.write("realisations.csv", &to_csv("", &answer.realisations)?)?;
     }
     write_pressure(answer, (out, &mut pictures))?;
     write_line(answer, (out, &mut pictures))?;

@@ -161,6 +161,9 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             if let Some(parts) = table::parts(&answer.error_parts) {
                 print_line(&format!("error bar: {parts}"))?;
             }
+            if let Some(scatter) = table::scatter(answer) {
+                print_line(&scatter)?;
+            }
             if !answer.sensitivity.is_empty() {
                 print_line(&format!("\n{}\n", table::sensitivity(answer)))?;
             }

@@ -34,6 +34,9 @@ pub(super) fn page(
         page.paragraph(&format!("Parts of the error bar: {parts}."));
     }
     page.heading("How far to trust it");
+    if let Some(scatter) = table::scatter(answer) {
+        page.paragraph(&format!("{scatter}."));
+    }
     if answer.warnings.is_empty() {
         page.paragraph("No warning: slopes and depths are within linear theory, as far as this program can tell.");
     } else {

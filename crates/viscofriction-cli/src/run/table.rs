@@ -4,7 +4,7 @@ use std::iter;
 
 use comfy_table::Table;
 use viscofriction::scene::Model;
-use viscofriction::solve::{Answer, Problem, Uncertainties};
+use viscofriction::solve::{Answer, Problem, Scatter, Uncertainties};
 use viscofriction::{ErrorParts, Estimate};
 
 use crate::output::markdown;
@@ -148,6 +148,24 @@ pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
     let parts = known.map(|(name, part)| format!("{name} {part:.1e}"));
     let parts: Vec<String> = parts.collect();
     (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// How far the surfaces differ of which the answer is the mean; nothing of one surface.
+pub(super) fn scatter(answer: &Answer) -> Option<String> {
+    let known = answer.scatters().into_iter();
+    let known = known.filter_map(|(name, scatter)| Some((name.replace('_', " "), scatter?)));
+    let words = known.map(|(name, one): (String, Scatter)| {
+        let [error, scatter] = [one.standard_error, one.standard_deviation];
+        format!("of the {name} {error:.1e}, with a scatter of {scatter:.1e}")
+    });
+    let words: Vec<String> = words.collect();
+    let count = answer.realisations.len();
+    (!words.is_empty()).then(|| {
+        format!(
+            "mean of {count} surfaces; standard error {}",
+            words.join("; ")
+        )
+    })
 }
 
 /// What the scene did not need, why, and what that saves.

@@ -62,3 +62,48 @@ fn a_periodic_map_is_described_by_its_waves() {
     // One of the four wave vectors of the ring, of which two opposite ones are one.
     assert_close("density", density[0], 0.25 / (q * q) / 4.0, 1e-12);
 }
+
+/// In full contact all frictions are sums over waves, and with them Persson's theory of the waves that are left out.
+#[test]
+fn a_road_is_solved_octave_by_octave() {
+    let folder = Folder::new("road");
+    let scene = "indenter.self-affine = { period = [2.0, 1.0], hurst_exponent = 0.8, rms_slope = 0.1, \
+        longest_wavelength = 1.0, shortest_wavelength = 0.25, seed = 3 }
+        material.standard-solid = { equilibrium_modulus = 0.25, maxwell_modulus = 2.25, viscosity = 2.25 }
+        load = { velocity = 0.03, mean_pressure = 100.0 }\n";
+    folder.write("scene.toml", scene);
+    let said = folder.done("road scene.toml --out road.csv");
+    assert_eq!(said.stdout.lines().count(), 5, "{said:?}");
+    let column = |file: &str, column: usize| folder.column(file, column);
+    let [lengths, frictions] = [0, 2].map(|of| column("road.csv", of));
+    for pair in lengths.windows(2) {
+        assert_close("an octave", pair[1], 2.0 * pair[0], 1e-12);
+    }
+    let whole = &folder.json("scene.toml")["friction_coefficient"];
+    assert_eq!(whole.as_f64(), Some(frictions[0]), "{said:?}");
+    let [theory, missing] = [8, 10].map(|of| column("road.csv", of));
+    for (row, friction) in frictions.iter().enumerate() {
+        assert_close("theory", theory[row], *friction, 1e-9);
+        let expected = frictions[0] - friction;
+        assert!((missing[row] - expected).abs() < 1e-9, "{missing:?}");
+    }
+    for file in ["road.svg", "road.png"] {
+        assert!(folder.path(file).exists(), "{file}");
+    }
+    folder.ends("road scene.toml --out road.csv", 2, "--overwrite");
+    folder.ends("road scene.toml --cut-offs 0", 2, "1..=64");
+    let two = folder.done("road scene.toml --cut-offs 2 --realisations 3");
+    assert_eq!(two.stdout.lines().count(), 4, "{two:?}");
+    folder.ends(
+        "road scene.toml --realisations 0",
+        2,
+        "must be from 1 to 1000, but is 0",
+    );
+    folder.write("cone.toml", "indenter.cone.slope = 0.1\nmaterial.viscous.viscosity = 1e4\nload = { normal_force = 1.0, velocity = 0.01 }\n");
+    folder.ends(
+        "road cone.toml",
+        2,
+        "only a surface that repeats itself is a sum of waves",
+    );
+    folder.ends("road cone.toml --realisations 2", 2, "are drawn by a seed");
+}

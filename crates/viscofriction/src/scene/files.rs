@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use csv::{ErrorKind, StringRecord};
+use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -28,6 +29,47 @@ pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, S
     let heights = rows.iter().map(|(_, row)| row.height_m).collect();
     PiecewiseLinearProfile::new(radii, heights)
         .map_err(|error| wrong((line_of_error(&error, &rows), error.to_string())))
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SpectrumRow {
+    wave_number: f64,
+    density: f64,
+    /// How many wave vectors a ring of a measured spectrum has.
+    #[serde(rename = "waves")]
+    _waves: Option<f64>,
+}
+
+/// A power spectrum from the contents of a CSV file with the columns `wave_number` and `density`, whose densities are multiplied
+/// by a factor.
+///
+/// # Errors
+/// File, line and what is wrong there.
+pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSpectrum, String> {
+    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let rows = rows::<SpectrumRow>(contents).map_err(wrong)?;
+    let mut before = 0.0;
+    for (line, row) in &rows {
+        let numbers = [row.wave_number, row.density];
+        let problem = if numbers
+            .iter()
+            .any(|number| !number.is_finite() || *number <= 0.0)
+        {
+            "finite numbers greater than 0 are needed"
+        } else if row.wave_number <= before {
+            "wave_number must be larger than in the row before"
+        } else {
+            before = row.wave_number;
+            continue;
+        };
+        return Err(wrong((*line, problem.to_owned())));
+    }
+    let wave_numbers = rows.iter().map(|(_, row)| row.wave_number).collect();
+    let densities = rows.iter().map(|(_, row)| factor * row.density).collect();
+    let last = rows.last().map_or(1, |(line, _)| *line);
+    TabulatedSpectrum::new(wave_numbers, densities)
+        .map_err(|error| wrong((last, error.to_string())))
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]

@@ -1,11 +1,14 @@
 //! `[indenter.…]`: the rigid body.
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use numerics::in_range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 
+use super::SceneError;
 use super::height_map::HeightMapTable;
 
 /// The rigid body; its lowest point is the origin, lengths in metres.
@@ -95,6 +98,8 @@ pub enum Indenter {
     HeightMap(HeightMapTable),
     /// A random self-affine surface that repeats itself along x and y without end; it takes load.mean_pressure.
     SelfAffine(SelfAffineSurface),
+    /// A random surface of a power spectrum, which repeats itself along x and y without end; it takes load.mean_pressure.
+    Spectrum(SpectrumSurface),
 }
 
 /// What is beyond a grid of heights.
@@ -128,7 +133,56 @@ pub struct SelfAffineSurface {
     pub roll_off_wavelength: Option<f64>,
     /// Another seed draws another surface.
     pub seed: u64,
+    /// How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub realisations: Option<u64>,
 }
+
+/// A random surface of an isotropic power spectrum C, whose waves are drawn by the seed.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpectrumSurface {
+    /// CSV file with the columns wave_number q = 2π/λ, \[1/m], and density C, \[m⁴], beside the scene file; wave numbers increase,
+    /// and ln C is straight over ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
+    pub file: PathBuf,
+    /// What the densities are.
+    #[serde(default)]
+    pub convention: SpectrumConvention,
+    /// Periods along x and y, > 0, \[m].
+    pub period: [f64; 2],
+    /// Waves shorter than this are left out, \[m]; without it none of the table.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shortest_wavelength: Option<f64>,
+    /// Another seed draws another surface.
+    pub seed: u64,
+    /// How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub realisations: Option<u64>,
+}
+
+/// What the densities of a power spectrum are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpectrumConvention {
+    /// ⟨h²⟩ = 2π ∫ q C dq (Persson 2001).
+    #[default]
+    Persson,
+    /// ⟨h²⟩ = ∫ q C dq/(2π), 4π² times as much (`SurfaceTopography`, Jacobs, Junge & Pastewka 2017).
+    SurfaceTopography,
+}
+
+impl SpectrumConvention {
+    /// What a density is multiplied by for that of Persson.
+    pub(crate) fn factor(self) -> f64 {
+        match self {
+            Self::Persson => 1.0,
+            Self::SurfaceTopography => (TAU * TAU).recip(),
+        }
+    }
+}
+
+/// Most surfaces of one scene.
+const MOST_REALISATIONS: u64 = 1000;
 
 /// One term of a sum.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -145,5 +199,40 @@ impl Indenter {
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("indenter.{name}")
+    }
+
+    /// How many surfaces are drawn; 1 of a body that is not random.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range.
+    pub fn realisations(&self) -> Result<u64, SceneError> {
+        let (Self::SelfAffine(SelfAffineSurface { realisations, .. })
+        | Self::Spectrum(SpectrumSurface { realisations, .. })) = self
+        else {
+            return Ok(1);
+        };
+        let count = realisations.unwrap_or(1);
+        let holds = (1..=MOST_REALISATIONS).contains(&count);
+        in_range("realisations", count as f64, holds, "from 1 to 1000")
+            .map_err(|refused| SceneError::within(&self.key(), refused))?;
+        Ok(count)
+    }
+
+    /// One surface of those that are drawn, counted from 0, with its seed; none of a body that is not random.
+    pub fn realisation(&self, index: u64) -> Option<(Self, u64)> {
+        let mut one = self.clone();
+        let (Self::SelfAffine(SelfAffineSurface {
+            seed, realisations, ..
+        })
+        | Self::Spectrum(SpectrumSurface {
+            seed, realisations, ..
+        })) = &mut one
+        else {
+            return None;
+        };
+        *realisations = None;
+        *seed = seed.wrapping_add(index);
+        let seed = *seed;
+        Some((one, seed))
     }
 }

@@ -23,9 +23,11 @@ use serde::{Deserialize, Serialize};
 
 pub use covariance::Covariance;
 pub use error::SceneError;
-pub use files::profile;
+pub use files::{profile, spectrum};
 pub use height_map::{HeightMapTable, HeightsAre, LengthUnit, in_file};
-pub use indenter::{Edges, Indenter, IndenterKind, SelfAffineSurface, Term};
+pub use indenter::{
+    Edges, Indenter, IndenterKind, SelfAffineSurface, SpectrumConvention, SpectrumSurface, Term,
+};
 pub use indenters::Control;
 pub use load::{Load, LoadPoint, MotionPoint, StrokeShape};
 pub use material::{Approximation, Branch, MaterialKind, MaterialTable};

@@ -13,6 +13,7 @@ use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
+use super::realisations::Realisation;
 use super::sensitivity::{Budget, Sensitivity, SpectralSensitivity};
 use crate::scene::{Method, Model};
 
@@ -68,6 +69,8 @@ pub struct Answer {
     pub sensitivity: Vec<Sensitivity>,
     /// How much it depends on the modulus at each frequency, where [that](super::spectral_sensitivity()) was asked for.
     pub spectral_sensitivity: Option<SpectralSensitivity>,
+    /// The surfaces of which it is the mean; none of a body that is not random, and of one surface alone.
+    pub realisations: Vec<Realisation>,
     /// What makes it uncertain, where that was asked for and its scene says what is uncertain.
     pub budget: Budget,
     /// The finest boundary elements.
@@ -195,6 +198,7 @@ impl Answer {
             left_out: Vec::new(),
             sensitivity: Vec::new(),
             spectral_sensitivity: None,
+            realisations: Vec::new(),
             budget: Budget::default(),
             stationary: None,
             grid: None,
@@ -262,6 +266,12 @@ impl Answer {
         ];
         let others = EDGES.into_iter().zip(edges).chain(others);
         numbers.extend(others.map(|(name, number)| (name.to_owned(), number)));
+        for (name, scatter) in self.scatters() {
+            let known = scatter.map(|one| one.standard_error);
+            numbers.push((format!("{name}_standard_error"), known));
+            let known = scatter.map(|one| one.standard_deviation);
+            numbers.push((format!("{name}_scatter"), known));
+        }
         let shares = self.dissipation.shares().into_iter();
         numbers.extend(shares.map(|(name, share)| (format!("dissipation_{name}"), share)));
         numbers
@@ -371,12 +381,7 @@ impl Serialize for Answer {
                 map.serialize_entry(&format!("{name}_material_error"), &error)?;
             }
         }
-        if let Some(persson) = self.rough.and_then(|rough| rough.persson) {
-            map.serialize_entry("persson", &persson)?;
-        }
-        if let Some(without) = self.rough.and_then(|rough| rough.without_shortest_octave) {
-            map.serialize_entry("without_shortest_octave", &without)?;
-        }
+        self.serialize_rough(&mut map)?;
         if let Some(contact) = &self.contact_box {
             map.serialize_entry("contact_box", contact)?;
             map.serialize_entry("contact_box_error", &contact.error)?;

@@ -10,10 +10,15 @@ use indenters::{
 };
 use numerics::{in_range, positive};
 
-use super::heights::body_of_heights;
+use super::heights::{STEEPEST, body_of_heights};
 use crate::files::Files;
-use crate::scene::{Indenter, SceneError, SelfAffineSurface, Term, profile};
+use crate::scene::{
+    Indenter, SceneError, SelfAffineSurface, SpectrumSurface, Term, profile, spectrum,
+};
 use crate::text::WrongInput;
+
+/// Part by which the slope of a surface is off from that of its spectrum above which it hardly stands for that.
+const MOST_OFF: f64 = 0.1;
 
 /// The rigid body, by what the methods tell apart.
 #[derive(Debug)]
@@ -105,6 +110,7 @@ impl Revolution {
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
+    indenter.realisations()?;
     let power = |profile| Body::Revolution(Revolution::Power(profile));
     let sphere = |sphere| Body::Revolution(Revolution::Sphere(sphere));
     let body = match indenter {
@@ -136,6 +142,7 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
             return body_of_heights(table, surface);
         }
         Indenter::SelfAffine(surface) => self_affine(surface).surface().map(Body::Periodic),
+        Indenter::Spectrum(surface) => return random(surface, files),
     };
     let body = body.map_err(|error| refused(&indenter.key(), error))?;
     Ok(BodyOfScene {
@@ -155,6 +162,41 @@ fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
         roll_off_wavelength: surface.roll_off_wavelength.unwrap_or(longest_wavelength),
         seed: surface.seed,
     }
+}
+
+/// A surface of a power spectrum, and what is strange about that.
+fn random(surface: &SpectrumSurface, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
+    let wrong = |problem: String| SceneError::at("indenter.spectrum.file", problem);
+    let table = files.table(&surface.file);
+    let (file, contents) = table.map_err(|WrongInput(problem)| wrong(problem))?;
+    let factor = surface.convention.factor();
+    let spectrum = spectrum(&file, &contents, factor).map_err(wrong)?;
+    let [_, shortest] = spectrum.wavelengths();
+    let kept = surface.shortest_wavelength.unwrap_or(shortest);
+    let drawn = spectrum.surface(surface.period, kept, surface.seed);
+    let drawn = drawn.map_err(|error| refused("indenter.spectrum", error))?;
+    let slope = drawn.rms_slope();
+    let whole = spectrum.rms_slope();
+    let strange = [
+        (
+            slope > STEEPEST,
+            "is the file in metres, and of that convention?",
+        ),
+        (
+            surface.shortest_wavelength.is_none() && (slope / whole - 1.0).abs() > MOST_OFF,
+            "give a larger period, of which more waves are parts, or another seed",
+        ),
+    ];
+    let strange = strange.into_iter().filter(|(holds, _)| *holds);
+    let warning = |(_, question): (bool, &str)| {
+        format!(
+            "the surface that was drawn has a root mean square slope of {slope:.3}, and the spectrum one of {whole:.3}: {question}"
+        )
+    };
+    Ok(BodyOfScene {
+        body: Body::Periodic(drawn),
+        warnings: strange.map(warning).collect(),
+    })
 }
 
 fn other(shape: impl Axisymmetric + 'static) -> Body {

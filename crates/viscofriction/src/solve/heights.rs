@@ -9,7 +9,7 @@ use super::body::{Body, BodyOfScene};
 use crate::scene::{Edges, HeightMapTable, SceneError};
 
 /// Root mean square slope above which heights are likely to be in another unit.
-const STEEPEST: f64 = 1.0;
+pub(super) const STEEPEST: f64 = 1.0;
 /// Part of the mean square slope above which the step at the edge of a map is most of it.
 const MOST: f64 = 0.5;
 

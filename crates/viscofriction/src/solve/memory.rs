@@ -6,7 +6,7 @@ use bem_halfspace::indent::{indent_along_memory, indent_memory};
 use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
 use indenters::rough::PeriodicSurface;
-use numerics::{Watch, whole_part};
+use numerics::Watch;
 
 use super::body::Body;
 use super::error::SolveError;
@@ -18,7 +18,7 @@ use crate::scene::{Accuracy, SceneError};
 /// Elements along the contact with which a relative error is first sought.
 const FIRST: usize = 16;
 
-/// Refuses a method that needs more memory than is allowed, and a periodic surface with waves that are too short for all grids.
+/// Refuses a method that needs more memory than is allowed, also for the grids that the shortest waves of a periodic surface need.
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
     if let (Body::Periodic(surface), Accuracy::RelativeError(_)) =
         (problem.body(), problem.accuracy())
@@ -32,34 +32,32 @@ pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), Scen
     check(problem, method, elements, change)
 }
 
-/// Refuses waves for which even the grids without which there are no error bars are too large.
+/// Refuses waves for which even the coarsest grids with error bars are too large.
 fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), SceneError> {
     let most = periodic::largest_grid(problem.max_memory().map(|bytes| bytes as f64));
-    let elements = periodic::elements_for_bars(surface.largest_numbers());
+    let elements = periodic::elements_for_bars(surface);
     if elements <= most {
         return Ok(());
     }
     let largest = surface.largest_numbers();
-    let numbers = |shortest: f64| {
-        [0, 1].map(|axis| whole_part(surface.period()[axis] / shortest).min(largest[axis]))
-    };
-    // The elements along an axis double with such wavelengths; numbers of waves are below 2³¹.
-    let wavelengths = surface.period().into_iter();
-    let wavelengths =
-        wavelengths.flat_map(|period| (0..31).map(move |power| period / f64::from(1 << power)));
-    let fitting =
-        wavelengths.filter(|shortest| periodic::elements_for_bars(numbers(*shortest)) <= most);
-    let shortest = fitting.fold(f64::INFINITY, f64::min);
-    if shortest.is_infinite() {
+    let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
+    let told = |shape| surface.told_by(shape);
+    let mut told = shapes.filter_map(told);
+    let Some(kept) = told.find(|kept| periodic::elements_for_bars(kept) <= most) else {
         let problem = format!(
             "the largest grid that it allows a periodic surface has {most} elements, too few for an error bar with any waves"
         );
         return Err(SceneError::at("solve.max_memory", problem));
-    }
-    let [x, y] = numbers(shortest).map(|number| 2 * number);
+    };
+    let numbers = kept.largest_numbers();
+    let wavelengths = [0, 1].map(|axis| surface.period()[axis] / numbers[axis] as f64);
+    let wavelengths = wavelengths.into_iter().filter(|length| length.is_finite());
+    let shortest = wavelengths.fold(0.0, f64::max);
+    let [x, y] = numbers.map(|number| 2 * number + 1);
     let problem = format!(
-        "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the largest has {most:.3e}: leave \
-         out waves shorter than shortest_wavelength = {shortest:e} m; all waves fit of a map of {x} × {y} heights at most"
+        "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the memory allowed is for {most:.3e}: leave \
+         out waves shorter than shortest_wavelength = {shortest:e} m, or give a larger solve.max_memory; all waves fit of a map of \
+         {x} × {y} heights at most"
     );
     Err(SceneError::at("indenter", problem))
 }

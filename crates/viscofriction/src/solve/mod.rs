@@ -20,6 +20,8 @@ mod modulus_error;
 mod omission;
 mod plan;
 mod problem;
+mod realisations;
+mod road;
 pub(crate) mod sensitivity;
 mod validity;
 mod with_fields;
@@ -38,6 +40,8 @@ use memory::Limited;
 pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
+pub use realisations::{Realisation, Scatter};
+pub use road::{CutOff, cut_offs};
 pub use sensitivity::{
     Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties, sampled,
     spectral_sensitivity, with_sensitivity,
@@ -63,11 +67,18 @@ pub fn solve(problem: &Problem) -> Result<Answer> {
 }
 
 impl Plan<'_> {
-    /// The answer; `watch` is told how far it is, and may end a refinement before a grid.
+    /// The answer, of random surfaces the mean of all; `watch` is told how far it is, and may end a refinement before a grid.
     ///
     /// # Errors
     /// [`SolveError`] where what was asked for was not reached; it says what was.
     pub fn solve(self, watch: &dyn Watch) -> Result<Answer> {
+        let problem = self.problem;
+        let first = self.solve_one(watch);
+        realisations::mean(problem, first, watch)
+    }
+
+    /// The answer of the surface that the problem holds.
+    fn solve_one(self, watch: &dyn Watch) -> Result<Answer> {
         let Self {
             problem,
             method,

@@ -1,6 +1,6 @@
 //! A scene whose numbers are known to be right.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use bem_halfspace::{BemError, Layer};
 use indenters::{Control, HistoryPoint, IndenterError, MovingLoad, PressingLoad, SlidingLoad};
@@ -42,6 +42,17 @@ pub struct Problem {
     threads: Option<usize>,
     max_memory: Option<u64>,
     simple: Option<Simple>,
+    realisations: Option<Realisations>,
+    shortest_wavelength: Option<f64>,
+}
+
+/// From what the surfaces of a random body are drawn.
+#[derive(Debug, Clone)]
+struct Realisations {
+    count: u64,
+    scene: Scene,
+    folder: PathBuf,
+    read: ReadFile,
 }
 
 /// How the body moves.
@@ -114,6 +125,13 @@ impl Problem {
         };
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let of_method = scene.solve.method.and_then(Method::model);
+        let count = scene.indenter.realisations()?;
+        let realisations = (count > 1).then(|| Realisations {
+            count,
+            scene: scene.clone(),
+            folder: folder.to_owned(),
+            read,
+        });
         let problem = Self {
             body,
             warnings,
@@ -130,6 +148,8 @@ impl Problem {
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
             threads: scene.solve.checked_threads()?,
             max_memory: files.memory,
+            realisations,
+            shortest_wavelength: None,
         };
         problem.check_control()?;
         check_uncertainties(scene, folder, read)?;
@@ -148,6 +168,57 @@ impl Problem {
     pub fn or_max_memory(mut self, bytes: Option<u64>) -> Self {
         self.max_memory = self.max_memory.or(bytes);
         self
+    }
+
+    /// How many random surfaces the answer is the mean of; 1 of any other body.
+    pub fn realisations(&self) -> u64 {
+        self.realisations.as_ref().map_or(1, |of| of.count)
+    }
+
+    /// The scenes of the random surfaces, one of each, with their seeds; none of one surface alone.
+    pub(super) fn surfaces(&self) -> impl Iterator<Item = (Scene, u64)> {
+        self.realisations.iter().flat_map(|of| {
+            let scene = |index| {
+                let (indenter, seed) = of.scene.indenter.realisation(index)?;
+                let rest = of.scene.clone();
+                Some((Scene { indenter, ..rest }, seed))
+            };
+            (0..of.count).filter_map(scene)
+        })
+    }
+
+    /// The same problem of one of the random surfaces.
+    pub(super) fn of_surface(&self, scene: &Scene) -> Result<Self, SceneError> {
+        let of = self.realisations.as_ref();
+        let (folder, read) = of.map_or((Path::new(""), no_files as ReadFile), |of| {
+            (&of.folder, of.read)
+        });
+        let mut problem = Self::new(scene, folder, read)?;
+        problem.accuracy = self.accuracy;
+        problem.max_memory = self.max_memory;
+        if let Some(shortest) = self.shortest_wavelength {
+            problem = problem.without_waves_below(shortest)?;
+        }
+        Ok(problem)
+    }
+
+    /// Without the waves of a periodic surface that are shorter than a length \[m].
+    ///
+    /// # Errors
+    /// [`SceneError`] where no wave is left, and for any other body.
+    pub fn without_waves_below(mut self, shortest: f64) -> Result<Self, SceneError> {
+        let Body::Periodic(surface) = &self.body else {
+            let problem = "only a surface that repeats itself is a sum of waves: a self-affine one, one of a spectrum, and a height map \
+                           with edges = \"periodic\" or \"mirrored\"";
+            return Err(SceneError::at("indenter", problem));
+        };
+        let kept = surface.without_waves_below(shortest).ok_or_else(|| {
+            let problem = format!("it has no wave that is not shorter than {shortest:e} m");
+            SceneError::at("indenter", problem)
+        })?;
+        self.body = Body::Periodic(kept);
+        self.shortest_wavelength = Some(shortest);
+        Ok(self)
     }
 
     /// The rigid body.
@@ -283,12 +354,13 @@ impl TryFrom<&Scene> for Problem {
     type Error = SceneError;
 
     fn try_from(scene: &Scene) -> Result<Self, SceneError> {
-        let no_files = |path: &Path, _| {
-            let problem = "a scene in memory names no file; Problem::new reads one";
-            Err(WrongInput(format!("{}: {problem}", path.display())))
-        };
         Self::new(scene, Path::new(""), no_files)
     }
+}
+
+fn no_files(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+    let problem = "a scene in memory names no file; Problem::new reads one";
+    Err(WrongInput(format!("{}: {problem}", path.display())))
 }
 
 /// A motion that says itself when it ends.

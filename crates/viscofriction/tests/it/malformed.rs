@@ -65,6 +65,7 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     folder.write("map.csv", "0,0,0\n0,1,0\n0,0,0\n");
     folder.write("hole.csv", "0;0;0\n0;1;\n0;0;0\n");
     folder.write("flat.csv", "1,1,1\n1,1,1\n1,1,1\n");
+    folder.write("spectrum.csv", "wave_number,density\n4,1e-6\n25,1e-9\n");
     let mut cases = numbers();
     let place = |line: &str| format!("scene.toml:{line}");
     for [lines, named, needed, text] in table("scenes") {
@@ -93,7 +94,11 @@ fn what_is_not_reached_says_which_keys_to_change() {
 /// A folder with a scene that names a file, and the beginning of what is said about that.
 fn naming(body: &str, file: &str) -> (Folder, String) {
     let folder = Folder::new(&format!("malformed-{file}"));
-    let spacing = ["", "spacing = [1, 1]"][usize::from(body == "height-map")];
+    let spacing = match body {
+        "height-map" => "spacing = [1, 1]",
+        "spectrum" => "period = [1, 1]\nseed = 1",
+        _ => "",
+    };
     let table = format!("[indenter.{body}]\nfile = \"{file}\"\n{spacing}");
     folder.write("scene.toml", replaced("1-3", &table));
     let place = format!("scene.toml:2: indenter.{body}.file: {file}");
@@ -105,6 +110,9 @@ fn a_malformed_table_of_a_scene_is_refused_with_both_lines() {
     let (folder, place) = naming("table", "profile.csv");
     let wrong = cases("profiles", |line| format!("{place}:{line}"));
     assert_refused(&folder, "profile.csv", wrong);
+    let (folder, place) = naming("spectrum", "spectrum.csv");
+    let wrong = cases("spectra", |line| format!("{place}:{line}"));
+    assert_refused(&folder, "spectrum.csv", wrong);
     let (folder, place) = naming("height-map", "map.csv");
     let wrong = cases("height maps", |line| match line {
         "" => place.clone(),

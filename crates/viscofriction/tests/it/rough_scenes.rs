@@ -144,3 +144,73 @@ fn a_periodic_map_is_the_same_surface_on_any_grid() {
         assert_close(name, one, other, 1e-9);
     }
 }
+
+/// With little memory three grids from four elements per shortest wave on are too large, and the first has only the longer waves.
+#[test]
+fn with_little_memory_all_waves_are_answered_on_coarser_grids() {
+    let folder = Folder::new("rough-many-waves");
+    let answer = |memory: &str| {
+        let scene = SURFACE.replace(" 0.25,", " 0.05,");
+        let scene = scene.replace("= 0.1\nload", &format!("= 0.1\n{memory}load"));
+        folder.answer(format!("{scene}mean_pressure = 0.1\n"))
+    };
+    let [little, much] = ["solve.max_memory = \"48 MiB\"\n", ""].map(answer);
+    for name in ["friction_coefficient", "area_fraction"] {
+        let [[a, a_bar], [b, b_bar]] = [&little, &much]
+            .map(|one| [name, &format!("{name}_error")].map(|name| number(one, name)));
+        assert!(
+            (a - b).abs() <= a_bar + b_bar && b_bar < a_bar,
+            "{little} {much}"
+        );
+    }
+}
+
+/// The mean of the answers of the single surfaces, with the mean of their bars and a standard error of its own; in another file and
+/// unit a spectrum is the same.
+#[test]
+fn realisations_have_the_mean_of_their_answers_and_scatter() {
+    let folder = Folder::new("rough-realisations");
+    folder.write("a.csv", "wave_number,density\n6.2,1e-6\n25,2e-8\n");
+    let factor = TAU * TAU;
+    let [first, second] = [1e-6 * factor, 2e-8 * factor];
+    folder.write(
+        "b.csv",
+        format!("wave_number,density,waves\n6.2,{first},1\n25,{second},2\n"),
+    );
+    let (_, rest) = SURFACE.split_once('\n').expect("lines");
+    let answer = |keys: &str| {
+        let body = format!("indenter.spectrum = {{ period = [2.0, 1.0], {keys} }}");
+        folder.answer(format!("{body}\n{rest}mean_pressure = 0.02\n"))
+    };
+    let of_seed = |seed: usize| answer(&format!("file = \"a.csv\", seed = {seed}"));
+    let single = [3, 4, 5].map(of_seed);
+    let all = answer("file = \"a.csv\", seed = 3, realisations = 3");
+    let convention = "convention = \"surface-topography\"";
+    let other = answer(&format!(
+        "file = \"b.csv\", {convention}, seed = 3, realisations = 3"
+    ));
+    for name in ["friction_coefficient", "area_fraction"] {
+        let values = single.each_ref().map(|one| number(one, name));
+        let mean = values.iter().sum::<f64>() / 3.0;
+        assert_close(name, number(&all, name), mean, 1e-12);
+        assert_close(name, number(&other, name), mean, 1e-6);
+        let name_of_error = format!("{name}_error");
+        let errors = single.each_ref().map(|one| number(one, &name_of_error));
+        let error = errors.iter().sum::<f64>() / 3.0;
+        assert_close(name, number(&all, &name_of_error), error, 1e-12);
+        let squares = values.map(|value| (value - mean).powi(2));
+        let scatter = (squares.iter().sum::<f64>() / 2.0).sqrt();
+        let found = ["scatter", "standard_error"].map(|end| number(&all, &format!("{name}_{end}")));
+        assert_close(name, found[0], scatter, 1e-9);
+        assert_close(name, found[1], scatter / 3.0_f64.sqrt(), 1e-9);
+        let of = |index: usize| number(&all["realisations"][index], name);
+        for (index, value) in values.into_iter().enumerate() {
+            assert_close(index, of(index), value, 1e-15);
+        }
+    }
+    let seeds: Vec<&Value> = (0..3)
+        .map(|index| &all["realisations"][index]["seed"])
+        .collect();
+    assert_eq!(seeds, [3, 4, 5], "{all}");
+    assert!(single[0].get("realisations").is_none(), "{}", single[0]);
+}

@@ -3,6 +3,7 @@
 mod derivatives;
 mod judge;
 mod relation;
+mod surfaces;
 mod units;
 
 use std::collections::BTreeSet;
@@ -93,7 +94,7 @@ type Kind = (&'static str, fn(&Row) -> bool);
 /// Kinds of scenes whose bars are counted apart.
 const KINDS: [Kind; 6] = [
     ("rough surfaces and height maps", |row| {
-        row.is_of("self-affine height-map")
+        row.is_of("self-affine spectrum height-map")
     }),
     ("flat ends that slide on the half space", |row| {
         row.slides() && row.is_of("flat-punch flat-cone truncated-paraboloid")

@@ -7,11 +7,12 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use strum::{EnumIter, IntoEnumIterator as _, IntoStaticStr};
 use toml::{Table, Value};
 use viscofriction::scene::{
-    Approximation, Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method,
-    Model, MotionPoint, Scene,
+    Approximation, Branch, Edges, Indenter, Layer, LoadPoint, MaterialTable, Method, Model,
+    MotionPoint, Scene,
 };
 use viscofriction::solve::{Answer, plan};
 
+use super::surfaces::{as_spectrum, other_map, resampled};
 use super::units::Powers;
 use crate::evidence::request::presses;
 use crate::evidence::sample::{Case, filled};
@@ -45,6 +46,8 @@ pub(super) enum Relation {
     Mirrored,
     /// A height map whose file holds the heights of the surface instead of gaps, seen from the other end.
     OtherFile,
+    /// A height map that repeats itself, with twice as many heights along both edges.
+    Resampled,
     /// Derivatives of the same scene in other units.
     Derivatives,
     /// One thread and three.
@@ -152,6 +155,7 @@ impl Relation {
             Self::LongTrack => long_track(case),
             Self::Mirrored => other_map(case, false),
             Self::OtherFile => other_map(case, true),
+            Self::Resampled => resampled(case),
             _ => self.change(&mut case.scene, first.answer),
         };
         Ok(changed.map(|()| derived))
@@ -246,7 +250,7 @@ fn long_track(case: &mut Case) -> Option<()> {
 
 fn is_periodic(indenter: &Indenter) -> bool {
     match indenter {
-        Indenter::SelfAffine(_) => true,
+        Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
         Indenter::HeightMap(map) => map.edges != Edges::Wall,
         _ => false,
     }
@@ -310,26 +314,6 @@ fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
     Some(())
 }
 
-/// The map mirrored across the motion, or in another file of the same surface; none of other bodies.
-fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
-    let Indenter::HeightMap(map) = &mut case.scene.indenter else {
-        return None;
-    };
-    let lengths = case.lengths.as_mut()?;
-    // All heights in the opposite order are the map turned by 180 degrees.
-    if is_turned {
-        map.direction = 180.0;
-        map.heights_are = HeightsAre::Surface;
-        let heights = lengths.values.iter_mut();
-        heights.for_each(|height| *height = -*height);
-    } else {
-        let rows = lengths.values.chunks_mut(lengths.columns);
-        rows.for_each(<[f64]>::reverse);
-    }
-    lengths.values.reverse();
-    Some(())
-}
-
 /// Other names of bodies and materials.
 #[derive(Deserialize)]
 struct Names {
@@ -342,6 +326,11 @@ fn renamed(case: &mut Case) -> Result<Option<()>> {
     let names: Names = toml::from_str(include_str!("other_names.toml"))?;
     let scene = &mut case.scene;
     let body = match &mut scene.indenter {
+        Indenter::SelfAffine(surface) => {
+            let (other, table) = as_spectrum(surface)?;
+            case.lengths = Some(table);
+            Some(other)
+        }
         Indenter::Superposition { terms } => {
             terms.reverse();
             Some(scene.indenter.clone())

@@ -59,9 +59,9 @@ impl Powers {
             *material = value.try_into()?;
         }
         let length = 2.0_f64.powi(self.length);
-        let lengths = case.lengths.iter_mut();
-        let lengths = lengths.flat_map(|lengths| &mut lengths.values);
-        lengths.for_each(|value| *value *= length);
+        if let Some(lengths) = &mut case.lengths {
+            lengths.scale(length);
+        }
         case.contact *= length;
         Ok(())
     }

@@ -11,7 +11,7 @@ use viscofriction::scene::{
 };
 use viscofriction::solve::{Body, body, half_space};
 
-use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, read};
+use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, read};
 use crate::random::Random;
 
 /// Relative errors that are asked for.
@@ -64,7 +64,10 @@ impl Sample<'_> {
             }
             "table" => self.draw_table(slope),
             "height-map" => self.draw_height_map(slope)?,
-            "self-affine" => self.draw_self_affine(),
+            "self-affine" => {
+                self.draw_self_affine();
+            }
+            "spectrum" => self.draw_spectrum(slope),
             _ => {}
         }
         Ok(())
@@ -131,7 +134,22 @@ impl Sample<'_> {
         [slope * self.random.between([0.1, 1.0]) / TAU, along, across]
     }
 
-    fn draw_self_affine(&mut self) {
+    /// A table of two rows of a self-affine spectrum, from 2π ∫ q³ C dq = slope².
+    fn draw_spectrum(&mut self, slope: f64) {
+        let [hurst_exponent, longest, shortest] = self.draw_self_affine();
+        let [first, last] = [longest, shortest].map(|length| TAU / length);
+        let power = 2.0 - 2.0 * hurst_exponent;
+        let whole = TAU * first.powi(4) * (power * (last / first).ln()).exp_m1() / power;
+        let density = slope * slope / whole;
+        let end = density * (last / first).powf(power - 4.0);
+        self.lengths = Some(Lengths {
+            file: SPECTRUM,
+            columns: 2,
+            values: vec![first, density, last, end],
+        });
+    }
+
+    fn draw_self_affine(&mut self) -> [f64; 3] {
         let longest = self.length * self.random.choice(&[1.0, 0.5]);
         let period = vec![self.length, self.length * self.random.choice(&[1.0, 1.5])];
         let hurst_exponent = self.random.between([0.2, 0.95]);
@@ -143,6 +161,7 @@ impl Sample<'_> {
             numbers,
         );
         self.draw("period seed", [Value::from(period), seed.into()]);
+        numbers
     }
 
     pub(super) fn draw_material(&mut self, kind: &str) -> Result<()> {

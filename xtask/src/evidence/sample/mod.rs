@@ -61,10 +61,10 @@ pub(super) struct Case {
     pub(super) contact: f64,
 }
 
-/// A file of lengths \[m], row by row.
+/// A file of lengths \[m], or of wave numbers \[1/m] and densities \[m⁴], row by row.
 #[derive(Debug, Clone)]
 pub(super) struct Lengths {
-    file: &'static str,
+    pub(super) file: &'static str,
     pub(super) columns: usize,
     pub(super) values: Vec<f64>,
 }
@@ -72,6 +72,7 @@ pub(super) struct Lengths {
 /// Files that scenes name.
 const HEIGHTS: [&str; 2] = ["heights.npy", "heights.csv"];
 const PROFILE: &str = "profile.csv";
+pub(super) const SPECTRUM: &str = "spectrum.csv";
 const MATERIAL: &str = "material.toml";
 
 /// Reads a file of a case.
@@ -106,12 +107,29 @@ impl Case {
 }
 
 impl Lengths {
+    /// In a unit that is smaller by a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        // Of a spectrum wave numbers and densities.
+        let powers = if self.file == SPECTRUM {
+            [-1, 4]
+        } else {
+            [1; 2]
+        };
+        let values = self.values.iter_mut().enumerate();
+        values.for_each(|(place, value)| *value *= factor.powi(powers[place % 2]));
+    }
+
     fn contents(&self) -> Vec<u8> {
         let rows = self.values.chunks(self.columns);
         if self.file == HEIGHTS[0] {
             return to_npy(&self.values, &[rows.len(), self.columns]);
         }
-        let header = (self.file == PROFILE).then(|| "radius_m,height_m".to_owned());
+        let header = match self.file {
+            PROFILE => Some("radius_m,height_m"),
+            SPECTRUM => Some("wave_number,density"),
+            _ => None,
+        };
+        let header = header.map(str::to_owned);
         let line = |row: &[f64]| {
             let cells: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
             cells.join(",")

@@ -115,7 +115,7 @@ pub fn slide<'w>(
     let (mean_pressure, distance) = load.require_march()?;
     let request = request.into();
     let period = surface.period()[0];
-    let edge = period / first_shape(surface, request.accuracy)?[0] as f64;
+    let edge = period / first_shape(surface, &request)?[0] as f64;
     // The steps are halved with the elements, so that the bars see their errors too.
     let per_element = (FEWEST_STEPS * edge / distance).ceil();
     let goal = Goal {
@@ -141,6 +141,7 @@ pub fn slide<'w>(
             from_dissipation: None,
             area_fraction: last.area_fraction,
             in_contact: in_contact(&state.pressure),
+            has_all_waves: true,
             mean_pressure,
             mean_depth: last.mean_depth,
             residual: tolerance,
@@ -183,6 +184,7 @@ fn solve(
             from_dissipation: Some(state.friction_from_dissipation),
             area_fraction: state.area_fraction,
             in_contact: in_contact(&state.pressure),
+            has_all_waves: true,
             mean_pressure: held.mean_pressure,
             mean_depth: state.mean_depth,
             residual: state.residual.max(held.missed),

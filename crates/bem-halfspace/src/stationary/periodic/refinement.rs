@@ -1,14 +1,21 @@
 //! Finer and finer grids of one periodic surface, and the error bars from the last three.
 
+use std::borrow::Cow;
+
 use indenters::rough::PeriodicSurface;
 use numerics::{Accuracy, Estimate, Progress, Request, between_zero_and_one};
 
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
+use crate::transform::fast_length::fast_length;
 use crate::{BemError, Grid, Reached};
 
 /// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
 const FIRST: usize = 4;
 const FEWEST: usize = 32;
+/// Where three grids from there on have more elements than this, the first has one per shortest wave instead, in a fast multiple of
+/// this many, and only the waves that it tells; docs/rough-surfaces.md says how well the bars hold on four elements per wave.
+const USUAL_GRID: f64 = 4_194_304.0;
+const MULTIPLE: usize = 8;
 /// The error of the stationary friction is at most what the last refinement changed, or what the one before leaves of its
 /// change at the second order; that of all others twice as much, at the first order. The factor is for which elements
 /// touch, which jumps from grid to grid: of 160 random surfaces, loads and solids two frictions and eight areas erred by
@@ -33,10 +40,10 @@ const ROUNDING: f64 = 1e-12;
 /// Elements times steps of a march that are not exceeded: about half an hour of one thread.
 const MOST_STEPS: f64 = 2e9;
 
-/// Elements of the largest grid, and memory that one of them takes at most, and what contacts of few elements on stiff solids
+/// Elements of the largest grid at all, and memory that one of them takes at most, and what contacts of few elements on stiff solids
 /// take besides, \[bytes].
-const LARGEST_GRID: f64 = 4_194_304.0;
-const BYTES_PER_ELEMENT: f64 = 200.0;
+const LARGEST_GRID: f64 = 268_435_456.0;
+const BYTES_PER_ELEMENT: f64 = 170.0;
 const BYTES_BESIDE: f64 = 33_554_432.0;
 /// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
 const THREE_GRIDS: usize = 4;
@@ -65,6 +72,8 @@ pub(super) struct Found {
     pub(super) area_fraction: f64,
     /// Number of elements.
     pub(super) in_contact: usize,
+    /// Whether the grid tells all waves of the surface.
+    pub(super) has_all_waves: bool,
     pub(super) mean_pressure: f64,
     pub(super) mean_depth: f64,
     /// Of the contact.
@@ -74,19 +83,26 @@ pub(super) struct Found {
 /// The shape of the first grid.
 pub(super) fn first_shape(
     surface: &PeriodicSurface,
-    accuracy: Accuracy,
+    request: &Request,
 ) -> Result<[usize; 2], BemError> {
-    let first = surface.largest_numbers().map(first_elements);
-    let Accuracy::Elements(elements) = accuracy else {
+    let usual = surface.largest_numbers().map(first_elements);
+    let along = |first: [usize; 2]| THREE_GRIDS * first[0].max(first[1]);
+    let fits = match request.accuracy {
+        Accuracy::RelativeError(_) => {
+            last_elements(usual) <= USUAL_GRID && request.watch.allows(along(usual))
+        }
+        Accuracy::Elements(elements) => elements >= along(usual),
+    };
+    let first = if fits { usual } else { coarsest(surface) };
+    let Accuracy::Elements(elements) = request.accuracy else {
         return Ok(first);
     };
-    let along = fewest_along(surface.largest_numbers());
-    if elements < along {
-        let needed = along;
+    let needed = along(first);
+    if elements < needed {
         return Err(BemError::PeriodTooCoarse { elements, needed });
     }
     // In proportion; what is too large to be multiplied is too large for a grid.
-    Ok(first.map(|edge| edge.saturating_mul(elements).div_ceil(along)))
+    Ok(first.map(|edge| edge.saturating_mul(elements).div_ceil(needed)))
 }
 
 fn first_elements(number: usize) -> usize {
@@ -96,16 +112,25 @@ fn first_elements(number: usize) -> usize {
     }
 }
 
-/// Elements along the edge that has more of them, of the last of the three grids without which there are no error bars, of a
-/// surface with so many waves at most in its periods along x and y.
-fn fewest_along(largest_numbers: [usize; 2]) -> usize {
-    let first = largest_numbers.map(first_elements);
-    THREE_GRIDS * first[0].max(first[1])
+/// The first grid whose double tells all waves, or that double where it has no wave itself.
+fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
+    let first = surface.largest_numbers().map(|number| match number {
+        0 => 2,
+        _ => (MULTIPLE * fast_length((number + 1).div_ceil(MULTIPLE))).max(FEWEST),
+    });
+    match surface.told_by(first) {
+        Some(_) => first,
+        None => first.map(|edge| 2 * edge),
+    }
 }
 
-/// Elements of that grid.
-pub fn elements_for_bars(largest_numbers: [usize; 2]) -> f64 {
-    let edges = largest_numbers.map(|number| (THREE_GRIDS * first_elements(number)) as f64);
+/// Elements of the last of the three grids without which there are no error bars.
+pub fn elements_for_bars(surface: &PeriodicSurface) -> f64 {
+    last_elements(coarsest(surface))
+}
+
+fn last_elements(first: [usize; 2]) -> f64 {
+    let edges = first.map(|edge| (THREE_GRIDS * edge) as f64);
     edges[0] * edges[1]
 }
 
@@ -125,9 +150,8 @@ pub fn largest_grid(memory: Option<f64>) -> f64 {
 /// # Errors
 /// [`BemError::PeriodTooCoarse`].
 pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemError> {
-    let first = first_shape(surface, Accuracy::Elements(elements))?;
-    let edges = first.map(|edge| (THREE_GRIDS * edge) as f64);
-    Ok(BYTES_BESIDE + BYTES_PER_ELEMENT * edges[0] * edges[1])
+    let first = first_shape(surface, &Accuracy::Elements(elements).into())?;
+    Ok(BYTES_BESIDE + BYTES_PER_ELEMENT * last_elements(first))
 }
 
 /// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact; `solve` is told
@@ -145,7 +169,7 @@ where
         Accuracy::RelativeError(error) => Some(between_zero_and_one("relative_error", error)?),
         Accuracy::Elements(_) => None,
     };
-    let mut shape = first_shape(surface, goal.request.accuracy)?;
+    let mut shape = first_shape(surface, &goal.request)?;
     goal.check_size(shape, THREE_GRIDS as f64)?;
     let first = goal.work_on(shape);
     let all = first + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
@@ -154,12 +178,18 @@ where
     let mut best: Option<(Known, PeriodicEstimate<S>)> = None;
     loop {
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
-        let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
+        let grid = Grid::new(shape, spacing)?;
+        let told = surface.told_by(shape);
+        let heights = told.as_deref().unwrap_or(surface).heights(shape)?;
+        let has_all_waves = matches!(told, Some(Cow::Borrowed(_)));
         check_surface(&grid, &heights)?;
         let (found, state) = progress.during(goal.work_on(shape), |tell| {
             solve(&grid, &heights, tolerance, tell)
         })?;
-        grids.push(found);
+        grids.push(Found {
+            has_all_waves,
+            ..found
+        });
         let finer = shape.map(|n| 2 * n);
         if let Some(bars) = goal.bars(&grids, state) {
             let known = bars.asked();
@@ -170,10 +200,10 @@ where
             if !best.as_ref().is_some_and(better) {
                 best = Some((known, bars));
             }
-            if let Some((known, bars)) = best.take_if(|_| !goal.may_go_on(finer)) {
+            let excess = known.relative_error() / missed;
+            if let Some((known, bars)) = best.take_if(|_| !goal.may_go_on(finer, excess)) {
                 return Err(known.missed(missed, bars.into()));
             }
-            let excess = known.relative_error() / missed;
             goal.check_march(excess, finer)?;
             progress.expect(goal.work_after(excess, finer));
         }
@@ -227,17 +257,24 @@ impl Goal<'_> {
     fn check_size(&self, shape: [usize; 2], finer: f64) -> Result<(), BemError> {
         let [rows, columns] = shape.map(|n| n as f64);
         let elements = finer.powi(2) * rows * columns;
-        let steps = self.steps_per_row.map_or(1.0, |steps| steps * finer * rows);
-        let limit = LARGEST_GRID.min(MOST_STEPS / steps);
+        let limit = match self.steps_per_row {
+            None => LARGEST_GRID,
+            Some(steps) => USUAL_GRID.min(MOST_STEPS / (steps * finer * rows)),
+        };
         if elements <= limit {
             return Ok(());
         }
         Err(BemError::GridTooLarge { elements, limit })
     }
 
-    /// Whether a grid that is finer than needed for bars may be begun.
-    fn may_go_on(&self, shape: [usize; 2]) -> bool {
-        self.check_size(shape, 1.0).is_ok() && self.request.watch.allows(shape[0].max(shape[1]))
+    /// Whether a grid that is finer than needed for bars may be begun, where the error is too large by a factor: a large one only if
+    /// that and the next may be fine enough.
+    fn may_go_on(&self, shape: [usize; 2], excess: f64) -> bool {
+        let is_usual = (shape[0] * shape[1]) as f64 <= USUAL_GRID;
+        let may_reach = is_usual || excess <= self.friction.left.powi(-2);
+        may_reach
+            && self.check_size(shape, 1.0).is_ok()
+            && self.request.watch.allows(shape[0].max(shape[1]))
     }
 
     /// Half an hour is not spent on a march in vain: no error falls faster than with the second order.
@@ -277,10 +314,17 @@ impl Goal<'_> {
         let is_better =
             |dissipation: &Estimate| dissipation.error <= slopes.error || slopes.value < 0.0;
         let better = dissipation.filter(is_better);
+        // Shorter waves make a contact smaller by more than finer elements do.
+        let left = if coarse.has_all_waves {
+            OTHERS.left
+        } else {
+            0.0
+        };
+        let area = Fall { left, ..OTHERS };
         let bars = PeriodicEstimate {
             friction_coefficient: better.unwrap_or(slopes),
             friction_from_dissipation: dissipation,
-            area_fraction: of(&|found| found.area_fraction, OTHERS),
+            area_fraction: of(&|found| found.area_fraction, area),
             mean_pressure: match self.control {
                 PeriodicControl::MeanPressure(pressure) => Estimate::exact(pressure),
                 PeriodicControl::MeanDepth(_) => of(&|found| found.mean_pressure, OTHERS),
@@ -338,6 +382,7 @@ mod tests {
             from_dissipation: Some(dissipated),
             area_fraction: 0.05,
             in_contact: 100,
+            has_all_waves: true,
             mean_pressure: 1.0,
             mean_depth: 0.0,
             residual: 1e-7,

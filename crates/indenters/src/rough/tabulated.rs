@@ -1,0 +1,112 @@
+//! Random surfaces of a power spectrum that is given as a table.
+//!
+//! ```text
+//! ⟨h²⟩ = ∫ C d²q = 2π ∫ q C dq,    ⟨|∇h|²⟩ = 2π ∫ q³ C dq,    ln C straight over ln q between the rows
+//! ```
+//!
+//! A wave and the opposite one, which are one wave of the surface, have the mean square amplitude 4 C Δq_x Δq_y.
+
+use std::f64::consts::TAU;
+
+use numerics::{in_range, positive};
+
+use super::random::RandomWaves;
+use crate::IndenterError;
+use crate::rough::PeriodicSurface;
+use crate::table::{at_least, increasing};
+
+/// An isotropic power spectrum C(q) of surfaces, between the first and the last of its wave numbers.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct TabulatedSpectrum {
+    wave_numbers: Vec<f64>,
+    densities: Vec<f64>,
+}
+
+impl TabulatedSpectrum {
+    /// The spectrum through the points (`wave_numbers[i]` \[1/m], `densities[i]` \[m⁴]); wave numbers increase, and all numbers are
+    /// greater than 0.
+    ///
+    /// # Errors
+    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows are needed), `NotIncreasing` or `InvalidParameter`.
+    pub fn new(wave_numbers: Vec<f64>, densities: Vec<f64>) -> Result<Self, IndenterError> {
+        if wave_numbers.len() != densities.len() {
+            return Err(IndenterError::LengthMismatch {
+                first: "wave numbers",
+                first_length: wave_numbers.len(),
+                second: "densities",
+                second_length: densities.len(),
+            });
+        }
+        at_least(2, "wave numbers", wave_numbers.len())?;
+        increasing("wave numbers", &wave_numbers)?;
+        for (&wave_number, &density) in wave_numbers.iter().zip(&densities) {
+            positive("wave number", wave_number)?;
+            positive("density", density)?;
+        }
+        Ok(Self {
+            wave_numbers,
+            densities,
+        })
+    }
+
+    /// Longest and shortest wave length, \[m].
+    pub fn wavelengths(&self) -> [f64; 2] {
+        let last = self.wave_numbers.len() - 1;
+        [self.wave_numbers[0], self.wave_numbers[last]].map(|wave_number| TAU / wave_number)
+    }
+
+    /// Root mean square slope of an infinite surface with all waves of the table.
+    pub fn rms_slope(&self) -> f64 {
+        let between = self.wave_numbers.windows(2).zip(self.densities.windows(2));
+        let squares = between.map(|(q, c)| {
+            let (range, change) = ((q[1] / q[0]).ln(), (c[1] / c[0]).ln());
+            // q⁴ C is a power of q from row to row.
+            let exponent = 4.0 * range + change;
+            let growth = if exponent.abs() < f64::EPSILON {
+                1.0
+            } else {
+                exponent.exp_m1() / exponent
+            };
+            TAU * q[0].powi(4) * c[0] * range * growth
+        });
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// C at a wave number within the table.
+    fn density(&self, wave_number: f64) -> f64 {
+        let last = self.wave_numbers.len() - 1;
+        let row = self.wave_numbers.partition_point(|q| *q <= wave_number);
+        let row = row.clamp(1, last);
+        let [from, to] = [row - 1, row];
+        let range = (self.wave_numbers[to] / self.wave_numbers[from]).ln();
+        let part = (wave_number / self.wave_numbers[from]).ln() / range;
+        let change = (self.densities[to] / self.densities[from]).ln();
+        self.densities[from] * (part * change).exp()
+    }
+
+    /// Draws a surface with the periods \[m] along x and y and the waves of the table that are not shorter than
+    /// `shortest_wavelength` \[m]; another seed draws another one.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] for numbers out of range, and wave lengths between which the periods have no wave.
+    pub fn surface(
+        &self,
+        period: [f64; 2],
+        shortest_wavelength: f64,
+        seed: u64,
+    ) -> Result<PeriodicSurface, IndenterError> {
+        let [longest_wavelength, shortest] = self.wavelengths();
+        let allowed = "not shorter than the shortest wave of the table";
+        let holds = shortest_wavelength >= shortest;
+        in_range("shortest_wavelength", shortest_wavelength, holds, allowed)?;
+        let random = RandomWaves {
+            period,
+            longest_wavelength,
+            shortest_wavelength,
+            seed,
+        };
+        let cell = TAU / period[0] * (TAU / period[1]);
+        random.surface(|inverse| (2.0 * cell * self.density(TAU * inverse)).sqrt())
+    }
+}

@@ -1,0 +1,212 @@
+//! `road`: friction and area of a rough surface over the shortest waves that are kept.
+
+mod picture;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+use clap::Args;
+use serde::Serialize;
+use viscofriction::WrongInput;
+use viscofriction::scene::{Indenter, SceneError, Source};
+use viscofriction::solve::{CutOff, Problem, cut_offs, plan_of, scene_of};
+use viscofriction::sweep::each_once;
+
+use crate::input::{half_of_free_memory, read_input, read_scene};
+use crate::output::{
+    ABOUT_WARNINGS, OutputFile, markdown, picture as drawn, print_line, say, to_csv,
+};
+use crate::progress;
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: viscofriction road examples/scenes/rough-road.toml --out cut-off.csv"
+)]
+pub(crate) struct Road {
+    /// The scene file, or - for the standard input; docs/scenes.md describes it.
+    scene: PathBuf,
+    /// How many cut-offs at most: all waves, then none shorter than twice the shortest, four times and so on, as long as waves
+    /// are left; from 1 to 64.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
+    cut_offs: u32,
+    /// Draw so many surfaces of a self-affine one or of a spectrum instead of the number in the scene.
+    #[arg(long, value_name = "N")]
+    realisations: Option<u64>,
+    /// The CSV file, beside which a picture is drawn as SVG and PNG [default: a table on the standard output].
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+    /// Replace files that are there already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+}
+
+/// What is known of one cut-off; what is not is empty.
+#[derive(Debug, Default, Serialize)]
+struct Row {
+    shortest_wavelength: f64,
+    rms_slope: f64,
+    friction_coefficient: Option<f64>,
+    friction_coefficient_error: Option<f64>,
+    friction_coefficient_standard_error: Option<f64>,
+    area_fraction: Option<f64>,
+    area_fraction_error: Option<f64>,
+    area_fraction_standard_error: Option<f64>,
+    persson_friction_coefficient: Option<f64>,
+    persson_area_fraction: Option<f64>,
+    persson_friction_of_shorter_waves: Option<f64>,
+    warnings: String,
+    failure: String,
+}
+
+/// Solves the scene for one cut-off after the other, and says what came out.
+pub(crate) fn road(options: &Road) -> Result<()> {
+    let source = read_scene(&options.scene)?;
+    let files = options
+        .out
+        .as_deref()
+        .map(|out| Files::new(out, options.overwrite));
+    let files = files.transpose()?;
+    let problem = options.problem(&source)?;
+    plan_of(&source, &problem)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(problem.threads().unwrap_or(0))
+        .build()?;
+    let task = format!("cut-offs of {}", source.path().display());
+    let count = options.cut_offs as usize;
+    let found = progress::during(task, |watch| {
+        pool.install(|| cut_offs(problem, count, watch, |_| ()))
+    });
+    let found = found.map_err(|error| source.locate(&error))?;
+    let rows: Vec<Row> = found.iter().map(|one| row(one, &found[0])).collect();
+    if let Some(files) = &files {
+        files.write(&rows)?;
+    }
+    print_line(&table(&rows))?;
+    let warnings = found.iter().filter_map(CutOff::known);
+    let warnings = warnings.map(|one| one.warnings.iter().map(String::as_str).collect());
+    let warnings = each_once(warnings);
+    for warning in &warnings {
+        say(&format!("warning: {warning}"));
+    }
+    if !warnings.is_empty() {
+        say(ABOUT_WARNINGS);
+    }
+    let failures = rows.iter().map(|row| &row.failure);
+    let mut failures = failures.filter(|failure| !failure.is_empty());
+    if let Some(first) = failures.next() {
+        let n_failed = 1 + failures.count();
+        bail!(
+            "{n_failed} of {} cut-offs were not answered as asked: {first}",
+            rows.len()
+        );
+    }
+    Ok(())
+}
+
+impl Road {
+    fn problem(&self, source: &Source) -> Result<Problem, WrongInput> {
+        let mut scene = scene_of(source, None)?;
+        if let Some(count) = self.realisations {
+            let given = match &mut scene.indenter {
+                Indenter::SelfAffine(surface) => &mut surface.realisations,
+                Indenter::Spectrum(surface) => &mut surface.realisations,
+                _ => {
+                    let problem = "only a self-affine surface and one of a spectrum are drawn by a seed; leave --realisations out";
+                    return Err(source.locate(&SceneError::at("indenter", problem)));
+                }
+            };
+            *given = Some(count);
+        }
+        let problem = Problem::new(&scene, source.folder(), read_input);
+        let problem = problem.map_err(|error| source.locate(&error))?;
+        Ok(problem.or_max_memory(half_of_free_memory()))
+    }
+}
+
+fn row(one: &CutOff, all: &CutOff) -> Row {
+    let empty = Row {
+        shortest_wavelength: one.shortest_wavelength,
+        rms_slope: one.rms_slope,
+        failure: one
+            .answer
+            .as_ref()
+            .err()
+            .map(ToString::to_string)
+            .unwrap_or_default(),
+        ..Row::default()
+    };
+    let Some(answer) = one.known() else {
+        return empty;
+    };
+    let area = answer.rough.map(|rough| rough.area_fraction);
+    let [friction_scatter, area_scatter] = answer
+        .scatters()
+        .map(|(_, scatter)| scatter.map(|known| known.standard_error));
+    let theory = one.persson();
+    Row {
+        friction_coefficient: answer.friction_coefficient.map(|known| known.value),
+        friction_coefficient_error: answer.friction_coefficient.map(|known| known.error),
+        friction_coefficient_standard_error: friction_scatter,
+        area_fraction: area.map(|known| known.value),
+        area_fraction_error: area.map(|known| known.error),
+        area_fraction_standard_error: area_scatter,
+        persson_friction_coefficient: theory.map(|theory| theory.friction_coefficient),
+        persson_area_fraction: theory.map(|theory| theory.area_fraction),
+        persson_friction_of_shorter_waves: one.still_to_come(all),
+        warnings: answer.warnings.join(" | "),
+        ..empty
+    }
+}
+
+/// The rows for a person.
+fn table(rows: &[Row]) -> comfy_table::Table {
+    let mut table = markdown(
+        "shortest wavelength [m] | rms slope | friction | error | standard error | area fraction | error | standard error | \
+         friction of shorter waves, Persson's theory",
+    );
+    for row in rows {
+        let number =
+            |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.4}"));
+        let error =
+            |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.1e}"));
+        table.add_row([
+            format!("{:.3e}", row.shortest_wavelength),
+            format!("{:.3}", row.rms_slope),
+            number(row.friction_coefficient),
+            error(row.friction_coefficient_error),
+            error(row.friction_coefficient_standard_error),
+            number(row.area_fraction),
+            error(row.area_fraction_error),
+            error(row.area_fraction_standard_error),
+            number(row.persson_friction_of_shorter_waves),
+        ]);
+    }
+    table
+}
+
+/// The rows and their picture.
+struct Files {
+    csv: OutputFile,
+    svg: OutputFile,
+    png: OutputFile,
+}
+
+impl Files {
+    fn new(out: &Path, overwrite: bool) -> Result<Self, WrongInput> {
+        let file = |path: &Path| OutputFile::new(path, overwrite);
+        Ok(Self {
+            csv: file(out)?,
+            svg: file(&out.with_extension("svg"))?,
+            png: file(&out.with_extension("png"))?,
+        })
+    }
+
+    /// The rows last: with them the picture is there.
+    fn write(&self, rows: &[Row]) -> Result<()> {
+        let (svg, png) = drawn(&picture::figure(rows))?;
+        self.svg.write(svg.as_bytes())?;
+        self.png.write(&png)?;
+        self.csv.write(&to_csv("", rows)?)
+    }
+}

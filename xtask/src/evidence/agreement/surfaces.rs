@@ -1,0 +1,73 @@
+//! The same rough surface in other words.
+
+use std::f64::consts::TAU;
+
+use anyhow::Result;
+use viscofriction::indenters::HeightMap;
+use viscofriction::indenters::rough::{PeriodicSurface, TabulatedSpectrum};
+use viscofriction::scene::{
+    Edges, HeightsAre, Indenter, SelfAffineSurface, SpectrumConvention, SpectrumSurface,
+};
+
+use crate::evidence::sample::{Case, Lengths, SPECTRUM};
+
+/// The map mirrored across the motion, or in another file of the same surface; none of other bodies.
+pub(super) fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
+    let Indenter::HeightMap(map) = &mut case.scene.indenter else {
+        return None;
+    };
+    let lengths = case.lengths.as_mut()?;
+    // All heights in the opposite order are the map turned by 180 degrees.
+    if is_turned {
+        map.direction = 180.0;
+        map.heights_are = HeightsAre::Surface;
+        let heights = lengths.values.iter_mut();
+        heights.for_each(|height| *height = -*height);
+    } else {
+        let rows = lengths.values.chunks_mut(lengths.columns);
+        rows.for_each(<[f64]>::reverse);
+    }
+    lengths.values.reverse();
+    Some(())
+}
+
+/// A self-affine surface without roll-off as a table of its spectrum, with the slope that the drawn one has.
+pub(super) fn as_spectrum(surface: &SelfAffineSurface) -> Result<(Indenter, Lengths)> {
+    let ends = [surface.longest_wavelength, surface.shortest_wavelength];
+    let [first, last] = ends.map(|length| TAU / length);
+    let falls = (last / first).powf(-2.0 - 2.0 * surface.hurst_exponent);
+    let spectrum = TabulatedSpectrum::new(vec![first, last], vec![1.0, falls])?;
+    let drawn = spectrum.surface(surface.period, TAU / last, surface.seed)?;
+    let density = (surface.rms_slope / drawn.rms_slope()).powi(2);
+    let table = Lengths {
+        file: SPECTRUM,
+        columns: 2,
+        values: vec![first, density, last, density * falls],
+    };
+    let other = SpectrumSurface {
+        file: SPECTRUM.into(),
+        convention: SpectrumConvention::Persson,
+        period: surface.period,
+        shortest_wavelength: None,
+        seed: surface.seed,
+        realisations: surface.realisations,
+    };
+    Ok((Indenter::Spectrum(other), table))
+}
+
+/// The waves of a map that repeats itself, on twice as many heights.
+pub(super) fn resampled(case: &mut Case) -> Option<()> {
+    let Indenter::HeightMap(map) = &mut case.scene.indenter else {
+        return None;
+    };
+    let lengths = case.lengths.as_mut()?;
+    let spacing = map.spacing.as_mut()?;
+    let shape = [lengths.values.len() / lengths.columns, lengths.columns];
+    let given = HeightMap::new(shape, [1.0; 2], lengths.values.clone()).ok()?;
+    let waves = PeriodicSurface::through(&given, 0.0).ok()?;
+    let is_periodic = map.edges == Edges::Periodic;
+    lengths.values = waves.heights(shape.map(|count| 2 * count)).ok()?;
+    lengths.columns *= 2;
+    *spacing = spacing.map(|spacing| 0.5 * spacing);
+    is_periodic.then_some(())
+}
