@@ -10,8 +10,8 @@
 use indenters::RigidLine;
 
 use super::event::Event;
-use super::heights::Heights;
-use super::time_step::{Driven, TimeStep};
+use super::heights::{Heights, Row};
+use super::time_step::{Driven, LANES, TimeStep};
 use crate::MdrError;
 use crate::contact::Instant;
 use crate::element_heights::ElementHeights;
@@ -82,7 +82,8 @@ pub(super) struct Chain<'a, L: ?Sized> {
     /// Elements that were looked at last, and the heights over them.
     window: [usize; 2],
     heights: Vec<f64>,
-    heights_before: Vec<f64>,
+    /// Where the line is.
+    before: Row,
     /// Displacements at which the elements carry nothing at the end of the step.
     at_rest: Vec<f64>,
 }
@@ -125,6 +126,7 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
         let last = ((range[1] + front) / spacing).ceil() + MARGIN;
         let n_elements = whole(last - first) + 1;
         let n_slots = foundation.branches.len().max(foundation.modes.len());
+        let n_slots = n_slots.next_multiple_of(LANES);
         let [time, position] = place;
         Ok(Self {
             line: Heights::new(line, sampled)?,
@@ -142,7 +144,7 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
             },
             window: [0; 2],
             heights: Vec::new(),
-            heights_before: Vec::new(),
+            before: Row::default(),
             at_rest: Vec::new(),
         })
     }
@@ -181,6 +183,8 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
             self.settle(index, to, &mut sums);
         }
         self.place = to;
+        std::mem::swap(&mut self.heights, &mut self.before.heights);
+        self.before.first = self.window[0];
         let contact = sums
             .ends
             .map(|ends| ends.map(|element| self.along(element)));
@@ -244,11 +248,10 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
         let window = [whole(low.floor() - 1.0), whole(high.ceil() + 1.0).min(last)];
         let start = (self.first + window[0] as f64) * spacing;
         let count = window[1] + 1 - window[0];
-        let (line, place) = (&self.line, self.place.position);
-        line.over(start - place, count, &mut self.heights_before)?;
-        line.over(start - position, count, &mut self.heights)?;
         self.window = window;
-        Ok(())
+        self.line.over(start - position, count, &mut self.heights)?;
+        let x = |element: usize| (self.first + element as f64) * spacing - self.place.position;
+        self.before.cover(&self.line, window, x)
     }
 
     /// Displacements at which the elements carry nothing at the end of the step.
@@ -271,8 +274,7 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
                         }
                         *since = self.place.time;
                     }
-                    let modes = slots.iter().zip(&self.step.decays);
-                    *limit - modes.map(|(slot, decay)| slot * decay).sum::<f64>()
+                    *limit - self.step.recovering(slots)
                 }
             };
             self.at_rest.push(at_rest);
@@ -298,7 +300,7 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
     /// Takes one element of the window to the end of the step.
     fn settle(&mut self, index: usize, to: Place, sums: &mut Sums) {
         let element = self.window[0] + index;
-        let heights = [self.heights_before[index], self.heights[index]];
+        let heights = [self.before.over(element), self.heights[index]];
         let under = [self.place.depth - heights[0], to.depth - heights[1]];
         let slots = element * self.n_slots..(element + 1) * self.n_slots;
         let event = Event {
@@ -317,8 +319,8 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
         let (touch, driven) = match self.touches[element] {
             Touch::Loaded { displacement } if is_loaded => {
                 let compression = under[1] - displacement;
-                let stresses = &mut event.slots[..self.foundation.branches.len()];
-                (loaded, self.step.drive(displacement, compression, stresses))
+                let driven = self.step.drive(displacement, compression, event.slots);
+                (loaded, driven)
             }
             Touch::Loaded { displacement } => {
                 let (limit, driven) = event.release([displacement, under[1]]);
@@ -327,9 +329,7 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
             Touch::Free { limit, .. } if is_loaded => (loaded, event.touch(limit, under)),
             Touch::Never if is_loaded => (loaded, event.touch(0.0, under)),
             Touch::Free { limit, .. } => {
-                for (slot, decay) in event.slots.iter_mut().zip(&self.step.decays) {
-                    *slot *= decay;
-                }
+                self.step.recover(event.slots);
                 self.touches[element] = free(limit);
                 return;
             }

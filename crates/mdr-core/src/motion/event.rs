@@ -40,7 +40,7 @@ impl Event<'_> {
         let mut driven = Driven::default();
         if part > 0.0 {
             let step = TimeStep::new(foundation, part * self.duration);
-            driven = step.drive(from, part * rise, &mut self.slots[..n_branches]);
+            driven = step.drive(from, part * rise, self.slots);
         }
         let displacement = from + part * rise;
         driven.lost += foundation.stored_energy(displacement, &self.slots[..n_branches]);
@@ -103,12 +103,11 @@ impl Event<'_> {
             slots: stresses,
         };
         let (displacement, recovered) = again.strike(limit, start);
-        let stresses = &mut self.slots[..foundation.branches.len()];
         let rest = (1.0 - part) * self.duration;
         let mut driven = Driven::default();
         if rest > 0.0 {
             let step = TimeStep::new(foundation, rest);
-            driven = step.drive(displacement, to - displacement, stresses);
+            driven = step.drive(displacement, to - displacement, self.slots);
         }
         driven.lost -= recovered;
         driven

@@ -1,6 +1,7 @@
 //! The heights of a line at any position, from a table where it is smooth.
 
 use indenters::RigidLine;
+use numerics::whole_part;
 
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
@@ -17,8 +18,9 @@ pub(super) struct Heights<'a, L: ?Sized> {
     lowest: f64,
     start: f64,
     cells_per_metre: f64,
-    nodes: Vec<f64>,
-    is_smooth: Vec<bool>,
+    /// By the place of the cell in its element, one element after the other, as all elements are at the same place.
+    nodes: [Vec<f64>; CELLS],
+    is_smooth: [Vec<bool>; CELLS],
 }
 
 impl<'a, L: RigidLine + ?Sized> Heights<'a, L> {
@@ -33,23 +35,28 @@ impl<'a, L: RigidLine + ?Sized> Heights<'a, L> {
         let nodes: Vec<f64> = places.map(at).collect::<Result<_, _>>()?;
         let finite = nodes.iter().copied().filter(|height| height.is_finite());
         let allowed = SMOOTH * finite.fold(0.0, f64::max);
-        let mut heights = Self {
+        let is_smooth = |cell: usize| {
+            let around = cell
+                .checked_sub(1)
+                .and_then(|first| nodes.get(first..first + 4));
+            // Between the nodes, not in the middle, where odd terms vanish.
+            let is_close = |part: f64| {
+                let exact = at(cell as f64 + part);
+                let terms = around.into_iter().flatten().zip(weights(part));
+                let cubic: f64 = terms.map(|(node, weight)| node * weight).sum();
+                exact.is_ok_and(|exact| (cubic - exact).abs() <= allowed)
+            };
+            around.is_some() && [0.25, 0.5, 0.75].into_iter().all(is_close)
+        };
+        let is_smooth: Vec<bool> = (0..nodes.len()).map(is_smooth).collect();
+        Ok(Self {
             line,
             lowest,
             start,
             cells_per_metre,
-            is_smooth: vec![false; nodes.len()],
-            nodes,
-        };
-        for cell in 1..heights.nodes.len().saturating_sub(2) {
-            // Between the nodes, not in the middle, where odd terms vanish.
-            let is_close = [0.25, 0.5, 0.75].map(|part| {
-                let exact = at(cell as f64 + part)?;
-                Ok::<bool, MdrError>((heights.cubic(cell, &weights(part)) - exact).abs() <= allowed)
-            });
-            heights.is_smooth[cell] = is_close.into_iter().all(|close| close == Ok(true));
-        }
-        Ok(heights)
+            is_smooth: by_place(&is_smooth),
+            nodes: by_place(&nodes),
+        })
     }
 
     /// At a position on the line.
@@ -66,30 +73,81 @@ impl<'a, L: RigidLine + ?Sized> Heights<'a, L> {
     ) -> Result<(), MdrError> {
         let place = (x - self.start) * self.cells_per_metre;
         let spacing = CELLS as f64 / self.cells_per_metre;
-        let first = place.floor();
-        let weights = weights(place - first);
+        let cell = place.floor();
+        let weights = weights(place - cell);
+        // Elements before the first one of which all nodes are there.
+        let before = (1.0 - cell).max(0.0) / CELLS as f64;
+        let skipped = whole_part(before.ceil()).min(n_elements);
+        let cell = whole_part((cell + (skipped * CELLS) as f64).max(1.0));
+        let from = |number: usize| &self.nodes[number % CELLS][..];
+        let nodes = [cell - 1, cell, cell + 1, cell + 2].map(|node| {
+            let first = (node / CELLS).min(from(node).len());
+            &from(node)[first..]
+        });
         row.clear();
-        for element in 0..n_elements {
-            let cell = first + (element * CELLS) as f64;
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a negative number becomes 0, whose cell is not smooth"
-            )]
-            let cell = cell as usize;
-            row.push(match self.is_smooth.get(cell) {
-                Some(true) => self.cubic(cell, &weights),
-                _ => self.at(x + element as f64 * spacing)?,
-            });
+        row.resize(skipped, f64::NAN);
+        let [a, b, c, d] = nodes;
+        let all = a.iter().zip(b).zip(c.iter().zip(d));
+        let cubics = all.map(|((a, b), (c, d))| {
+            a * weights[0] + b * weights[1] + (c * weights[2] + d * weights[3])
+        });
+        row.extend(cubics.take(n_elements - skipped));
+        row.resize(n_elements, f64::NAN);
+        let smooth = &self.is_smooth[cell % CELLS];
+        for (element, height) in row.iter_mut().enumerate() {
+            let index = element
+                .checked_sub(skipped)
+                .map(|index| cell / CELLS + index);
+            if index.and_then(|index| smooth.get(index)) != Some(&true) {
+                *height = self.at(x + element as f64 * spacing)?;
+            }
         }
         Ok(())
     }
+}
 
-    /// Through the nodes around a cell.
-    fn cubic(&self, cell: usize, weights: &[f64; 4]) -> f64 {
-        let nodes = self.nodes[cell - 1..cell + 3].iter().zip(weights);
-        nodes.map(|(node, weight)| node * weight).sum()
+/// The heights of a line at one position, over one element after the other.
+#[derive(Debug, Default)]
+pub(super) struct Row {
+    pub(super) first: usize,
+    pub(super) heights: Vec<f64>,
+}
+
+impl Row {
+    /// Over an element that is covered.
+    pub(super) fn over(&self, element: usize) -> f64 {
+        self.heights[element - self.first]
     }
+
+    /// Covers some elements at places `x` on the line, of which most were covered before.
+    pub(super) fn cover<L: RigidLine + ?Sized>(
+        &mut self,
+        line: &Heights<'_, L>,
+        [first, last]: [usize; 2],
+        x: impl Fn(usize) -> f64,
+    ) -> Result<(), MdrError> {
+        let known = self.first..self.first + self.heights.len();
+        if !known.contains(&first) && !known.contains(&last) {
+            self.first = first;
+            return line.over(x(first), last + 1 - first, &mut self.heights);
+        }
+        let mut row = Vec::new();
+        if last >= known.end {
+            line.over(x(known.end), last + 1 - known.end, &mut row)?;
+            self.heights.append(&mut row);
+        }
+        if first < known.start {
+            line.over(x(first), known.start - first, &mut row)?;
+            self.heights.splice(..0, row);
+            self.first = first;
+        }
+        Ok(())
+    }
+}
+
+/// Of a table of cells those at each place of an element.
+fn by_place<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS] {
+    std::array::from_fn(|place| cells.iter().skip(place).step_by(CELLS).copied().collect())
 }
 
 /// Weights of Lagrange's cubic through four nodes, at a part of the cell in their middle.

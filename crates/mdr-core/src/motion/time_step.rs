@@ -13,6 +13,11 @@ use crate::steady::Foundation;
 const SHORT: f64 = 0.5;
 /// Terms of the series that matter there.
 const TERMS: i32 = 20;
+/// Branches that are followed at once; a slot without a branch holds 0.
+pub(super) const LANES: usize = 4;
+
+/// Numbers of so many branches.
+type Lanes = [f64; LANES];
 
 /// A step of one length over all branches and modes.
 #[derive(Debug, Clone, Default)]
@@ -23,9 +28,21 @@ pub(super) struct TimeStep {
     spring: f64,
     /// η₀/Δt.
     dashpot: f64,
-    branches: Vec<Branch>,
+    branches: Vec<Branches>,
+    /// Of all branches the parts of mean and loss that have no stress in them.
+    mean: f64,
+    lost: f64,
     /// e^(−Δt/λ) of the modes of recovery.
-    pub(super) decays: Vec<f64>,
+    decays: Vec<Lanes>,
+}
+
+/// What [`LANES`] branches make of their stresses e and the compression u: a e + b u, and of the energy that they lose e (c e + d u).
+#[derive(Debug, Clone, Copy, Default)]
+struct Branches {
+    decay: Lanes,
+    gain: Lanes,
+    mean: Lanes,
+    lost: [Lanes; 2],
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -60,45 +77,98 @@ impl TimeStep {
             .collect();
         stiffness += branches.iter().map(|branch| branch.gain).sum::<f64>();
         let modes = foundation.modes.iter();
+        let decays: Vec<f64> = modes.map(|mode| (-duration / mode.length).exp()).collect();
         Self {
             duration,
             stiffness,
             spring: foundation.spring,
             dashpot,
-            branches,
-            decays: modes.map(|mode| (-duration / mode.length).exp()).collect(),
+            mean: branches.iter().map(|branch| branch.mean[1]).sum(),
+            lost: branches.iter().map(|branch| branch.lost[2]).sum(),
+            branches: branches.chunks(LANES).map(Branches::of).collect(),
+            decays: decays
+                .chunks(LANES)
+                .map(|decays| lanes(decays, |decay| *decay))
+                .collect(),
+        }
+    }
+
+    /// The sum of what recovers, at the end.
+    pub(super) fn recovering(&self, slots: &[f64]) -> f64 {
+        let decays = self.decays.iter().zip(slots.as_chunks().0);
+        total(decays.fold([0.0; LANES], |sum, (decays, slots)| {
+            add(sum, *decays, *slots)
+        }))
+    }
+
+    /// What recovers does so for the step.
+    pub(super) fn recover(&self, slots: &mut [f64]) {
+        for (decays, slots) in self.decays.iter().zip(slots.as_chunks_mut().0) {
+            *slots = product(*decays, *slots);
         }
     }
 
     /// What is carried at the end without compression.
     pub(super) fn left(&self, displacement: f64, stresses: &[f64]) -> f64 {
-        let branches = self.branches.iter().zip(stresses);
-        let left: f64 = branches.map(|(branch, stress)| branch.decay * stress).sum();
-        self.spring * displacement + left
+        let branches = self.branches.iter().zip(stresses.as_chunks().0);
+        let left = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
+            add(sum, branches.decay, *stresses)
+        });
+        self.spring * displacement + total(left)
     }
 
-    /// Compresses an element by so much during the step.
+    /// Compresses an element by so much during the step; there are whole [`LANES`] of stresses.
     pub(super) fn drive(
         &self,
         displacement: f64,
         compression: f64,
         stresses: &mut [f64],
     ) -> Driven {
-        let (mut mean, mut lost) = (
-            self.spring * (displacement + 0.5 * compression) + self.dashpot * compression,
-            self.dashpot * compression * compression,
-        );
-        for (branch, stress) in self.branches.iter().zip(stresses) {
-            let (e, u) = (*stress, compression);
-            mean += branch.mean[0] * e + branch.mean[1] * u;
-            lost += branch.lost[0] * e * e + (branch.lost[1] * e + branch.lost[2] * u) * u;
-            *stress = branch.decay * e + branch.gain * u;
+        let u = [compression; LANES];
+        let [mut mean, mut lost] = [[0.0; LANES]; 2];
+        for (branches, stresses) in self.branches.iter().zip(stresses.as_chunks_mut().0) {
+            let e = *stresses;
+            let [by_stress, by_compression] = branches.lost;
+            mean = add(mean, branches.mean, e);
+            let per_stress = add(product(by_stress, e), by_compression, u);
+            lost = add(lost, per_stress, e);
+            *stresses = add(product(branches.decay, e), branches.gain, u);
         }
+        let spring = self.spring * (displacement + 0.5 * compression);
+        let mean = total(mean) + spring + (self.dashpot + self.mean) * compression;
         Driven {
             impulse: mean * self.duration,
-            lost,
+            lost: total(lost) + (self.dashpot + self.lost) * compression * compression,
         }
     }
+}
+
+impl Branches {
+    fn of(branches: &[Branch]) -> Self {
+        Self {
+            decay: lanes(branches, |branch| branch.decay),
+            gain: lanes(branches, |branch| branch.gain),
+            mean: lanes(branches, |branch| branch.mean[0]),
+            lost: [0, 1].map(|part| lanes(branches, |branch| branch.lost[part])),
+        }
+    }
+}
+
+fn lanes<T>(of: &[T], number: impl Fn(&T) -> f64) -> Lanes {
+    std::array::from_fn(|lane| of.get(lane).map_or(0.0, &number))
+}
+
+/// sum + a b.
+fn add(sum: Lanes, a: Lanes, b: Lanes) -> Lanes {
+    std::array::from_fn(|lane| sum[lane] + a[lane] * b[lane])
+}
+
+fn product(a: Lanes, b: Lanes) -> Lanes {
+    std::array::from_fn(|lane| a[lane] * b[lane])
+}
+
+fn total(lanes: Lanes) -> f64 {
+    lanes.iter().sum()
 }
 
 impl Branch {
@@ -133,10 +203,11 @@ fn series(a: f64, factor: fn(f64) -> f64, long: impl Fn() -> f64) -> f64 {
     if a > SHORT {
         return long();
     }
-    let (mut term, mut sum) = (1.0, 0.0);
+    let (mut term, mut power, mut sum) = (1.0, 1.0, 0.0);
     for k in 1..=TERMS {
         term *= -a / f64::from(k + 1);
-        sum += factor(f64::from(k).exp2()) * term;
+        power *= 2.0;
+        sum += factor(power) * term;
     }
     sum
 }
@@ -157,7 +228,7 @@ mod tests {
             let foundation = Foundation::new(&material, 1.0).expect("a foundation");
             let step = TimeStep::new(&foundation, 1.0);
             let (displacement, compression) = (0.7, -0.3);
-            let mut stresses = vec![0.2];
+            let mut stresses = vec![0.2, 0.0, 0.0, 0.0];
             let before = foundation.stored_energy(displacement, &stresses);
             let driven = step.drive(displacement, compression, &mut stresses);
             let after = foundation.stored_energy(displacement + compression, &stresses);
