@@ -39,7 +39,7 @@ impl RandomWaves {
             in_range(name, period, holds, allowed)?;
         }
         positive("longest_wavelength", self.longest_wavelength)?;
-        let reach = |axis: usize| (self.period[axis] / shortest).floor();
+        let reach = |axis: usize| (self.period[axis] / shortest * (1.0 + SLACK)).floor();
         #[expect(clippy::cast_possible_truncation, reason = "below the largest number")]
         let [along_x, along_y] = [0, 1].map(|axis| reach(axis) as i32);
         // One of two waves with opposite numbers.

@@ -107,6 +107,20 @@ fn amplitudes_depend_on_the_wave_vector_and_the_seed_only() {
     assert_eq!(counts, [numbers.filter(is_part).count() / 2; 2], "waves");
 }
 
+/// 0.3/0.1 is less than 3, and a wave of a third of the period is as long as the shortest one all the same.
+#[test]
+fn wave_lengths_that_are_rounded_parts_of_the_period_are_drawn() {
+    let asked = SelfAffine {
+        period: [0.3; 2],
+        longest_wavelength: 0.3,
+        roll_off_wavelength: 0.3,
+        shortest_wavelength: 0.1,
+        ..RANDOM
+    };
+    let surface = asked.surface().expect("a surface");
+    assert_eq!(surface.largest_numbers(), [3; 2], "{surface:?}");
+}
+
 /// The mean squares of amplitudes fall like the spectrum, and are constant above the roll-off wave length.
 #[test]
 fn the_spectrum_is_self_affine() {
