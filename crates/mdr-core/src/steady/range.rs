@@ -31,7 +31,16 @@ pub(super) struct Range {
 
 impl Range {
     /// Everything at most `depth` above the lowest of the kinks, the ends, and x = 0.
+    ///
+    /// Refuses a depth that is none, as of a search among numbers that overflow, below which no position ever lies.
     pub(super) fn below(line: &(impl RigidLine + ?Sized), depth: f64) -> Result<Self, MdrError> {
+        if depth.is_nan() || depth < 0.0 {
+            return Err(MdrError::NonFinite {
+                quantity: "indentation depth",
+                value: depth,
+                time: 0.0,
+            });
+        }
         let anchor = lowest_candidate(line)?;
         let anchor_height = checked_height(line, anchor)?;
         let excess = |x: f64| Ok(checked_height(line, x)? - anchor_height - depth);
@@ -145,4 +154,22 @@ fn first_above(
         }
     }
     Ok(distance)
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::{EquivalentLine, Sphere};
+
+    use super::Range;
+
+    #[test]
+    fn a_depth_that_is_none_ends_the_search() {
+        let sphere = Sphere::new(5e-3).expect("a radius");
+        let line = EquivalentLine(&sphere);
+        for depth in [f64::NAN, -1e-6, f64::NEG_INFINITY] {
+            assert!(Range::below(&line, depth).is_err(), "{depth}");
+        }
+        let found = Range::below(&line, 1e-6).expect("a range");
+        assert!(found.ends[1] > 0.0, "{found:?}");
+    }
 }

@@ -260,3 +260,37 @@ fn uncertainties_of_what_is_no_number_are_refused() {
         assert!(refused.contains(needed), "{needed}: {refused}");
     }
 }
+
+/// In other units of stress friction and area of a rough surface are the same.
+#[test]
+fn derivatives_of_a_rough_surface_add_up_and_those_of_many_are_refused() {
+    let scene = |realisations: &str| {
+        format!(
+            "indenter.self-affine = {{ period = [2.0, 1.0], hurst_exponent = 0.8, rms_slope = 0.1, longest_wavelength = 1.0, \
+             shortest_wavelength = 0.25, seed = 3{realisations} }}\n\
+             material.standard-solid = {{ equilibrium_modulus = 1e6, maxwell_modulus = 9e6, viscosity = 9e4 }}\n\
+             load = {{ mean_pressure = 2e4, velocity = 10.0 }}\nsolve.relative_error = 0.1"
+        )
+    };
+    let (_, known) = answered(&scene(""));
+    let known = known.expect("derivatives");
+    let stresses = ["equilibrium_modulus", "maxwell_modulus", "viscosity"];
+    let stresses = stresses.map(|name| format!("material.standard-solid.{name}"));
+    let all = || {
+        stresses
+            .iter()
+            .map(|name| &name[..])
+            .chain(["load.mean_pressure"])
+    };
+    let frictions = || all().map(|name| of(&known, name).friction_coefficient);
+    let areas = || all().map(|name| of(&known, name).contact_area);
+    for known in [frictions().collect::<Option<Vec<_>>>(), areas().collect()] {
+        let known = known.expect("derivatives");
+        let sum: f64 = known.iter().map(|one| one.value).sum();
+        let size: f64 = known.iter().map(|one| one.value.abs()).sum();
+        assert!(sum.abs() < 2e-5 * size, "{known:?}");
+    }
+    let (_, refused) = answered(&scene(", realisations = 2"));
+    let refused = refused.expect_err("a mean").to_string();
+    assert!(refused.contains("realisations"), "{refused}");
+}

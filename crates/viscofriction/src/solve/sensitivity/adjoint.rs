@@ -47,6 +47,10 @@ pub(super) enum Contact {
 
 impl Contact {
     pub(super) fn new(problem: &Problem, load: &SlidingLoad, answer: &Answer) -> Result<Self> {
+        if problem.realisations() > 1 {
+            let why = "derivatives are those of one surface; leave out its realisations";
+            return Err(SceneError::at("indenter", why).into());
+        }
         let elastomer = problem.elastomer()?;
         Ok(match (problem.body(), answer.stationary) {
             (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {
