@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import os
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import matplotlib
 import pytest
+from matplotlib import pyplot
 
 matplotlib.use("Agg")
 
 ROOT = Path(__file__).parents[2]
 SCENES = ROOT / "examples" / "scenes"
+
+
+@pytest.fixture(autouse=True)
+def _closed_figures() -> Iterator[None]:
+    """What a test has drawn is not kept."""
+    yield
+    pyplot.close("all")
 
 
 @pytest.fixture(scope="session")
