@@ -14,7 +14,7 @@ fn may_be(part: f64, [held, all]: [usize; 2]) -> bool {
 /// an error, with 20 of them or more, and 99 % of all together.
 #[test]
 fn error_bars_hold_on_random_scenes() {
-    let evidence = Evidence::quick("calibration", "calibration --scenes 110");
+    let evidence = Evidence::quick("calibration", "calibration --scenes 150");
     let rows = evidence.rows("calibration");
     let mut methods: BTreeMap<[&str; 2], [usize; 2]> = BTreeMap::new();
     for row in &rows {

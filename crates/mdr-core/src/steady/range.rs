@@ -131,6 +131,10 @@ fn outermost(
     // The anchor itself lies below the ceiling, so that this ends.
     loop {
         let inside = outside * (-1.0 / STATIONS_PER_OCTAVE).exp2();
+        // The smallest numbers are rounded up to themselves.
+        if inside.total_cmp(&outside).is_eq() {
+            return Ok(anchor);
+        }
         if excess(anchor + inside)? <= 0.0 {
             let plain = |x: f64| excess(x).unwrap_or(f64::NAN);
             let [near, far] = [inside, outside].map(|offset| within(anchor + offset));
@@ -161,6 +165,13 @@ mod tests {
     use indenters::{EquivalentLine, Sphere};
 
     use super::Range;
+
+    #[test]
+    fn a_body_of_the_smallest_size_ends_the_search() {
+        let sphere = Sphere::new(5e-324).expect("a radius");
+        let found = Range::below(&EquivalentLine(&sphere), 5e-324);
+        assert!(found.is_ok_and(|found| found.ends[0] <= found.ends[1]));
+    }
 
     #[test]
     fn a_depth_that_is_none_ends_the_search() {
