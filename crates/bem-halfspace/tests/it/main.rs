@@ -22,6 +22,7 @@ mod motions;
 mod nested_grids;
 mod periodic_contact;
 mod periodic_march;
+#[cfg(feature = "rough")]
 mod periodic_sensitivity;
 mod periodic_sliding;
 mod pressure_spectrum;
