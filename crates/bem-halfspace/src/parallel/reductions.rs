@@ -28,6 +28,26 @@ pub(crate) fn sum<const N: usize>(lists: [&[f64]; N], term: impl Fn([f64; N]) ->
     reduce(lists, 0.0, term, |sum, term| sum + term)
 }
 
+/// Likewise with a last list of numbers that may be of another type.
+pub(crate) fn sum_with<const N: usize, T: Copy + Into<f64>>(
+    lists: [&[f64]; N],
+    last: &[T],
+    term: impl Fn([f64; N], f64) -> f64,
+) -> f64 {
+    let lists = lists.map(|list| list[..last.len()].as_chunks::<ACCUMULATORS>());
+    let (last, last_rest) = last.as_chunks::<ACCUMULATORS>();
+    let mut sums = [0.0; ACCUMULATORS];
+    for (chunk, last) in last.iter().enumerate() {
+        let chunks = lists.map(|(whole, _)| &whole[chunk]);
+        for (place, sum) in sums.iter_mut().enumerate() {
+            *sum += term(chunks.map(|chunk| chunk[place]), last[place].into());
+        }
+    }
+    let rest = last_rest.iter().enumerate();
+    let rest = rest.map(|(index, last)| term(lists.map(|(_, rest)| rest[index]), (*last).into()));
+    sums.into_iter().chain(rest).sum()
+}
+
 /// The larger of two numbers of which none is NaN; faster than `f64::max`.
 pub(crate) fn larger(left: f64, right: f64) -> f64 {
     if left > right { left } else { right }

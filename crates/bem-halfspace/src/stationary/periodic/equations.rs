@@ -27,6 +27,8 @@ const MOST_STEPS: usize = 80;
 /// are forgotten. Without those of small grids one of a hundred contacts of moduli that differ by up to 10⁶ never ended.
 const NUMBERS_PER_ELEMENT: usize = 12;
 const NUMBERS: usize = 1 << 22;
+/// Part of the residual from which on what is left by a step says that it took little off.
+const LITTLE: f64 = 0.9;
 /// Elements in contact up to which elimination is tried, for the sake of memory, and the time that it takes for n of them on a grid
 /// of N elements, in steps: about n³/N times this on one thread, from 16² to 64² elements.
 const FEW: f64 = 1000.0;
@@ -109,12 +111,15 @@ impl Equations {
         self.inside = inside.map(|inside| f64::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);
         self.pressure = self.listed(pressure);
-        self.gap = self.less_mean(self.listed(gap));
-        self.weights = self.invert(self.inside.to_vec());
+        let mut gap = self.listed(gap);
+        self.subtract_mean(&mut gap);
+        self.gap = gap;
+        let mut weights = self.inside.to_vec();
+        self.invert(&mut weights);
+        self.weights = weights;
         self.lowered = self.weights.clone();
         if let Some(far) = &mut self.far {
-            far.weigh(&self.near, &self.weights);
-            far.correct(&self.near, &self.weights, &mut self.lowered);
+            far.weigh(&self.near, &self.weights, &mut self.lowered);
         }
         self.total_lowered = self.total(&self.lowered);
     }
@@ -152,8 +157,22 @@ impl Equations {
         #[expect(clippy::cast_sign_loss, reason = "positive")]
         let most = most.min(MOST_STEPS as f64) as usize;
         let steps = [most, fitting.clamp(1, MOST_STEPS) - 1];
-        minimise::<f32>([&mut pressure, &mut gap], &inside, steps, |gap, from| {
-            (!is_small(self.residual(gap))).then(|| self.direction(from))
+        let unknowns = [&mut pressure[..], &mut gap[..]];
+        let mut before = f64::INFINITY;
+        minimise::<f32>(unknowns, Some(&inside), steps, |gap, from, found| {
+            let residual = self.residual(gap);
+            let now = residual.root_mean_square;
+            let goes_on = !is_small(residual);
+            if goes_on {
+                if let Some(far) = &mut self.far
+                    && now > LITTLE * before
+                {
+                    far.refine();
+                }
+                before = now;
+                self.find_direction(from, found);
+            }
+            goes_on
         });
         (self.pressure, self.gap) = (pressure, gap);
     }
@@ -188,17 +207,19 @@ impl Equations {
         for (row, place) in places.into_iter().enumerate() {
             added[place] = depth * solved[(row, 1)] - solved[(row, 0)];
         }
-        let image = self.displaced(&added);
+        let mut image = copies(0.0, added.len());
+        self.displaced(&added, &mut image);
         add(&mut self.pressure, 1.0, &added);
         add(&mut self.gap, 1.0, &image);
     }
 
     /// The gaps that a list of pressures causes.
-    fn displaced(&mut self, pressures: &[f64]) -> Vec<f64> {
+    fn displaced(&mut self, pressures: &[f64], gaps: &mut [f64]) {
         self.near.scatter(pressures, &mut self.spread);
         self.products += 1;
         self.kernel.displace(&self.spread, &mut self.image);
-        self.less_mean(self.listed(&self.image))
+        self.near.gather(&self.image, gaps);
+        self.subtract_mean(gaps);
     }
 
     fn residual(&self, gap: &[f64]) -> Residual {
@@ -218,28 +239,36 @@ impl Equations {
     }
 
     /// Pressures without mean that about close the gaps, and the gaps that they cause.
-    fn direction(&mut self, gap: &[f64]) -> [Vec<f64>; 2] {
-        let closing = gap.iter().zip(self.inside.iter());
-        let closing: Vec<f64> = closing.map(|(gap, inside)| -inside * gap).collect();
-        let mut direction = self.invert(closing);
+    fn find_direction(&mut self, gap: &[f64], [direction, image]: [&mut [f64]; 2]) {
+        let closing = |band, [direction]: [&mut [f64]; 1]| {
+            let places = self.near.places(band);
+            let pairs = gap[places.clone()].iter().zip(&self.inside[places]);
+            for (place, (gap, inside)) in direction.iter_mut().zip(pairs) {
+                *place = -inside * gap;
+            }
+        };
+        let bands = self.near.bands;
+        bands.for_each_part([self.near.list(direction)], closing);
+        self.invert(direction);
         if let Some(far) = &mut self.far {
-            far.correct(&self.near, &self.weights, &mut direction);
+            far.correct(&self.near, &self.weights, direction);
         }
-        let total = self.total(&direction);
-        add(&mut direction, -total / self.total_lowered, &self.lowered);
-        let image = self.displaced(&direction);
-        [direction, image]
+        let total = self.total(direction);
+        add(direction, -total / self.total_lowered, &self.lowered);
+        self.displaced(direction, image);
     }
 
     /// S of a list, on the contact.
-    fn invert(&mut self, mut list: Vec<f64>) -> Vec<f64> {
-        self.near.scatter(&list, &mut self.spread);
+    fn invert(&mut self, list: &mut [f64]) {
+        self.near.scatter(list, &mut self.spread);
         self.kernel.invert(&self.spread, &mut self.image);
-        self.near.gather(&self.image, &mut list);
-        for (value, inside) in list.iter_mut().zip(self.inside.iter()) {
-            *value *= inside;
-        }
-        list
+        let (near, image, inside) = (&self.near, &self.image, &self.inside);
+        near.bands.for_each_part([near.list(list)], |band, [list]| {
+            near.gather_in(band, image, list);
+            for (value, inside) in list.iter_mut().zip(&inside[near.places(band)]) {
+                *value *= inside;
+            }
+        });
     }
 
     fn listed(&self, field: &[f64]) -> Vec<f64> {
@@ -249,14 +278,13 @@ impl Equations {
     }
 
     /// Subtracts the mean over the contact.
-    fn less_mean(&self, mut list: Vec<f64>) -> Vec<f64> {
+    fn subtract_mean(&self, list: &mut [f64]) {
         let sum = self.near.sum(|places| {
             let lists = [&list[places.clone()], &self.inside[places]];
             sum(lists, |[value, inside]| inside * value * inside)
         });
         let mean = sum / self.n_contact;
         list.iter_mut().for_each(|value| *value -= mean);
-        list
     }
 
     fn total(&self, list: &[f64]) -> f64 {

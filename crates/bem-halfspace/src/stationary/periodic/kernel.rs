@@ -108,8 +108,9 @@ pub(super) struct Kernel {
     at_centre: Vec<Complex<f64>>,
     /// The shift to the point at which the gap is evaluated.
     shift: Vec<Complex<f64>>,
-    /// Their product.
+    /// Their product, and its inverse.
     factors: Vec<Complex<f64>>,
+    inverse: Vec<Complex<f64>>,
 }
 
 impl Kernel {
@@ -136,6 +137,7 @@ impl Kernel {
             waves,
             at_centre,
             shift,
+            inverse: factors.iter().map(Complex::inv).collect(),
             factors,
         })
     }
@@ -148,7 +150,7 @@ impl Kernel {
 
     /// The inverse of [`displace`](Self::displace) on the whole grid.
     pub(super) fn invert(&mut self, displacement: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row].inv() * q;
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.inverse[row] * q;
         self.waves.apply(displacement, result, symbol);
     }
 
@@ -158,13 +160,17 @@ impl Kernel {
         self.waves.apply(field, result, symbol);
     }
 
-    /// The displacements K z of the centres for (1 + w K) z = r with one weight w for all elements.
-    pub(super) fn relax(&mut self, weight: f64, residual: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| {
+    /// The symbols that make of r the displacements K z of the centres for (1 + w K) z = r with one weight w for all elements.
+    pub(super) fn relaxation(&self, weight: f64) -> Vec<Complex<f64>> {
+        self.waves.symbols(|row, q| {
             let kernel = self.at_centre[row];
             kernel / (kernel * weight + q)
-        };
-        self.waves.apply(residual, result, symbol);
+        })
+    }
+
+    /// Multiplies every wave by a symbol of its own.
+    pub(super) fn relax(&mut self, symbols: &[Complex<f64>], field: &[f64], result: &mut [f64]) {
+        self.waves.apply_all(field, result, symbols);
     }
 
     /// Heights at the points where the gaps are evaluated, by trigonometric interpolation.

@@ -117,13 +117,15 @@ impl<'mesh> ContactEquations<'mesh> {
         loads.push(depth);
         let unknowns = [&mut loads[..], &mut gaps[..]];
         let most = [MOST_DIRECTIONS; 2];
-        minimise::<f64>(unknowns, &vec![1.0; n], most, |gaps, from| {
-            (norm(gaps) > allowed).then(|| {
-                let (mut loads, depth) = self.correct(from);
-                let moved = self.displacements_below(&loads, depth);
-                loads.push(depth);
-                [loads, moved]
-            })
+        minimise::<f64>(unknowns, None, most, |gaps, from, [direction, image]| {
+            if norm(gaps) <= allowed {
+                return false;
+            }
+            let (mut loads, depth) = self.correct(from);
+            image.copy_from_slice(&self.displacements_below(&loads, depth));
+            loads.push(depth);
+            direction.copy_from_slice(&loads);
+            true
         });
         EquationSolution {
             depth: loads.remove(n),

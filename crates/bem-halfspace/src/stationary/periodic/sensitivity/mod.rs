@@ -270,7 +270,7 @@ impl State {
             let mut kernel = Kernel::new(end, &self.grid)?;
             let mut field = vec![0.0; self.pressure.len()];
             // At the centres of the elements.
-            kernel.relax(0.0, &self.pressure, &mut field);
+            kernel.relax(&kernel.relaxation(0.0), &self.pressure, &mut field);
             add(&mut moved, sign, &field);
             kernel.dissipate(&self.pressure, &mut field);
             add(&mut dissipated, sign, &field);

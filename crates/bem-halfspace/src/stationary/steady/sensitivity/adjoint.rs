@@ -45,13 +45,19 @@ pub(super) fn solve_transposed<const N: usize>(
         let mut residual: Vec<f64> = right.iter().map(|value| -value).collect();
         let unknowns = [&mut loads[..], &mut residual[..]];
         let most = [MOST_DIRECTIONS; 2];
-        minimise::<f64>(unknowns, &vec![1.0; n], most, |residual, from| {
-            (norm(residual) > allowed).then(|| {
-                let direction = preconditioner.loads(from, &region);
-                let moved = product.apply(0, &direction, &region);
-                [direction, moved]
-            })
-        });
+        minimise::<f64>(
+            unknowns,
+            None,
+            most,
+            |residual, from, [direction, image]| {
+                if norm(residual) <= allowed {
+                    return false;
+                }
+                direction.copy_from_slice(&preconditioner.loads(from, &region));
+                image.copy_from_slice(&product.apply(0, direction, &region));
+                true
+            },
+        );
         left = left.max(TOLERANCE * norm(&residual) / allowed);
         has_ended &= norm(&residual) <= allowed;
         loads
