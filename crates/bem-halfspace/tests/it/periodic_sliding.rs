@@ -234,6 +234,30 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
     }
 }
 
+/// Five elements of 128² carry the load; those of the coarser grids are beside gaps so wide that all of them would be lost between
+/// them, and half of the elements be taken for the contact.
+#[cfg(feature = "rough")]
+#[test]
+fn a_light_contact_goes_on_from_the_coarser_grid() {
+    let n = 128;
+    let surface = indenters::rough::SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.8,
+        rms_slope: 0.1,
+        longest_wavelength: 0.5,
+        shortest_wavelength: 6.0 / 128.0,
+        roll_off_wavelength: 0.5,
+        seed: 5,
+    };
+    let heights = surface.surface().expect("a surface").heights([n; 2]);
+    let material = prony([1.0, 0.0], &[(5e3, 1.0)]);
+    let heights = heights.expect("heights");
+    let solved = slide(&unit_square(n), &heights, &material, [2e-4, 1e-4]).expect("a contact");
+    let touching = solved.pressure.pressure.iter().filter(|p| **p > 0.0);
+    assert!(touching.count() < 10, "{solved:?}");
+    assert!(solved.products < 30, "{} products", solved.products);
+}
+
 /// Moduli whose ratio is 10² to 10⁶, grids of odd numbers of long elements, contacts from some elements to almost all.
 #[cfg(feature = "rough")]
 #[test]
