@@ -9,6 +9,8 @@ use std::cmp::Ordering;
 
 /// Every step of Newton's method doubles the two digits of the first guess; the fourth changes less than rounding.
 const NEWTON_STEPS: usize = 4;
+/// Points of a rule that are found together.
+const AT_ONCE: usize = 8;
 
 /// P_0(t), P_1(t), … of as many degrees as the array is long.
 pub fn legendre_values<const N: usize>(t: f64) -> [f64; N] {
@@ -39,21 +41,30 @@ pub struct LobattoRule {
 pub fn lobatto_rule(n_points: usize) -> LobattoRule {
     let degree = n_points.max(2) - 1;
     let n = degree as f64;
-    let last_two = |t: f64| (0..degree).fold([0.0, 1.0], |pair, degree| next(degree, t, pair));
-    let node = |index: usize| {
-        let first_guess = -(std::f64::consts::PI * index as f64 / n).cos();
-        (0..NEWTON_STEPS).fold(first_guess, |t, _| {
+    // Several points at once, because each polynomial waits for the one before it.
+    let last_two = |t: [f64; AT_ONCE]| {
+        (0..degree).fold(
+            [[0.0; AT_ONCE], [1.0; AT_ONCE]],
+            |[before, this], degree| {
+                let after = |k: usize| next(degree, t[k], [before[k], this[k]])[1];
+                [this, std::array::from_fn(after)]
+            },
+        )
+    };
+    let rules = |first: usize| {
+        let guess = |k: usize| -(std::f64::consts::PI * (first + k) as f64 / n).cos();
+        let step = |t: [f64; AT_ONCE], _| {
             let [before, last] = last_two(t);
-            t - (t * last - before) / ((n + 1.0) * last)
+            std::array::from_fn(|k| t[k] - (t[k] * last[k] - before[k]) / ((n + 1.0) * last[k]))
+        };
+        let nodes = (0..NEWTON_STEPS).fold(std::array::from_fn(guess), step);
+        let [_, last] = last_two(nodes);
+        std::array::from_fn::<_, AT_ONCE, _>(|k| {
+            [nodes[k], 2.0 / (n * (n + 1.0) * last[k] * last[k])]
         })
     };
-    let weight = |t: f64| {
-        let [_, last] = last_two(t);
-        2.0 / (n * (n + 1.0) * last * last)
-    };
     // The rule is symmetric.
-    let half = (0..=degree / 2).map(node);
-    let half: Vec<[f64; 2]> = half.map(|t| [t, weight(t)]).collect();
+    let half: Vec<[f64; 2]> = (0..=degree / 2).step_by(AT_ONCE).flat_map(rules).collect();
     let nodes = (0..=degree).map(|index| match (2 * index).cmp(&degree) {
         Ordering::Less => half[index][0],
         Ordering::Equal => 0.0,

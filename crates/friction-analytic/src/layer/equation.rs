@@ -9,7 +9,10 @@
 //!
 //! With q = d φ − ψ, φ = 1 + …, the force of a flat punch is that of a half space under one of the radius ∫₀^a φ dx.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_2_PI;
+use std::rc::Rc;
 
 use indenters::Axisymmetric;
 use nalgebra::linalg::Cholesky;
@@ -27,36 +30,77 @@ const WAVES: [f64; 2] = [45.0, 11.5];
 const NODES: [f64; 2] = [16.0, 4.0];
 const HEIGHTS: [f64; 2] = [30.0, 6.0];
 
-/// A rule of as many points as a length in thicknesses needs, on [0, 1].
-fn rule([fewest, per_length]: [f64; 2], length: f64) -> impl Iterator<Item = [f64; 2]> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few hundred"
-    )]
-    let LobattoRule { nodes, weights } = lobatto_rule((fewest + per_length * length) as usize);
-    let unit = |(t, weight): (f64, f64)| [0.5 * (1.0 + t), 0.5 * weight];
-    nodes.into_iter().zip(weights).map(unit)
+/// The number of points is a multiple of this one, so that radii next to each other have the same rule.
+const STEP: usize = 8;
+
+/// Wave numbers ξ = L (1 ∓ t)/2 over the thickness, in pairs, and rules for integrals along the line.
+pub(super) struct Waves {
+    pairs: Vec<Pair>,
+    rules: RefCell<BTreeMap<usize, Rc<[[f64; 2]]>>>,
 }
 
-/// Wave numbers ξ over the thickness, and the roots of (2/π) (1 − M) times their weights.
-pub(super) struct Waves(Vec<[f64; 2]>);
+/// t, and for both signs the roots of (2/π) (1 − M) times the weight.
+struct Pair {
+    t: f64,
+    roots: [f64; 2],
+}
 
 impl Waves {
     /// For contacts up to a radius.
     pub(super) fn new(poisson_ratio: f64, widest: f64) -> Self {
-        let wave = |[part, weight]: [f64; 2]| {
-            let xi = SHORTEST_WAVE * part;
-            let kernel = FRAC_2_PI * layer_deficit(xi, poisson_ratio);
-            [xi, (SHORTEST_WAVE * weight * kernel).sqrt()]
+        let rule = rule(n_points(WAVES, widest));
+        let root = |part: f64, weight: f64| {
+            let kernel = FRAC_2_PI * layer_deficit(SHORTEST_WAVE * part, poisson_ratio);
+            (SHORTEST_WAVE * weight * kernel).sqrt()
         };
-        Self(rule(WAVES, widest).map(wave).collect())
+        let pair = |&[part, weight]: &[f64; 2]| Pair {
+            t: 1.0 - 2.0 * part,
+            roots: [part, 1.0 - part].map(|part| root(part, weight)),
+        };
+        Self {
+            pairs: rule[..rule.len() / 2].iter().map(pair).collect(),
+            rules: RefCell::default(),
+        }
+    }
+
+    fn count(&self) -> usize {
+        2 * self.pairs.len()
     }
 
     /// √(2/π (1 − M)) cos ξx of all waves.
     fn at(&self, x: f64) -> impl Iterator<Item = f64> {
-        self.0.iter().map(move |[xi, root]| root * (xi * x).cos())
+        let half = 0.5 * SHORTEST_WAVE * x;
+        let (sine, cosine) = half.sin_cos();
+        self.pairs.iter().flat_map(move |pair| {
+            let (s, c) = (half * pair.t).sin_cos();
+            let [even, odd] = [cosine * c, sine * s];
+            [pair.roots[0] * (even + odd), pair.roots[1] * (even - odd)]
+        })
     }
+
+    /// A rule on [0, 1] for a length in thicknesses.
+    fn rule(&self, points: [f64; 2], length: f64) -> Rc<[[f64; 2]]> {
+        let n_points = n_points(points, length);
+        let mut rules = self.rules.borrow_mut();
+        Rc::clone(rules.entry(n_points).or_insert_with(|| rule(n_points)))
+    }
+}
+
+/// As many points as a length in thicknesses needs.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a few hundred"
+)]
+fn n_points([fewest, per_length]: [f64; 2], length: f64) -> usize {
+    ((fewest + per_length * length) as usize).next_multiple_of(STEP)
+}
+
+/// Lobatto's rule on [0, 1].
+fn rule(n_points: usize) -> Rc<[[f64; 2]]> {
+    let LobattoRule { nodes, weights } = lobatto_rule(n_points);
+    let unit = |(t, weight): (f64, f64)| [0.5 * (1.0 + t), 0.5 * weight];
+    nodes.into_iter().zip(weights).map(unit).collect()
 }
 
 /// The line of a body in a layer of a thickness, and its integrals up to its kinks.
@@ -83,7 +127,7 @@ impl<'a, B: Axisymmetric + ?Sized> Heights<'a, B> {
             radius: 0.0,
             height: 0.0,
             area: 0.0,
-            waves: DVector::zeros(waves.0.len()),
+            waves: DVector::zeros(waves.count()),
         };
         let mut heights = Self {
             body,
@@ -113,7 +157,8 @@ impl<'a, B: Axisymmetric + ?Sized> Heights<'a, B> {
         let before = self.sums.partition_point(|sums| sums.radius < radius);
         let mut sums = self.sums[before.max(1) - 1].clone();
         let start = sums.radius;
-        for [part, weight] in rule(HEIGHTS, (radius - start) / self.thickness) {
+        let rule = self.waves.rule(HEIGHTS, (radius - start) / self.thickness);
+        for &[part, weight] in rule.iter() {
             // Dense at both ends, where a line may be a root or a logarithm.
             let place = part.powi(3) * (10.0 - 15.0 * part + 6.0 * part * part);
             let density = 30.0 * (part * (1.0 - part)).powi(2);
@@ -145,12 +190,14 @@ pub(super) struct Disc {
 impl Disc {
     /// Of a radius in thicknesses.
     pub(super) fn new(waves: &Waves, radius: f64) -> Result<Self, FrictionError> {
-        let nodes: Vec<[f64; 2]> = rule(NODES, radius)
+        let nodes = waves.rule(NODES, radius);
+        let nodes = nodes.iter();
+        let nodes: Vec<[f64; 2]> = nodes
             .map(|[part, weight]| [radius * part, (radius * weight).sqrt()])
             .collect();
         let row = |[x, root]: &[f64; 2]| waves.at(*x).map(|wave| root * wave).collect::<Vec<_>>();
         let rows: Vec<f64> = nodes.iter().flat_map(row).collect();
-        let waves = DMatrix::from_row_slice(nodes.len(), waves.0.len(), &rows);
+        let waves = DMatrix::from_row_slice(nodes.len(), waves.count(), &rows);
         let matrix = DMatrix::identity(nodes.len(), nodes.len()) - &waves * waves.transpose();
         let factor = Cholesky::new(matrix).ok_or(FrictionError::NotConverged {
             quantity: "contact on the layer",

@@ -60,11 +60,23 @@ struct Map {
     ends: [f64; 2],
     power: f64,
     sigma: f64,
+    /// asinh(1/σ).
+    reach: f64,
 }
 
 impl Map {
+    fn new(ends: [f64; 2], power: f64, sigma: f64) -> Self {
+        let reach = sigma.recip().asinh();
+        Self {
+            ends,
+            power,
+            sigma,
+            reach,
+        }
+    }
+
     fn y(&self, x: f64) -> f64 {
-        self.sigma * (0.5 * (1.0 + x) * self.sigma.recip().asinh()).sinh()
+        self.sigma * (0.5 * (1.0 + x) * self.reach).sinh()
     }
 
     fn value(&self, x: f64) -> f64 {
@@ -76,7 +88,7 @@ impl Map {
     fn place(&self, value: f64) -> [f64; 2] {
         let [start, end] = self.ends;
         let y = ((value - start) / (end - start)).powf(self.power.recip());
-        let x = 2.0 * (y / self.sigma).asinh() / self.sigma.recip().asinh() - 1.0;
+        let x = 2.0 * (y / self.sigma).asinh() / self.reach - 1.0;
         [y, x]
     }
 }
@@ -126,14 +138,11 @@ impl LayerProfile {
         let limit = edge.min(layer.widest());
         let widest = limit.min(WIDER * half_space);
         let waves = Waves::new(layer.poisson_ratio, widest / layer.thickness);
-        let heights = Heights::new(body, layer.thickness, &waves, widest);
-        let on = OnLayer {
-            body,
-            thickness: layer.thickness,
-            waves: &waves,
-            heights,
-        };
+        let on = OnLayer::new(body, layer, &waves, widest);
         let radius = on.radius_at(depth, [half_space.min(widest), widest])?;
+        // Where the contact is narrower than it may be, fewer waves do.
+        let waves = Waves::new(layer.poisson_ratio, radius / layer.thickness);
+        let on = OnLayer::new(body, layer, &waves, radius);
         let available = on.contact(radius)?[1];
         if available >= needed {
             return on.profile(radius);
@@ -157,11 +166,7 @@ impl LayerProfile {
             exponent: f64::INFINITY,
             end: stiff,
             pieces: vec![Piece {
-                along: Map {
-                    ends: [0.0, f64::INFINITY],
-                    power: 1.0,
-                    sigma: 1.0,
-                },
+                along: Map::new([0.0, f64::INFINITY], 1.0, 1.0),
                 apex: 0.0,
                 radii: Series::of(constant, f64::INFINITY)?,
             }],
@@ -262,7 +267,19 @@ struct Contacts {
     ratios: Series,
 }
 
-impl<B: Axisymmetric + ?Sized> OnLayer<'_, B> {
+impl<'a, B: Axisymmetric + ?Sized> OnLayer<'a, B> {
+    /// For contacts up to a radius.
+    fn new(body: &'a B, layer: &BondedLayer, waves: &'a Waves, widest: f64) -> Self {
+        let thickness = layer.thickness;
+        let heights = Heights::new(body, thickness, waves, widest);
+        Self {
+            body,
+            thickness,
+            heights,
+            waves,
+        }
+    }
+
     /// Equivalent radius and depth of a contact.
     fn contact(&self, radius: f64) -> Result<[f64; 2], FrictionError> {
         let disc = Disc::new(self.waves, radius / self.thickness)?;
@@ -331,11 +348,9 @@ impl<B: Axisymmetric + ?Sized> OnLayer<'_, B> {
 
     /// In the radius contacts are smooth at an apex, and behind a kink of the body in the root of the distance.
     fn contacts(&self, ends: [f64; 2], grading: f64) -> Result<Contacts, FrictionError> {
-        let along = Map {
-            ends,
-            power: grading * if ends[0] > 0.0 { 2.0 } else { 1.0 },
-            sigma: ((self.thickness + ends[0]) / (ends[1] - ends[0])).min(STRAIGHT),
-        };
+        let power = grading * if ends[0] > 0.0 { 2.0 } else { 1.0 };
+        let sigma = (self.thickness + ends[0]) / (ends[1] - ends[0]);
+        let along = Map::new(ends, power, sigma.min(STRAIGHT));
         let ratios = |x: f64| {
             let radius = along.value(x);
             let [stiff, depth] = self.contact(radius)?;
@@ -354,22 +369,19 @@ impl<B: Axisymmetric + ?Sized> OnLayer<'_, B> {
         let depth = |radius: f64| self.body.line_height(radius) * ratios(radius)[1];
         self.check_rise(&contacts.along, &depth)?;
         let is_apex = inner == 0.0;
-        let mut along = Map {
-            ends: [start, depth(outer)],
-            power: grading
-                * if is_apex {
-                    self.body.profile_exponent()
-                } else {
-                    2.0
-                },
-            sigma: STRAIGHT,
+        let power = if is_apex {
+            self.body.profile_exponent()
+        } else {
+            2.0
         };
+        let mut along = Map::new([start, depth(outer)], grading * power, STRAIGHT);
         // Where radii are no longer as on a half space, or on the half space far from the kink.
         let scale = self
             .thickness
             .min(if is_apex { f64::INFINITY } else { inner });
         if inner + scale < outer {
-            along.sigma = along.place(depth(inner + scale))[0];
+            let sigma = along.place(depth(inner + scale))[0];
+            along = Map::new(along.ends, along.power, sigma);
         }
         let radii = |x: f64| {
             let target = along.value(x);

@@ -185,14 +185,13 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
         self.place = to;
         std::mem::swap(&mut self.heights, &mut self.before.heights);
         self.before.first = self.window[0];
-        let contact = sums
-            .ends
-            .map(|ends| ends.map(|element| self.along(element)));
-        self.check_edge(contact)?;
+        self.check_edge(&sums)?;
         Ok(Some(Stepped {
             depth,
             sums,
-            contact,
+            contact: sums
+                .ends
+                .map(|ends| ends.map(|element| self.along(element))),
         }))
     }
 
@@ -210,15 +209,18 @@ impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
         (self.first + element as f64) * self.sampled.spacing - self.place.position
     }
 
-    fn check_edge(&self, contact: Option<[f64; 2]>) -> Result<(), MdrError> {
-        let spacing = self.sampled.spacing;
-        let Some([rear, front]) = contact else {
+    fn check_edge(&self, sums: &Sums) -> Result<(), MdrError> {
+        let Some([rear, front]) = sums.ends else {
             return Ok(());
         };
-        for (end, beyond) in [(rear, rear - spacing), (front, front + spacing)] {
-            if self.line.at(beyond)? == f64::INFINITY {
+        let height = |element: usize| {
+            let index = element.checked_sub(self.before.first)?;
+            self.before.heights.get(index).copied()
+        };
+        for (end, beyond) in [(rear, rear.wrapping_sub(1)), (front, front + 1)] {
+            if height(beyond) == Some(f64::INFINITY) {
                 return Err(MdrError::ContactReachesEdge {
-                    position: end,
+                    position: self.along(end),
                     indentation_depth: self.place.depth,
                     time: self.place.time,
                 });

@@ -1,9 +1,12 @@
 //! An element that is touched or let go inside a step.
 
-use numerics::bracketed_root;
-
 use super::time_step::{Driven, TimeStep};
 use crate::steady::Foundation;
+
+/// Change of the part of a step with which Newton's method ends: the next change is about its square.
+const CLOSE: f64 = 1e-9;
+/// As many bisections reach the last digit.
+const MOST_ITERATIONS: usize = 60;
 
 /// One element in a step of which a part is contact.
 pub(super) struct Event<'a> {
@@ -22,24 +25,25 @@ impl Event<'_> {
         let rise = to - from;
         let carried = |part: f64| {
             let branches = foundation.branches.iter().zip(&self.slots[..n_branches]);
-            let stresses = branches.map(|(branch, stress)| {
-                let a = self.duration / branch.length;
-                let left = (-part * a).exp();
-                stress * left + branch.modulus * rise * ((1.0 - left) / a)
-            });
             let at_once = foundation.dashpot * rise / self.duration;
-            let spring = foundation.spring * (from + part * rise);
-            spring + at_once + stresses.sum::<f64>()
+            let start = [
+                foundation.spring * (from + part * rise) + at_once,
+                foundation.spring * rise,
+            ];
+            branches.fold(start, |[carried, rate], (branch, stress)| {
+                let a = self.duration / branch.length;
+                let driven = branch.modulus * rise;
+                let change = (-part * a).exp_m1();
+                let left = 1.0 + change;
+                let stress_then = stress * left - driven * change / a;
+                [carried + stress_then, rate + (driven - a * stress) * left]
+            })
         };
         // With a dashpot the load jumps where the speed does.
-        let part = if carried(0.0) <= 0.0 {
-            0.0
-        } else {
-            bracketed_root(carried, [0.0, 1.0]).unwrap_or(1.0)
-        };
+        let part = crossing(carried);
         let mut driven = Driven::default();
         if part > 0.0 {
-            let step = TimeStep::new(foundation, part * self.duration);
+            let step = TimeStep::of_branches(foundation, part * self.duration);
             driven = step.drive(from, part * rise, self.slots);
         }
         let displacement = from + part * rise;
@@ -81,20 +85,21 @@ impl Event<'_> {
     /// Touches an element that recovers to a `limit`, where the line goes from one displacement to another.
     pub(super) fn touch(self, limit: f64, [from, to]: [f64; 2]) -> Driven {
         let foundation = self.foundation;
-        let left = |part: f64| {
+        let rise = to - from;
+        let gap = |part: f64| {
             let slots = self.slots.iter().zip(&foundation.modes);
-            let time = part * self.duration;
-            slots.map(move |(slot, mode)| slot * (-time / mode.length).exp())
+            let start = [limit - (from + part * rise), -rise];
+            slots.fold(start, |[gap, rate], (slot, mode)| {
+                let a = self.duration / mode.length;
+                let left = slot * (-part * a).exp();
+                [gap - left, rate + a * left]
+            })
         };
-        let gap = |part: f64| (limit - left(part).sum::<f64>()) - (from + part * (to - from));
-        let part = if gap(0.0) <= 0.0 {
-            0.0
-        } else {
-            bracketed_root(gap, [0.0, 1.0]).unwrap_or(1.0)
-        };
-        let left: Vec<f64> = left(part).collect();
-        self.slots[..left.len()].copy_from_slice(&left);
-        let start = from + part * (to - from);
+        let part = crossing(gap);
+        for (slot, mode) in self.slots.iter_mut().zip(&foundation.modes) {
+            *slot *= (-part * self.duration / mode.length).exp();
+        }
+        let start = from + part * rise;
         let duration = self.duration;
         let stresses = &mut *self.slots;
         let again = Event {
@@ -106,7 +111,7 @@ impl Event<'_> {
         let rest = (1.0 - part) * self.duration;
         let mut driven = Driven::default();
         if rest > 0.0 {
-            let step = TimeStep::new(foundation, rest);
+            let step = TimeStep::of_branches(foundation, rest);
             driven = step.drive(displacement, to - displacement, self.slots);
         }
         driven.lost -= recovered;
@@ -119,7 +124,7 @@ impl Event<'_> {
         let left = self.slots[..foundation.modes.len()].to_vec();
         let mut displacement = limit - left.iter().sum::<f64>();
         for (slot, branch) in self.slots.iter_mut().zip(&foundation.branches) {
-            *slot = foundation.free_stress(branch, &left);
+            *slot = Foundation::free_stress(branch, &left);
         }
         let stresses = &mut self.slots[..foundation.branches.len()];
         // A dashpot holds against a jump.
@@ -132,4 +137,38 @@ impl Event<'_> {
             foundation.stored_energy(displacement, stresses),
         )
     }
+}
+
+/// Where a function, given with its derivative, falls below 0 between 0 and 1: by Newton's method, inside a bracket that
+/// shrinks; 0 where it is not above 0 at first, and 1 where it stays so.
+fn crossing(function: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let [start, end] = [0.0, 1.0].map(|part| function(part)[0]);
+    if start <= 0.0 {
+        return 0.0;
+    }
+    if end >= 0.0 {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut part = start / (start - end);
+    for _ in 0..MOST_ITERATIONS {
+        let [value, rate] = function(part);
+        if value > 0.0 {
+            low = part;
+        } else {
+            high = part;
+        }
+        let newton = part - value / rate;
+        let next = if low <= newton && newton <= high {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        let change = next - part;
+        part = next;
+        if change.abs() <= CLOSE {
+            break;
+        }
+    }
+    part
 }

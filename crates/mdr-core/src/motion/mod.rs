@@ -18,7 +18,7 @@ use numerics::{Accuracy, Goal, Request, positive, refine};
 use rheology::Material;
 
 use crate::MdrError;
-use crate::steady::LineProblem;
+use crate::steady::{LineProblem, has_steep_kinks};
 use march::Problem;
 
 /// Elements along the contact after which a motion is given up.
@@ -28,6 +28,8 @@ const WORK: f64 = 2.0;
 /// The friction of smooth bodies is of the second order, which their outline on the elements makes unsafe to assume; below
 /// the smallest order nothing converges.
 const ORDERS: [f64; 2] = [0.1, 1.0];
+/// Behind a steep kink the line rises like the root of the distance.
+const BEHIND_STEEP_KINK: f64 = 0.5;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
 const PART_OF_CYCLES: f64 = 0.05;
 const TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
@@ -82,7 +84,11 @@ pub fn move_along<'w>(
     let goal = Goal {
         request,
         largest: MOST_ELEMENTS,
-        order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
+        order: if has_steep_kinks(line) {
+            BEHIND_STEEP_KINK
+        } else {
+            (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1])
+        },
         work: WORK,
         others: 0.0,
         selection: 1.0,

@@ -7,12 +7,18 @@
 //! ∫ e² dt/(G τ) = (a/G) e₀² φ(2a) + 2 e₀ Δu (φ(a) − φ(2a)) + G Δu² (1 − 2 φ(a) + φ(2a))/a
 //! ```
 
-use crate::steady::Foundation;
+use crate::steady::{Branch, Foundation, Mode};
 
 /// Below, differences of φ are summed as series.
 const SHORT: f64 = 0.5;
 /// Terms of the series that matter there.
-const TERMS: i32 = 20;
+const TERMS: usize = 18;
+/// Series of φ(a) − 1, φ(a) − φ(2a), and 1 − 2 φ(a) + φ(2a).
+const SERIES: [[f64; TERMS]; 3] = [
+    coefficients([1.0, 0.0]),
+    coefficients([1.0, -1.0]),
+    coefficients([-2.0, 1.0]),
+];
 /// Branches that are followed at once; a slot without a branch holds 0.
 pub(super) const LANES: usize = 4;
 
@@ -45,14 +51,6 @@ struct Branches {
     lost: [Lanes; 2],
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Branch {
-    decay: f64,
-    gain: f64,
-    mean: [f64; 2],
-    lost: [f64; 3],
-}
-
 /// What an element does in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Driven {
@@ -63,34 +61,67 @@ pub(super) struct Driven {
 }
 
 impl TimeStep {
+    /// Over branches and modes.
     pub(super) fn new(foundation: &Foundation, duration: f64) -> Self {
-        let mut stiffness = foundation.spring;
-        let mut dashpot = 0.0;
-        if foundation.has_dashpot() {
-            dashpot = foundation.dashpot / duration;
-            stiffness += dashpot;
-        }
-        let branches: Vec<Branch> = foundation
-            .branches
-            .iter()
-            .map(|branch| Branch::new(branch.modulus, duration / branch.length))
-            .collect();
-        stiffness += branches.iter().map(|branch| branch.gain).sum::<f64>();
-        let modes = foundation.modes.iter();
-        let decays: Vec<f64> = modes.map(|mode| (-duration / mode.length).exp()).collect();
+        let decay = |mode: &Mode| (-duration / mode.length).exp();
+        let modes = foundation.modes.chunks(LANES);
         Self {
-            duration,
-            stiffness,
-            spring: foundation.spring,
-            dashpot,
-            mean: branches.iter().map(|branch| branch.mean[1]).sum(),
-            lost: branches.iter().map(|branch| branch.lost[2]).sum(),
-            branches: branches.chunks(LANES).map(Branches::of).collect(),
-            decays: decays
-                .chunks(LANES)
-                .map(|decays| lanes(decays, |decay| *decay))
-                .collect(),
+            decays: modes.map(|modes| lanes(modes, 0.0, decay)).collect(),
+            ..Self::of_branches(foundation, duration)
         }
+    }
+
+    /// Over branches alone.
+    pub(super) fn of_branches(foundation: &Foundation, duration: f64) -> Self {
+        let mut step = Self {
+            duration,
+            stiffness: foundation.spring,
+            spring: foundation.spring,
+            branches: Vec::with_capacity(foundation.branches.len().div_ceil(LANES)),
+            ..Self::default()
+        };
+        if foundation.has_dashpot() {
+            step.dashpot = foundation.dashpot / duration;
+            step.stiffness += step.dashpot;
+        }
+        for branches in foundation.branches.chunks(LANES) {
+            step.add(branches);
+        }
+        step
+    }
+
+    /// Up to [`LANES`] more branches.
+    fn add(&mut self, branches: &[Branch]) {
+        let modulus = lanes(branches, 0.0, |branch| branch.modulus);
+        let compliance = lanes(branches, 0.0, |branch| branch.modulus.recip());
+        let a = lanes(branches, 1.0, |branch| self.duration / branch.length);
+        // e^(−a) − 1, φ(a), and φ(2a).
+        let change = a.map(|a| (-a).exp_m1());
+        let once: Lanes = std::array::from_fn(|k| -change[k] / a[k]);
+        let twice: Lanes = std::array::from_fn(|k| once[k] * (1.0 + 0.5 * change[k]));
+        let mut differences = SERIES.map(|series| sum(&series, a));
+        for k in (0..LANES).filter(|k| a[*k] > SHORT) {
+            differences[0][k] = once[k] - 1.0;
+            differences[1][k] = once[k] - twice[k];
+            differences[2][k] = 1.0 - 2.0 * once[k] + twice[k];
+        }
+        let [lag, lost, lost_alone] = differences;
+        let decay = change.map(|change| 1.0 + change);
+        let gain = product(modulus, once);
+        self.stiffness += total(gain);
+        for k in 0..LANES {
+            self.mean -= modulus[k] * lag[k] / a[k];
+            self.lost += modulus[k] * lost_alone[k] / a[k];
+        }
+        self.branches.push(Branches {
+            decay,
+            gain,
+            mean: once,
+            lost: [
+                std::array::from_fn(|k| compliance[k] * a[k] * twice[k]),
+                lost.map(|lost| 2.0 * lost),
+            ],
+        });
     }
 
     /// The sum of what recovers, at the end.
@@ -143,19 +174,9 @@ impl TimeStep {
     }
 }
 
-impl Branches {
-    fn of(branches: &[Branch]) -> Self {
-        Self {
-            decay: lanes(branches, |branch| branch.decay),
-            gain: lanes(branches, |branch| branch.gain),
-            mean: lanes(branches, |branch| branch.mean[0]),
-            lost: [0, 1].map(|part| lanes(branches, |branch| branch.lost[part])),
-        }
-    }
-}
-
-fn lanes<T>(of: &[T], number: impl Fn(&T) -> f64) -> Lanes {
-    std::array::from_fn(|lane| of.get(lane).map_or(0.0, &number))
+/// Numbers of up to [`LANES`] things, and of those that are missing.
+fn lanes<T>(of: &[T], missing: f64, number: impl Fn(&T) -> f64) -> Lanes {
+    std::array::from_fn(|lane| of.get(lane).map_or(missing, &number))
 }
 
 /// sum + a b.
@@ -171,45 +192,25 @@ fn total(lanes: Lanes) -> f64 {
     lanes.iter().sum()
 }
 
-impl Branch {
-    fn new(modulus: f64, a: f64) -> Self {
-        let mean = phi(a);
-        Self {
-            decay: (-a).exp(),
-            gain: modulus * mean,
-            mean: [mean, modulus * lag(a)],
-            lost: [
-                a * phi(2.0 * a) / modulus,
-                2.0 * series(a, |power| 1.0 - power, || mean - phi(2.0 * a)),
-                modulus * series(a, |power| power - 2.0, || 1.0 - 2.0 * mean + phi(2.0 * a)) / a,
-            ],
-        }
-    }
-}
-
-/// φ(a) = (1 − e^(−a))/a.
-fn phi(a: f64) -> f64 {
-    -(-a).exp_m1() / a
-}
-
-/// (1 − φ(a))/a.
-fn lag(a: f64) -> f64 {
-    -series(a, |_| 1.0, || phi(a) - 1.0) / a
-}
-
-/// Σ c(2^k) (−a)^k/(k + 1)! from k = 1 on, for combinations of φ(a) = Σ (−a)^k/(k + 1)! and φ(2a); in closed form for long
-/// steps.
-fn series(a: f64, factor: fn(f64) -> f64, long: impl Fn() -> f64) -> f64 {
-    if a > SHORT {
-        return long();
-    }
-    let (mut term, mut power, mut sum) = (1.0, 1.0, 0.0);
-    for k in 1..=TERMS {
-        term *= -a / f64::from(k + 1);
+/// Of a combination of φ(a) = Σ (−a)^k/(k + 1)! and φ(2a) what the powers from k = 1 on are multiplied by.
+const fn coefficients([once, twice]: [f64; 2]) -> [f64; TERMS] {
+    let mut coefficients = [0.0; TERMS];
+    let (mut term, mut power, mut k) = (1.0, 1.0, 0);
+    while k < TERMS {
+        term /= -(k as f64 + 2.0);
         power *= 2.0;
-        sum += factor(power) * term;
+        coefficients[k] = (once + twice * power) * term;
+        k += 1;
     }
-    sum
+    coefficients
+}
+
+/// Σ c_k a^k from k = 1 on.
+fn sum(coefficients: &[f64; TERMS], a: Lanes) -> Lanes {
+    let terms = coefficients.iter().rev();
+    terms.fold([0.0; LANES], |sum, coefficient| {
+        std::array::from_fn(|lane| a[lane] * (sum[lane] + coefficient))
+    })
 }
 
 #[cfg(test)]

@@ -34,12 +34,16 @@ pub(crate) struct Foundation {
 pub(crate) struct Branch {
     pub(crate) modulus: f64,
     pub(crate) length: f64,
+    /// l/(L_k − l) of all modes.
+    ratios: Vec<f64>,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(crate) struct Mode {
     compliance: f64,
     pub(crate) length: f64,
+    /// l_i/(L − l_i) of all branches.
+    ratios: Vec<f64>,
 }
 
 /// A boundary layer `amplitude · e^(−ratio (1 + t))`.
@@ -89,26 +93,38 @@ impl Foundation {
         let at_once = spring + moduli.sum::<f64>() / factor;
         let unit = if at_once > 0.0 { at_once } else { dashpot };
         let unit = positive("stiffness of the foundation", unit)?;
-        let branches = relaxation.branches().iter().map(|branch| {
-            let length = velocity * branch.relaxation_time;
-            Ok(Branch {
-                modulus: branch.modulus / factor / unit,
-                length: positive("distance of relaxation", length)?,
-            })
+        let lengths = |times: Vec<f64>, name| {
+            let lengths = times
+                .into_iter()
+                .map(|time| positive(name, velocity * time));
+            lengths.collect::<Result<Vec<f64>, _>>()
+        };
+        let times = relaxation.branches().iter().map(|b| b.relaxation_time);
+        let relaxing = lengths(times.collect(), "distance of relaxation")?;
+        let times = creep.elements().iter().map(|e| e.retardation_time);
+        let recovering = lengths(times.collect(), "distance of retardation")?;
+        let ratio = |branch: f64, mode: f64| branch / (mode - branch);
+        let branches = relaxation.branches().iter().zip(&relaxing);
+        let branches = branches.map(|(branch, &length)| Branch {
+            modulus: branch.modulus / factor / unit,
+            length,
+            ratios: recovering.iter().map(|&mode| ratio(length, mode)).collect(),
         });
-        let modes = creep.elements().iter().map(|element| {
-            let length = velocity * element.retardation_time;
-            Ok(Mode {
-                compliance: element.compliance * factor * unit,
-                length: positive("distance of retardation", length)?,
-            })
+        let modes = creep.elements().iter().zip(&recovering);
+        let modes = modes.map(|(element, &length)| Mode {
+            compliance: element.compliance * factor * unit,
+            length,
+            ratios: relaxing
+                .iter()
+                .map(|&branch| ratio(branch, length))
+                .collect(),
         });
         Ok(Self {
             unit,
             spring: spring / unit,
             dashpot: dashpot / unit,
-            branches: branches.collect::<Result<_, MdrError>>()?,
-            modes: modes.collect::<Result<_, MdrError>>()?,
+            branches: branches.collect(),
+            modes: modes.collect(),
         })
     }
 
@@ -213,8 +229,7 @@ impl Foundation {
 
     /// β of a mode of a surface that is let go with this displacement and these stresses.
     pub(crate) fn amplitude(&self, mode: &Mode, displacement: f64, stresses: &[f64]) -> f64 {
-        let pulls = self.branches.iter().zip(stresses);
-        let pulls = pulls.map(|(b, e)| e * (b.length / (mode.length - b.length)));
+        let pulls = mode.ratios.iter().zip(stresses).map(|(r, e)| r * e);
         mode.compliance * (pulls.sum::<f64>() - self.spring * displacement)
     }
 
@@ -259,16 +274,14 @@ impl Foundation {
         let modes = self.modes.iter().zip(&recovery.amplitudes);
         let left = modes.map(|(mode, beta)| beta * (-xi / mode.length).exp());
         let left: Vec<f64> = left.collect();
-        let stress = |branch: &Branch| self.free_stress(branch, &left);
+        let stress = |branch: &Branch| Self::free_stress(branch, &left);
         self.branches.iter().map(stress).collect()
     }
 
     /// Stress in a branch of a free surface of which `left` β e^(−ξ/L) is left in each mode.
-    pub(crate) fn free_stress(&self, branch: &Branch, left: &[f64]) -> f64 {
-        let modes = self.modes.iter().zip(left);
-        let part =
-            |(mode, beta): (&Mode, &f64)| beta * (branch.length / (mode.length - branch.length));
-        branch.modulus * modes.map(part).sum::<f64>()
+    pub(crate) fn free_stress(branch: &Branch, left: &[f64]) -> f64 {
+        let modes = branch.ratios.iter().zip(left);
+        branch.modulus * modes.map(|(r, beta)| r * beta).sum::<f64>()
     }
 }
 

@@ -29,7 +29,7 @@ use numerics::{Estimate, between_zero_and_one};
 use rheology::Material;
 
 use crate::MdrError;
-pub(crate) use foundation::Foundation;
+pub(crate) use foundation::{Branch, Foundation, Mode};
 pub(crate) use problem::LineProblem;
 pub(crate) use steep_kinks::has_steep_kinks;
 

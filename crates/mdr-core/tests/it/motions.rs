@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use indenters::{
-    Control, EquivalentLine, IndenterError, Moved, MovedPoint, MovingLoad, MovingPoint,
+    Control, EquivalentLine, FlatCone, IndenterError, Moved, MovedPoint, MovingLoad, MovingPoint,
     PowerProfile, RigidLine, Shape, Sphere, Stroke,
 };
 use mdr_core::{MdrError, move_along, steady};
@@ -207,6 +207,56 @@ fn bars_of_coarse_chains_hold_finer_values() {
             assert!(
                 20 * misses <= all,
                 "{elements} elements: {misses} of {all} points"
+            );
+        }
+    }
+}
+
+/// Under a force its mean over every step is the one that is given, and not the force at the ends of the steps: the friction
+/// of round bodies has an error below the square of a step over the contact.
+#[test]
+fn few_elements_know_the_friction_under_a_force() {
+    let ball = ball();
+    let line = EquivalentLine(&ball);
+    for (n_branches, length, frequency) in [(3, 1e-2, 2.0), (2, 3e-3, 10.0), (1, 5e-3, 100.0)] {
+        let motion = to_and_fro(length, frequency, Control::NormalForce(FORCE));
+        let on = |elements| {
+            let request = Accuracy::Elements(elements);
+            let moved = move_along(&line, &rubber(n_branches), &motion, request);
+            moved.expect("a cycle").friction_coefficient
+        };
+        let (coarse, fine) = (on(32), on(160));
+        let error = (coarse.value - fine.value).abs();
+        assert!(
+            error < 0.25 * fine.value / 32_f64.powi(2) && error <= coarse.error,
+            "{n_branches} branches: {coarse:?}, {fine:?}, {:e}",
+            error / fine.value
+        );
+    }
+}
+
+/// At the edge of a flat end the line is steeper than any number, and errors fall like the root of the elements.
+#[test]
+fn bars_of_flat_ends_hold() {
+    let body = FlatCone::new(2e-4, 0.3).expect("a flat cone");
+    let line = EquivalentLine(&body);
+    for (control, length, frequency) in [
+        (Control::IndentationDepth(1.6e-4), 3.7e-3, 0.35),
+        (Control::NormalForce(2.3), 1.7e-3, 0.27),
+    ] {
+        let motion = to_and_fro(length, frequency, control);
+        let on = |elements| {
+            let request = Accuracy::Elements(elements);
+            let moved = move_along(&line, &rubber(3), &motion, request);
+            moved.expect("a cycle").friction_coefficient
+        };
+        let fine = on(256);
+        for elements in [16, 32, 64] {
+            let coarse = on(elements);
+            let error = (coarse.value - fine.value).abs();
+            assert!(
+                error <= coarse.error,
+                "{control:?}, {elements} elements: {coarse:?}, {fine:?}"
             );
         }
     }

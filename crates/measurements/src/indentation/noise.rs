@@ -65,7 +65,7 @@ impl Likelihood {
 const RATIO: f64 = 2.5;
 const PARTS: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0];
 /// Probability of white noise before anything was measured; all others share the rest.
-const WHITE: f64 = 0.2;
+const WHITE: f64 = 0.5;
 /// Noises with a smaller part of the largest probability do not count.
 const UNLIKELY: f64 = 1e-3;
 /// A little more on the diagonal of a normal matrix keeps what is not determined finite.

@@ -192,6 +192,9 @@ impl Between<'_> {
 
 impl EquivalentProfile for Between<'_> {
     fn position(&self, height: f64) -> Result<f64, IndenterError> {
+        if let [(known, _)] = self.0[..] {
+            return known.position(height);
+        }
         let mean = |sum: f64, (profile, weight): &(&LayerProfile, f64)| {
             Ok::<f64, IndenterError>(sum + weight * profile.position(height)?.ln())
         };

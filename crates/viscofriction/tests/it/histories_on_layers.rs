@@ -58,6 +58,24 @@ fn theory_and_elements_agree_on_the_way_in_and_back() {
     }
 }
 
+/// At 4e-4 elements are within 1e-4 of the largest force, on the way in, where the depth is held, and on the way back.
+#[test]
+fn theory_is_what_fine_elements_tend_to() {
+    let depths = [0.0, 1e-6, 1e-6, 0.6e-6];
+    let mut scene = scene(0.3, 2e-6, "indentation_depth", &depths);
+    scene.solve.relative_error = Some(4e-4);
+    let [theory, elements] = [Method::Analytic, Method::BemTransient].map(|method| {
+        let answer = solved(&scene, Some(method));
+        let force = answer.fields.curve.column("normal_force");
+        force.cloned().expect("a column")
+    });
+    let allowed = 1e-4 * theory.largest();
+    for (one, other) in theory.values.iter().zip(&elements.values) {
+        let off = (one.value - other.value).abs();
+        assert!(off <= allowed, "{one:?} and {other:?}");
+    }
+}
+
 #[test]
 fn what_presses_again_is_left_to_elements() {
     for (quantity, values) in [
