@@ -11,15 +11,17 @@ use crate::text::WrongInput;
 
 const ONE_OF: &str = "a body moves through the points of motion or motion_file, or over a stroke, or follows a history: give one of them";
 const MOVES: &str = "a motion says how the body moves; leave this out";
+const SINGLE: &str = "it is for single bodies; a periodic surface slides at one velocity";
 
 impl Load {
-    /// To and fro, or through points, pressed as `control` says; none where the speed is constant.
+    /// To and fro, or through points, of a body with that area \[m²] of one `period` or none; none where the speed is constant.
     pub(crate) fn checked_motion(
         &self,
-        control: impl FnOnce() -> Result<Control, SceneError>,
+        period: Option<f64>,
         files: &Files<'_>,
     ) -> Result<Option<MovingLoad>, SceneError> {
-        self.check_alone()?;
+        self.check_alone(period)?;
+        let control = || self.control(period);
         if let Some(length) = self.stroke {
             let missing = || {
                 let problem = "a stroke needs a frequency [1/s], how many times it is passed forth and back in a second";
@@ -66,7 +68,7 @@ impl Load {
     }
 
     /// Refuses what says something else about the motion.
-    fn check_alone(&self) -> Result<(), SceneError> {
+    fn check_alone(&self, period: Option<f64>) -> Result<(), SceneError> {
         let motions = [
             ("load.stroke", self.stroke.is_some()),
             ("load.motion", self.motion.is_some()),
@@ -79,7 +81,10 @@ impl Load {
         if let Some((key, _)) = given.next() {
             return Err(SceneError::at(*key, ONE_OF));
         }
-        if first.is_some_and(|(key, _)| !key.contains("history")) {
+        if let Some((key, _)) = first.filter(|(key, _)| !key.contains("history")) {
+            if period.is_some() {
+                return Err(SceneError::at(*key, SINGLE));
+            }
             let others = [
                 ("load.velocity", self.velocity),
                 ("load.track", self.track),

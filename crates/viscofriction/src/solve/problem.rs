@@ -111,8 +111,7 @@ impl Problem {
         let files = Files::of(scene, folder, read)?;
         let history = scene.load.checked_history(&files)?;
         let history = history.unwrap_or_default();
-        let control = || scene.load.control(body.period_area());
-        let moving = scene.load.checked_motion(control, &files)?;
+        let moving = scene.load.checked_motion(body.period_area(), &files)?;
         let motion = match (history.last(), &moving) {
             (Some(last), _) => ended(scene, Motion::History(last.control))?,
             (_, Some(moving)) => ended(scene, Motion::Moving(moving.largest_control()))?,

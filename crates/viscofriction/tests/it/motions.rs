@@ -164,3 +164,16 @@ fn what_no_motion_serves_is_refused_by_name() {
         assert!(refused.contains(said), "{load} with {solved}: {refused}");
     }
 }
+
+#[test]
+fn a_periodic_surface_is_told_that_motions_are_for_single_bodies() {
+    let road = include_str!("../../../../examples/scenes/rough-road.toml");
+    let (body, _) = road.split_once("[load]").expect("a load");
+    for pressed in ["normal_force = 2.0", "mean_pressure = 1e3"] {
+        let load = format!("{pressed}\nstroke = 5e-3\nfrequency = 2.0");
+        let scene = format!("{body}[load]\n{load}\n").parse::<Scene>();
+        let refused = Problem::try_from(&scene.expect("a scene")).expect_err(&load);
+        let said = "load.stroke: it is for single bodies";
+        assert!(refused.to_string().contains(said), "{refused}");
+    }
+}
