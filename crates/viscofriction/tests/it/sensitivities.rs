@@ -118,6 +118,25 @@ fn the_error_of_a_series_is_in_the_bars_of_derivatives() {
     );
 }
 
+/// The least exponent of a springpot has the derivative of one beside it.
+#[test]
+fn a_number_that_is_the_least_allowed_one_has_a_derivative() {
+    let at = |exponent: f64| {
+        let text = format!(
+            "indenter.cone.slope = 0.03\nload = {{ normal_force = 54.3, velocity = 2.7 }}\nsolve.relative_error = 2e-2\n\
+             material.springpot = {{ coefficient = 3.5e4, exponent = {exponent:?}, time_range = [6.6e-5, 66.0] }}"
+        );
+        let (_, known) = answered(&text);
+        let known = known.expect("derivatives");
+        let known = of(&known, "material.springpot.exponent").friction_coefficient;
+        known.expect("a derivative")
+    };
+    let [least, beside] = [0.01, 0.0101].map(at);
+    let off = (least.value - beside.value).abs();
+    let is_near = off < least.error + beside.error && off < 0.05 * beside.value.abs();
+    assert!(is_near, "{least:?}, {beside:?}");
+}
+
 #[test]
 fn answers_without_derivatives_say_where_there_are_some() {
     let text = "indenter.sphere.radius = 5e-3\nmaterial.viscous.viscosity = 1e4\n\

@@ -22,7 +22,7 @@ const CENTRAL: [Point; 6] = [
     (2, [-0.15, -1.0 / 12.0]),
     (3, [1.0 / 60.0, 0.0]),
 ];
-/// The same from below, for a number that is the largest allowed one.
+/// The same to one side, for a number that is the largest allowed one; with the other sign for the least one.
 const FROM_BELOW: [Point; 7] = [
     (0, [2.45, 25.0 / 12.0]),
     (-1, [-6.0, -4.0]),
@@ -43,21 +43,24 @@ pub(super) fn sensitivities(
         .collect()
 }
 
-/// Differences of answers to either side, or from below.
+/// Differences of answers to either side, or to one.
 fn sensitivity(
     numbers: &Numbers,
     number: &Number,
     method: Method,
     answer: &Answer,
 ) -> Result<Sensitivity> {
-    let at = |points: &[Point]| -> Result<Vec<(Answer, [f64; 2])>> {
+    let at = |points: &[Point], side: f64| -> Result<Vec<(Answer, [f64; 2])>> {
         let solved = |&(steps, weights): &Point| {
-            let value = number.value * (STEP * f64::from(steps)).exp();
+            let value = number.value * (side * STEP * f64::from(steps)).exp();
+            let weights = weights.map(|weight| side * weight);
             Ok((solved(numbers, number, method, value)?, weights))
         };
         points.iter().rev().map(solved).collect()
     };
-    let points = at(&CENTRAL).or_else(|_| at(&FROM_BELOW))?;
+    let points = at(&CENTRAL, 1.0)
+        .or_else(|_| at(&FROM_BELOW, 1.0))
+        .or_else(|_| at(&FROM_BELOW, -1.0))?;
     let of = |quantity: fn(&Answer) -> Option<Estimate>| {
         quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
         difference(&points, quantity)
