@@ -150,6 +150,31 @@ fn a_point_that_cannot_be_computed_is_a_row_and_status_1() {
     }
 }
 
+/// Marching has no derivatives, and its answers are as good without.
+#[test]
+fn a_point_without_derivatives_keeps_its_answer_and_says_why() {
+    let folder = quick("no-derivatives");
+    let scene = format!("solve.elements = 16\n{}", folder.text("scene.toml"));
+    folder.write("scene.toml", scene);
+    let vary = "--vary solve.method=bem-steady,mdr-transient";
+    let line = format!("sweep scene.toml --sensitivity {vary} --out rows.csv");
+    let said = folder.done(line).stderr;
+    let why = "mdr-transient knows no derivatives of this answer";
+    assert!(
+        said.contains(why) && said.contains("(at 1 of 2 points)"),
+        "{said}"
+    );
+    let rows = folder.text("rows.csv");
+    let place = rows
+        .split(',')
+        .position(|name| name == "friction_coefficient");
+    let friction = folder.column("rows.csv", place.expect("a friction"));
+    assert!(
+        friction.len() == 2 && friction.iter().all(|friction| *friction > 0.0),
+        "{rows}"
+    );
+}
+
 #[test]
 fn files_and_words_of_a_scene_vary() {
     let folder = Folder::new("varied-texts");

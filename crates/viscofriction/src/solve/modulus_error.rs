@@ -15,7 +15,7 @@ use crate::scene::{Accuracy, Method, Model};
 const OF_THE_METHOD: f64 = 0.95;
 /// Change of a quantity over the relative change of the moduli, at most. A force is proportional to them; under a force
 /// depth and radius change less, area and peak pressure at most twice as much.
-const PER_MODULUS: f64 = 4.0;
+pub(super) const PER_MODULUS: f64 = 4.0;
 
 impl Problem {
     /// Relative error of the moduli, 0 of a material that stands for itself.

@@ -20,7 +20,8 @@ pub struct Plan {
     vary: Vec<Vary>,
     /// Of the scene, the contents of the files that it names, and what varies, whatever comments and order.
     pub fingerprint: String,
-    /// Whether rows say what the covariance of the material and the uncertainties of the scene make of them.
+    /// Whether rows, but for those of samples, say what the covariance of the material and the uncertainties of the scene make of
+    /// them.
     pub sensitivity: bool,
     /// Memory that a point may take where the scene does not say, \[bytes].
     pub max_memory: Option<u64>,
@@ -145,26 +146,25 @@ impl Plan {
     pub fn solve(&self, point: usize) -> Result<SweepRow, WrongInput> {
         let (scene, problem) = self.scene_and_problem(point)?;
         let mut answer = solve(&problem);
-        let mut failure = answer
-            .as_ref()
-            .err()
-            .map(|error| one_line(&error.to_string()));
+        let is_drawn = self.sample(point).is_some_and(|sample| sample > 0.0);
         if self.sensitivity
-            && let Ok(alone) = &answer
+            && !is_drawn
+            && let Ok(alone) = &mut answer
         {
             let files = (self.source.folder(), self.read);
             match with_sensitivity(&scene, files, &problem, alone.clone()) {
-                Ok(found) => answer = Ok(found),
-                Err(error) => failure = Some(one_line(&error.to_string())),
+                Ok(found) => *alone = found,
+                Err(why) => alone.warnings.push(format!("{NO_UNCERTAINTY}{why}")),
             }
         }
+        let failure = answer.as_ref().err().map(ToString::to_string);
         let found = match &answer {
             Ok(answer) => Some(answer),
             Err(error) => error.reached(),
         };
         let mut fields = identity(self, point);
         fields.extend(self.results(found));
-        fields.push(failure.unwrap_or_default());
+        fields.push(failure.map_or(String::new(), |why| one_line(&why)));
         Ok(SweepRow { point, fields })
     }
 
@@ -298,6 +298,10 @@ impl SweepRow {
 
 /// Between the sentences of a cell.
 const BETWEEN_WARNINGS: &str = " | ";
+
+/// Before the reason why a row has no uncertainty.
+const NO_UNCERTAINTY: &str =
+    "the columns of uncertainty are empty, because there are no derivatives: ";
 
 /// A row is a line.
 fn one_line(text: &str) -> String {

@@ -123,13 +123,14 @@ impl Contact {
     }
 }
 
-/// The problems on both sides of a number, or from below where it is the largest allowed one, with its values.
+/// The problems on both sides of a number, or on one where it is the largest or the least allowed one, with its values.
 fn neighbours(numbers: &Numbers, number: &Number) -> Result<[(Problem, f64); 2], SceneError> {
     let at = |factor: f64| {
         let value = factor * number.value;
         Ok::<_, SceneError>((numbers.problem(number, value)?, value))
     };
-    Ok([at(1.0 - STEP)?, at(1.0 + STEP).or_else(|_| at(1.0))?])
+    let [low, high] = [at(1.0 - STEP), at(1.0 + STEP)];
+    Ok([low.or_else(|_| at(1.0))?, high.or_else(|_| at(1.0))?])
 }
 
 fn change(

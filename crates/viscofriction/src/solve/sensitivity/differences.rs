@@ -10,8 +10,28 @@ use crate::solve::error::Result;
 use crate::solve::plan::Plan;
 use crate::solve::work::work;
 
-/// Relative step of the numbers.
-const STEP: f64 = 1e-4;
+/// Step of the logarithm of a number. The sixth order leaves what rounding does, below 1e-11 in closed forms.
+const STEP: f64 = 2e-3;
+/// Distances in steps, with their weights in differences of the sixth and of the fourth order (Fornberg 1988).
+type Point = (i32, [f64; 2]);
+const CENTRAL: [Point; 6] = [
+    (-3, [-1.0 / 60.0, 0.0]),
+    (-2, [0.15, 1.0 / 12.0]),
+    (-1, [-0.75, -2.0 / 3.0]),
+    (1, [0.75, 2.0 / 3.0]),
+    (2, [-0.15, -1.0 / 12.0]),
+    (3, [1.0 / 60.0, 0.0]),
+];
+/// The same to one side, for a number that is the largest allowed one; with the other sign for the least one.
+const FROM_BELOW: [Point; 7] = [
+    (0, [2.45, 25.0 / 12.0]),
+    (-1, [-6.0, -4.0]),
+    (-2, [7.5, 3.0]),
+    (-3, [-20.0 / 3.0, -4.0 / 3.0]),
+    (-4, [3.75, 0.25]),
+    (-5, [-1.2, 0.0]),
+    (-6, [1.0 / 6.0, 0.0]),
+];
 
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
@@ -23,39 +43,27 @@ pub(super) fn sensitivities(
         .collect()
 }
 
-/// Differences over one and two steps to either side, or from below where a number is the largest allowed one.
+/// Differences of answers to either side, or to one.
 fn sensitivity(
     numbers: &Numbers,
     number: &Number,
     method: Method,
     answer: &Answer,
 ) -> Result<Sensitivity> {
-    let at = |factor: f64| solved(numbers, number, method, factor * number.value);
-    let (ends, steps) = match at(1.0 + STEP) {
-        Ok(above) => {
-            let wide = [at(1.0 - 2.0 * STEP)?, at(1.0 + 2.0 * STEP)?];
-            ([[at(1.0 - STEP)?, above], wide], [[-1.0, 1.0], [-2.0, 2.0]])
-        }
-        Err(_) => {
-            let [near, far] = [at(1.0 - STEP)?, at(1.0 - 2.0 * STEP)?];
-            (
-                [[near, answer.clone()], [far, answer.clone()]],
-                [[-1.0, 0.0], [-2.0, 0.0]],
-            )
-        }
+    let at = |points: &[Point], side: f64| -> Result<Vec<(Answer, [f64; 2])>> {
+        let solved = |&(steps, weights): &Point| {
+            let value = number.value * (side * STEP * f64::from(steps)).exp();
+            let weights = weights.map(|weight| side * weight);
+            Ok((solved(numbers, number, method, value)?, weights))
+        };
+        points.iter().rev().map(solved).collect()
     };
+    let points = at(&CENTRAL, 1.0)
+        .or_else(|_| at(&FROM_BELOW, 1.0))
+        .or_else(|_| at(&FROM_BELOW, -1.0))?;
     let of = |quantity: fn(&Answer) -> Option<Estimate>| {
-        let known = quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
-        let mut slopes = [Estimate::exact(0.0); 2];
-        for (slope, (ends, steps)) in slopes.iter_mut().zip(ends.iter().zip(steps)) {
-            let [from, to] = [quantity(&ends[0])?, quantity(&ends[1])?];
-            let [low, high] = steps.map(|step| (step * STEP).ln_1p());
-            let width = known.value * (high - low);
-            let error = (from.error + to.error) / width.abs();
-            *slope = Estimate::new((to.value - from.value) / width, error);
-        }
-        let [near, far] = slopes;
-        Some(near.widened((near.value - far.value).abs()))
+        quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
+        difference(&points, quantity)
     };
     Ok(Sensitivity {
         parameter: number.path(),
@@ -64,6 +72,23 @@ fn sensitivity(
         indentation_depth: of(|answer| answer.indentation_depth),
         contact_area: of(|answer| answer.contact_area),
     })
+}
+
+/// The derivative of the logarithm of a quantity; both orders differ by what the fourth one leaves out.
+fn difference(
+    points: &[(Answer, [f64; 2])],
+    quantity: fn(&Answer) -> Option<Estimate>,
+) -> Option<Estimate> {
+    let (mut slopes, mut error) = ([0.0; 2], 0.0);
+    for (answer, weights) in points {
+        let known = quantity(answer)?;
+        for (slope, weight) in slopes.iter_mut().zip(weights) {
+            *slope += weight / STEP * known.value.abs().ln();
+        }
+        error += (weights[0] / STEP * known.error / known.value).abs();
+    }
+    let [sixth, fourth] = slopes;
+    Some(Estimate::new(sixth, error + (sixth - fourth).abs()))
 }
 
 fn solved(numbers: &Numbers, number: &Number, method: Method, value: f64) -> Result<Answer> {

@@ -14,6 +14,7 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
+use super::modulus_error::PER_MODULUS;
 use super::problem::{Motion, Problem};
 use crate::files::ReadFile;
 use crate::scene::{Method, Scene};
@@ -73,6 +74,9 @@ pub fn with_sensitivity(
         }
         (method, _) => Err(SolveError::NoSensitivity { method }),
     }?;
+    // A series changes with a number as its law does, but for the ripple around the law that is in its error.
+    let series = PER_MODULUS * problem.modulus_error();
+    sensitivity.iter_mut().for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
     let budget = budget(&material, scene, &all, &sensitivity, &answer);
     // Of a temperature in °C there is no logarithm.
@@ -85,6 +89,18 @@ pub fn with_sensitivity(
 }
 
 impl Sensitivity {
+    fn widen(&mut self, error: f64) {
+        let quantities = [
+            &mut self.friction_coefficient,
+            &mut self.normal_force,
+            &mut self.indentation_depth,
+            &mut self.contact_area,
+        ];
+        for known in quantities {
+            *known = known.map(|known| known.widened(error));
+        }
+    }
+
     /// The derivatives by their names in JSON.
     pub const fn named(&self) -> [(&'static str, Option<Estimate>); 4] {
         [

@@ -30,12 +30,17 @@ use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
-use crate::steady::sensitivity::{Apart, ByModuli, Change, bands, compared};
+use crate::steady::sensitivity::{Apart, ByModuli, Change, Limit, bands};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, turned};
 
 /// Part of a period up to which two are the same.
 const SAME: f64 = 1e-9;
+/// The elements at edges scatter.
+const LIMIT: Limit = Limit {
+    beyond: 0.0,
+    bar: 2.5,
+};
 
 /// A stationary contact of a periodic surface with its adjoint loads, on two grids whose difference gives the bars.
 ///
@@ -166,7 +171,7 @@ impl PeriodicSensitivity {
 
     /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is given.
     pub fn by_load(&self) -> Change<Estimate> {
-        compared(self.fine.by_load(), self.coarse.by_load())
+        LIMIT.of(self.fine.by_load(), self.coarse.by_load())
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
@@ -182,8 +187,8 @@ impl PeriodicSensitivity {
             let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
             Ok(ByModuli {
                 frequencies,
-                storage_modulus: compared(fine_storage, storage),
-                loss_modulus: compared(fine_loss, loss),
+                storage_modulus: LIMIT.of(fine_storage, storage),
+                loss_modulus: LIMIT.of(fine_loss, loss),
             })
         };
         bands(frequencies)?.into_iter().map(of_band).collect()
@@ -193,7 +198,7 @@ impl PeriodicSensitivity {
         &self,
         of: impl Fn(&State) -> Result<Change<Apart>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        Ok(compared(of(&self.fine)?, of(&self.coarse)?))
+        Ok(LIMIT.of(of(&self.fine)?, of(&self.coarse)?))
     }
 }
 

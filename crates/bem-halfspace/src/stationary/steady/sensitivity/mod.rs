@@ -43,14 +43,22 @@ use crate::{BemError, Elastomer};
 use state::State;
 
 /// Spacing of the grids whose derivatives are compared with those of the finest.
-const COARSER: f64 = std::f64::consts::SQRT_2;
+const COARSER: f64 = 2.0;
+/// Error of the derivatives of the logarithm of the friction by those of the load and of the velocity above which elements are
+/// halved, up to so many unknowns.
+const TOLERANCE: f64 = 4e-3;
+const MOST_UNKNOWNS: usize = 2000;
 /// Spacing of a strip over that of the options: few elements give its answer, and take next to no time.
 const FINER_STRIP: f64 = 0.25;
 /// Shifts of the grids that are averaged.
 const PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
 const PHASES_OF_STRIP: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
-/// Error of the fine grids over their difference from the coarse ones, if it falls in proportion to the elements.
-const WEIGHT: f64 = 2.5;
+/// Beyond the fine grids lies the limit of what converges with the order 3/2 of the singular front, by 1/(2^1.5 − 1) of the
+/// difference from the coarse ones.
+const LIMIT: Limit = Limit {
+    beyond: 0.547,
+    bar: 2.0,
+};
 /// Where a depth has derivatives.
 const AT_A_DEPTH: &str = "0 on a half space at a depth, which otherwise belongs to a distance";
 
@@ -96,8 +104,8 @@ pub struct SensitivityOnGrid {
 }
 
 impl SteadySensitivity {
-    /// Around the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one that is
-    /// coarser by √2.
+    /// Around the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one of elements
+    /// twice as long; on finer ones of few elements where these two differ.
     ///
     /// ```
     /// use bem_halfspace::indenters::Sphere;
@@ -162,10 +170,26 @@ impl SteadySensitivity {
             SensitivityOnGrid::of(surface, loading, &options, (phases, &mut reuse))
         };
         let coarse = on_grids(COARSER)?;
+        let fine = on_grids(1.0)?;
+        let near = Self { fine, coarse };
+        if near.fine.n_unknowns() > MOST_UNKNOWNS || near.is_known() {
+            return Ok(near);
+        }
         Ok(Self {
-            fine: on_grids(1.0)?,
-            coarse,
+            fine: on_grids(COARSER.recip())?,
+            coarse: near.fine,
         })
+    }
+
+    /// Whether the derivatives of the friction by the load and by the velocity are known well enough.
+    fn is_known(&self) -> bool {
+        let of = |of: &dyn Fn(&State) -> Change<Apart>| {
+            let [fine, coarse] = [&self.fine, &self.coarse].map(|grids| grids.mean_by(of));
+            LIMIT.of(fine, coarse).friction_coefficient.error
+        };
+        let by_load = of(&State::by_load) * self.fine.given();
+        let allowed = TOLERANCE * self.fine.friction_coefficient().abs();
+        by_load.max(of(&State::by_velocity)) <= allowed
     }
 
     /// The change from one body to another, both near that of the state.
@@ -217,29 +241,27 @@ impl SteadySensitivity {
             };
             mean(grids.states.iter().map(change).collect())
         };
-        compared(of(&self.fine), of(&self.coarse)).friction_coefficient
+        LIMIT
+            .of(of(&self.fine), of(&self.coarse))
+            .friction_coefficient
     }
 
     /// The derivative by the normal force, per newton, or by the depth, per metre, whichever is given.
     pub fn by_load(&self) -> Change<Estimate> {
-        let of =
-            |grids: &SensitivityOnGrid| mean(grids.states.iter().map(State::by_load).collect());
-        compared(of(&self.fine), of(&self.coarse))
+        let of = |grids: &SensitivityOnGrid| grids.mean_by(State::by_load);
+        LIMIT.of(of(&self.fine), of(&self.coarse))
     }
 
     /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
     pub fn by_thickness(&self) -> Change<Estimate> {
-        let of = |grids: &SensitivityOnGrid| {
-            mean(grids.states.iter().map(State::by_thickness).collect())
-        };
-        compared(of(&self.fine), of(&self.coarse))
+        let of = |grids: &SensitivityOnGrid| grids.mean_by(State::by_thickness);
+        LIMIT.of(of(&self.fine), of(&self.coarse))
     }
 
     /// The derivatives by the logarithm of the length of the track; 0 without one.
     pub fn by_track(&self) -> Change<Estimate> {
-        let of =
-            |grids: &SensitivityOnGrid| mean(grids.states.iter().map(State::by_track).collect());
-        compared(of(&self.fine), of(&self.coarse))
+        let of = |grids: &SensitivityOnGrid| grids.mean_by(State::by_track);
+        LIMIT.of(of(&self.fine), of(&self.coarse))
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each
@@ -265,7 +287,7 @@ impl SteadySensitivity {
         let pairs = of(&self.fine)?.into_iter().zip(of(&self.coarse)?);
         let found = pairs.zip(&bands).map(|((fine, coarse), &frequencies)| {
             let [storage_modulus, loss_modulus] =
-                [0, 1].map(|part| compared(fine[part], coarse[part]));
+                [0, 1].map(|part| LIMIT.of(fine[part], coarse[part]));
             ByModuli {
                 frequencies,
                 storage_modulus,
@@ -279,7 +301,7 @@ impl SteadySensitivity {
         &self,
         of: impl Fn(&SensitivityOnGrid) -> Result<Change<Apart>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        Ok(compared(of(&self.fine)?, of(&self.coarse)?))
+        Ok(LIMIT.of(of(&self.fine)?, of(&self.coarse)?))
     }
 }
 
@@ -356,6 +378,20 @@ impl SensitivityOnGrid {
         Ok(change)
     }
 
+    /// Unknown pressures of one grid.
+    fn n_unknowns(&self) -> usize {
+        self.states.first().map_or(0, State::n_unknowns)
+    }
+
+    /// The force or the depth, whichever is given.
+    fn given(&self) -> f64 {
+        self.states.first().map_or(0.0, State::given)
+    }
+
+    fn mean_by(&self, of: impl Fn(&State) -> Change<Apart>) -> Change<Apart> {
+        mean(self.states.iter().map(of).collect())
+    }
+
     fn mean_between(
         &self,
         materials: [&dyn Material; 2],
@@ -429,19 +465,33 @@ fn mean(changes: Vec<Change<Apart>>) -> Change<Apart> {
     }
 }
 
-pub(crate) fn compared(fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
-    let estimate = |[value, apart]: Apart, [other, _]: Apart| {
-        Estimate::new(value, WEIGHT * (value - other).abs() + apart)
-    };
-    let both = |fine: Option<Apart>, coarse: Option<Apart>| {
-        fine.zip(coarse)
-            .map(|(fine, coarse)| estimate(fine, coarse))
-    };
-    Change {
-        friction_coefficient: estimate(fine.friction_coefficient, coarse.friction_coefficient),
-        indentation_depth: both(fine.indentation_depth, coarse.indentation_depth),
-        normal_force: both(fine.normal_force, coarse.normal_force),
-        contact_area: both(fine.contact_area, coarse.contact_area),
+/// What is made of the difference between fine and coarse grids.
+#[derive(Clone, Copy)]
+pub(crate) struct Limit {
+    /// Part of it by which the limit lies beyond the fine grids; areas scatter too much for that.
+    pub(crate) beyond: f64,
+    /// Bar over it.
+    pub(crate) bar: f64,
+}
+
+impl Limit {
+    pub(crate) fn of(self, fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
+        let estimate = |beyond: f64| {
+            move |([value, apart], [other, _]): (Apart, Apart)| {
+                let step = value - other;
+                Estimate::new(value + beyond * step, self.bar * step.abs() + apart)
+            }
+        };
+        let both = |of: fn(&Change<Apart>) -> Option<Apart>, beyond: f64| {
+            of(&fine).zip(of(&coarse)).map(estimate(beyond))
+        };
+        let friction = (fine.friction_coefficient, coarse.friction_coefficient);
+        Change {
+            friction_coefficient: estimate(self.beyond)(friction),
+            indentation_depth: both(|one| one.indentation_depth, self.beyond),
+            normal_force: both(|one| one.normal_force, self.beyond),
+            contact_area: both(|one| one.contact_area, 0.0),
+        }
     }
 }
 

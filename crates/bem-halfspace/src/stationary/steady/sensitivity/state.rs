@@ -286,12 +286,27 @@ impl State {
         self.of_all(self.gradients.iter().map(|one| one.by_load).collect())
     }
 
+    /// By the logarithm of the velocity.
+    pub(super) fn by_velocity(&self) -> Change<Apart> {
+        self.change(Basis::by_velocity)
+    }
+
     pub(super) fn by_thickness(&self) -> Change<Apart> {
         self.of_all(self.by_thickness.clone())
     }
 
     pub(super) fn by_track(&self) -> Change<Apart> {
         self.of_all(self.by_track.clone())
+    }
+
+    pub(super) const fn n_unknowns(&self) -> usize {
+        self.shares.len()
+    }
+
+    /// The force or the depth, whichever is given.
+    pub(super) const fn given(&self) -> f64 {
+        let (Control::NormalForce(given) | Control::IndentationDepth(given)) = self.control;
+        given
     }
 
     fn has_delays_of(&self, creep: &MovingCreep) -> bool {

@@ -429,7 +429,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
         };
         for index in [0, 1, 2, 5, 6] {
             let [fine, coarse] = [0, 1].map(|grid| changed(case, &states[grid], index));
-            let got = super::compared(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
+            let got = LIMIT.of(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
             let ends = [WIDE.recip(), WIDE].map(|factor| {
                 let mut factors = [1.0; 8];
                 factors[index] *= factor;
