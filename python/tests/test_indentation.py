@@ -115,7 +115,7 @@ def test_a_fit_finds_the_material_within_its_intervals() -> None:
     assert isinstance(fit.material, vf.Prony)
     assert np.abs(fit.fitted_force - fit.force).max() < 0.05 * fit.force.max()
     assert fit.correlation.shape == (len(fit.findings),) * 2
-    assert repr(fit).startswith("fit of a curve\n  G_inf: 2040 ± 75 Pa, 95 % within")
+    assert repr(fit).startswith("fit of a curve\n  G_inf: 2040 ± 73 Pa, 95 % within")
     # Young's modulus, 3 G of an incompressible material.
     assert "\n  E_inf: 6.12e+03 ± 2.2e+02 Pa, 95 % within" in repr(fit)
     assert fit.plot().get_xlabel() == "time t [s]"
