@@ -52,6 +52,32 @@ fn a_pressed_sphere_has_the_powers_of_its_closed_form() {
 }
 
 /// The mean of the derivatives at both ends of a step is the slope over it, to the third order.
+/// Over its contact it is a dashpot but for a thousandth: the adjoint equation is not solved in as many directions as are tried.
+#[test]
+fn a_nearly_viscous_cylinder_has_derivatives() {
+    let text = "indenter.cylinder.radius = 1.36\n\
+                material.kelvin-voigt = { shear_modulus = 4.22e4, viscosity = 350.0, poisson_ratio = 0.5 }\n\
+                load = { normal_force = 1.73e4, velocity = 1.71e3 }\nsolve.relative_error = 0.02";
+    let (_, known) = answered(text);
+    let known = known.expect("derivatives");
+    let [load, velocity, viscosity, modulus] = [
+        "load.normal_force",
+        "load.velocity",
+        "material.kelvin-voigt.viscosity",
+        "material.kelvin-voigt.shear_modulus",
+    ]
+    .map(|parameter| {
+        let one = of(&known, parameter).friction_coefficient;
+        one.expect("a derivative")
+    });
+    // The friction depends on η v and on F/G with η v/G.
+    let off = (load.value + viscosity.value + modulus.value).abs();
+    let allowed = load.error + viscosity.error + modulus.error;
+    assert!(off <= allowed, "{off} with {allowed}");
+    let off = (velocity.value - viscosity.value).abs();
+    assert!(off <= velocity.error + viscosity.error, "{off}");
+}
+
 #[test]
 fn derivatives_are_the_slopes_between_answers() {
     const STEP: f64 = 0.2;

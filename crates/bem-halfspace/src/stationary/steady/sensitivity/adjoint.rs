@@ -15,6 +15,8 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 
 /// Residual of the adjoint equations over their right side.
 const TOLERANCE: f64 = 1e-9;
+/// Unknowns that are factorised where the iteration does not end, which takes some seconds.
+const MOST_FACTORISED: usize = 2000;
 
 /// The loads on a contact that solve `Kᵀ y = r` for each of the right sides, in the units of the mesh; or the residual that
 /// is left, relative to the right side.
@@ -27,20 +29,14 @@ pub(super) fn solve_transposed<const N: usize>(
     let region = mesh.region(contact.iter().copied());
     let n = contact.len();
     if is_factorised(n, region.n_places()) {
-        let entry = |row: usize, column: usize| mesh.reversed(contact[row], contact[column]);
-        let factors = DMatrix::from_fn(n, n, entry).lu();
-        let solved = right.map(|right| factors.solve(&DVector::from_vec(right)));
-        if solved.iter().any(Option::is_none) {
-            return Err(not_solved(1.0));
-        }
-        return Ok(solved.map(|one| one.map_or_else(Vec::new, |one| one.data.into())));
+        return factorise(mesh, contact, &right).ok_or_else(|| not_solved(1.0));
     }
     let region = region.turned();
     let mut product = Product::new(plans.kernel(region.shape), &region);
     let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
     let (mut left, mut has_ended) = (0.0_f64, true);
-    let solved = right.map(|right| {
-        let allowed = TOLERANCE * norm(&right);
+    let solved = right.each_ref().map(|right| {
+        let allowed = TOLERANCE * norm(right);
         let mut loads = vec![0.0; n];
         let mut residual: Vec<f64> = right.iter().map(|value| -value).collect();
         let unknowns = [&mut loads[..], &mut residual[..]];
@@ -63,10 +59,27 @@ pub(super) fn solve_transposed<const N: usize>(
         loads
     });
     if has_ended {
-        Ok(solved)
-    } else {
-        Err(not_solved(left))
+        return Ok(solved);
     }
+    // What is nearly viscous over the length of the contact may need a direction for every unknown.
+    let few = (n <= MOST_FACTORISED).then(|| factorise(mesh, contact, &right));
+    few.flatten().ok_or_else(|| not_solved(left))
+}
+
+fn factorise<const N: usize>(
+    mesh: &Mesh,
+    contact: &[usize],
+    right: &[Vec<f64>; N],
+) -> Option<[Vec<f64>; N]> {
+    let n = contact.len();
+    let entry = |row: usize, column: usize| mesh.reversed(contact[row], contact[column]);
+    let factors = DMatrix::from_fn(n, n, entry).lu();
+    let solved = right.each_ref().map(|right| {
+        let solved = factors.solve(&DVector::from_column_slice(right))?;
+        Some(Vec::from(solved.data))
+    });
+    let is_regular = solved.iter().all(Option::is_some);
+    is_regular.then(|| solved.map(Option::unwrap_or_default))
 }
 
 const fn not_solved(residual: f64) -> BemError {
