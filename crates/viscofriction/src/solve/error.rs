@@ -81,6 +81,15 @@ pub enum SolveError {
         /// The method of the answer.
         method: Method,
     },
+    /// An answer whose derivatives by the moduli at each frequency are not known.
+    #[error(
+        "{} knows no derivatives of this answer by the moduli at each frequency; stationary sliding by bem-steady has them",
+        method.name()
+    )]
+    NoSpectralSensitivity {
+        /// The method of the answer.
+        method: Method,
+    },
     /// A quantity that no number can hold.
     #[error(
         "{quantity} is {} in units of SI; check the units of indenter, material and load, from which it follows",

@@ -39,6 +39,13 @@ impl<'a> Surface<'a> {
 }
 
 /// A contact that was solved for a control.
+#[cfg_attr(
+    not(feature = "rough"),
+    expect(
+        dead_code,
+        reason = "what else is known is for estimates of rough surfaces"
+    )
+)]
 pub(super) struct Held {
     /// \[Pa].
     pub(super) mean_pressure: f64,

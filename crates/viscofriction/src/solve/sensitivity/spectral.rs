@@ -47,13 +47,13 @@ pub struct ByFrequency {
 /// elements.
 ///
 /// # Errors
-/// [`SolveError::NoSensitivity`] for other methods and motions.
+/// [`SolveError::NoSpectralSensitivity`] for other methods and motions.
 pub fn spectral_sensitivity(problem: &Problem, answer: &Answer) -> Result<SpectralSensitivity> {
     let method = answer.method;
     let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
-        return Err(SolveError::NoSensitivity { method });
+        return Err(SolveError::NoSpectralSensitivity { method });
     };
-    let wave_numbers = wave_numbers(answer).ok_or(SolveError::NoSensitivity { method })?;
+    let wave_numbers = wave_numbers(answer).ok_or(SolveError::NoSpectralSensitivity { method })?;
     let ends = wave_numbers.map(|wave_number| load.velocity() * wave_number);
     let contact = Contact::new(problem, &load, answer)?;
     let found = contact.by_moduli(&edges(ends, problem.window()))?;
