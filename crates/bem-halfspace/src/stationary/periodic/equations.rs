@@ -27,7 +27,7 @@ const MOST_STEPS: usize = 80;
 /// are forgotten. Without those of small grids one of a hundred contacts of moduli that differ by up to 10⁶ never ended.
 const NUMBERS_PER_ELEMENT: usize = 12;
 const NUMBERS: usize = 1 << 22;
-/// Part of the residual from which on what is left by a step says that it took little off.
+/// A step that leaves more than this part of the residual took little off.
 const LITTLE: f64 = 0.9;
 /// Elements in contact up to which elimination is tried, for the sake of memory, and the time that it takes for n of them on a grid
 /// of N elements, in steps: about n³/N times this on one thread, from 16² to 64² elements.

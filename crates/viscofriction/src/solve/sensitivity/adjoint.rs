@@ -129,8 +129,10 @@ fn neighbours(numbers: &Numbers, number: &Number) -> Result<[(Problem, f64); 2],
         let value = factor * number.value;
         Ok::<_, SceneError>((numbers.problem(number, value)?, value))
     };
-    let [low, high] = [at(1.0 - STEP), at(1.0 + STEP)];
-    Ok([low.or_else(|_| at(1.0))?, high.or_else(|_| at(1.0))?])
+    match (at(1.0 - STEP), at(1.0 + STEP)) {
+        (Err(error), Err(_)) => Err(error),
+        (low, high) => Ok([low.or_else(|_| at(1.0))?, high.or_else(|_| at(1.0))?]),
+    }
 }
 
 fn change(
