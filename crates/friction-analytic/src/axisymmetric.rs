@@ -23,7 +23,7 @@ const APEX_REACH: f64 = 1e-150;
 /// enough; [`FrictionError::Indenter`] when its line turns downwards inside the contact;
 /// [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
 pub fn axisymmetric_sliding(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<StationarySliding, FrictionError> {
@@ -38,7 +38,7 @@ pub fn axisymmetric_sliding(
 
 /// The front of the stationary contact at a depth, unless its friction is infinite.
 pub(crate) fn radius_with_friction(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     depth: f64,
 ) -> Result<f64, FrictionError> {
     let radius = contact_radius(body, depth).map_err(no_stationary_state)?;
@@ -59,7 +59,7 @@ pub(crate) fn no_stationary_state(error: IndenterError) -> FrictionError {
 
 /// Refuses a contact over which ∫ h̃'² dx is infinite.
 pub(crate) fn refuse_divergence(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     [rear, front]: [f64; 2],
     depth: f64,
 ) -> Result<(), FrictionError> {
@@ -87,7 +87,7 @@ pub(crate) fn refuse_divergence(
 
 /// ∫₀^a h̃'(x)² dx, \[m], for a line without a reason to diverge.
 pub(crate) fn slope_energy(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     radius: f64,
 ) -> Result<Estimate, FrictionError> {
     let ends = ends_outside_apex(body, radius);
@@ -97,7 +97,7 @@ pub(crate) fn slope_energy(
 }
 
 /// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`.
-fn from_apex(body: &(impl Axisymmetric + ?Sized), end: f64) -> Estimate {
+fn from_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
     let square = |x: f64| body.line_slope(x).powi(2);
     let exponent = body.profile_exponent();
     if exponent >= 1.0 {

@@ -75,7 +75,7 @@ pub struct CylinderSliding {
 /// element; [`FrictionError::OutOfRange`] when a result overflows or underflows. An elastic solid has μ = 0.
 pub fn cylinder_sliding(
     cylinder: &Cylinder,
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     contact: LineContact,
 ) -> Result<CylinderSliding, FrictionError> {
     let half_length = positive("half_length", contact.half_length)?;

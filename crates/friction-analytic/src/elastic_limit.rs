@@ -50,8 +50,8 @@ pub struct ElasticLimitFriction {
 /// [`FrictionError::FrictionDiverges`] where ∫ h̃'² dx does; [`FrictionError::NotConverged`] when an integral is known to
 /// less than ten digits.
 pub fn low_speed_friction(
-    body: &(impl Axisymmetric + ?Sized),
-    solid: &(impl Material + ?Sized),
+    body: &dyn Axisymmetric,
+    solid: &dyn Material,
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
     let depth = checked_depth(body, contact)?;
@@ -76,8 +76,8 @@ pub fn low_speed_friction(
 /// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be, or a lone dashpot;
 /// [`FrictionError::NotConverged`] when an integral is known to less than ten digits.
 pub fn high_speed_friction(
-    body: &(impl Axisymmetric + ?Sized),
-    solid: &(impl Material + ?Sized),
+    body: &dyn Axisymmetric,
+    solid: &dyn Material,
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
     let depth = checked_depth(body, contact)?;
@@ -111,10 +111,7 @@ fn limit(
     })
 }
 
-fn checked_depth(
-    body: &(impl Axisymmetric + ?Sized),
-    contact: ElasticContact,
-) -> Result<f64, FrictionError> {
+fn checked_depth(body: &dyn Axisymmetric, contact: ElasticContact) -> Result<f64, FrictionError> {
     positive("velocity", contact.velocity)?;
     let radius = positive("contact_radius", contact.contact_radius)?;
     let depth = representable("indentation depth", body.checked_line_height(radius)?)?;

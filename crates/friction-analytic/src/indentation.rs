@@ -67,7 +67,7 @@ pub fn power_indentation_after_impulse(
 /// reach a vertical edge, as the equator of a sphere; [`FrictionError::OutOfRange`] when no contact takes as much, because
 /// the line falls without limit; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
 pub fn indentation_after_impulse(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     material: &Viscous,
     impulse: f64,
 ) -> Result<Indentation, FrictionError> {
@@ -100,7 +100,7 @@ pub fn indentation_after_impulse(
 /// [`FrictionError::Indenter`] when the depth is out of its range or the line of the body turns downwards or ends before
 /// it; [`FrictionError::BeyondEdge`] and [`FrictionError::NotConverged`] like [`indentation_after_impulse`].
 pub fn impulse_to_depth(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     material: &Viscous,
     depth: f64,
 ) -> Result<f64, FrictionError> {
@@ -146,7 +146,7 @@ pub fn cylinder_half_width_after_impulse(
 /// body as sharp as a cone, where the pressure is infinite; [`FrictionError::NotConverged`] when the integral is known to
 /// less than ten digits, as it is below a body with a flat end and a flank.
 pub fn indentation_pressure(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     depth: f64,
     radius: f64,
 ) -> Result<f64, FrictionError> {
@@ -207,7 +207,7 @@ pub fn power_peak_pressure(
 /// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.
 ///
 /// With r = a cos ψ it is a² ∫ h'(a cos ψ) cos²ψ dψ, which needs neither the line nor a difference of heights.
-fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
+fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
     let integrand = |psi: f64| {
         let cosine = psi.cos();
         body.profile_slope(radius * cosine) * cosine * cosine
@@ -222,10 +222,7 @@ fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
 }
 
 /// The moment, if it is known well enough.
-pub(crate) fn known_moment(
-    body: &(impl Axisymmetric + ?Sized),
-    radius: f64,
-) -> Result<f64, FrictionError> {
+pub(crate) fn known_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64, FrictionError> {
     let end = body.max_radius();
     match accepted("contact moment", moment(body, radius)) {
         Err(_) if end.is_finite() && body.line_height(end).is_infinite() => {
@@ -236,10 +233,7 @@ pub(crate) fn known_moment(
 }
 
 /// The contact radius whose moment is `target`, or `None` when the whole body does not have as much.
-fn radius_of_moment(
-    body: &(impl Axisymmetric + ?Sized),
-    target: f64,
-) -> Result<Option<f64>, FrictionError> {
+fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>, FrictionError> {
     let end = body.max_radius();
     // A body that never ends in height (the sphere) has an infinite moment at its end, whatever a sum gives there.
     let endless = end.is_finite() && body.line_height(end).is_infinite();

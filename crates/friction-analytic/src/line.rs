@@ -22,7 +22,7 @@ use crate::{FrictionError, StationarySliding};
 /// [`FrictionError::NotConverged`] when the integral is known to less than ten digits, as where it diverges;
 /// [`FrictionError::Indenter`] when the line has no finite domain or no finite height.
 pub fn line_sliding(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<StationarySliding, FrictionError> {
@@ -35,16 +35,13 @@ pub fn line_sliding(
 }
 
 /// What the rounding of a contact end, which is that of its position and of its height, is multiplied with.
-fn end_term(line: &(impl RigidLine + ?Sized), end: f64) -> f64 {
+fn end_term(line: &dyn RigidLine, end: f64) -> f64 {
     let slope = line.slope(end).abs();
     slope * (slope * end.abs() + line.height(end).abs())
 }
 
 /// ∫ h̃'² dx over the intervals, (11), between the kinks of the line.
-fn slope_energy(
-    line: &(impl RigidLine + ?Sized),
-    intervals: &[[f64; 2]],
-) -> Result<Estimate, FrictionError> {
+fn slope_energy(line: &dyn RigidLine, intervals: &[[f64; 2]]) -> Result<Estimate, FrictionError> {
     let kinks = line.kinks();
     let square = |x: f64| line.slope(x).powi(2);
     let energy = |&[start, end]: &[f64; 2]| {

@@ -68,7 +68,7 @@ pub struct PerssonSliding {
 /// mean pressure or velocity out of range; [`FrictionError::OutOfRange`] when a frequency or a result overflows.
 pub fn persson_of_waves(
     waves: &[SurfaceWave],
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     load: RoughLoad,
 ) -> Result<PerssonSliding, FrictionError> {
     positive("number of waves", waves.len() as f64)?;
@@ -100,7 +100,7 @@ pub fn persson_of_waves(
 /// overflows; [`FrictionError::NotConverged`] when the quadrature does not reach the error.
 pub fn persson_of_spectrum(
     spectrum: &SelfAffineSpectrum,
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     load: RoughLoad,
     relative_error: f64,
 ) -> Result<PerssonSliding, FrictionError> {
@@ -184,7 +184,7 @@ struct Sliding {
 }
 
 impl Sliding {
-    fn new(material: &(impl Material + ?Sized), load: RoughLoad) -> Result<Self, FrictionError> {
+    fn new(material: &dyn Material, load: RoughLoad) -> Result<Self, FrictionError> {
         let mean_pressure = positive("mean_pressure", load.mean_pressure)?;
         Ok(Self {
             relaxation: material.relaxation(),

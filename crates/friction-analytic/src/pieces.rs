@@ -18,7 +18,7 @@ pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estim
 }
 
 /// The kinks of a body inside the radius, and the radius.
-pub(crate) fn ends_outside_apex(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Vec<f64> {
+pub(crate) fn ends_outside_apex(body: &dyn Axisymmetric, radius: f64) -> Vec<f64> {
     let kinks = body.kinks().into_iter().map(|kink| kink.radius);
     let inside = kinks.take_while(|kink| *kink < radius);
     inside.chain([radius]).collect()

@@ -35,7 +35,7 @@ pub struct DepthRamp {
 /// force overflows or underflows; [`FrictionError::NotConverged`] when M is known to less than ten digits.
 pub fn ramp_force(
     profile: &PowerProfile,
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     ramp: DepthRamp,
 ) -> Result<f64, FrictionError> {
     let depth = positive("indentation_depth", ramp.indentation_depth)?;

@@ -28,7 +28,7 @@ const SAME_HEIGHT: f64 = 1e-9;
 /// [`FrictionError::InvalidContact`] unless the intervals are in order, without overlap, not empty and at least one;
 /// [`FrictionError::OutOfRange`] when the line has no finite height at one of their ends.
 pub fn sinking_velocity(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     contact: &[[f64; 2]],
     material: &Viscous,
     load: &SlidingLoad,
@@ -46,7 +46,7 @@ pub fn sinking_velocity(
 /// up to its front; [`FrictionError::BeyondStationaryDepth`] when the depth exceeds (12); otherwise like
 /// [`sinking_velocity`] and [`indenters::leading_edge`].
 pub fn one_sided_sinking_velocity(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     contact: &[[f64; 2]],
     material: &Viscous,
     load: &SlidingLoad,
@@ -77,7 +77,7 @@ struct Contact {
 
 impl Contact {
     /// Of intervals that follow one another.
-    fn of(line: &(impl RigidLine + ?Sized), contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
+    fn of(line: &dyn RigidLine, contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
         let mut lower = f64::NEG_INFINITY;
         for (index, [start, end]) in contact.iter().copied().enumerate() {
             let in_order = start >= lower && end > start && start.is_finite() && end.is_finite();

@@ -64,8 +64,8 @@ const DEPTH: f64 = 0.25;
 /// the edge than r^10, an elastic solid, and a speed at which the solid remembers more than a radius; and the errors of
 /// [`low_speed_friction`].
 pub fn slow_sliding(
-    body: &(impl Axisymmetric + ?Sized),
-    solid: &(impl Material + ?Sized),
+    body: &dyn Axisymmetric,
+    solid: &dyn Material,
     contact: ElasticContact,
 ) -> Result<SlowSliding, FrictionError> {
     let exponent = body.profile_exponent();
@@ -126,12 +126,7 @@ const QUADRATURE: f64 = 1e-10;
 ///
 /// B grows with l, which bounds the mean over θ; it is 2 h̃'(0)² l at the tip of a cone and l² ∫ h̃''² dx where the line is
 /// smooth. A round tip that is smaller than l is thus a tip of its own. The outer part, a/4 < |x|, is in the other terms.
-fn inside(
-    body: &(impl Axisymmetric + ?Sized),
-    solid: &(impl Material + ?Sized),
-    contact: ElasticContact,
-    tip: f64,
-) -> f64 {
+fn inside(body: &dyn Axisymmetric, solid: &dyn Material, contact: ElasticContact, tip: f64) -> f64 {
     let rest = |x: f64| body.line_slope(x) - tip;
     let of_branch = |branch: &RelaxationBranch, modulus: f64| {
         let length = contact.velocity * branch.relaxation_time;
@@ -167,7 +162,7 @@ struct Moments {
 }
 
 impl Moments {
-    fn of(solid: &(impl Material + ?Sized), velocity: f64) -> Result<Self, FrictionError> {
+    fn of(solid: &dyn Material, velocity: f64) -> Result<Self, FrictionError> {
         let relaxation = solid.relaxation();
         let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
         let moment = |power: i32| {

@@ -22,10 +22,7 @@ const DECADES: [f64; 2] = [-2.0, 2.0];
 const WAVES: u32 = 100;
 
 /// The frequencies of the elastic contact, [rad/s].
-pub fn slow_spectrum(
-    body: &(impl Axisymmetric + ?Sized),
-    contact: ElasticContact,
-) -> Vec<StressBand> {
+pub fn slow_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -> Vec<StressBand> {
     let ElasticContact {
         contact_radius: radius,
         velocity,

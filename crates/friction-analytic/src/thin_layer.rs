@@ -109,7 +109,7 @@ impl ThinLayer {
 /// # Errors
 /// [`InvalidParameter`] for numbers that are not positive and an incompressible material.
 pub fn winkler_line_force(
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     thickness: f64,
     force_per_length: f64,
 ) -> Result<f64, InvalidParameter> {

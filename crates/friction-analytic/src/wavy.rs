@@ -49,10 +49,7 @@ pub struct FullContact {
 /// # Errors
 /// [`FrictionError::InvalidParameter`] when a number of the line is not finite and greater than zero,
 /// [`FrictionError::OutOfRange`] when the friction overflows or underflows, as on an elastic material.
-pub fn wavy_sliding(
-    line: WavyLine,
-    material: &(impl Material + ?Sized),
-) -> Result<FullContact, FrictionError> {
+pub fn wavy_sliding(line: WavyLine, material: &dyn Material) -> Result<FullContact, FrictionError> {
     let amplitude = positive("amplitude", line.amplitude)?;
     let wave_number = std::f64::consts::TAU / positive("wavelength", line.wavelength)?;
     let frequency = positive("angular frequency", wave_number * line.velocity)?;
@@ -68,7 +65,7 @@ pub fn wavy_sliding(
 }
 
 fn complex_modulus(
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     frequency: f64,
 ) -> Result<ComplexModulus, FrictionError> {
     let modulus = material.relaxation().complex_modulus(frequency);
@@ -108,7 +105,7 @@ pub struct WavySliding {
 /// material.
 pub fn wavy_surface_sliding(
     waves: &[SurfaceWave],
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     velocity: f64,
 ) -> Result<WavySliding, FrictionError> {
     positive("number of waves", waves.len() as f64)?;

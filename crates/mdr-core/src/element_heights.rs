@@ -39,11 +39,7 @@ impl ElementHeights {
     ///
     /// Parts that come down to that height again farther out are found when they are wider than 1/64 of their distance
     /// from the lowest point.
-    pub(crate) fn below(
-        line: &(impl RigidLine + ?Sized),
-        spacing: f64,
-        height: f64,
-    ) -> Result<Self, MdrError> {
+    pub(crate) fn below(line: &dyn RigidLine, spacing: f64, height: f64) -> Result<Self, MdrError> {
         positive("spacing", spacing)?;
         let start = lowest_candidate(line)?;
         let sampled = Self::around(line, start, spacing, height)?;
@@ -58,11 +54,7 @@ impl ElementHeights {
     }
 
     /// So many elements that an `area` \[m²] can be displaced below the ceiling, or the whole of a finite line.
-    pub(crate) fn holding(
-        line: &(impl RigidLine + ?Sized),
-        spacing: f64,
-        area: f64,
-    ) -> Result<Self, MdrError> {
+    pub(crate) fn holding(line: &dyn RigidLine, spacing: f64, area: f64) -> Result<Self, MdrError> {
         let mut sampled = Self::below(line, spacing, 0.0)?;
         let mut reach = 1;
         while reach < MAX_ELEMENTS {
@@ -105,14 +97,14 @@ impl ElementHeights {
 
     /// Height above the lowest element of the lower of the two points `n_elements` away from it, \[m]; `+∞` beyond the
     /// ends.
-    fn rise_within(&self, line: &(impl RigidLine + ?Sized), n_elements: usize) -> f64 {
+    fn rise_within(&self, line: &dyn RigidLine, n_elements: usize) -> f64 {
         let distance = n_elements as f64 * self.spacing;
         let [rear, front] = [-distance, distance].map(|offset| line.height(self.anchor + offset));
         rear.min(front) - self.lowest_height
     }
 
     fn around(
-        line: &(impl RigidLine + ?Sized),
+        line: &dyn RigidLine,
         anchor: f64,
         spacing: f64,
         height: f64,
@@ -155,14 +147,14 @@ impl ElementHeights {
 }
 
 /// The elements on one side of the anchor, numbered from 1.
-struct Ray<'a, L: ?Sized> {
-    line: &'a L,
+struct Ray<'a> {
+    line: &'a dyn RigidLine,
     anchor: f64,
     step: f64,
     ceiling: f64,
 }
 
-impl<L: RigidLine + ?Sized> Ray<'_, L> {
+impl Ray<'_> {
     /// The heights up to one element beyond the last one below the ceiling; `None` when there are too many.
     fn heights(&self) -> Result<Option<Vec<f64>>, MdrError> {
         let Some(n_needed) = self.look_out()? else {
@@ -235,7 +227,7 @@ impl<L: RigidLine + ?Sized> Ray<'_, L> {
 
 /// The lowest among the kinks, the ends of the domain, and x = 0; the foremost of several, where the leading edge
 /// begins.
-pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, MdrError> {
+pub(crate) fn lowest_candidate(line: &dyn RigidLine) -> Result<f64, MdrError> {
     let [rear, front] = line.domain();
     let mut candidates = line.kinks();
     candidates.extend([0.0, rear, front]);
@@ -249,7 +241,7 @@ pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, 
 }
 
 /// The lowest point within one spacing of the lowest sample, by golden section.
-fn refine_lowest(line: &(impl RigidLine + ?Sized), position: f64, spacing: f64) -> f64 {
+fn refine_lowest(line: &dyn RigidLine, position: f64, spacing: f64) -> f64 {
     let [rear, front] = line.domain();
     let [low, high] = [position - spacing, position + spacing];
     let lowest = golden_section(|x| line.height(x), [low.max(rear), high.min(front)]);
@@ -258,10 +250,7 @@ fn refine_lowest(line: &(impl RigidLine + ?Sized), position: f64, spacing: f64) 
 }
 
 /// Height of the line; `+∞` is allowed (no body there), `−∞` and NaN are not.
-pub(crate) fn checked_height(
-    line: &(impl RigidLine + ?Sized),
-    position: f64,
-) -> Result<f64, MdrError> {
+pub(crate) fn checked_height(line: &dyn RigidLine, position: f64) -> Result<f64, MdrError> {
     let height = line.height(position);
     if height.is_nan() || height == f64::NEG_INFINITY {
         return Err(invalid_height(position, height));

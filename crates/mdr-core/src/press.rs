@@ -37,8 +37,8 @@ pub type Pressed = SteadySliding;
 /// # Errors
 /// [`MdrError::NoEquilibrium`] for a material that flows; otherwise like [`steady`](crate::steady()).
 pub fn press(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     control: Control,
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
@@ -58,8 +58,8 @@ pub fn press(
 /// # Errors
 /// Like [`steady`](crate::steady()).
 pub fn indent(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &PressingLoad,
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
@@ -78,7 +78,7 @@ pub fn indent(
 
 /// At rest the stress of the line is that of springs, whatever its speed was.
 fn on_springs(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     modulus: f64,
     control: Control,
     relative_error: f64,

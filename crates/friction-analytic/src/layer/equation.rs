@@ -104,8 +104,8 @@ fn rule(n_points: usize) -> Rc<[[f64; 2]]> {
 }
 
 /// The line of a body in a layer of a thickness, and its integrals up to its kinks.
-pub(super) struct Heights<'a, B: ?Sized> {
-    body: &'a B,
+pub(super) struct Heights<'a> {
+    body: &'a dyn Axisymmetric,
     thickness: f64,
     waves: &'a Waves,
     /// Where the line rises from, and its kinks up to the widest contact; with the integrals up to there.
@@ -121,8 +121,13 @@ pub(super) struct Sums {
     waves: DVector<f64>,
 }
 
-impl<'a, B: Axisymmetric + ?Sized> Heights<'a, B> {
-    pub(super) fn new(body: &'a B, thickness: f64, waves: &'a Waves, widest: f64) -> Self {
+impl<'a> Heights<'a> {
+    pub(super) fn new(
+        body: &'a dyn Axisymmetric,
+        thickness: f64,
+        waves: &'a Waves,
+        widest: f64,
+    ) -> Self {
         let nothing = Sums {
             radius: 0.0,
             height: 0.0,

@@ -65,7 +65,7 @@ impl BondedLayer {
     /// a result underflows.
     pub fn press(
         &self,
-        body: &(impl Axisymmetric + ?Sized),
+        body: &dyn Axisymmetric,
         contact_radius: f64,
     ) -> Result<LayerContact, FrictionError> {
         let slenderness = self.slenderness(contact_radius)?;

@@ -101,7 +101,7 @@ impl LayerProfile {
     /// be more than a hundred wide; [`FrictionError::Indenter`] and [`FrictionError::BeyondEdge`] where the body ends before, or
     /// its contact does not grow with the depth; [`FrictionError::NotConverged`].
     pub fn new(
-        body: &(impl Axisymmetric + ?Sized),
+        body: &dyn Axisymmetric,
         layer: &BondedLayer,
         depth: f64,
     ) -> Result<Self, FrictionError> {
@@ -113,7 +113,7 @@ impl LayerProfile {
     /// # Errors
     /// Those of [`Self::new`] for the first depth.
     pub fn reaching(
-        body: &(impl Axisymmetric + ?Sized),
+        body: &dyn Axisymmetric,
         layer: &BondedLayer,
         [needed, wanted]: [f64; 2],
     ) -> Result<Self, FrictionError> {
@@ -254,11 +254,11 @@ impl EquivalentProfile for LayerProfile {
 }
 
 /// A body and a layer.
-struct OnLayer<'a, B: ?Sized> {
-    body: &'a B,
+struct OnLayer<'a> {
+    body: &'a dyn Axisymmetric,
     thickness: f64,
     waves: &'a Waves,
-    heights: Heights<'a, B>,
+    heights: Heights<'a>,
 }
 
 /// What the contacts between two kinks of a body are: ln A/a, and the depth over the height of the line.
@@ -267,9 +267,9 @@ struct Contacts {
     ratios: Series,
 }
 
-impl<'a, B: Axisymmetric + ?Sized> OnLayer<'a, B> {
+impl<'a> OnLayer<'a> {
     /// For contacts up to a radius.
-    fn new(body: &'a B, layer: &BondedLayer, waves: &'a Waves, widest: f64) -> Self {
+    fn new(body: &'a dyn Axisymmetric, layer: &BondedLayer, waves: &'a Waves, widest: f64) -> Self {
         let thickness = layer.thickness;
         let heights = Heights::new(body, thickness, waves, widest);
         Self {

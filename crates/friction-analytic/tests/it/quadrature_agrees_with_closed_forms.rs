@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use crate::support::{power, with_depth};
 
-fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
+fn slide(body: &dyn Axisymmetric, depth: f64) -> StationarySliding {
     let (material, load) = with_depth(depth);
     axisymmetric_sliding(body, &material, &load).expect("the body has a stationary state")
 }

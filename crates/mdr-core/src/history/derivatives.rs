@@ -47,7 +47,7 @@ pub struct ForceDerivatives {
 /// Like [`indent_along`](super::indent_along); [`MdrError::InvalidParameter`] for a force, too.
 pub fn force_derivatives(
     body: &dyn EquivalentProfile,
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     history: &[HistoryPoint],
 ) -> Result<ForceDerivatives, MdrError> {
     let points = checked(history)?;

@@ -102,7 +102,7 @@ impl Default for Follow {
 /// it, or close outside; [`MdrError::TouchedAgain`] on such a profile; [`MdrError::HistoryNotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
 pub fn indent_along(
     body: &dyn EquivalentProfile,
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     history: &[HistoryPoint],
     options: &Follow,
 ) -> Result<Vec<CurvePoint>, MdrError> {

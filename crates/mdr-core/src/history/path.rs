@@ -47,7 +47,7 @@ pub(super) struct Path {
 
 impl Path {
     /// The path that is still without points.
-    pub(super) fn new(material: &(impl Material + ?Sized)) -> Self {
+    pub(super) fn new(material: &dyn Material) -> Self {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let branches = relaxation.branches().iter();
         let branches = branches.map(|branch| [branch.modulus, branch.relaxation_time.recip()]);

@@ -26,7 +26,7 @@ const MOST_PARTS: usize = 1 << 13;
 /// As for [`indent_along`], and [`MdrError::NotReached`].
 pub fn work_along(
     body: &dyn EquivalentProfile,
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     history: &[HistoryPoint],
     options: &Follow,
 ) -> Result<Vec<Estimate>, MdrError> {

@@ -67,8 +67,8 @@ struct Place {
 }
 
 /// The elements that a motion can touch, and what they remember.
-pub(super) struct Chain<'a, L: ?Sized> {
-    line: Heights<'a, L>,
+pub(super) struct Chain<'a> {
+    line: Heights<'a>,
     foundation: &'a Foundation,
     sampled: &'a ElementHeights,
     /// Position of the first element over the spacing.
@@ -111,10 +111,10 @@ pub(super) struct Stepped {
     pub(super) contact: Option<[f64; 2]>,
 }
 
-impl<'a, L: RigidLine + ?Sized> Chain<'a, L> {
+impl<'a> Chain<'a> {
     /// At rest, under the elements of a line that will be between two positions \[m].
     pub(super) fn new(
-        line: &'a L,
+        line: &'a dyn RigidLine,
         foundation: &'a Foundation,
         sampled: &'a ElementHeights,
         range: [f64; 2],

@@ -4,7 +4,7 @@
 //! |x − x*| ≤ |g(x) − x| / (1 − e^(−T/λ))        for a cycle g of the time T and the slowest retardation time λ
 //! ```
 
-use indenters::{MotionRecord, MovingStep, RigidLine};
+use indenters::{MotionRecord, MovingStep};
 use numerics::{Settled, settle};
 
 use super::chain::Chain;
@@ -15,9 +15,9 @@ use crate::MdrError;
 const MOST_CYCLES: usize = 400;
 
 /// The cycle that is like the one before, to the tolerance; nothing when the chain was not high enough.
-pub(super) fn cycle<L: RigidLine + ?Sized>(
-    problem: &Problem<'_, L>,
-    mut chain: Chain<'_, L>,
+pub(super) fn cycle(
+    problem: &Problem<'_>,
+    mut chain: Chain<'_>,
     legs: &[MovingStep],
     tell: &dyn Fn(f64),
 ) -> Result<Option<MotionRecord>, MdrError> {

@@ -13,8 +13,8 @@ const CELLS: usize = 4;
 const SMOOTH: f64 = 1e-10;
 
 /// Heights above the lowest point, \[m].
-pub(super) struct Heights<'a, L: ?Sized> {
-    line: &'a L,
+pub(super) struct Heights<'a> {
+    line: &'a dyn RigidLine,
     lowest: f64,
     start: f64,
     cells_per_metre: f64,
@@ -23,9 +23,9 @@ pub(super) struct Heights<'a, L: ?Sized> {
     is_smooth: [Vec<bool>; CELLS],
 }
 
-impl<'a, L: RigidLine + ?Sized> Heights<'a, L> {
+impl<'a> Heights<'a> {
     /// Of the part that a chain can touch.
-    pub(super) fn new(line: &'a L, sampled: &ElementHeights) -> Result<Self, MdrError> {
+    pub(super) fn new(line: &'a dyn RigidLine, sampled: &ElementHeights) -> Result<Self, MdrError> {
         let spacing = sampled.spacing / CELLS as f64;
         let [start, end] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let n_cells = ((end - start) / spacing).ceil().max(1.0);
@@ -120,9 +120,9 @@ impl Row {
     }
 
     /// Covers some elements at places `x` on the line, of which most were covered before.
-    pub(super) fn cover<L: RigidLine + ?Sized>(
+    pub(super) fn cover(
         &mut self,
-        line: &Heights<'_, L>,
+        line: &Heights<'_>,
         [first, last]: [usize; 2],
         x: impl Fn(usize) -> f64,
     ) -> Result<(), MdrError> {

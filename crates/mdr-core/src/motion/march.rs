@@ -30,8 +30,8 @@ const FOOTPRINT: f64 = 4.0;
 const PER_ELEMENT: f64 = 200.0;
 
 /// What moves, on what, and how.
-pub(super) struct Problem<'a, L: ?Sized> {
-    pub(super) line: &'a L,
+pub(super) struct Problem<'a> {
+    pub(super) line: &'a dyn RigidLine,
     pub(super) foundation: Foundation,
     pub(super) load: &'a MovingLoad,
     /// Length of the contact that is divided into elements, \[m].
@@ -44,10 +44,10 @@ pub(super) struct Problem<'a, L: ?Sized> {
     pub(super) kept: RefCell<Option<Kept>>,
 }
 
-impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
+impl<'a> Problem<'a> {
     pub(super) fn new(
-        line: &'a L,
-        material: &(impl Material + ?Sized),
+        line: &'a dyn RigidLine,
+        material: &dyn Material,
         load: &'a MovingLoad,
         (length, tolerance): (f64, f64),
     ) -> Result<Self, MdrError> {
@@ -178,7 +178,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     /// All steps once.
     pub(super) fn pass(
         &self,
-        chain: &mut Chain<'_, L>,
+        chain: &mut Chain<'_>,
         legs: &[MovingStep],
         depth: f64,
         tell: &dyn Fn(f64),

@@ -64,8 +64,8 @@ const TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 /// flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps); [`MdrError::ContactReachesEdge`];
 /// [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot; otherwise like [`slide`](crate::slide()).
 pub fn move_along<'w>(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &MovingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, MdrError> {
@@ -118,8 +118,8 @@ pub fn move_along<'w>(
 /// # Errors
 /// As for [`move_along`], before anything is followed.
 pub fn move_along_memory(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &MovingLoad,
     elements: usize,
 ) -> Result<f64, MdrError> {

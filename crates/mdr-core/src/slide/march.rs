@@ -69,9 +69,9 @@ struct Sums {
 impl ChainMarch {
     /// A chain at rest under the elements of the line, touched at the lowest one.
     pub(super) fn from_first_touch(
-        line: &(impl RigidLine + ?Sized),
+        line: &dyn RigidLine,
         sampled: ElementHeights,
-        material: &(impl Material + ?Sized),
+        material: &dyn Material,
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         load.require_fresh_ground()?;
@@ -112,7 +112,7 @@ impl ChainMarch {
     }
 
     /// What this resolution does not see of the `last` step: errors of friction and depth \[m].
-    pub(super) fn unresolved(&self, line: &(impl RigidLine + ?Sized), last: &SlideRow) -> [f64; 2] {
+    pub(super) fn unresolved(&self, line: &dyn RigidLine, last: &SlideRow) -> [f64; 2] {
         if self.creep.is_elastic() {
             return [0.0; 2];
         }

@@ -22,7 +22,7 @@ pub(super) fn has_memory(creep: &CreepSpectrum) -> bool {
 
 /// The material whose memory is ahead by what a step \[s] does; none for one without memory or without a spring.
 pub(super) fn ahead(
-    material: &(impl Material + ?Sized),
+    material: &dyn Material,
     time_step: f64,
 ) -> Result<Option<Compressible>, MdrError> {
     let creep = material.creep();

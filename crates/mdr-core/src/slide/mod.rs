@@ -79,8 +79,8 @@ pub struct Sliding {
 /// [`MdrError::SlidingNotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
 /// dashpot; otherwise like [`slide_on_grid`].
 pub fn slide<'w>(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Sliding, MdrError> {
@@ -125,11 +125,11 @@ pub fn slide<'w>(
 }
 
 /// What slides, on what, and how.
-struct Motion<'a, L: ?Sized, M: ?Sized> {
-    line: &'a L,
+struct Motion<'a> {
+    line: &'a dyn RigidLine,
     /// Height of its lowest point, \[m].
     lowest: f64,
-    material: &'a M,
+    material: &'a dyn Material,
     load: &'a SlidingLoad,
 }
 
@@ -139,8 +139,12 @@ struct OnElements {
     transient: Transient,
 }
 
-impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
-    fn new(line: &'a L, material: &'a M, load: &'a SlidingLoad) -> Result<Self, MdrError> {
+impl<'a> Motion<'a> {
+    fn new(
+        line: &'a dyn RigidLine,
+        material: &'a dyn Material,
+        load: &'a SlidingLoad,
+    ) -> Result<Self, MdrError> {
         Ok(Self {
             line,
             lowest: line.height(lowest_candidate(line)?),

@@ -49,8 +49,8 @@ impl SlideOptions {
     /// [`MdrError::TooCoarse`] for fewer than three elements; otherwise like [`steady`](crate::steady()).
     pub fn with_elements(
         elements: usize,
-        line: &(impl RigidLine + ?Sized),
-        material: &(impl Material + ?Sized),
+        line: &dyn RigidLine,
+        material: &dyn Material,
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         let value = line.apex_exponent();
@@ -135,8 +135,8 @@ pub struct Transient {
 /// # Errors
 /// As for [`SlideOptions::with_elements`].
 pub fn slide_memory(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, MdrError> {
@@ -161,8 +161,8 @@ pub fn slide_memory(
 /// - [`MdrError::Indenter`] when the load prescribes the depth.
 /// - [`MdrError::InvalidParameter`], [`MdrError::InvalidHeight`], [`MdrError::NonFinite`], [`MdrError::Material`].
 pub fn slide_on_grid(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &SlidingLoad,
     options: &SlideOptions,
 ) -> Result<Transient, MdrError> {
@@ -171,8 +171,8 @@ pub fn slide_on_grid(
 
 /// Tells which part of the march is done, about.
 pub(super) fn march(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &SlidingLoad,
     options: &SlideOptions,
     tell: &dyn Fn(f64),
@@ -244,8 +244,8 @@ fn march_on(
 
 /// Elements up to the depth that a flowing material has at least, or that the first step can displace.
 fn first_elements(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &SlidingLoad,
     spacing: f64,
 ) -> Result<ElementHeights, MdrError> {
@@ -264,7 +264,7 @@ fn first_elements(
 
 /// A line that ends in front must end above the least depth: its last point belongs to the leading edge.
 fn check_leading_edge(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     lowest_height: f64,
     least_depth: f64,
     load: &SlidingLoad,

@@ -50,7 +50,7 @@ pub(super) struct LastStep<'a> {
 }
 
 impl Fast {
-    pub(super) fn of(material: &(impl Material + ?Sized), velocity: f64, spacing: f64) -> Self {
+    pub(super) fn of(material: &dyn Material, velocity: f64, spacing: f64) -> Self {
         let relaxation = material.relaxation();
         let sum = |weight: fn(f64, f64) -> f64| -> f64 {
             let branches = relaxation.branches().iter();
@@ -68,7 +68,7 @@ impl Fast {
 
 impl LastStep<'_> {
     /// H'/F_N and F'/F_N.
-    pub(super) fn unresolved(&self, line: &(impl RigidLine + ?Sized)) -> [f64; 2] {
+    pub(super) fn unresolved(&self, line: &dyn RigidLine) -> [f64; 2] {
         let is_loaded = |load: &f64| *load > 0.0;
         let Some(rear) = self.loads.iter().position(is_loaded) else {
             return [0.0; 2];
@@ -83,7 +83,7 @@ impl LastStep<'_> {
     }
 
     /// Of what follows the rearmost element, where the line goes on.
-    fn behind(&self, line: &(impl RigidLine + ?Sized), rear: usize) -> [f64; 2] {
+    fn behind(&self, line: &dyn RigidLine, rear: usize) -> [f64; 2] {
         let position = self.elements.position(rear);
         let [slope, behind] = [position, position.next_down()].map(|x| line.slope(x));
         let mean = self.rise(rear) / self.elements.spacing;
@@ -103,7 +103,7 @@ impl LastStep<'_> {
     }
 
     /// ∫ h̃'² dx beyond that of the mean slopes in the loaded elements around the lowest point, by ever shorter chords.
-    fn in_tip(&self, line: &(impl RigidLine + ?Sized)) -> f64 {
+    fn in_tip(&self, line: &dyn RigidLine) -> f64 {
         let ElementHeights {
             anchor_index,
             lowest_height,

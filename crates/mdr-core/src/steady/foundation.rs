@@ -81,10 +81,7 @@ pub(super) struct Recovery {
 
 impl Foundation {
     /// The foundation of a line that moves with `velocity` \[m/s].
-    pub(crate) fn new(
-        material: &(impl Material + ?Sized),
-        velocity: f64,
-    ) -> Result<Self, MdrError> {
+    pub(crate) fn new(material: &dyn Material, velocity: f64) -> Result<Self, MdrError> {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let factor = material.half_space_factor();
         let dashpot = relaxation.viscosity() * velocity / factor;

@@ -94,8 +94,8 @@ pub struct SteadySliding {
 /// - [`MdrError::NotRising`], [`MdrError::TooMuchDetail`], [`MdrError::InvalidHeight`],
 ///   [`MdrError::InvalidParameter`], [`MdrError::NonFinite`].
 pub fn steady(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
+    line: &dyn RigidLine,
+    material: &dyn Material,
     load: &SlidingLoad,
     relative_error: f64,
 ) -> Result<SteadySliding, MdrError> {

@@ -32,17 +32,17 @@ const FINER: f64 = 1e-4;
 const ROUNDING_OF_ENDS: f64 = 2.4e-7;
 
 /// A line that moves over a foundation.
-pub(crate) struct LineProblem<'a, L: ?Sized> {
-    line: &'a L,
+pub(crate) struct LineProblem<'a> {
+    line: &'a dyn RigidLine,
     pub(super) foundation: Foundation,
     /// After which the line comes back to the same place, \[m]; none where it never does.
     pub(super) track: Option<f64>,
 }
 
-impl<'a, L: RigidLine + ?Sized> LineProblem<'a, L> {
+impl<'a> LineProblem<'a> {
     pub(crate) fn new(
-        line: &'a L,
-        material: &(impl Material + ?Sized),
+        line: &'a dyn RigidLine,
+        material: &dyn Material,
         velocity: f64,
     ) -> Result<Self, MdrError> {
         let foundation = Foundation::new(material, positive("velocity", velocity)?)?;

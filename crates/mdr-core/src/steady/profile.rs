@@ -64,7 +64,7 @@ pub(super) struct Piece {
 
 impl Profile {
     pub(super) fn new(
-        line: &(impl RigidLine + ?Sized),
+        line: &dyn RigidLine,
         range: &Range,
         resolution: Resolution,
     ) -> Result<Self, MdrError> {

@@ -33,7 +33,7 @@ impl Range {
     /// Everything at most `depth` above the lowest of the kinks, the ends, and x = 0.
     ///
     /// Refuses a depth that is none, as of a search among numbers that overflow, below which no position ever lies.
-    pub(super) fn below(line: &(impl RigidLine + ?Sized), depth: f64) -> Result<Self, MdrError> {
+    pub(super) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {
         if depth.is_nan() || depth < 0.0 {
             return Err(MdrError::NonFinite {
                 quantity: "indentation depth",
@@ -86,7 +86,7 @@ pub(super) struct Edge {
 }
 
 /// The vertical edge at the front end of a line, if it has one.
-pub(super) fn vertical_edge(line: &(impl RigidLine + ?Sized)) -> Result<Option<Edge>, MdrError> {
+pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<Edge>, MdrError> {
     let [_, position] = line.domain();
     if position.is_infinite() || checked_height(line, position)?.is_finite() {
         return Ok(None);

@@ -22,13 +22,13 @@ pub(super) struct SteepKink {
 }
 
 /// Whether a line has kinks at which it is steeper than any number.
-pub(crate) fn has_steep_kinks(line: &(impl RigidLine + ?Sized)) -> bool {
+pub(crate) fn has_steep_kinks(line: &dyn RigidLine) -> bool {
     !SteepKink::of(line).is_empty()
 }
 
 impl SteepKink {
     /// Those of a line, apart from x = 0, where a cusp is resolved as far as numbers reach.
-    pub(super) fn of(line: &(impl RigidLine + ?Sized)) -> Vec<Self> {
+    pub(super) fn of(line: &dyn RigidLine) -> Vec<Self> {
         let kinks = line.kinks().into_iter().filter(|kink| *kink != 0.0);
         let sides = kinks.flat_map(|position| [-1.0, 1.0].map(|side| (position, side)));
         let steep = sides.filter(|&(position, side)| is_steep(line, position, side));
@@ -50,7 +50,7 @@ impl SteepKink {
 }
 
 /// Whether the slope rises beyond all limits towards the kink, at least like the inverse root of the distance.
-fn is_steep(line: &(impl RigidLine + ?Sized), position: f64, side: f64) -> bool {
+fn is_steep(line: &dyn RigidLine, position: f64, side: f64) -> bool {
     let parts = [1.0, CLOSER, CLOSER * CLOSER];
     let [far, near, nearest] =
         parts.map(|part| line.slope(position + side * part * REACH * position.abs()));

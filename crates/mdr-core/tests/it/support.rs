@@ -126,7 +126,7 @@ pub(crate) fn power_friction(body: &PowerProfile, depth: f64) -> f64 {
 
 /// Stationary sliding on [`VISCOSITY`] at the depth (12), by marching.
 pub(crate) fn slide_to(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     depth: f64,
     spacing: f64,
     drift_tolerance: f64,
@@ -141,7 +141,7 @@ pub(crate) fn slide_to(
 
 /// A march with a number of elements along the stationary contact.
 pub(crate) fn march(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     material: &dyn Material,
     load: &SlidingLoad,
     elements: usize,
@@ -156,7 +156,7 @@ pub(crate) fn march(
 
 /// The stationary state, directly.
 pub(crate) fn slid(
-    line: &(impl RigidLine + ?Sized),
+    line: &dyn RigidLine,
     material: &dyn Material,
     load: &SlidingLoad,
 ) -> SteadySliding {

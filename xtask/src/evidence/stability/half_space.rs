@@ -11,9 +11,11 @@ use friction_analytic::{
     ElasticContact, ElasticLimitFriction, FrictionError, half_space_power_friction,
     high_speed_friction, low_speed_friction,
 };
-use indenters::{Control, FlatCone, PowerProfile, RoundTippedCone, SlidingLoad, Surface};
+use indenters::{
+    Axisymmetric, Control, FlatCone, PowerProfile, RoundTippedCone, SlidingLoad, Surface,
+};
 use numerics::{Estimate, InvalidParameter};
-use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
+use rheology::{Elastic, Material, Maxwell, Viscous};
 
 use super::case::{Row, compare, refused};
 use super::line::{on_dashpot, under};
@@ -94,8 +96,8 @@ pub(super) fn round_tip(tip: f64) -> Result<Row> {
 }
 
 type Limit = fn(
-    &PowerProfile,
-    &StandardSolid,
+    &dyn Axisymmetric,
+    &dyn Material,
     ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError>;
 
