@@ -327,21 +327,23 @@ impl State {
     /// With the elements that the change brings into the contact, as far as it is similar to itself.
     fn of_all(&self, mut changes: Vec<f64>) -> Change<Apart> {
         let areas = areas_of(&mut changes);
+        let mut changes: Vec<Apart> = changes.into_iter().map(|change| [change, 0.0]).collect();
         let contact_area = self.dilation.as_ref().map(|dilation| {
             let lengths = [0, 1].map(|measure| areas[measure] / dilation.areas[measure]);
-            for (change, excess) in changes.iter_mut().zip(&dilation.excess) {
-                *change -= lengths[0] * excess;
+            let length = [lengths[0], (lengths[0] - lengths[1]).abs()];
+            for ([change, apart], excess) in changes.iter_mut().zip(&dilation.excess) {
+                *change -= length[0] * excess;
+                *apart = length[1] * excess.abs();
             }
-            let apart = (lengths[0] - lengths[1]).abs();
-            [lengths[0], apart].map(|length| dilation.power_of_area * length)
+            length.map(|length| dilation.power_of_area * length)
         });
-        let other = changes.get(1).map(|change| [*change, 0.0]);
+        let other = changes.get(1).copied();
         let (indentation_depth, normal_force) = match self.control {
             Control::NormalForce(_) => (other, None),
             Control::IndentationDepth(_) => (None, other),
         };
         Change {
-            friction_coefficient: [changes[0], 0.0],
+            friction_coefficient: changes[0],
             indentation_depth,
             normal_force,
             contact_area,
