@@ -110,17 +110,6 @@ impl Contact {
             Self::Periodic(near) => near.between_materials(materials, velocities),
         }?)
     }
-
-    fn between_elastomers(
-        &self,
-        elastomers: [&dyn Elastomer; 2],
-        velocities: [f64; 2],
-    ) -> Result<Change<Estimate>> {
-        Ok(match self {
-            Self::Single(near) => near.between_elastomers(elastomers, velocities),
-            Self::Periodic(near) => near.between_elastomers(elastomers, velocities),
-        }?)
-    }
 }
 
 /// The problems on both sides of a number, or on one where it is the largest or the least allowed one, with its values.
@@ -159,10 +148,18 @@ fn change(
         ["load", "track"] if let Contact::Single(near) = contact => {
             scaled(near.by_track(), (ends[1].1 / ends[0].1).ln())
         }
-        ["layer", _] | ["material", "poisson_ratio"] if is_layer => {
-            let [from, to] = [from.elastomer()?, to.elastomer()?];
-            contact.between_elastomers([&from as &dyn Elastomer, &to], velocities)?
-        }
+        ["layer", _] | ["material", "poisson_ratio"] if is_layer => match contact {
+            Contact::Single(near) => {
+                let [low, high] = ends;
+                let (other, value) = if high.1 > number.value { high } else { low };
+                let change = near.to_elastomer(&other.elastomer()?, velocities[0])?;
+                scaled(change, (high.1 / low.1).ln() / (value / number.value).ln())
+            }
+            Contact::Periodic(near) => {
+                let [from, to] = [from.elastomer()?, to.elastomer()?];
+                near.between_elastomers([&from as &dyn Elastomer, &to], velocities)?
+            }
+        },
         _ => contact.between_materials([from.material(), to.material()], velocities)?,
     })
 }

@@ -169,19 +169,17 @@ impl Basis {
         bands.iter().map(of_band).collect()
     }
 
-    /// The change of quantities of one contact from one creep on its base to another.
-    pub(super) fn between_elastomers(
+    /// The change of quantities of one contact from its creep to another on a base of its own.
+    pub(super) fn to_elastomer(
         quantities: &[&Self],
-        ends: [&SlidingCreep; 2],
+        creep: &SlidingCreep,
     ) -> Result<Vec<f64>, BemError> {
-        let [from, to] = ends.map(|creep| {
-            Self::on_other(quantities, creep, |kernel, bare| {
-                bare.base = creep.base().in_units_of(kernel.spacing)?;
-                Ok(())
-            })
-        });
-        let pairs = from?.into_iter().zip(to?);
-        Ok(pairs.map(|(from, to)| to - from).collect())
+        let other = Self::on_other(quantities, creep, |kernel, bare| {
+            bare.base = creep.base().in_units_of(kernel.spacing)?;
+            Ok(())
+        })?;
+        let pairs = quantities.iter().zip(other);
+        Ok(pairs.map(|(own, other)| other - own.whole()).collect())
     }
 
     /// By the logarithm of the thickness of the layer.

@@ -50,16 +50,22 @@ impl<'mesh> Contact<'mesh> {
         self.mesh.total_load(elements.zip(loads.iter().copied()))
     }
 
-    /// Loads on the whole contact.
-    fn field(&self, loads: &[f64]) -> Field {
-        let elements = self.elements.iter().copied();
-        let whole: Vec<(usize, f64)> = elements.zip(loads.iter().copied()).collect();
-        Field::new(&self.bounds, self.mesh.loaded(&whole).into_iter())
-    }
-
     /// The weights of the kernel for a quantity with these adjoint loads.
     pub(super) fn offsets(&self, adjoint: &[f64]) -> Offsets {
-        Offsets::of(&self.field(adjoint), &self.field(&self.loads))
+        let pairs = |loads: &[f64]| -> Vec<(usize, f64)> {
+            let elements = self.elements.iter().copied();
+            elements.zip(loads.iter().copied()).collect()
+        };
+        // Each stands for its image, too.
+        let adjoint = pairs(adjoint).into_iter().map(|(element, load)| {
+            let [place, _] = self.mesh.places(element);
+            (place, self.mesh.weight(element) * load)
+        });
+        let loads = self.mesh.loaded(&pairs(&self.loads)).into_iter();
+        Offsets::of(
+            &Field::new(&self.bounds, adjoint),
+            &Field::new(&self.bounds, loads),
+        )
     }
 
     /// The same for the mean slope of the displacements under the load.

@@ -213,21 +213,17 @@ impl SteadySensitivity {
         self.change(|grids| grids.mean_between(materials, velocities))
     }
 
-    /// The same with a base each, as layers of other thicknesses or Poisson ratios have.
+    /// The change from the elastomer and velocity of the state to others near them, such as a layer of another Poisson ratio.
     ///
     /// # Errors
     /// As for [`between_materials`](Self::between_materials).
-    pub fn between_elastomers(
+    pub fn to_elastomer(
         &self,
-        elastomers: [&dyn Elastomer; 2],
-        velocities: [f64; 2],
+        elastomer: &dyn Elastomer,
+        velocity: f64,
     ) -> Result<Change<Estimate>, BemError> {
-        let [from, to] = [0, 1].map(|end| SlidingCreep::new(elastomers[end], velocities[end]));
-        let ends = [from?, to?];
-        self.change(|grids| {
-            let changes = State::all_between_elastomers(&grids.states, ends.each_ref())?;
-            Ok(mean(changes))
-        })
+        let creep = SlidingCreep::new(elastomer, velocity)?;
+        self.change(|grids| Ok(mean(State::all_to_elastomer(&grids.states, &creep)?)))
     }
 
     /// The friction coefficient on these grids.

@@ -31,7 +31,8 @@ impl Field {
 }
 
 impl Offsets {
-    /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side.
+    /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side; where x is mirror symmetric, of images
+    /// in y one may stand for both.
     pub(super) fn of(left: &Field, right: &Field) -> Self {
         let [rows, columns] = left.shape;
         let width = 2 * columns - 1;
@@ -44,9 +45,10 @@ impl Offsets {
         {
             let (row, column) = (place / columns, place % columns);
             for (other, from) in right.values.chunks_exact(columns).enumerate() {
-                let first = (row + rows - other) * width + column;
+                // By the distance along y to the other side, which is folded onto this one.
+                let first = (row + rows - other) * width + columns - 1 - column;
                 let weights = &mut signed[first..first + columns];
-                for (weight, load) in weights.iter_mut().rev().zip(from) {
+                for (weight, load) in weights.iter_mut().zip(from) {
                     *weight += value * load;
                 }
             }

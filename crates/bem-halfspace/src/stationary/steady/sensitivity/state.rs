@@ -240,26 +240,21 @@ impl State {
         if [&from, &to].iter().all(|end| self.has_delays_of(end)) {
             return Ok(self.change(|basis| basis.between_creeps([&from, &to])));
         }
-        self.between_elastomers(ends)
+        let [from, to] = ends.map(|end| Basis::to_elastomer(&self.bases(), end));
+        let pairs = from?.into_iter().zip(to?);
+        let pairs = pairs.zip(&self.gradients);
+        let changes = pairs.map(|((from, to), one)| one.unit * (to - from));
+        Ok(self.of_all(changes.collect()))
     }
 
-    /// Each on its own base; of one state.
-    pub(super) fn between_elastomers(
-        &self,
-        ends: [&SlidingCreep; 2],
-    ) -> Result<Change<Apart>, BemError> {
-        let mut changes = Self::all_between_elastomers(std::slice::from_ref(self), ends)?;
-        Ok(changes.remove(0))
-    }
-
-    /// The same of states whose kernels are computed once for all.
-    pub(super) fn all_between_elastomers(
+    /// From that of each state to another; the kernels are computed once for all.
+    pub(super) fn all_to_elastomer(
         states: &[Self],
-        ends: [&SlidingCreep; 2],
+        creep: &SlidingCreep,
     ) -> Result<Vec<Change<Apart>>, BemError> {
         let gradients = states.iter().flat_map(|state| &state.gradients);
         let bases: Vec<&Basis> = gradients.map(|one| &one.basis).collect();
-        let mut changes = Basis::between_elastomers(&bases, ends)?.into_iter();
+        let mut changes = Basis::to_elastomer(&bases, creep)?.into_iter();
         let of = |state: &Self| {
             let pairs = state.gradients.iter().zip(&mut changes);
             state.of_all(pairs.map(|(one, change)| one.unit * change).collect())
@@ -327,21 +322,23 @@ impl State {
     /// With the elements that the change brings into the contact, as far as it is similar to itself.
     fn of_all(&self, mut changes: Vec<f64>) -> Change<Apart> {
         let areas = areas_of(&mut changes);
+        let mut changes: Vec<Apart> = changes.into_iter().map(|change| [change, 0.0]).collect();
         let contact_area = self.dilation.as_ref().map(|dilation| {
             let lengths = [0, 1].map(|measure| areas[measure] / dilation.areas[measure]);
-            for (change, excess) in changes.iter_mut().zip(&dilation.excess) {
-                *change -= lengths[0] * excess;
+            let length = [lengths[0], (lengths[0] - lengths[1]).abs()];
+            for ([change, apart], excess) in changes.iter_mut().zip(&dilation.excess) {
+                *change -= length[0] * excess;
+                *apart = length[1] * excess.abs();
             }
-            let apart = (lengths[0] - lengths[1]).abs();
-            [lengths[0], apart].map(|length| dilation.power_of_area * length)
+            length.map(|length| dilation.power_of_area * length)
         });
-        let other = changes.get(1).map(|change| [*change, 0.0]);
+        let other = changes.get(1).copied();
         let (indentation_depth, normal_force) = match self.control {
             Control::NormalForce(_) => (other, None),
             Control::IndentationDepth(_) => (None, other),
         };
         Change {
-            friction_coefficient: [changes[0], 0.0],
+            friction_coefficient: changes[0],
             indentation_depth,
             normal_force,
             contact_area,

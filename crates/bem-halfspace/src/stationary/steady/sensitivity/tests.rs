@@ -123,7 +123,10 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<Apart> {
                 SlidingCreep::new(&layer, case.load(&ends[end]).velocity()).expect("a creep")
             });
             match name {
-                "ratio" | "thickness" => state.between_elastomers(creeps.each_ref()),
+                "ratio" | "thickness" => {
+                    let states = std::slice::from_ref(state);
+                    State::all_to_elastomer(states, &creeps[1]).map(|found| scaled(found[0], 2.0))
+                }
                 _ => state.between_materials(creeps.each_ref()),
             }
         }
@@ -322,7 +325,7 @@ fn frequencies_of_a_cylinder_add_up_to_the_unit_of_stress() {
 
 fn a_cylinder_adds_up(thickness: f64) {
     let cylinder = Cylinder::new(1.0).expect("a body");
-    let materials = [1.0 - STEP, 1.0, 1.0 + STEP].map(|scale| {
+    let materials = [1.0, 1.0 + STEP].map(|scale| {
         let branches = vec![RelaxationBranch {
             modulus: 3.0 * scale,
             relaxation_time: 0.3,
@@ -338,13 +341,13 @@ fn a_cylinder_adds_up(thickness: f64) {
         tolerance: 1e-10,
         max_iterations: 100,
     };
-    let [softer, layer, stiffer] = materials
+    let [layer, stiffer] = materials
         .each_ref()
         .map(|material| Layer::new(material, thickness).expect("a layer"));
     let sensitivity = SteadySensitivity::of_line(&cylinder, &layer, &load, &options);
     let sensitivity = sensitivity.expect("a sensitivity");
-    let change = sensitivity.between_elastomers([&softer, &stiffer], [2.0; 2]);
-    let expected = change.expect("a change").friction_coefficient.value / (2.0 * STEP);
+    let change = sensitivity.to_elastomer(&stiffer, 2.0);
+    let expected = change.expect("a change").friction_coefficient.value / STEP;
     let ends = [0.9, 1.1].map(|factor| {
         let load = SlidingLoad::new(0.5 * factor, 2.0).expect("a load");
         let answer = steady_line(&cylinder, &layer, &load, 1e-4).expect("an answer");
