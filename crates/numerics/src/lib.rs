@@ -37,6 +37,8 @@ mod progress;
 mod quadrature;
 mod refinement;
 mod root;
+#[cfg(feature = "transforms")]
+pub mod transforms;
 mod whole_part;
 
 /// The program of that page compiles.

@@ -12,7 +12,9 @@ use bem_halfspace::{
 };
 pub(crate) use casebook::{Formula, prony};
 use indenters::{PowerProfile, SlidingLoad, Surface};
-use numerics::{AtMost, Estimate, Request};
+#[cfg(feature = "rough")]
+use numerics::AtMost;
+use numerics::{Estimate, Request};
 use rayon::ThreadPoolBuilder;
 use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 

@@ -14,9 +14,7 @@ mod through;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use numerics::{InvalidParameter, finite, in_range, positive};
-use realfft::RealFftPlanner;
-use rustfft::FftPlanner;
+use numerics::{InvalidParameter, finite, in_range, positive, transforms};
 use rustfft::num_complex::Complex;
 
 use crate::IndenterError;
@@ -160,9 +158,9 @@ impl PeriodicSurface {
         for wave in &self.waves {
             add_wave(wave, &mut spectrum, rows);
         }
-        let along_x = FftPlanner::new().plan_fft_inverse(rows);
+        let along_x = transforms::inverse(rows);
         along_x.process(&mut spectrum);
-        let along_y = RealFftPlanner::new().plan_fft_inverse(columns);
+        let along_y = transforms::real_inverse(columns);
         let mut coefficients = along_y.make_input_vec();
         let mut scratch = along_y.make_scratch_vec();
         let mut heights = vec![0.0; rows * columns];

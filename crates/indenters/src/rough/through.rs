@@ -1,8 +1,6 @@
 //! Periodic surfaces through heights on a grid.
 
-use numerics::{in_range, not_negative, positive};
-use realfft::RealFftPlanner;
-use rustfft::FftPlanner;
+use numerics::{in_range, not_negative, positive, transforms};
 use rustfft::num_complex::Complex;
 
 use crate::rough::{PeriodicSurface, Wave};
@@ -69,7 +67,7 @@ impl PeriodicSurface {
 /// Σ h e^(−i(…)), column by column of the numbers along y, which are not negative.
 fn spectrum(map: &HeightMap) -> Vec<Complex<f64>> {
     let [rows, columns] = map.shape();
-    let along_y = RealFftPlanner::new().plan_fft_forward(columns);
+    let along_y = transforms::real_forward(columns);
     let (mut row, mut found) = (along_y.make_input_vec(), along_y.make_output_vec());
     let mut spectrum = vec![Complex::default(); found.len() * rows];
     for (index, heights) in map.heights().chunks_exact(columns).enumerate() {
@@ -80,8 +78,6 @@ fn spectrum(map: &HeightMap) -> Vec<Complex<f64>> {
             column[index] = *coefficient;
         }
     }
-    FftPlanner::new()
-        .plan_fft_forward(rows)
-        .process(&mut spectrum);
+    transforms::forward(rows).process(&mut spectrum);
     spectrum
 }

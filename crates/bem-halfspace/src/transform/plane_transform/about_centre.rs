@@ -23,7 +23,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use realfft::{RealFftPlanner, RealToComplex};
+use numerics::transforms;
+use realfft::RealToComplex;
 use rustfft::num_complex::Complex;
 
 use crate::transform::plane_transform::real_rows::forward_real;
@@ -41,16 +42,16 @@ pub(super) struct Cosines {
 }
 
 impl Cosines {
-    pub(super) fn new(planner: &mut RealFftPlanner<f64>, length: usize) -> Self {
+    pub(super) fn new(length: usize) -> Self {
         let sine = |n| (PI * n as f64 / length as f64).sin();
         if length > SHORT {
             return Self {
-                plan: planner.plan_fft_forward(2 * length),
+                plan: transforms::real_forward(2 * length),
                 sines: None,
             };
         }
         Self {
-            plan: planner.plan_fft_forward(length),
+            plan: transforms::real_forward(length),
             sines: Some((0..=length / 2).map(sine).collect()),
         }
     }

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use numerics::transforms;
+use rustfft::Fft;
 use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
 use crate::elements::mirror::Mirror;
 use crate::transform::plane_transform::{about_centre, about_edge};
@@ -25,10 +26,9 @@ impl ColumnTransform {
             Mirror::None | Mirror::Centre => (period, Vec::new()),
             Mirror::Edge => (period / 2, about_edge::turns(period / 2)),
         };
-        let mut planner = FftPlanner::new();
         Self {
-            forward: planner.plan_fft_forward(length),
-            inverse: planner.plan_fft_inverse(length),
+            forward: transforms::forward(length),
+            inverse: transforms::inverse(length),
             mirror,
             turns,
         }

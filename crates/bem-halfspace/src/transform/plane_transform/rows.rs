@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use numerics::transforms;
+use realfft::{ComplexToReal, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use crate::elements::mirror::Mirror;
@@ -29,16 +30,15 @@ pub(super) enum RowTransform {
 impl RowTransform {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
-        let mut planner = RealFftPlanner::new();
         let half = period / 2;
         let (length, turns) = match mirror {
             Mirror::None => (period, None),
-            Mirror::Centre => return Self::AboutCentre(Cosines::new(&mut planner, half)),
+            Mirror::Centre => return Self::AboutCentre(Cosines::new(half)),
             Mirror::Edge => (half, Some(about_edge::turns(half))),
         };
         Self::Fourier {
-            forward: planner.plan_fft_forward(length),
-            inverse: planner.plan_fft_inverse(length),
+            forward: transforms::real_forward(length),
+            inverse: transforms::real_inverse(length),
             turns,
         }
     }

@@ -1,6 +1,6 @@
 //! The adjoint loads of a contact of a periodic surface, and what each quantity asks of its kernel.
 
-use rustfft::FftPlanner;
+use numerics::transforms;
 use rustfft::num_complex::Complex;
 
 use crate::elements::spread::measures_of_area;
@@ -163,7 +163,7 @@ pub(super) fn turned(field: &[f64], grid: &Grid) -> Vec<f64> {
 /// with the factors.
 fn row_sums([left, right]: [&[f64]; 2], grid: &Grid) -> Vec<Complex<f64>> {
     let [rows, columns] = grid.shape();
-    let transform = FftPlanner::new().plan_fft_forward(rows);
+    let transform = transforms::forward(rows);
     let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
     let mut sums = vec![Complex::default(); rows];
     let mut column = |field: &[f64], index: usize| {
