@@ -165,21 +165,22 @@ fn what_no_motion_serves_is_refused_by_name() {
     }
 }
 
-/// A rough surface that moves to and fro on a half space and on a layer, through points, and what it is not asked.
-#[test]
-fn periodic_surfaces_move_too() {
+/// Body and material of a rough surface with another load.
+fn rough_answer(load: &str, solved: &str) -> Result<Answer, String> {
     let road = include_str!("../../../../examples/scenes/rough-road.toml");
     let (body, _) = road.split_once("[load]").expect("a load");
-    let answer = |load: &str, solved: &str| {
-        let scene = format!("{body}[load]\n{load}\n{solved}\n");
-        let scene: Scene = scene.parse().map_err(|error| format!("{error:?}"))?;
-        let problem = Problem::try_from(&scene).map_err(|error| error.to_string())?;
-        solve(&problem).map_err(|error| error.to_string())
-    };
-    // All gaps are closed.
-    let stroke = "stroke = 5e-3\nfrequency = 2.0";
-    let load = format!("mean_pressure = 1e8\n{stroke}");
-    let full = answer(&load, "[solve]\nrelative_error = 1e-6").expect("a cycle");
+    let scene = format!("{body}[load]\n{load}\n{solved}\n");
+    let scene: Scene = scene.parse().map_err(|error| format!("{error:?}"))?;
+    let problem = Problem::try_from(&scene).map_err(|error| error.to_string())?;
+    solve(&problem).map_err(|error| error.to_string())
+}
+
+/// All gaps are closed.
+const CLOSED: &str = "mean_pressure = 1e8\nstroke = 5e-3\nfrequency = 2.0";
+
+#[test]
+fn periodic_surfaces_move_too() {
+    let full = rough_answer(CLOSED, "[solve]\nrelative_error = 1e-6").expect("a cycle");
     let friction = full.friction_coefficient.expect("friction").value;
     let energy = full.dissipated_energy.expect("energy").value;
     assert!(
@@ -192,21 +193,27 @@ fn periodic_surfaces_move_too() {
         full.indentation_depth
     );
     let layer = "[layer]\nthickness = 1e-3\n[solve]\nrelative_error = 1e-6";
-    let layer = answer(&load, layer).expect("a cycle").indentation_depth;
+    let layer = rough_answer(CLOSED, layer)
+        .expect("a cycle")
+        .indentation_depth;
     assert!(layer.is_some_and(|depth| depth.value >= 0.0), "{layer:?}");
+}
+
+#[test]
+fn what_no_motion_of_a_periodic_surface_serves_is_refused_by_name() {
     for (load, solved, said) in [
         (
             "normal_force = 2.0\nstroke = 5e-3\nfrequency = 2.0",
             "",
             "takes a mean_pressure",
         ),
-        (&load, "[solve]\nmethod = \"bem-steady\"", "any"),
+        (CLOSED, "[solve]\nmethod = \"bem-steady\"", "any"),
         (
-            &load,
+            CLOSED,
             "[solve]\nmethod = \"mdr-transient\"",
             "body of revolution",
         ),
-        (&load, "[solve]\nelements = 16", "at least"),
+        (CLOSED, "[solve]\nelements = 16", "at least"),
         (
             "motion = [{ time = 0.0, position = 0.0, normal_force = 1.0 }, { time = 1.0, position = 1e-3, normal_force = 1.0 }]",
             "",
@@ -218,7 +225,7 @@ fn periodic_surfaces_move_too() {
             "shortest waves of a periodic surface",
         ),
     ] {
-        let refused = answer(load, solved).expect_err(load);
+        let refused = rough_answer(load, solved).expect_err(load);
         assert!(refused.contains(said), "{load} with {solved}: {refused}");
     }
 }

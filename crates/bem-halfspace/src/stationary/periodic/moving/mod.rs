@@ -30,7 +30,7 @@ use stresses::{Spectra, WaveMotion, WaveStates};
 const PER_WAVE: usize = 8;
 const FEWEST: usize = 32;
 /// Elements times steps of a cycle or path that are not exceeded; a minute or some.
-const MOST_WORK: f64 = 3e7;
+const MOST_WORK: f64 = 6e7;
 /// Elements in contact below which, on half the elements, the number of those that touch decides the friction.
 const FEWEST_IN_CONTACT: usize = 30;
 /// Tolerance of the contact of a step, which is the error of no quantity asked for.
@@ -169,6 +169,15 @@ struct Moving<'a, M: ?Sized> {
     tolerance: f64,
 }
 
+/// A motion on one grid.
+struct OnGrid {
+    grid: Grid,
+    /// \[m].
+    heights: Vec<f64>,
+    steps: Vec<MovingStep>,
+    waves: WaveMotion,
+}
+
 /// The state at the end of a step.
 #[derive(Clone, Copy)]
 struct End {
@@ -262,11 +271,16 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         let steps = self.steps(elements, shape)?;
         let spacing = [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64);
         let grid = Grid::new(shape, spacing)?;
-        let heights = self.surface.heights(shape)?;
-        let motion = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
-        let record = match self.closed(&grid, &heights, &motion, &steps) {
+        let waves = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
+        let on_grid = OnGrid {
+            heights: self.surface.heights(shape)?,
+            grid,
+            steps,
+            waves,
+        };
+        let record = match self.closed(&on_grid) {
             Some(record) => record,
-            None => self.march(&grid, &heights, &motion, &steps, tell)?,
+            None => self.march(&on_grid, tell)?,
         };
         Ok(MotionRecord {
             spacing: spacing[0],
@@ -276,27 +290,20 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
     }
 
     /// A cycle in which the contact is full all the time; none otherwise.
-    fn closed(
-        &self,
-        grid: &Grid,
-        heights: &[f64],
-        motion: &WaveMotion,
-        steps: &[MovingStep],
-    ) -> Option<MotionRecord> {
+    fn closed(&self, on_grid: &OnGrid) -> Option<MotionRecord> {
+        let grid = &on_grid.grid;
         let normal_force = self.load.largest_control().value();
         let (base, area) = (self.elastomer.base(), self.area());
         let factor = 0.5 * self.elastomer.material().half_space_factor();
         let closed = Closed {
             grid,
-            heights,
+            heights: &on_grid.heights,
             waves: Waves::new(grid, &base),
             factor,
             mean_pressure: normal_force / area,
         };
-        let found = self
-            .load
-            .is_cycle()
-            .then(|| closed.cycle(motion, &self.wave_numbers))??;
+        let cycle = || closed.cycle(&on_grid.waves, &self.wave_numbers);
+        let found = self.load.is_cycle().then(cycle)??;
         let yielded = factor * self.spectra.creep.equilibrium_compliance() * base.mean();
         let end = |stress: &f64| End {
             tangential_force: stress * area,
@@ -305,25 +312,19 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             n_contact: grid.n_elements(),
         };
         let ends: Vec<End> = found.stresses.iter().map(end).collect();
-        let mut record = self.record(ends[ends.len() - 1], &ends, steps);
+        let mut record = self.record(ends[ends.len() - 1], &ends, &on_grid.steps);
         record.work = found.work * area;
         Some(record)
     }
 
-    fn march(
-        &self,
-        grid: &Grid,
-        heights: &[f64],
-        motion: &WaveMotion,
-        steps: &[MovingStep],
-        tell: &dyn Fn(f64),
-    ) -> Result<MotionRecord, BemError> {
+    fn march(&self, on_grid: &OnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+        let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
         let touch = TOUCH * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
-        let first = self.step(&mut march, (touch, start), &motion.states[0])?;
+        let first = self.step(&mut march, (touch, start), &on_grid.waves.states[0])?;
         if !self.load.is_cycle() {
-            let ends = self.pass(&mut march, motion, steps, tell)?;
+            let ends = self.pass(&mut march, on_grid, tell)?;
             return Ok(self.record(first, &ends, steps));
         }
         let cycles = Cycles {
@@ -334,7 +335,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         let touched = march.memory.clone();
         let pass = |from: &[f64]| {
             march.memory.copy_from_slice(from);
-            let ends = self.pass(&mut march, motion, steps, &|_| ())?;
+            let ends = self.pass(&mut march, on_grid, &|_| ())?;
             let record = self.record(ends[ends.len() - 1], &ends, steps);
             Ok((record, march.memory.clone()))
         };
@@ -345,11 +346,10 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
     fn pass(
         &self,
         march: &mut PeriodicMarch<'_>,
-        motion: &WaveMotion,
-        steps: &[MovingStep],
+        OnGrid { steps, waves, .. }: &OnGrid,
         tell: &dyn Fn(f64),
     ) -> Result<Vec<End>, BemError> {
-        let pairs = steps.iter().zip(&motion.states[1..]).enumerate();
+        let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
         let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
             tell(index as f64 / steps.len() as f64);
             self.step(march, (step.duration, step.end.control), state)
@@ -409,5 +409,112 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             before = (*end, step.end.position);
         }
         record
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::rough::Wave;
+    use indenters::{Shape, Stroke};
+    use numerics::Estimate;
+    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+
+    use super::*;
+
+    /// Retardation times of the slowest element after which it has forgotten the first touch.
+    const MEMORIES: f64 = 8.0;
+
+    fn surface() -> PeriodicSurface {
+        let wave = |(numbers, amplitude, phase)| Wave {
+            numbers,
+            amplitude,
+            phase,
+        };
+        let waves = [
+            ([1, 0], 0.01, 0.2),
+            ([2, -1], 0.01, 1.0),
+            ([0, 2], 0.006, 2.0),
+        ];
+        PeriodicSurface::new([1.0; 2], waves.map(wave).to_vec()).expect("a surface")
+    }
+
+    fn rubber() -> Prony {
+        let branch = |(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        };
+        let branches = [(2.0, 0.1), (4.0, 0.02)].map(branch).to_vec();
+        Prony::new(RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum"))
+            .expect("a solid")
+    }
+
+    /// What the dashpots take in the last cycle of many, as in `tests/it/dissipated_energy.rs`, \[J].
+    fn heat(load: &MovingLoad, elements: usize) -> f64 {
+        let (surface, rubber) = (surface(), rubber());
+        let accuracy = Accuracy::Elements(elements);
+        let problem = Moving::new(&surface, &rubber, load, accuracy).expect("a problem");
+        let shape = problem.shape(elements);
+        let grid = Grid::new(shape, shape.map(|n| 1.0 / n as f64)).expect("a grid");
+        let steps = problem.steps(elements, shape).expect("steps");
+        let heights = surface.heights(shape).expect("heights");
+        let waves = WaveMotion::new(load, &steps, &problem.wave_numbers, &problem.spectra);
+        let waves = waves.expect("a motion of waves");
+        let mut march = PeriodicMarch::new(&grid, &heights, &rubber, 1e-4).expect("a march");
+        let mut kernel = Waves::new(&grid, &rubber.base());
+        let creep = &problem.spectra.creep;
+        let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
+        let mut moved = vec![0.0; heights.len()];
+        let count = MEMORIES * slowest(creep) / period_of(load) + 2.0;
+        let mut heat = 0.0;
+        for _ in 0..numerics::whole_part(count) {
+            heat = 0.0;
+            for (step, state) in steps.iter().zip(&waves.states[1..]) {
+                let motion = (step.duration, step.end.control);
+                let _end = problem.step(&mut march, motion, state).expect("a contact");
+                let pressure = march.state.pressure();
+                for (element, springs) in creep.elements().iter().zip(&mut springs) {
+                    let pairs = pressure.iter().zip(springs.iter());
+                    let dashpot: Vec<f64> = pairs.map(|(all, spring)| all - spring).collect();
+                    // Displaced as an incompressible half space of the modulus 1.
+                    kernel.apply(&dashpot, &mut moved, |_, [_, q]| (0.5 / q).into());
+                    let work: f64 = dashpot.iter().zip(&moved).map(|(p, u)| p * u).sum();
+                    let times = step.duration / element.retardation_time;
+                    let passed = -(-2.0 * times).exp_m1();
+                    heat += 0.5 * passed * element.compliance * work * grid.element_area();
+                    for (spring, rest) in springs.iter_mut().zip(dashpot) {
+                        *spring -= (-times).exp_m1() * rest;
+                    }
+                }
+            }
+        }
+        heat
+    }
+
+    /// The bar of the work is that of the motion, that of the dashpots what half the elements change.
+    #[test]
+    fn the_work_of_a_cycle_is_what_the_dashpots_take() {
+        for (length, frequency, shape) in [
+            (0.3, 2.0, Shape::Sinusoidal),
+            (0.02, 5.0, Shape::Sinusoidal),
+            (0.5, 3.0, Shape::Triangular),
+        ] {
+            let stroke = Stroke {
+                length,
+                frequency,
+                shape,
+            };
+            let load = MovingLoad::reciprocating(Control::NormalForce(0.2), stroke);
+            let load = load.expect("a motion");
+            let [coarse, fine] = [24, 48].map(|elements| heat(&load, elements));
+            let heat = Estimate::new(2.0 * fine - coarse, (fine - coarse).abs());
+            let cycle = move_along(&surface(), &rubber(), &load, Accuracy::Elements(48));
+            let energy = cycle.expect("a cycle").dissipated_energy.expect("energy");
+            let (apart, bars) = ((energy.value - heat.value).abs(), energy.error + heat.error);
+            assert!(apart <= bars, "{stroke:?}: {energy:?}, {heat:?}");
+            assert!(
+                bars < 0.15 * energy.value,
+                "{stroke:?}: {energy:?}, {heat:?}"
+            );
+        }
     }
 }

@@ -50,6 +50,9 @@ pub(super) struct Spectra {
     pub(super) creep: CreepSpectrum,
 }
 
+/// Stresses of a unit wave \[Pa], before the first step and at the end of each, and the work on it \[Pa].
+type Stressed = (Vec<Complex<f64>>, f64);
+
 /// A step of a path: how long it takes, and where it begins and ends.
 struct Leg {
     duration: f64,
@@ -176,7 +179,7 @@ fn straight(
     legs: &[Leg],
     relaxation: &RelaxationSpectrum,
     period: Option<f64>,
-) -> (Vec<Complex<f64>>, f64) {
+) -> Stressed {
     let at = |place: f64| Complex::from_polar(1.0, -q * place);
     let first = relaxation.equilibrium_modulus() * at(0.0);
     let mut work = 0.0;
@@ -246,7 +249,7 @@ fn harmonic(
     n_steps: usize,
     wave_numbers: &[f64],
     relaxation: &RelaxationSpectrum,
-) -> Result<Vec<(Vec<Complex<f64>>, f64)>, BemError> {
+) -> Result<Vec<Stressed>, BemError> {
     let [rear, front] = load.range();
     let (half, period) = (0.5 * (front - rear), period_of(load));
     let shortest = wave_numbers.iter().copied().fold(0.0, f64::max);
