@@ -189,6 +189,7 @@ impl<'a> PeriodicMarch<'a> {
     }
 
     /// Number of rows of elements along x.
+    #[cfg(feature = "rough")]
     pub(super) fn rows(&self) -> usize {
         self.convolution.grid().shape()[0]
     }
