@@ -33,8 +33,8 @@ const FEWEST: usize = 32;
 const MOST_WORK: f64 = 6e7;
 /// Elements in contact below which, on half the elements, the number of those that touch decides the friction.
 const FEWEST_IN_CONTACT: usize = 30;
-/// Tolerance of the contact of a step, which is the error of no quantity asked for.
-const TOLERANCE: f64 = 1e-7;
+/// Tolerance of the contact of a step, which times the slope is a part of the error of the friction of a cycle.
+const TOLERANCE: f64 = 1e-8;
 /// Memory for an element but for what it remembers, and for each wave along x in a step, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 170.0;
 const BYTES_PER_WAVE: f64 = 80.0;
@@ -148,7 +148,10 @@ fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         .map(|step| step.n_contact)
         .min()
         .unwrap_or(usize::MAX);
-    let rests = view.rests(record);
+    let mut rests = view.rests(record);
+    if let (true, Some(friction)) = (record.n_cycles > 0, rests.first_mut()) {
+        friction.iteration = Some(TOLERANCE * record.steepness);
+    }
     if fewest >= 4 * FEWEST_IN_CONTACT {
         return rests;
     }
