@@ -51,6 +51,15 @@ def test_points_are_followed_from_rest() -> None:
         vf.move(BALL, SOLID, stroke=0.0, frequency=1.0, normal_force=2.0, model="line")
 
 
+def test_a_rough_surface_moves_under_a_mean_pressure() -> None:
+    road = vf.SelfAffine(period=(1e-2, 1e-2), hurst_exponent=0.8, rms_slope=0.1, longest_wavelength=5e-3, shortest_wavelength=2.5e-3, seed=1)
+    # All gaps are closed, and the energy is that of any larger pressure.
+    answer = vf.move(road, SOLID, stroke=2e-3, frequency=5.0, mean_pressure=[1e8, 2e8], relative_error=1e-6)
+    assert answer.dissipated_energy is not None and answer.mu is not None
+    assert answer.dissipated_energy[0] == pytest.approx(answer.dissipated_energy[1], rel=1e-9)
+    assert answer.mu[0] == pytest.approx(2.0 * answer.mu[1], rel=1e-9)
+
+
 def test_a_long_track_is_a_straight_one() -> None:
     straight = vf.slide(BALL, SOLID, normal_force=2.0, velocity=0.1, model="line")
     tracks = vf.slide(BALL, SOLID, normal_force=2.0, velocity=0.1, track=[5e-3, 10.0], model="line")

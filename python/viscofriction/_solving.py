@@ -87,6 +87,7 @@ def move(
     position: ArrayLike | None = None,
     normal_force: ArrayLike | None = None,
     indentation_depth: ArrayLike | None = None,
+    mean_pressure: ArrayLike | None = None,
     model: str | None = None,
     method: str | None = None,
     relative_error: float | None = None,
@@ -98,10 +99,12 @@ def move(
 
     Either a ``stroke`` [m] from end to end and a ``frequency`` [1/s], numbers or arrays that fit together, with ``shape`` "sinusoidal"
     or "triangular": the answer is the cycle in which the motion ends; or ``time`` and ``position``, straight from point to point, from
-    an undeformed surface on. Force or depth is held. ``.motion`` has the forces over time, ``.mu`` is their mean over the path.
+    an undeformed surface on. Force or depth is held, or the mean pressure [Pa] of a periodic surface, whose forces and energy are those
+    of one period. ``.motion`` has the forces over time, ``.mu`` is their mean over the path.
     Otherwise as ``slide``.
     """
-    loads = given(stroke=stroke, frequency=frequency, normal_force=normal_force, indentation_depth=indentation_depth)
+    pressed = given(normal_force=normal_force, indentation_depth=indentation_depth, mean_pressure=mean_pressure)
+    loads = given(stroke=stroke, frequency=frequency) | pressed
     load: dict[str, Any] = given(shape=shape)
     if time is not None or position is not None:
         times, places = checked_columns(**given(time=time, position=position))

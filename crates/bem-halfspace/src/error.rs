@@ -54,8 +54,8 @@ pub enum BemError {
     },
     /// The period has too few elements for its shortest waves.
     #[error(
-        "the period has {elements} elements along the edge that has more of them, but at least {needed} are needed, one for \
-         each shortest wave on the coarsest of three grids"
+        "the period has {elements} elements along the edge that has more of them, but at least {needed} are needed, so that the \
+         coarsest of the grids that make its error bar tells the shortest waves"
     )]
     PeriodTooCoarse {
         /// Number of elements asked for.

@@ -47,7 +47,8 @@ pub enum IndenterError {
     /// The path is too long for the contact.
     #[error(
         "the motion needs {steps:.0} steps of the length of an element of the contact, and {allowed:.0} are allowed: \
-         shorten its path or stroke, or press harder"
+         shorten its path or stroke, or take longer elements: press a body harder, or leave out the shortest waves of a periodic \
+         surface"
     )]
     TooManySteps {
         /// Steps needed.

@@ -97,6 +97,8 @@ pub struct MotionRecord {
     pub imbalance: f64,
     /// Length of an element, \[m].
     pub spacing: f64,
+    /// Root mean square slope of a surface without end; 0 of a body, whose contact tells it.
+    pub steepness: f64,
 }
 
 impl MotionRecord {
@@ -252,7 +254,9 @@ impl MotionView<'_> {
             let [rear, front] = step.contact?;
             Some(step.indentation_depth.abs() / (front - rear))
         });
-        slopes.filter(|slope| slope.is_finite()).fold(0.0, f64::max)
+        slopes
+            .filter(|slope| slope.is_finite())
+            .fold(record.steepness, f64::max)
     }
 
     /// The name of a quantity of this number.

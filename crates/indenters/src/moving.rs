@@ -208,6 +208,11 @@ impl Stage {
         }
     }
 
+    /// How it moves between its ends.
+    pub const fn shape(&self) -> Shape {
+        self.shape
+    }
+
     /// How long it takes, \[s].
     pub fn duration(&self) -> f64 {
         self.end.time - self.start.time

@@ -2,7 +2,7 @@
 //! checks of numbers.
 //!
 //! ```
-//! use numerics::{Goal, NotReached, Quantity, refine};
+//! use numerics::{FIRST_ELEMENTS, Goal, NotReached, Quantity, refine};
 //!
 //! // The circumference of a circle from polygons, to six digits.
 //! let half_perimeter = |corners: usize| -> Result<f64, NotReached> {
@@ -11,6 +11,7 @@
 //! };
 //! let goal = Goal {
 //!     request: 1e-6.into(),
+//!     first: FIRST_ELEMENTS,
 //!     largest: 100_000,
 //!     order: 2.0,
 //!     work: 1.0,
@@ -56,6 +57,8 @@ pub use invalid_parameter::{
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
 pub use progress::{AtMost, Progress, Unwatched, Watch};
 pub use quadrature::{integrate, integrate_from_ends};
-pub use refinement::{Accuracy, Goal, NotReached, Quantity, Refined, Request, refine};
+pub use refinement::{
+    Accuracy, FIRST_ELEMENTS, Goal, NotReached, Quantity, Refined, Request, refine,
+};
 pub use root::{bracketed_root, golden_section, try_bracketed_root};
 pub use whole_part::whole_part;

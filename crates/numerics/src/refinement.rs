@@ -59,6 +59,8 @@ impl From<f64> for Request<'_> {
 pub struct Goal<'a> {
     /// A relative error, or a number of elements.
     pub request: Request<'a>,
+    /// Elements with which a relative error is first sought; [`FIRST_ELEMENTS`] unless something needs more.
+    pub first: usize,
     /// Elements that are not exceeded to reach an error.
     pub largest: usize,
     /// Power q of the elements with which the error falls, at least.
@@ -136,7 +138,8 @@ pub struct NotReached {
     pub elements: usize,
 }
 
-const FIRST: usize = 16;
+/// Elements with which a relative error is first sought.
+pub const FIRST_ELEMENTS: usize = 16;
 /// Fewer are too few for three eighths of them.
 const FEWEST_FOR_EIGHTHS: usize = 16;
 /// Weights of the estimates by half of the elements, three quarters, and three eighths (docs/calibration.md).
@@ -163,7 +166,7 @@ pub fn refine<T, E>(
     let Request { accuracy, watch } = goal.request;
     let (mut elements, asked) = match accuracy {
         Accuracy::Elements(elements) => (elements, None),
-        Accuracy::RelativeError(error) => (FIRST, Some(error)),
+        Accuracy::RelativeError(error) => (goal.first, Some(error)),
     };
     let mut progress = Progress::new(watch, goal.work_before(elements));
     let on = |eighths: usize, elements: usize, progress: &mut Progress| {
@@ -313,6 +316,7 @@ mod tests {
     fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Refined<f64> {
         let goal = Goal {
             request: Accuracy::Elements(64).into(),
+            first: FIRST_ELEMENTS,
             largest: 128,
             order,
             work: 0.0,
@@ -366,6 +370,7 @@ mod tests {
     fn watched(accuracy: Accuracy, watch: &Recorder) -> Result<Refined<f64>, NotReached> {
         let goal = Goal {
             request: Request { accuracy, watch },
+            first: FIRST_ELEMENTS,
             largest: 1 << 20,
             order: 1.0,
             work: 1.0,

@@ -1,7 +1,7 @@
 //! Motions that are followed in time.
 
 pub mod indent;
-mod moving;
+pub(crate) mod moving;
 pub mod slide;
 
 pub use indent::indent;

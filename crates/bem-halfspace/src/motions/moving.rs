@@ -7,7 +7,9 @@ use indenters::{
     Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
     SlidingLoad, Surface,
 };
-use numerics::{Accuracy, Goal, KEPT_STATES, Request, Settled, refine, settle};
+use numerics::{
+    Accuracy, FIRST_ELEMENTS, Goal, KEPT_STATES, Refined, Request, Settled, refine, settle,
+};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::elements::footprint::Footprint;
@@ -20,17 +22,17 @@ use crate::{BemError, Elastomer, GridOptions, Reached};
 /// Elements along the contact after which a motion is given up; a cycle takes about a minute.
 const LARGEST_GRID: usize = 48;
 /// Order of the error, that of a step in time.
-const ORDER: f64 = 1.0;
+pub(crate) const ORDER: f64 = 1.0;
 /// Of the elements of a path in as many steps as it has along it.
-const WORK: f64 = 3.0;
+pub(crate) const WORK: f64 = 3.0;
 /// Steps of a motion, or of one cycle, after which it is not begun, and cycles after which the search is given up.
-const MOST_STEPS: f64 = 1e5;
+pub(crate) const MOST_STEPS: f64 = 1e5;
 const MOST_CYCLES: usize = 100;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
 const PART_OF_CYCLES: f64 = 0.1;
 const TOLERANCE_ON_ELEMENTS: f64 = 1e-3;
 /// Duration of the first touch, at rest, relative to that of the first step.
-const TOUCH: f64 = 1e-3;
+pub(crate) const TOUCH: f64 = 1e-3;
 /// Times of the slowest element after which a body that is pressed rests.
 const MEMORIES: f64 = 30.0;
 /// Memory for an element that is followed, but for what it remembers, and for a step, \[bytes].
@@ -75,6 +77,7 @@ pub fn move_along<'w>(
     let problem = Moving::new(&surface, elastomer, load, request.accuracy)?;
     let goal = Goal {
         request,
+        first: FIRST_ELEMENTS,
         largest: LARGEST_GRID,
         order: order_of_friction(problem.plan.apex_exponent, ORDER),
         work: WORK,
@@ -91,6 +94,11 @@ pub fn move_along<'w>(
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(view.rests(record)),
     )?;
+    moved(&view, refined)
+}
+
+/// The motion of the finest resolution, or what was reached of it.
+pub(crate) fn moved(view: &MotionView, refined: Refined<MotionRecord>) -> Result<Moved, BemError> {
     let found = view.moved(refined.value, &refined.error, refined.parts[0]);
     let Some(missed) = refined.missed else {
         return Ok(found);
@@ -168,10 +176,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             load,
             creep,
             plan,
-            tolerance: match accuracy {
-                Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
-                Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
-            },
+            tolerance: tolerance_of_cycles(accuracy),
         })
     }
 
@@ -237,15 +242,41 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         spacing: f64,
         tell: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
-        let [start, end] = self.load.times();
-        let slowness = -(-(end - start) / slowest(&self.creep)).exp_m1().recip();
         let first = march.memory().to_vec();
         let pass = |from: &[f64]| {
             march.memory().copy_from_slice(from);
             march.begin_again();
             let record = self.pass(march, steps, spacing, &|_| ())?;
-            Ok::<_, BemError>((record, march.memory().to_vec()))
+            Ok((record, march.memory().to_vec()))
         };
+        let cycles = Cycles {
+            period: period_of(self.load),
+            slowest: slowest(&self.creep),
+            tolerance: self.tolerance,
+        };
+        cycles.settle(first, pass, tell)
+    }
+}
+
+/// When two cycles are alike.
+pub(crate) struct Cycles {
+    /// \[s].
+    pub(crate) period: f64,
+    /// The slowest retardation time, \[s].
+    pub(crate) slowest: f64,
+    /// Relative error by which they may differ.
+    pub(crate) tolerance: f64,
+}
+
+impl Cycles {
+    /// The cycle that is like the one before, from what elements remember; a pass gives it, and what they remember at its end.
+    pub(crate) fn settle(
+        &self,
+        first: Vec<f64>,
+        pass: impl FnMut(&[f64]) -> Result<(MotionRecord, Vec<f64>), BemError>,
+        tell: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
+        let slowness = -(-self.period / self.slowest).exp_m1().recip();
         let left = |now: &mut MotionRecord, before: &MotionRecord| {
             let left = now.rest_after(before, slowness);
             tell((left.ln() / self.tolerance.ln()).clamp(0.0, 1.0));
@@ -260,6 +291,20 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             }),
         }
     }
+}
+
+/// Relative error by which cycles may differ.
+pub(crate) const fn tolerance_of_cycles(accuracy: Accuracy) -> f64 {
+    match accuracy {
+        Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
+        Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
+    }
+}
+
+/// How long a motion, or a cycle of it, takes, \[s].
+pub(crate) fn period_of(load: &MovingLoad) -> f64 {
+    let [start, end] = load.times();
+    end - start
 }
 
 /// Force and depth are those at the end of a step.
@@ -277,7 +322,7 @@ fn step_of(step: &MovingStep, row: &MotionRow) -> MotionStep {
 }
 
 /// The slowest retardation time, \[s]; 0 without any.
-fn slowest(creep: &CreepSpectrum) -> f64 {
+pub(crate) fn slowest(creep: &CreepSpectrum) -> f64 {
     let times = creep
         .elements()
         .iter()

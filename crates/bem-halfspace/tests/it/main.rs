@@ -23,6 +23,8 @@ mod nested_grids;
 mod periodic_contact;
 mod periodic_march;
 #[cfg(feature = "rough")]
+mod periodic_motions;
+#[cfg(feature = "rough")]
 mod periodic_sensitivity;
 mod periodic_sliding;
 mod pressure_spectrum;

@@ -14,7 +14,7 @@ mod march;
 mod time_step;
 
 use indenters::{MotionView, Moved, MovingLoad, RigidLine};
-use numerics::{Accuracy, Goal, Request, positive, refine};
+use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Request, positive, refine};
 use rheology::Material;
 
 use crate::MdrError;
@@ -83,6 +83,7 @@ pub fn move_along<'w>(
     let problem = Problem::new(line, material, load, (length, tolerance))?;
     let goal = Goal {
         request,
+        first: FIRST_ELEMENTS,
         largest: MOST_ELEMENTS,
         order: if has_steep_kinks(line) {
             BEHIND_STEEP_KINK

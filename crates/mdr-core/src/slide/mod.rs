@@ -6,7 +6,7 @@ mod on_grid;
 mod unresolved;
 
 use indenters::{RigidLine, SlidingLoad};
-use numerics::{ErrorParts, Estimate, Goal, Quantity, Request, refine};
+use numerics::{ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Quantity, Request, refine};
 use rheology::Material;
 
 use crate::MdrError;
@@ -88,6 +88,7 @@ pub fn slide<'w>(
     let motion = Motion::new(line, material, load)?;
     let goal = Goal {
         request: request.into(),
+        first: FIRST_ELEMENTS,
         largest: MOST_ELEMENTS,
         order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
         work: WORK,

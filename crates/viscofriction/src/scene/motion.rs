@@ -11,7 +11,7 @@ use crate::text::WrongInput;
 
 const ONE_OF: &str = "a body moves through the points of motion or motion_file, or over a stroke, or follows a history: give one of them";
 const MOVES: &str = "a motion says how the body moves; leave this out";
-const SINGLE: &str = "it is for single bodies; a periodic surface slides at one velocity";
+const OWN_PRESSURE: &str = "a periodic surface is pressed by load.mean_pressure all the time; leave forces and depths of points out";
 
 impl Load {
     /// To and fro, or through points, of a body with that area \[m²] of one `period` or none; none where the speed is constant.
@@ -20,7 +20,7 @@ impl Load {
         period: Option<f64>,
         files: &Files<'_>,
     ) -> Result<Option<MovingLoad>, SceneError> {
-        self.check_alone(period)?;
+        self.check_alone()?;
         let control = || self.control(period);
         if let Some(length) = self.stroke {
             let missing = || {
@@ -62,13 +62,13 @@ impl Load {
                 (points.map_err(wrong)?, "load.motion_file")
             }
         };
-        let points = self.pressed(&points, key, control)?;
+        let points = self.pressed(&points, (key, period.is_some()), control)?;
         let load = MovingLoad::through(&points);
         load.map(Some).map_err(|error| refused(key, &error))
     }
 
     /// Refuses what says something else about the motion.
-    fn check_alone(&self, period: Option<f64>) -> Result<(), SceneError> {
+    fn check_alone(&self) -> Result<(), SceneError> {
         let motions = [
             ("load.stroke", self.stroke.is_some()),
             ("load.motion", self.motion.is_some()),
@@ -81,15 +81,8 @@ impl Load {
         if let Some((key, _)) = given.next() {
             return Err(SceneError::at(*key, ONE_OF));
         }
-        if let Some((key, _)) = first.filter(|(key, _)| !key.contains("history")) {
-            if period.is_some() {
-                return Err(SceneError::at(*key, SINGLE));
-            }
-            let others = [
-                ("load.velocity", self.velocity),
-                ("load.track", self.track),
-                ("load.mean_pressure", self.mean_pressure),
-            ];
+        if first.is_some_and(|(key, _)| !key.contains("history")) {
+            let others = [("load.velocity", self.velocity), ("load.track", self.track)];
             SceneError::none_given(&others, MOVES)?;
         }
         Ok(())
@@ -99,7 +92,7 @@ impl Load {
     fn pressed(
         &self,
         points: &[MotionPoint],
-        key: &str,
+        (key, is_periodic): (&str, bool),
         control: impl FnOnce() -> Result<Control, SceneError>,
     ) -> Result<Vec<MovingPoint>, SceneError> {
         if points.len() < 2 {
@@ -108,9 +101,13 @@ impl Load {
         let is_own =
             |point: &MotionPoint| point.normal_force.is_some() || point.indentation_depth.is_some();
         let held = if points.iter().any(is_own) {
+            if is_periodic {
+                return Err(SceneError::at(key, OWN_PRESSURE));
+            }
             let others = [
                 ("load.normal_force", self.normal_force),
                 ("load.indentation_depth", self.indentation_depth),
+                ("load.mean_pressure", self.mean_pressure),
             ];
             let problem =
                 "the points of the motion have a force or a depth of their own; leave this out";

@@ -9,10 +9,11 @@ use bem_halfspace::{
 };
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
-use indenters::{Cylinder, MovingLoad, PressingLoad, SlidingLoad, Surface};
+use indenters::{Cylinder, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer, StationaryGrid};
+use super::body::Body;
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::cut_off::WithoutShortestOctave;
 use super::error::Result;
@@ -291,7 +292,26 @@ pub(crate) fn moved(
     request: Request,
 ) -> Result<Answer> {
     let found = move_along(surface, &problem.elastomer()?, load, request)?;
-    Ok(of_motion(Method::BemTransient, Model::HalfSpace, found))
+    Ok(of_moved(problem, found))
+}
+
+/// The same of a periodic surface, whose depth is known on a layer only.
+pub(crate) fn periodic_moved(
+    problem: &Problem,
+    surface: &PeriodicSurface,
+    load: &MovingLoad,
+    request: Request,
+) -> Result<Answer> {
+    let found = periodic::move_along(surface, &problem.elastomer()?, load, request)?;
+    Ok(of_moved(problem, found))
+}
+
+fn of_moved(problem: &Problem, found: Moved) -> Answer {
+    let mut answer = of_motion(Method::BemTransient, Model::HalfSpace, found);
+    if matches!(problem.body(), Body::Periodic(_)) && !problem.thickness().is_finite() {
+        answer.indentation_depth = None;
+    }
+    answer
 }
 
 /// Pressing without sliding.
@@ -360,7 +380,7 @@ pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -
         Reached::Slide(found) => of_slide(found),
         Reached::Press(found) => of_press(found),
         Reached::Curve(found) => of_curve(&found),
-        Reached::Moved(found) => Ok(of_motion(Method::BemTransient, Model::HalfSpace, found)),
+        Reached::Moved(found) => Ok(of_moved(problem, found)),
         Reached::Periodic(found) if matches!(problem.motion(), Motion::Pressing(_)) => {
             Ok(of_pressed(problem, rough?, found))
         }

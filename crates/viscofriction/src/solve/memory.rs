@@ -6,7 +6,7 @@ use bem_halfspace::indent::{indent_along_memory, indent_memory};
 use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
 use indenters::rough::PeriodicSurface;
-use numerics::Watch;
+use numerics::{FIRST_ELEMENTS, Watch};
 
 use super::body::Body;
 use super::error::SolveError;
@@ -15,19 +15,16 @@ use super::problem::Problem;
 use crate::scene::Method::{self, BemSteady, BemTransient, MdrTransient};
 use crate::scene::{Accuracy, SceneError};
 
-/// Elements along the contact with which a relative error is first sought.
-const FIRST: usize = 16;
-
 /// Refuses a method that needs more memory than is allowed, also for the grids that the shortest waves of a periodic surface need.
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
-    if let (Body::Periodic(surface), Accuracy::RelativeError(_)) =
-        (problem.body(), problem.accuracy())
-    {
-        return check_waves(problem, surface);
-    }
-    let (elements, change) = match problem.accuracy() {
-        Accuracy::Elements(elements) => (elements, ["solve.elements", "fewer elements"]),
-        Accuracy::RelativeError(_) => (FIRST, OTHERWISE),
+    let (elements, change) = match (problem.accuracy(), problem.body(), problem.motion()) {
+        (Accuracy::Elements(elements), ..) => (elements, ["solve.elements", "fewer elements"]),
+        (_, Body::Periodic(surface), Moving(_)) => {
+            let change = ["solve.max_memory", "a longer shortest_wavelength"];
+            (periodic::elements_of_motion(surface), change)
+        }
+        (_, Body::Periodic(surface), _) => return check_waves(problem, surface),
+        _ => (FIRST_ELEMENTS, OTHERWISE),
     };
     check(problem, method, elements, change)
 }
@@ -136,10 +133,14 @@ impl Watch for Limited<'_> {
 
 /// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
 fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
-    if let Body::Periodic(surface) = problem.body() {
-        return periodic::memory(surface, elements).ok();
-    }
     let elastomer = problem.elastomer().ok()?;
+    if let Body::Periodic(surface) = problem.body() {
+        let needed = match problem.moving() {
+            Some(load) => periodic::move_along_memory(surface, &elastomer, load, elements),
+            None => periodic::memory(surface, elements),
+        };
+        return needed.ok();
+    }
     let surface = problem.body().surface()?;
     match (method, problem.motion()) {
         (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, &load, elements).ok(),

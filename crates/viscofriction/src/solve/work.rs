@@ -39,6 +39,8 @@ const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
 const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
 const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle or pass, and none is like the one before; give it an equilibrium modulus";
+const ONE_SURFACE: Refusal =
+    "realisations are for sliding and pressing; a motion has one surface, with a seed of its own";
 const NO_TRACK: Refusal =
     "it knows no track on which the body comes back; mdr-steady and bem-steady do";
 const OWN_PERIOD: Refusal = "a periodic surface meets each place again after its own period, which is its track; leave load.track out";
@@ -161,8 +163,14 @@ fn moved<'a>(
             let material = problem.material();
             ready(move |watch| mdr::moved(&**body, material, load, Request { accuracy, watch }))
         }
-        (MdrTransient, _) => {
-            Err("it needs a body of revolution; bem-transient takes height maps too")
+        (MdrTransient, _) => Err(
+            "it needs a body of revolution; bem-transient takes height maps and periodic surfaces too",
+        ),
+        (BemTransient, Body::Periodic(surface)) => {
+            require(problem.realisations() == 1, ONE_SURFACE)?;
+            ready(move |watch| {
+                elements::periodic_moved(problem, surface, load, Request { accuracy, watch })
+            })
         }
         (BemTransient, body) => {
             let surface = body.surface().ok_or(ENDLESS)?;

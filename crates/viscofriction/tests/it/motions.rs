@@ -165,15 +165,67 @@ fn what_no_motion_serves_is_refused_by_name() {
     }
 }
 
-#[test]
-fn a_periodic_surface_is_told_that_motions_are_for_single_bodies() {
+/// Body and material of a rough surface with another load.
+fn rough_answer(load: &str, solved: &str) -> Result<Answer, String> {
     let road = include_str!("../../../../examples/scenes/rough-road.toml");
     let (body, _) = road.split_once("[load]").expect("a load");
-    for pressed in ["normal_force = 2.0", "mean_pressure = 1e3"] {
-        let load = format!("{pressed}\nstroke = 5e-3\nfrequency = 2.0");
-        let scene = format!("{body}[load]\n{load}\n").parse::<Scene>();
-        let refused = Problem::try_from(&scene.expect("a scene")).expect_err(&load);
-        let said = "load.stroke: it is for single bodies";
-        assert!(refused.to_string().contains(said), "{refused}");
+    let scene = format!("{body}[load]\n{load}\n{solved}\n");
+    let scene: Scene = scene.parse().map_err(|error| format!("{error:?}"))?;
+    let problem = Problem::try_from(&scene).map_err(|error| error.to_string())?;
+    solve(&problem).map_err(|error| error.to_string())
+}
+
+/// All gaps are closed.
+const CLOSED: &str = "mean_pressure = 1e8\nstroke = 5e-3\nfrequency = 2.0";
+
+#[test]
+fn periodic_surfaces_move_too() {
+    let full = rough_answer(CLOSED, "[solve]\nrelative_error = 1e-6").expect("a cycle");
+    let friction = full.friction_coefficient.expect("friction").value;
+    let energy = full.dissipated_energy.expect("energy").value;
+    assert!(
+        (energy / (friction * 1e4 * 1e-2) - 1.0).abs() < 1e-12,
+        "{energy}"
+    );
+    assert!(
+        full.indentation_depth.is_none(),
+        "{:?}",
+        full.indentation_depth
+    );
+    let layer = "[layer]\nthickness = 1e-3\n[solve]\nrelative_error = 1e-6";
+    let layer = rough_answer(CLOSED, layer)
+        .expect("a cycle")
+        .indentation_depth;
+    assert!(layer.is_some_and(|depth| depth.value >= 0.0), "{layer:?}");
+}
+
+#[test]
+fn what_no_motion_of_a_periodic_surface_serves_is_refused_by_name() {
+    for (load, solved, said) in [
+        (
+            "normal_force = 2.0\nstroke = 5e-3\nfrequency = 2.0",
+            "",
+            "takes a mean_pressure",
+        ),
+        (CLOSED, "[solve]\nmethod = \"bem-steady\"", "any"),
+        (
+            CLOSED,
+            "[solve]\nmethod = \"mdr-transient\"",
+            "body of revolution",
+        ),
+        (CLOSED, "[solve]\nelements = 16", "at least"),
+        (
+            "motion = [{ time = 0.0, position = 0.0, normal_force = 1.0 }, { time = 1.0, position = 1e-3, normal_force = 1.0 }]",
+            "",
+            "load.motion: a periodic surface is pressed by load.mean_pressure",
+        ),
+        (
+            "mean_pressure = 1e5\nstroke = 5e3\nfrequency = 2.0",
+            "",
+            "shortest waves of a periodic surface",
+        ),
+    ] {
+        let refused = rough_answer(load, solved).expect_err(load);
+        assert!(refused.contains(said), "{load} with {solved}: {refused}");
     }
 }

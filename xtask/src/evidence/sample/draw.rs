@@ -250,7 +250,7 @@ impl Sample<'_> {
             scene.load.normal_force = Some(force);
         }
         let velocity = 2.0 * self.contact / self.contact_time;
-        if let (Motion::Stroke | Motion::Path, None) = (motion, scene.load.mean_pressure) {
+        if matches!(motion, Motion::Stroke | Motion::Path) {
             self.move_along(scene, velocity);
             return Ok(());
         }

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
-use numerics::{ErrorParts, Goal, Request, positive};
+use numerics::{ErrorParts, FIRST_ELEMENTS, Goal, Request, positive};
 use rheology::{Compressible, Elastic, Material as _};
 
 use crate::elements::pressure_field::PressureField;
@@ -308,6 +308,7 @@ impl Spring {
 pub(super) const fn goal(request: Request, largest: usize) -> Goal {
     Goal {
         request,
+        first: FIRST_ELEMENTS,
         largest,
         order: ORDER,
         work: WORK,

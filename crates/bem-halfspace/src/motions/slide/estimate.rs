@@ -1,7 +1,7 @@
 //! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request};
+use numerics::{Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Request};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
@@ -172,6 +172,7 @@ impl<'a, M: Elastomer + ?Sized> PlannedSlide<'a, M> {
         let resolution = Resolution {
             goal: Goal {
                 request: self.request,
+                first: FIRST_ELEMENTS,
                 largest: LARGEST_GRID,
                 order: bars::order_of_friction(self.plan.apex_exponent, ORDER),
                 work: WORK,

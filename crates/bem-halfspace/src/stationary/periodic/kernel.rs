@@ -73,6 +73,11 @@ impl Sliding {
         &self.base
     }
 
+    /// Sliding speed, \[m/s].
+    pub(super) const fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
     /// Angular frequency of what passes with a wave number along x, \[rad/s].
     pub(super) fn frequency(&self, q_x: f64) -> f64 {
         (q_x * self.velocity).abs()

@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use rheology::{ExponentialStep, Material as _};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 use rustfft::num_complex::Complex;
 
 use crate::elements::grid::elements_along;
@@ -102,15 +102,16 @@ pub(super) fn slide_along(
     let (in_element, edge) = (steps.per_element, grid.spacing()[0]);
     let whole_step = edge / in_element;
     let n_steps = elements_along(distance, whole_step)?;
-    let mut march = PeriodicMarch::new(grid, heights, elastomer, velocity)?;
+    let sliding = Sliding::new(elastomer, velocity)?;
+    let mut march = PeriodicMarch::new(grid, heights, elastomer, edge / velocity)?;
     let rows = (0..n_steps).rev().map(|left| {
         let (to_go, is_first) = (left as f64, left + 1 == n_steps);
         let slid = distance - to_go * whole_step;
         let behind = to_go % in_element;
         if is_first {
-            march.prepare(slid, behind * whole_step)?;
+            march.prepare(&sliding, [slid, behind * whole_step])?;
         } else if left + 2 == n_steps || in_element > 1.0 {
-            march.prepare(whole_step, behind * whole_step)?;
+            march.prepare(&sliding, [whole_step, behind * whole_step])?;
         }
         if behind + 1.0 >= in_element {
             march.pass_element();
@@ -133,24 +134,24 @@ pub(super) fn slide_along(
     })
 }
 
-struct PeriodicMarch<'a> {
+/// The elements of a period and what the material under them remembers.
+pub(super) struct PeriodicMarch<'a> {
     given: &'a [f64],
-    sliding: Sliding,
-    velocity: f64,
+    creep: CreepSpectrum,
     waves: Waves,
-    /// Of the surface whose waves are multiplied by J_Δ/J, \[m].
+    /// Of the surface with the symbols of [`place`](Self::place), \[m].
     heights: Vec<f64>,
     mean_height: f64,
     /// ∂h/∂x.
     slopes: Vec<f64>,
     convolution: Convolution,
     workspace: ConvolutionWorkspace,
-    state: ContactState,
+    pub(super) state: ContactState,
     step: ExponentialStep,
     /// 2 (1 − ν).
     factor: f64,
     /// Field after field.
-    memory: Vec<f64>,
+    pub(super) memory: Vec<f64>,
     /// Heights plus displacement without load.
     separation: Vec<f64>,
     /// 2 (1 − ν) w.
@@ -158,19 +159,20 @@ struct PeriodicMarch<'a> {
 }
 
 impl<'a> PeriodicMarch<'a> {
-    fn new(
+    /// On a material at rest.
+    pub(super) fn new(
         grid: &Grid,
         heights: &'a [f64],
         elastomer: &(impl Elastomer + ?Sized),
-        velocity: f64,
+        time_step: f64,
     ) -> Result<Self, BemError> {
         let n = grid.n_elements();
-        let sliding = Sliding::new(elastomer, velocity)?;
-        let step = ExponentialStep::creep(&sliding.creep, grid.spacing()[0] / velocity)?;
+        let creep = elastomer.material().creep();
+        let step = ExponentialStep::creep(&creep, time_step)?;
         let convolution = Convolution::periodic_on(elastomer, grid);
         Ok(Self {
             given: heights,
-            velocity,
+            creep,
             waves: Waves::new(grid, &Base::default()),
             heights: vec![0.0; n],
             mean_height: heights.iter().sum::<f64>() / n as f64,
@@ -182,18 +184,38 @@ impl<'a> PeriodicMarch<'a> {
             memory: vec![0.0; n * step.n_fields()],
             separation: vec![0.0; n],
             input: vec![0.0; n],
-            sliding,
             step,
         })
     }
 
-    /// Takes steps of a length \[m] after which the material is a part of an element \[m] behind the points of the surface that
-    /// it passes.
-    fn prepare(&mut self, length: f64, behind: f64) -> Result<(), BemError> {
-        self.step = ExponentialStep::creep(&self.sliding.creep, length / self.velocity)?;
-        let along_x = &self.waves.along_x;
-        let (step, factor, rows) = (&self.step, self.sliding.factor, along_x.len());
-        let compliances = self.sliding.compliances(along_x)?.into_iter();
+    /// Number of rows of elements along x.
+    #[cfg(feature = "rough")]
+    pub(super) fn rows(&self) -> usize {
+        self.convolution.grid().shape()[0]
+    }
+
+    /// Takes steps of a duration \[s] at the end of which the waves of the surface are multiplied by the first symbol of their
+    /// row, and the slopes are those of the waves times the second.
+    pub(super) fn place(
+        &mut self,
+        time_step: f64,
+        symbols: impl Fn(usize) -> [Complex<f64>; 2] + Sync,
+    ) -> Result<(), BemError> {
+        self.step = ExponentialStep::creep(&self.creep, time_step)?;
+        let waves = &mut self.waves;
+        waves.apply(self.given, &mut self.heights, |row, _| symbols(row)[0]);
+        waves.apply(self.given, &mut self.slopes, |row, _| symbols(row)[1]);
+        Ok(())
+    }
+
+    /// Takes steps of a length \[m] with a constant speed, after which the material is a part of an element \[m] behind the
+    /// points of the surface that it passes.
+    fn prepare(&mut self, sliding: &Sliding, [length, behind]: [f64; 2]) -> Result<(), BemError> {
+        let time_step = length / sliding.velocity();
+        let step = ExponentialStep::creep(&self.creep, time_step)?;
+        let (along_x, factor) = (&self.waves.along_x, sliding.factor);
+        let rows = along_x.len();
+        let compliances = sliding.compliances(along_x)?.into_iter();
         let symbol = |(row, compliance): (usize, Complex<f64>)| {
             let q_x = along_x[row];
             let held = step.turning_response(q_x * length);
@@ -207,10 +229,7 @@ impl<'a> PeriodicMarch<'a> {
             }
         };
         let symbols: Vec<_> = compliances.enumerate().map(symbol).collect();
-        let waves = &mut self.waves;
-        waves.apply(self.given, &mut self.heights, |row, _| symbols[row][0]);
-        waves.apply(self.given, &mut self.slopes, |row, _| symbols[row][1]);
-        Ok(())
+        self.place(time_step, |row| symbols[row])
     }
 
     /// Passes one element of the material.
@@ -222,7 +241,7 @@ impl<'a> PeriodicMarch<'a> {
     }
 
     /// Solves the contact at the end of a step; distance and time are not filled in.
-    fn step(
+    pub(super) fn step(
         &mut self,
         mean_pressure: f64,
         options: &ContactOptions,

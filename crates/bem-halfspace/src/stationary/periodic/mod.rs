@@ -25,6 +25,8 @@ mod far_loads;
 mod kernel;
 mod load;
 mod march;
+#[cfg(feature = "rough")]
+mod moving;
 mod nested;
 #[cfg(feature = "rough")]
 mod refinement;
@@ -49,6 +51,8 @@ pub use estimate::{PeriodicEstimate, indent, slide, steady};
 use kernel::Sliding;
 pub use load::{PeriodicControl, PeriodicLoad};
 pub use march::{PeriodicRow, PeriodicTransient, slide_on_grid};
+#[cfg(feature = "rough")]
+pub use moving::{elements_of_motion, move_along, move_along_memory};
 #[cfg(feature = "rough")]
 pub use refinement::{elements_for_bars, largest_grid, memory};
 

@@ -1,7 +1,9 @@
 //! The stationary state with an error bar of every quantity.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request, Unwatched, Watch, positive};
+use numerics::{
+    Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Request, Unwatched, Watch, positive,
+};
 use rheology::Material as _;
 
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
@@ -200,6 +202,7 @@ pub(super) fn resolution(
     Resolution {
         goal: Goal {
             request,
+            first: FIRST_ELEMENTS,
             largest: usize::MAX,
             order,
             work: WORK,

@@ -1,0 +1,86 @@
+//! A cycle in full contact, in closed form.
+//!
+//! ```text
+//! p(q, t) = p̄ δ_q0 − |q| ĥ(q) σ(q_x, t)/((1 − ν) M),      force/area = Σ_q |q| |ĥ|² Re(i q_x σ u*)/((1 − ν) M)
+//! ```
+
+use rustfft::num_complex::Complex;
+
+use super::stresses::WaveMotion;
+use crate::Grid;
+use crate::parallel::reductions::dot;
+use crate::stationary::periodic::waves::Waves;
+use crate::transform::plane_transform::ZERO;
+
+/// A surface whose gaps may all be closed.
+pub(super) struct Closed<'a> {
+    pub(super) grid: &'a Grid,
+    /// \[m].
+    pub(super) heights: &'a [f64],
+    pub(super) waves: Waves,
+    /// 1 − ν.
+    pub(super) factor: f64,
+    /// \[Pa].
+    pub(super) mean_pressure: f64,
+}
+
+/// What a cycle in full contact takes.
+pub(super) struct FullContact {
+    /// Force along −x over the area at the end of every step, \[Pa].
+    pub(super) stresses: Vec<f64>,
+    /// Work over the area, \[J/m²].
+    pub(super) work: f64,
+}
+
+impl Closed<'_> {
+    /// The cycle, if all pressures on the grid are above 0 at the ends of all steps.
+    pub(super) fn cycle(
+        mut self,
+        motion: &WaveMotion,
+        wave_numbers: &[f64],
+    ) -> Option<FullContact> {
+        let ends = &motion.states[1..];
+        let n = self.grid.n_elements() as f64;
+        let rows = self.grid.shape()[0];
+        let mut field = vec![0.0; self.heights.len()];
+        for state in ends {
+            let (heights, factor) = (self.heights, self.factor);
+            let stress = |row: usize| of_row(&state.stress, row, rows);
+            let symbol = |row: usize, [_, q]: [f64; 2]| -stress(row) * q / factor;
+            self.waves.apply(heights, &mut field, symbol);
+            let mean = field.iter().sum::<f64>() / n;
+            let least = field.iter().copied().fold(f64::INFINITY, f64::min);
+            if least - mean + self.mean_pressure <= 0.0 {
+                return None;
+            }
+        }
+        let weights: Vec<f64> = (0..wave_numbers.len())
+            .map(|number| {
+                let is_own = |row: usize| row.min(rows - row) == number;
+                let symbol = |row: usize, [_, q]: [f64; 2]| {
+                    Complex::from(if is_own(row) { q / self.factor } else { 0.0 })
+                };
+                self.waves.apply(self.heights, &mut field, symbol);
+                dot(&field, self.heights) / n
+            })
+            .collect();
+        let stress = |state: &super::stresses::WaveStates| {
+            let pairs = state.stress.iter().zip(&state.displacement);
+            let waves = pairs.zip(wave_numbers.iter().zip(&weights));
+            let each = waves.map(|((stress, u), (q, weight))| -weight * q * (stress * u.conj()).im);
+            each.sum()
+        };
+        let work = weights.iter().zip(&motion.work);
+        Some(FullContact {
+            stresses: ends.iter().map(stress).collect(),
+            work: work.map(|(weight, work)| weight * work).sum(),
+        })
+    }
+}
+
+/// The value of the waves of a row of a transform, of values by the number of waves in the period; 0 of waves without one.
+pub(super) fn of_row(values: &[Complex<f64>], row: usize, rows: usize) -> Complex<f64> {
+    let number = row.min(rows - row);
+    let value = values.get(number).copied().unwrap_or(ZERO);
+    if 2 * row > rows { value.conj() } else { value }
+}

@@ -1,0 +1,523 @@
+//! Any motion of a periodic surface with its error bars: to and fro until two cycles are alike, or through points.
+//!
+//! The elements stay where they are in the material, and the waves of the surface are shifted over them, by any distance: the
+//! grids tell all waves. Steps hold the pressure, as in [marches](super::march), and in full contact the pressure is exact; a
+//! cycle in full contact is known in closed form. The error of a contact that is not full is of the first order in the edge of
+//! an element, and so is that of the steps, which become shorter with the elements.
+
+mod full_contact;
+mod stresses;
+
+use std::f64::consts::TAU;
+
+use indenters::rough::PeriodicSurface;
+use indenters::{Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep};
+use numerics::{Accuracy, ErrorParts, Goal, KEPT_STATES, Request, refine};
+use rheology::Material as _;
+use rustfft::num_complex::Complex;
+
+use crate::motions::moving::{
+    Cycles, MOST_STEPS, ORDER, TOUCH, WORK, moved, period_of, slowest, tolerance_of_cycles,
+};
+use crate::stationary::periodic::march::PeriodicMarch;
+use crate::stationary::periodic::waves::Waves;
+use crate::{BemError, ContactOptions, Elastomer, Grid};
+use full_contact::{Closed, of_row};
+use stresses::{Spectra, WaveMotion, WaveStates};
+
+/// Elements per shortest wave with which an error is first sought, and the fewest of them along an edge that is not level;
+/// three eighths of them are the coarsest grid.
+const PER_WAVE: usize = 8;
+const FEWEST: usize = 32;
+/// Elements times steps of a cycle or path that are not exceeded; a minute or some.
+const MOST_WORK: f64 = 6e7;
+/// Elements in contact below which, on half the elements, the number of those that touch decides the friction.
+const FEWEST_IN_CONTACT: usize = 30;
+/// Tolerance of the contact of a step, which times the slope is a part of the error of the friction of a cycle.
+const TOLERANCE: f64 = 1e-8;
+/// Memory for an element but for what it remembers, and for each wave along x in a step, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 170.0;
+const BYTES_PER_WAVE: f64 = 80.0;
+
+/// Moves a sum of waves over a material at rest, through the points of a motion, or to and fro until two cycles are alike; to an
+/// error of the mean friction coefficient relative to its value, or with a number of elements along the edge of the period
+/// that has more of them.
+///
+/// Forces and energies are those of one period, and so is the normal force of the load, the mean pressure times the area. At the
+/// beginning the surface is pressed at once. The depth is that of the mean plane, as in
+/// [`PeriodicSliding`](crate::PeriodicSliding). The friction force of a motion through points has the error asked for relative to
+/// its largest value. In full contact a cycle is answered in closed form.
+///
+/// ```
+/// use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
+/// use bem_halfspace::indenters::{Control, MovingLoad, Shape, Stroke};
+/// use bem_halfspace::periodic;
+/// use bem_halfspace::rheology::{StandardSolid, StandardSolidParameters};
+///
+/// let wave = Wave { numbers: [1, 0], amplitude: 1e-5, phase: 0.0 };
+/// let ridges = PeriodicSurface::new([1e-3; 2], vec![wave])?;
+/// let rubber = StandardSolid::new(StandardSolidParameters {
+///     equilibrium_modulus: 1e6,
+///     maxwell_modulus: 9e6,
+///     viscosity: 9e4,
+/// })?;
+/// let stroke = Stroke { length: 2e-4, frequency: 10.0, shape: Shape::Sinusoidal };
+/// // A mean pressure of 1 MPa closes all gaps.
+/// let load = MovingLoad::reciprocating(Control::NormalForce(1.0), stroke)?;
+/// let cycle = periodic::move_along(&ridges, &rubber, &load, 1e-6)?;
+/// assert!(cycle.dissipated_energy.is_some_and(|energy| energy.value > 0.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::NoCycle`] to and fro on a material
+/// that flows; [`BemError::NotPeriodic`]; [`BemError::DepthFromRest`]; [`BemError::Indenter`] for a path that is too long
+/// for the elements that the shortest waves need; [`BemError::PeriodTooCoarse`] for too few elements; otherwise like
+/// [`slide`](super::slide).
+pub fn move_along<'w>(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &MovingLoad,
+    request: impl Into<Request<'w>>,
+) -> Result<Moved, BemError> {
+    let request = request.into();
+    let problem = Moving::new(surface, elastomer, load, request.accuracy)?;
+    let first = elements_of_motion(surface);
+    let goal = Goal {
+        request,
+        first,
+        largest: problem.largest(first),
+        order: ORDER,
+        work: WORK,
+        others: 0.0,
+        selection: 1.0,
+    };
+    let view = MotionView {
+        load,
+        is_elastic: problem.spectra.creep.is_elastic(),
+    };
+    let refined = refine(
+        &goal,
+        |elements, tell: &dyn Fn(f64)| problem.on(elements, tell),
+        |record| view.quantities(record),
+        |record, _: &dyn Fn(f64)| Ok::<_, BemError>(others(&view, record)),
+    )?;
+    moved(&view, refined)
+}
+
+/// Memory that [`move_along`] takes at most for a number of elements along the edge of the period that has more of them, \[bytes].
+///
+/// # Errors
+/// As for [`move_along`], before anything is followed.
+pub fn move_along_memory(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &MovingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
+    let shape = problem.shape(elements);
+    let n_steps = problem.steps(elements, shape)?.len() as f64;
+    let creep = &problem.spectra.creep;
+    let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
+    let copies = if load.is_cycle() { KEPT_STATES } else { 1 };
+    let per_element = BYTES_PER_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
+    let waves = surface.largest_numbers()[0] as f64 + 1.0;
+    let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
+    Ok(per_element * n_elements + BYTES_PER_WAVE * waves * n_steps)
+}
+
+/// Elements along the edge of the period that has more of them with which [`move_along`] first seeks an error.
+pub fn elements_of_motion(surface: &PeriodicSurface) -> usize {
+    let [x, y] = edges(surface);
+    x.max(y)
+}
+
+/// Elements along both edges in proportion to the waves.
+fn edges(surface: &PeriodicSurface) -> [usize; 2] {
+    surface.largest_numbers().map(|number| match number {
+        0 => 2,
+        _ => (PER_WAVE * number).max(FEWEST),
+    })
+}
+
+/// What is left to the cycle; and all of the values where too few elements touch.
+fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
+    let pressed = record.steps.iter().filter(|step| step.normal_force > 0.0);
+    let fewest = pressed
+        .map(|step| step.n_contact)
+        .min()
+        .unwrap_or(usize::MAX);
+    let mut rests = view.rests(record);
+    if let (true, Some(friction)) = (record.n_cycles > 0, rests.first_mut()) {
+        friction.iteration = Some(TOLERANCE * record.steepness);
+    }
+    if fewest >= 4 * FEWEST_IN_CONTACT {
+        return rests;
+    }
+    let sizes = view.quantities(record).into_iter();
+    let wide = sizes.map(|quantity| ErrorParts::of_elements(quantity.value.abs()));
+    let rests = rests.into_iter().chain(std::iter::repeat(ErrorParts::NONE));
+    wide.zip(rests).map(|(wide, rest)| wide.and(rest)).collect()
+}
+
+struct Moving<'a, M: ?Sized> {
+    surface: &'a PeriodicSurface,
+    elastomer: &'a M,
+    load: &'a MovingLoad,
+    spectra: Spectra,
+    /// q_x by the number of waves in the period, \[rad/m].
+    wave_numbers: Vec<f64>,
+    /// Relative error by which cycles may differ.
+    tolerance: f64,
+}
+
+/// A motion on one grid.
+struct OnGrid {
+    grid: Grid,
+    /// \[m].
+    heights: Vec<f64>,
+    steps: Vec<MovingStep>,
+    waves: WaveMotion,
+}
+
+/// The state at the end of a step.
+#[derive(Clone, Copy)]
+struct End {
+    tangential_force: f64,
+    normal_force: f64,
+    depth: f64,
+    n_contact: usize,
+}
+
+impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
+    fn new(
+        surface: &'a PeriodicSurface,
+        elastomer: &'a M,
+        load: &'a MovingLoad,
+        accuracy: Accuracy,
+    ) -> Result<Self, BemError> {
+        let (relaxation, creep) = {
+            let material = elastomer.material();
+            (material.relaxation(), material.creep())
+        };
+        if load.is_cycle() && creep.fluidity() > 0.0 {
+            return Err(BemError::NoCycle);
+        }
+        if matches!(load.largest_control(), Control::IndentationDepth(_)) {
+            return Err(BemError::DepthFromRest);
+        }
+        elastomer.base().check_flow(creep.fluidity())?;
+        let unit = TAU / surface.period()[0];
+        let numbers = 0..=surface.largest_numbers()[0];
+        let problem = Self {
+            surface,
+            elastomer,
+            load,
+            spectra: Spectra { relaxation, creep },
+            wave_numbers: numbers.map(|number| number as f64 * unit).collect(),
+            tolerance: tolerance_of_cycles(accuracy),
+        };
+        if let Accuracy::Elements(elements) = accuracy {
+            problem.check_coarsest(elements)?;
+        }
+        Ok(problem)
+    }
+
+    /// Refuses a number of elements of which three eighths do not tell all waves.
+    fn check_coarsest(&self, elements: usize) -> Result<(), BemError> {
+        let tells = |elements: usize| {
+            let coarsest = (3 * elements).div_ceil(8);
+            let numbers = self.surface.largest_numbers();
+            let mut pairs = self.shape(coarsest).into_iter().zip(numbers);
+            pairs.all(|(elements, number)| elements > 2 * number)
+        };
+        if tells(elements) {
+            return Ok(());
+        }
+        let most = elements_of_motion(self.surface);
+        let needed = (elements..=most).find(|elements| tells(*elements));
+        let needed = needed.unwrap_or(most);
+        Err(BemError::PeriodTooCoarse { elements, needed })
+    }
+
+    /// Even numbers of elements.
+    fn shape(&self, elements: usize) -> [usize; 2] {
+        let edges = edges(self.surface);
+        let longest = edges[0].max(edges[1]);
+        edges.map(|edge| 2 * edge.saturating_mul(elements).div_ceil(2 * longest))
+    }
+
+    /// The steps of an element, if they and the elements are not too many.
+    fn steps(&self, elements: usize, shape: [usize; 2]) -> Result<Vec<MovingStep>, BemError> {
+        let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
+        let limit = MOST_STEPS.min(MOST_WORK / n_elements);
+        let spacing = self.surface.period()[0] / shape[0] as f64;
+        Ok(self.load.steps(elements, spacing, limit)?)
+    }
+
+    /// The largest number of elements in the sequence of twice as many that has not too many steps.
+    fn largest(&self, first: usize) -> usize {
+        let mut elements = first;
+        while self.steps(2 * elements, self.shape(2 * elements)).is_ok() {
+            elements *= 2;
+        }
+        elements
+    }
+
+    fn area(&self) -> f64 {
+        self.surface.period().iter().product()
+    }
+
+    fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+        let shape = self.shape(elements);
+        let steps = self.steps(elements, shape)?;
+        let spacing = [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64);
+        let grid = Grid::new(shape, spacing)?;
+        let waves = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
+        let on_grid = OnGrid {
+            heights: self.surface.heights(shape)?,
+            grid,
+            steps,
+            waves,
+        };
+        let record = match self.closed(&on_grid) {
+            Some(record) => record,
+            None => self.march(&on_grid, tell)?,
+        };
+        Ok(MotionRecord {
+            spacing: spacing[0],
+            steepness: self.surface.rms_slope(),
+            ..record
+        })
+    }
+
+    /// A cycle in which the contact is full all the time; none otherwise.
+    fn closed(&self, on_grid: &OnGrid) -> Option<MotionRecord> {
+        let grid = &on_grid.grid;
+        let normal_force = self.load.largest_control().value();
+        let (base, area) = (self.elastomer.base(), self.area());
+        let factor = 0.5 * self.elastomer.material().half_space_factor();
+        let closed = Closed {
+            grid,
+            heights: &on_grid.heights,
+            waves: Waves::new(grid, &base),
+            factor,
+            mean_pressure: normal_force / area,
+        };
+        let cycle = || closed.cycle(&on_grid.waves, &self.wave_numbers);
+        let found = self.load.is_cycle().then(cycle)??;
+        let yielded = factor * self.spectra.creep.equilibrium_compliance() * base.mean();
+        let end = |stress: &f64| End {
+            tangential_force: stress * area,
+            normal_force,
+            depth: normal_force / area * yielded,
+            n_contact: grid.n_elements(),
+        };
+        let ends: Vec<End> = found.stresses.iter().map(end).collect();
+        let mut record = self.record(ends[ends.len() - 1], &ends, &on_grid.steps);
+        record.work = found.work * area;
+        Some(record)
+    }
+
+    fn march(&self, on_grid: &OnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+        let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
+        let touch = TOUCH * steps[0].duration;
+        let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
+        let start = self.load.stages()[0].start.control;
+        let first = self.step(&mut march, (touch, start), &on_grid.waves.states[0])?;
+        if !self.load.is_cycle() {
+            let ends = self.pass(&mut march, on_grid, tell)?;
+            return Ok(self.record(first, &ends, steps));
+        }
+        let cycles = Cycles {
+            period: period_of(self.load),
+            slowest: slowest(&self.spectra.creep),
+            tolerance: self.tolerance,
+        };
+        let touched = march.memory.clone();
+        let pass = |from: &[f64]| {
+            march.memory.copy_from_slice(from);
+            let ends = self.pass(&mut march, on_grid, &|_| ())?;
+            let record = self.record(ends[ends.len() - 1], &ends, steps);
+            Ok((record, march.memory.clone()))
+        };
+        cycles.settle(touched, pass, tell)
+    }
+
+    /// All steps once.
+    fn pass(
+        &self,
+        march: &mut PeriodicMarch<'_>,
+        OnGrid { steps, waves, .. }: &OnGrid,
+        tell: &dyn Fn(f64),
+    ) -> Result<Vec<End>, BemError> {
+        let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
+        let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
+            tell(index as f64 / steps.len() as f64);
+            self.step(march, (step.duration, step.end.control), state)
+        };
+        pairs.map(end).collect()
+    }
+
+    fn step(
+        &self,
+        march: &mut PeriodicMarch<'_>,
+        (duration, control): (f64, Control),
+        state: &WaveStates,
+    ) -> Result<End, BemError> {
+        let rows = march.rows();
+        let waves = state.displacement.iter().zip(&self.wave_numbers);
+        let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
+        march.place(duration, |row| {
+            [&state.held, &slopes].map(|values| of_row(values, row, rows))
+        })?;
+        let options = ContactOptions {
+            tolerance: TOLERANCE,
+            ..ContactOptions::default()
+        };
+        let normal_force = control.value();
+        let row = march.step(normal_force / self.area(), &options)?;
+        let presses = normal_force > 0.0;
+        Ok(End {
+            tangential_force: if presses {
+                row.friction_coefficient * normal_force
+            } else {
+                0.0
+            },
+            normal_force,
+            depth: row.mean_depth,
+            n_contact: march.state.contact().len(),
+        })
+    }
+
+    /// Means over the steps, from the state before them.
+    fn record(&self, first: End, ends: &[End], steps: &[MovingStep]) -> MotionRecord {
+        let mut record = MotionRecord::default();
+        let mut before = (first, self.load.stages()[0].start.position);
+        for (step, end) in steps.iter().zip(ends) {
+            let mean = |of: fn(&End) -> f64| 0.5 * (of(&before.0) + of(end));
+            let distance = step.end.position - before.1;
+            let of_step = MotionStep {
+                stage: step.stage,
+                time: step.end.time - 0.5 * step.duration,
+                position: before.1 + 0.5 * distance,
+                tangential_force: mean(|end| end.tangential_force),
+                normal_force: mean(|end| end.normal_force),
+                indentation_depth: mean(|end| end.depth),
+                contact: None,
+                n_contact: end.n_contact,
+            };
+            record.push(of_step, distance);
+            before = (*end, step.end.position);
+        }
+        record
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::rough::Wave;
+    use indenters::{Shape, Stroke};
+    use numerics::Estimate;
+    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+
+    use super::*;
+
+    /// Retardation times of the slowest element after which it has forgotten the first touch.
+    const MEMORIES: f64 = 8.0;
+
+    fn surface() -> PeriodicSurface {
+        let wave = |(numbers, amplitude, phase)| Wave {
+            numbers,
+            amplitude,
+            phase,
+        };
+        let waves = [
+            ([1, 0], 0.01, 0.2),
+            ([2, -1], 0.01, 1.0),
+            ([0, 2], 0.006, 2.0),
+        ];
+        PeriodicSurface::new([1.0; 2], waves.map(wave).to_vec()).expect("a surface")
+    }
+
+    fn rubber() -> Prony {
+        let branch = |(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        };
+        let branches = [(2.0, 0.1), (4.0, 0.02)].map(branch).to_vec();
+        Prony::new(RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum"))
+            .expect("a solid")
+    }
+
+    /// What the dashpots take in the last cycle of many, as in `tests/it/dissipated_energy.rs`, \[J].
+    fn heat(load: &MovingLoad, elements: usize) -> f64 {
+        let (surface, rubber) = (surface(), rubber());
+        let accuracy = Accuracy::Elements(elements);
+        let problem = Moving::new(&surface, &rubber, load, accuracy).expect("a problem");
+        let shape = problem.shape(elements);
+        let grid = Grid::new(shape, shape.map(|n| 1.0 / n as f64)).expect("a grid");
+        let steps = problem.steps(elements, shape).expect("steps");
+        let heights = surface.heights(shape).expect("heights");
+        let waves = WaveMotion::new(load, &steps, &problem.wave_numbers, &problem.spectra);
+        let waves = waves.expect("a motion of waves");
+        let mut march = PeriodicMarch::new(&grid, &heights, &rubber, 1e-4).expect("a march");
+        let mut kernel = Waves::new(&grid, &rubber.base());
+        let creep = &problem.spectra.creep;
+        let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
+        let mut moved = vec![0.0; heights.len()];
+        let count = MEMORIES * slowest(creep) / period_of(load) + 2.0;
+        let mut heat = 0.0;
+        for _ in 0..numerics::whole_part(count) {
+            heat = 0.0;
+            for (step, state) in steps.iter().zip(&waves.states[1..]) {
+                let motion = (step.duration, step.end.control);
+                let _end = problem.step(&mut march, motion, state).expect("a contact");
+                let pressure = march.state.pressure();
+                for (element, springs) in creep.elements().iter().zip(&mut springs) {
+                    let pairs = pressure.iter().zip(springs.iter());
+                    let dashpot: Vec<f64> = pairs.map(|(all, spring)| all - spring).collect();
+                    // Displaced as an incompressible half space of the modulus 1.
+                    kernel.apply(&dashpot, &mut moved, |_, [_, q]| (0.5 / q).into());
+                    let work: f64 = dashpot.iter().zip(&moved).map(|(p, u)| p * u).sum();
+                    let times = step.duration / element.retardation_time;
+                    let passed = -(-2.0 * times).exp_m1();
+                    heat += 0.5 * passed * element.compliance * work * grid.element_area();
+                    for (spring, rest) in springs.iter_mut().zip(dashpot) {
+                        *spring -= (-times).exp_m1() * rest;
+                    }
+                }
+            }
+        }
+        heat
+    }
+
+    /// The bar of the work is that of the motion, that of the dashpots what half the elements change.
+    #[test]
+    fn the_work_of_a_cycle_is_what_the_dashpots_take() {
+        for (length, frequency, shape) in [
+            (0.3, 2.0, Shape::Sinusoidal),
+            (0.02, 5.0, Shape::Sinusoidal),
+            (0.5, 3.0, Shape::Triangular),
+        ] {
+            let stroke = Stroke {
+                length,
+                frequency,
+                shape,
+            };
+            let load = MovingLoad::reciprocating(Control::NormalForce(0.2), stroke);
+            let load = load.expect("a motion");
+            let [coarse, fine] = [24, 48].map(|elements| heat(&load, elements));
+            let heat = Estimate::new(2.0 * fine - coarse, (fine - coarse).abs());
+            let cycle = move_along(&surface(), &rubber(), &load, Accuracy::Elements(48));
+            let energy = cycle.expect("a cycle").dissipated_energy.expect("energy");
+            let (apart, bars) = ((energy.value - heat.value).abs(), energy.error + heat.error);
+            assert!(apart <= bars, "{stroke:?}: {energy:?}, {heat:?}");
+            assert!(
+                bars < 0.15 * energy.value,
+                "{stroke:?}: {energy:?}, {heat:?}"
+            );
+        }
+    }
+}
