@@ -130,8 +130,10 @@ pub struct NotReached {
     pub quantity: usize,
     /// Relative error asked for.
     pub asked: f64,
-    /// Value that was reached, or what else the error asked for is relative to.
+    /// Value that was reached.
     pub value: f64,
+    /// What the error asked for is relative to: the size of the value, or of the largest of its kind.
+    pub size: f64,
     /// Its absolute error.
     pub error: f64,
     /// Elements of the finest resolution.
@@ -225,7 +227,7 @@ impl Goal<'_> {
 
     /// Of the resolutions that are still needed, if the error falls with the order.
     fn work_after(&self, missed: &NotReached) -> f64 {
-        let ratio = missed.error / (missed.asked * missed.value.abs());
+        let ratio = missed.error / (missed.asked * missed.size);
         let mut elements = missed.elements as f64;
         let needed = (elements * ratio.powf(self.order.recip())).min(self.largest as f64);
         let mut work = 0.0;
@@ -298,7 +300,8 @@ fn not_reached(
     Some(NotReached {
         quantity,
         asked,
-        value: fine[quantity].size.copysign(fine[quantity].value),
+        value: fine[quantity].value,
+        size: fine[quantity].size,
         error: errors[quantity],
         elements,
     })

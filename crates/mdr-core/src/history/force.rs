@@ -78,6 +78,7 @@ impl Pressed<'_> {
                 quantity: 0,
                 asked,
                 value: deepest,
+                size: deepest,
                 error: change,
                 elements: parts,
             };

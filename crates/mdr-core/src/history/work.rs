@@ -53,6 +53,7 @@ pub fn work_along(
                 quantity: 0,
                 asked: options.relative_error,
                 value: largest,
+                size: largest,
                 error: change,
                 elements: parts,
             }));

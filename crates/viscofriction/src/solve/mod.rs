@@ -196,6 +196,7 @@ mod tests {
             quantity: 0,
             asked: 1e-12,
             value: 1e-5,
+            size: 1e-5,
             error: 1e-9,
             elements: 1,
         };
