@@ -4,6 +4,8 @@
 //! p(q, t) = p̄ δ_q0 − |q| ĥ(q) σ(q_x, t)/((1 − ν) M),      force/area = Σ_q |q| |ĥ|² Re(i q_x σ u*)/((1 − ν) M)
 //! ```
 
+use std::f64::consts::PI;
+
 use rustfft::num_complex::Complex;
 
 use super::stresses::WaveMotion;
@@ -22,6 +24,8 @@ pub(super) struct Closed<'a> {
     pub(super) factor: f64,
     /// \[Pa].
     pub(super) mean_pressure: f64,
+    /// The largest numbers of waves in the period.
+    pub(super) largest_numbers: [usize; 2],
 }
 
 /// What a cycle in full contact takes.
@@ -33,27 +37,36 @@ pub(super) struct FullContact {
 }
 
 impl Closed<'_> {
-    /// The cycle, if all pressures on the grid are above 0 at the ends of all steps.
-    pub(super) fn cycle(
-        mut self,
-        motion: &WaveMotion,
-        wave_numbers: &[f64],
-    ) -> Option<FullContact> {
-        let ends = &motion.states[1..];
+    /// Part of the largest value of a sum of waves that one of the elements has, at least: cos(πn/N) for n waves along N of them
+    /// (Ehlich & Zeller 1964), and once more along x, because steps are as long as an element.
+    fn between(&self) -> f64 {
+        let (numbers, shape) = (self.largest_numbers, self.grid.shape());
+        let [x, y] = [0, 1].map(|axis| (PI * numbers[axis] as f64 / shape[axis] as f64).cos());
+        x * x * y
+    }
+
+    /// Whether no pressure falls to 0, between elements and steps either.
+    pub(super) fn is_full(&mut self, motion: &WaveMotion) -> bool {
         let n = self.grid.n_elements() as f64;
         let rows = self.grid.shape()[0];
+        let allowed = self.between() * self.mean_pressure;
         let mut field = vec![0.0; self.heights.len()];
-        for state in ends {
+        motion.states[1..].iter().all(|state| {
             let (heights, factor) = (self.heights, self.factor);
             let stress = |row: usize| of_row(&state.stress, row, rows);
             let symbol = |row: usize, [_, q]: [f64; 2]| -stress(row) * q / factor;
             self.waves.apply(heights, &mut field, symbol);
             let mean = field.iter().sum::<f64>() / n;
-            let least = field.iter().copied().fold(f64::INFINITY, f64::min);
-            if least - mean + self.mean_pressure <= 0.0 {
-                return None;
-            }
-        }
+            field.iter().all(|p| (p - mean).abs() < allowed)
+        })
+    }
+
+    /// The cycle in full contact.
+    pub(super) fn cycle(mut self, motion: &WaveMotion, wave_numbers: &[f64]) -> FullContact {
+        let ends = &motion.states[1..];
+        let n = self.grid.n_elements() as f64;
+        let rows = self.grid.shape()[0];
+        let mut field = vec![0.0; self.heights.len()];
         let weights: Vec<f64> = (0..wave_numbers.len())
             .map(|number| {
                 let is_own = |row: usize| row.min(rows - row) == number;
@@ -71,10 +84,10 @@ impl Closed<'_> {
             each.sum()
         };
         let work = weights.iter().zip(&motion.work);
-        Some(FullContact {
+        FullContact {
             stresses: ends.iter().map(stress).collect(),
             work: work.map(|(weight, work)| weight * work).sum(),
-        })
+        }
     }
 }
 

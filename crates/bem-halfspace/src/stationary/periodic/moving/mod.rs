@@ -269,21 +269,34 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         self.surface.period().iter().product()
     }
 
-    fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+    fn on_grid(&self, elements: usize) -> Result<OnGrid, BemError> {
         let shape = self.shape(elements);
         let steps = self.steps(elements, shape)?;
         let spacing = [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64);
-        let grid = Grid::new(shape, spacing)?;
         let waves = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
-        let on_grid = OnGrid {
+        Ok(OnGrid {
             heights: self.surface.heights(shape)?,
-            grid,
+            grid: Grid::new(shape, spacing)?,
             steps,
             waves,
-        };
-        let record = match self.closed(&on_grid) {
-            Some(record) => record,
-            None => self.march(&on_grid, tell)?,
+        })
+    }
+
+    /// Whether a cycle has no gaps, on elements that tell what is between them.
+    fn is_full(&self) -> bool {
+        let elements = 2 * elements_of_motion(self.surface);
+        let fine = || self.on_grid(elements).ok();
+        let found = self.load.is_cycle().then(fine).flatten();
+        found.is_some_and(|fine| self.closed_on(&fine).is_full(&fine.waves))
+    }
+
+    fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+        let on_grid = self.on_grid(elements)?;
+        let spacing = on_grid.grid.spacing();
+        let record = if self.is_full() {
+            self.closed(&on_grid)
+        } else {
+            self.march(&on_grid, tell)?
         };
         Ok(MotionRecord {
             spacing: spacing[0],
@@ -292,32 +305,36 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         })
     }
 
-    /// A cycle in which the contact is full all the time; none otherwise.
-    fn closed(&self, on_grid: &OnGrid) -> Option<MotionRecord> {
-        let grid = &on_grid.grid;
+    fn closed_on<'b>(&self, on_grid: &'b OnGrid) -> Closed<'b> {
+        Closed {
+            grid: &on_grid.grid,
+            heights: &on_grid.heights,
+            waves: Waves::new(&on_grid.grid, &self.elastomer.base()),
+            factor: 0.5 * self.elastomer.material().half_space_factor(),
+            mean_pressure: self.load.largest_control().value() / self.area(),
+            largest_numbers: self.surface.largest_numbers(),
+        }
+    }
+
+    /// A cycle in which the contact is full all the time.
+    fn closed(&self, on_grid: &OnGrid) -> MotionRecord {
         let normal_force = self.load.largest_control().value();
         let (base, area) = (self.elastomer.base(), self.area());
         let factor = 0.5 * self.elastomer.material().half_space_factor();
-        let closed = Closed {
-            grid,
-            heights: &on_grid.heights,
-            waves: Waves::new(grid, &base),
-            factor,
-            mean_pressure: normal_force / area,
-        };
-        let cycle = || closed.cycle(&on_grid.waves, &self.wave_numbers);
-        let found = self.load.is_cycle().then(cycle)??;
+        let found = self
+            .closed_on(on_grid)
+            .cycle(&on_grid.waves, &self.wave_numbers);
         let yielded = factor * self.spectra.creep.equilibrium_compliance() * base.mean();
         let end = |stress: &f64| End {
             tangential_force: stress * area,
             normal_force,
             depth: normal_force / area * yielded,
-            n_contact: grid.n_elements(),
+            n_contact: on_grid.grid.n_elements(),
         };
         let ends: Vec<End> = found.stresses.iter().map(end).collect();
         let mut record = self.record(ends[ends.len() - 1], &ends, &on_grid.steps);
         record.work = found.work * area;
-        Some(record)
+        record
     }
 
     fn march(&self, on_grid: &OnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
