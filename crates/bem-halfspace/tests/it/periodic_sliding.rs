@@ -382,6 +382,38 @@ fn the_bars_of_the_casebook_hold() {
     }
 }
 
+/// Gaps that are smaller than an element may hide between any; the area of a wave is (2/π) asin √(p̄/p*) (Westergaard 1939).
+#[cfg(feature = "rough")]
+#[test]
+fn bars_hold_gaps_between_elements_that_are_all_in_contact() {
+    use bem_halfspace::periodic::steady;
+    use indenters::rough::{PeriodicSurface, Wave};
+    let (modulus, amplitude, finest) = (3.0, 0.01, 128.0);
+    // E* = 4G.
+    let closing = 4.0 * modulus * PI * amplitude;
+    for in_element in [0.0, 0.3, 0.5] {
+        let wave = Wave {
+            numbers: [1, 0],
+            amplitude,
+            phase: -2.0 * PI * in_element / finest,
+        };
+        let surface = PeriodicSurface::new([1.0; 2], vec![wave]).expect("a surface");
+        let area = |missing: f64| {
+            let load = PeriodicLoad::new(closing * (1.0 - missing), 0.0).expect("a load");
+            let state = steady(&surface, &elastic(modulus), &load, 0.1).expect("a state");
+            state.area_fraction
+        };
+        for missing in [3e-3_f64, 3e-4, 1e-4, 1e-6] {
+            let exact = 2.0 / PI * f64::asin((1.0 - missing).sqrt());
+            let found = area(missing);
+            assert_near(missing, found.value, exact, found.error);
+        }
+        let closed = area(-0.01);
+        assert!(closed.error < 1e-11, "{closed:?}");
+        assert_near(in_element, closed.value, 1.0, closed.error);
+    }
+}
+
 /// A compressible layer is pressed as deep by its mean pressure as it says, and carries as much there; deeper than touch.
 #[cfg(feature = "rough")]
 #[test]

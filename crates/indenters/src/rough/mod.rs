@@ -95,6 +95,12 @@ impl PeriodicSurface {
         self.waves.iter().map(square).sum::<f64>().sqrt()
     }
 
+    /// Root mean square of the height over its mean, \[m].
+    pub fn rms_height(&self) -> f64 {
+        let square = |wave: &Wave| 0.5 * wave.amplitude * wave.amplitude;
+        self.waves.iter().map(square).sum::<f64>().sqrt()
+    }
+
     /// Without the waves shorter than twice the shortest, which are its shortest octave; none where no wave is left.
     #[must_use]
     pub fn without_shortest_octave(&self) -> Option<Self> {

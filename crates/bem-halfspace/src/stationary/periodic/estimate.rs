@@ -9,6 +9,7 @@ use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::march::{Steps, slide_along};
 use crate::stationary::periodic::refinement::{FRICTION, Found, Goal, OTHERS, first_shape, refine};
+use crate::stationary::periodic::unseen::Unseen;
 use crate::stationary::periodic::{
     PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, solve_from,
 };
@@ -142,6 +143,7 @@ pub fn slide<'w>(
             area_fraction: last.area_fraction,
             in_contact: in_contact(&state.pressure),
             has_all_waves: true,
+            unseen: Unseen::of(&state.pressure, surface),
             mean_pressure,
             mean_depth: last.mean_depth,
             residual: tolerance,
@@ -185,6 +187,7 @@ fn solve(
             area_fraction: state.area_fraction,
             in_contact: in_contact(&state.pressure),
             has_all_waves: true,
+            unseen: Unseen::of(&state.pressure, surface),
             mean_pressure: held.mean_pressure,
             mean_depth: state.mean_depth,
             residual: state.residual.max(held.missed),

@@ -33,6 +33,8 @@ mod refinement;
 mod search;
 #[cfg(feature = "rough")]
 pub mod sensitivity;
+#[cfg(feature = "rough")]
+mod unseen;
 mod waves;
 
 use std::cell::RefCell;

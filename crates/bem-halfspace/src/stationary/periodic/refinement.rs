@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use indenters::rough::PeriodicSurface;
 use numerics::{Accuracy, Estimate, Progress, Request, between_zero_and_one};
 
+use crate::stationary::periodic::unseen::Unseen;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
 use crate::transform::fast_length::fast_length;
 use crate::{BemError, Grid, Reached};
@@ -74,6 +75,8 @@ pub(super) struct Found {
     pub(super) in_contact: usize,
     /// Whether the grid tells all waves of the surface.
     pub(super) has_all_waves: bool,
+    /// What is between elements that are all in contact.
+    pub(super) unseen: Unseen,
     pub(super) mean_pressure: f64,
     pub(super) mean_depth: f64,
     /// Of the contact.
@@ -335,6 +338,7 @@ impl Goal<'_> {
             },
             finest,
         };
+        let bars = bars.with_gaps(fine.unseen, self.control);
         let is_resolved = coarse.in_contact >= FEWEST_IN_CONTACT;
         Some(if is_resolved { bars } else { bars.unresolved() })
     }
@@ -348,6 +352,21 @@ impl<S> PeriodicEstimate<S> {
         for known in known.into_iter().chain(friction) {
             *known = known.widened(known.value.abs());
         }
+        self
+    }
+
+    /// With bars that reach to what gaps between elements may change; what is given keeps none.
+    fn with_gaps(mut self, unseen: Unseen, control: PeriodicControl) -> Self {
+        let (found, change) = match control {
+            PeriodicControl::MeanPressure(_) => (&mut self.mean_depth, unseen.mean_depth),
+            PeriodicControl::MeanDepth(_) => (&mut self.mean_pressure, unseen.mean_pressure),
+        };
+        *found = found.widened(change);
+        let friction = self.friction_from_dissipation.as_mut();
+        for friction in friction.into_iter().chain([&mut self.friction_coefficient]) {
+            *friction = friction.widened(unseen.friction);
+        }
+        self.area_fraction = self.area_fraction.widened(unseen.area_fraction);
         self
     }
 
@@ -372,7 +391,7 @@ impl<S> PeriodicEstimate<S> {
 mod tests {
     use numerics::Accuracy;
 
-    use super::{FRICTION, Found, Goal, PeriodicControl};
+    use super::{FRICTION, Found, Goal, PeriodicControl, Unseen};
 
     /// Frictions that both changed little and yet differ: on a finer grid they are 0.0592.
     #[test]
@@ -383,6 +402,7 @@ mod tests {
             area_fraction: 0.05,
             in_contact: 100,
             has_all_waves: true,
+            unseen: Unseen::default(),
             mean_pressure: 1.0,
             mean_depth: 0.0,
             residual: 1e-7,

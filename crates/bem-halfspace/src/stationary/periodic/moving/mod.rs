@@ -83,6 +83,7 @@ pub fn move_along<'w>(
     let request = request.into();
     let problem = Moving::new(surface, elastomer, load, request.accuracy)?;
     let first = elements_of_motion(surface);
+    let is_full = problem.is_full();
     let goal = Goal {
         request,
         first,
@@ -98,7 +99,7 @@ pub fn move_along<'w>(
     };
     let refined = refine(
         &goal,
-        |elements, tell: &dyn Fn(f64)| problem.on(elements, tell),
+        |elements, tell: &dyn Fn(f64)| problem.on(elements, is_full, tell),
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(others(&view, record)),
     )?;
@@ -290,10 +291,15 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         found.is_some_and(|fine| self.closed_on(&fine).is_full(&fine.waves))
     }
 
-    fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+    fn on(
+        &self,
+        elements: usize,
+        is_full: bool,
+        tell: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
         let on_grid = self.on_grid(elements)?;
         let spacing = on_grid.grid.spacing();
-        let record = if self.is_full() {
+        let record = if is_full {
             self.closed(&on_grid)
         } else {
             self.march(&on_grid, tell)?
@@ -466,6 +472,41 @@ mod tests {
         let branches = [(2.0, 0.1), (4.0, 0.02)].map(branch).to_vec();
         Prony::new(RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum"))
             .expect("a solid")
+    }
+
+    /// Also between the elements that it asks, and between its steps.
+    #[test]
+    fn a_cycle_is_full_where_none_of_its_pressures_is_a_tension() {
+        let (surface, rubber) = (surface(), rubber());
+        let stroke = Stroke {
+            length: 0.3,
+            frequency: 2.0,
+            shape: Shape::Sinusoidal,
+        };
+        let is_full = |mean_pressure: f64, elements: Option<usize>| {
+            let load = MovingLoad::reciprocating(Control::NormalForce(mean_pressure), stroke);
+            let load = load.expect("a motion");
+            let accuracy = Accuracy::RelativeError(0.1);
+            let problem = Moving::new(&surface, &rubber, &load, accuracy).expect("a problem");
+            let Some(elements) = elements else {
+                return problem.is_full();
+            };
+            let fine = problem.on_grid(elements).expect("a grid");
+            problem.closed_on(&fine).is_full(&fine.waves)
+        };
+        let [mut low, mut high] = [0.1, 10.0];
+        while high > 1.001 * low {
+            let middle = f64::midpoint(low, high);
+            let end = if is_full(middle, None) {
+                &mut high
+            } else {
+                &mut low
+            };
+            *end = middle;
+        }
+        let finest = 8 * elements_of_motion(&surface);
+        assert!(is_full(high, Some(finest)), "{high}");
+        assert!(!is_full(0.95 * high, Some(finest)), "{high}");
     }
 
     /// What the dashpots take in the last cycle of many, as in `tests/it/dissipated_energy.rs`, \[J].
