@@ -56,7 +56,9 @@ impl Statistics {
         let rise = |k: usize| {
             let diagonal = k * (n + 1);
             let ratio = covariance[diagonal] / inverse[diagonal];
-            let ratio = if ratio.is_finite() { ratio } else { variance };
+            // Where parameters cannot be told apart, rounding decides about the sign.
+            let is_known = ratio.is_finite() && ratio > 0.0;
+            let ratio = if is_known { ratio } else { variance };
             NORMAL * NORMAL * ratio
         };
         Ok(Self {

@@ -1,6 +1,6 @@
 //! Curves of samples whose thickness matters.
 
-use indenters::Sphere;
+use indenters::{FlatPunch, Sphere};
 use measurements::indentation::{FitOptions, Flag, Thickness, fit_indentation};
 
 use crate::synthetic::{Case, thin};
@@ -73,6 +73,26 @@ fn a_thickness_is_found_or_bounded() {
             thickness.interval[0].is_some_and(|lower| (1.5e-5..1e-3).contains(&lower)),
             "{thickness:?}"
         );
+    }
+}
+
+/// Under a flat end the contact is as large at any depth, so that modulus and thickness are one number.
+#[test]
+fn no_thickness_is_found_under_a_flat_end() {
+    let punch = FlatPunch::new(5e-6).expect("a punch");
+    let case = Case {
+        thickness: Some(6e-6),
+        ..Case::new("flat punch", punch, &[1e3, 2e3, 0.3])
+    };
+    let options = FitOptions {
+        thickness: Thickness::Fitted,
+        ..FitOptions::default()
+    };
+    for seed in 0..6 {
+        let curve = case.curve(150, 0.002, seed);
+        let fit = fit_indentation(&*case.body, &curve, &options).expect("a fit");
+        let thickness = fit.findings.last().expect("a thickness");
+        assert_eq!(thickness.estimate, None, "{seed}: {thickness:?}");
     }
 }
 

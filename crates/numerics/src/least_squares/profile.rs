@@ -68,7 +68,7 @@ pub fn profile_end(
 }
 
 /// The root of the rise of the least sum over that at the end, with the parameter held a step beside the minimum: nearly linear
-/// in the step. Where there is no sum, it is infinite, because the end is before.
+/// in the step. Where there is no sum, or nothing may rise, it is infinite, because the end is before.
 fn held(
     linearise: impl FnMut(&[f64]) -> Option<Linearised>,
     (best, tangent): (&Minimum, &[f64]),
@@ -92,7 +92,12 @@ fn held(
     });
     let held = minimise_by_model(linearise, start.collect(), &ranges, BY_MODEL * close * rise);
     let sum = held.map_or(f64::INFINITY, |held| held.linearised.sum);
-    ((sum - best.linearised.sum).max(0.0) / rise).sqrt()
+    let part = (sum - best.linearised.sum).max(0.0) / rise;
+    if part.is_nan() {
+        f64::INFINITY
+    } else {
+        part.sqrt()
+    }
 }
 
 /// The end behind a place that is close to it: on the line to the nearest place beyond, or on that from the place before.

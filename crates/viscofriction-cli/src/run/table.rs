@@ -145,6 +145,7 @@ pub(super) fn with_bar(known: &Estimate) -> String {
 pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
     let known = parts.named().into_iter();
     let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
+    let known = known.filter(|(_, part)| *part > 0.0);
     let parts = known.map(|(name, part)| format!("{name} {part:.1e}"));
     let parts: Vec<String> = parts.collect();
     (!parts.is_empty()).then(|| parts.join(", "))
