@@ -15,7 +15,7 @@ const ROWS: usize = 64;
 /// Rounding of forces times slopes, relative to the mean slope.
 const ROUNDING: f64 = 1e-12;
 /// Quantities of the whole motion, before those of its rows, and of each row.
-const OF_WHOLE: usize = 2;
+const OF_WHOLE: usize = 3;
 const OF_ROW: usize = 3;
 
 /// One step of a motion; what is not said to belong to its end is a mean, and belongs to its middle.
@@ -194,32 +194,11 @@ impl MotionView<'_> {
         std::iter::once((0, 0.0)).chain(all).collect()
     }
 
-    /// Friction and its peak, and force along x, normal force and depth of all points; the first drives a refinement, and so do
+    /// Friction, its peak and the work, and force along x, normal force and depth of all points; the first drives a refinement, and so do
     /// the forces along x of a motion that does not come back.
     pub fn quantities(&self, record: &MotionRecord) -> Vec<Quantity> {
-        let friction = record.friction();
-        let peak = record.peak();
+        let mut quantities = self.of_whole(record).to_vec();
         let steepness = self.steepness(record);
-        let is_cycle = self.load.is_cycle();
-        let imbalance = record.imbalance / record.normal_work;
-        let mut quantities = vec![
-            Quantity {
-                size: if self.is_elastic {
-                    steepness
-                } else if is_cycle {
-                    friction.abs()
-                } else {
-                    peak
-                },
-                least: if is_cycle { imbalance.abs() } else { 0.0 },
-                rounding: ROUNDING * steepness,
-                ..Quantity::from(friction)
-            },
-            Quantity {
-                drives: false,
-                ..Quantity::from(peak)
-            },
-        ];
         let rows: Vec<(Row, Row)> = self
             .stations()
             .iter()
@@ -240,11 +219,47 @@ impl MotionView<'_> {
             quantities.extend((0..OF_ROW).map(|k| Quantity {
                 size: sizes[k],
                 least: scatter[k],
-                drives: k == 0 && !is_cycle,
+                drives: k == 0 && !self.load.is_cycle(),
                 ..Quantity::from(values[k])
             }));
         }
         quantities
+    }
+
+    fn of_whole(&self, record: &MotionRecord) -> [Quantity; OF_WHOLE] {
+        let friction = record.friction();
+        let peak = record.peak();
+        let steepness = self.steepness(record);
+        let is_cycle = self.load.is_cycle();
+        let imbalance = record.imbalance / record.normal_work;
+        [
+            Quantity {
+                size: if self.is_elastic {
+                    steepness
+                } else if is_cycle {
+                    friction.abs()
+                } else {
+                    peak
+                },
+                least: if is_cycle { imbalance.abs() } else { 0.0 },
+                rounding: ROUNDING * steepness,
+                ..Quantity::from(friction)
+            },
+            Quantity {
+                drives: false,
+                ..Quantity::from(peak)
+            },
+            Quantity {
+                least: if is_cycle {
+                    record.imbalance.abs()
+                } else {
+                    0.0
+                },
+                rounding: ROUNDING * steepness * record.normal_work,
+                drives: false,
+                ..Quantity::from(record.work)
+            },
+        ]
     }
 
     /// About the mean slope in the contact.
@@ -264,6 +279,7 @@ impl MotionView<'_> {
         match quantity {
             0 => "friction coefficient",
             1 => "largest friction coefficient",
+            2 => "dissipated energy",
             _ => match (quantity - OF_WHOLE) % OF_ROW {
                 0 => "force along x",
                 1 => "normal force",
@@ -282,14 +298,22 @@ impl MotionView<'_> {
             ..ErrorParts::NONE
         };
         let [friction, rows @ ..] = record.rest;
-        let whole = [friction, rows[0] / record.sizes()[2]];
+        let force = record.sizes()[2];
+        let work = friction * record.normal_work + rows[1] / force * record.work.abs();
+        let whole = [friction, rows[0] / force, work];
         let rows = self.stations().into_iter().flat_map(|_| rows);
         whole.into_iter().chain(rows).map(truncated).collect()
     }
 
     /// The motion with the errors of these quantities.
     pub fn moved(&self, record: MotionRecord, error: &[f64], error_parts: ErrorParts) -> Moved {
-        let friction = Estimate::new(record.friction(), error[0]);
+        let is_cycle = self.load.is_cycle();
+        // No material gives energy back.
+        let lost = |value: f64, error: f64| match value {
+            value if is_cycle && value < 0.0 && -value <= error => Estimate::new(0.0, error),
+            value => Estimate::new(value, error),
+        };
+        let friction = lost(record.friction(), error[0]);
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
         let given = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
         let points = self.stations().into_iter().enumerate().map(|(index, at)| {
@@ -302,7 +326,7 @@ impl MotionView<'_> {
                 Estimate::new(values[k], error[OF_WHOLE + OF_ROW * index + k])
             });
             MovedPoint {
-                time: place.time,
+                time: self.load.begins() + place.time,
                 position: place.position,
                 tangential_force,
                 normal_force,
@@ -315,12 +339,20 @@ impl MotionView<'_> {
             friction_coefficient: friction,
             error_parts,
             peak_friction: Estimate::new(record.peak(), error[1]),
-            dissipated_energy: self.load.is_cycle().then(|| friction * record.normal_work),
+            dissipated_energy: is_cycle.then(|| lost(record.work, error[2])),
             points: points.collect(),
             ends: last.map(|ends| ends.map(end)),
             n_cycles: record.n_cycles,
-            steps: record.steps,
+            steps: self.dated(record.steps),
         }
+    }
+
+    /// With the times of the motion.
+    fn dated(&self, mut steps: Vec<MotionStep>) -> Vec<MotionStep> {
+        for step in &mut steps {
+            step.time += self.load.begins();
+        }
+        steps
     }
 }
 

@@ -47,6 +47,8 @@ pub struct Stroke {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MovingLoad {
+    /// Times of the stages are those since then, \[s], whose digits a date would take away.
+    begins: f64,
     stages: Vec<Stage>,
     is_cycle: bool,
 }
@@ -98,12 +100,17 @@ impl MovingLoad {
             }
         }
         positive("duration of the motion", last.time - first.time)?;
+        let since = |point: MovingPoint| MovingPoint {
+            time: point.time - first.time,
+            ..point
+        };
         let stage = |pair: &[MovingPoint]| Stage {
-            start: pair[0],
-            end: pair[1],
+            start: since(pair[0]),
+            end: since(pair[1]),
             shape: Shape::Triangular,
         };
         let load = Self {
+            begins: first.time,
             stages: points.windows(2).map(stage).collect(),
             is_cycle: false,
         };
@@ -138,6 +145,7 @@ impl MovingLoad {
             }
         };
         Ok(Self {
+            begins: 0.0,
             stages: vec![stage(0.0, -half), stage(1.0, half)],
             is_cycle: true,
         })
@@ -148,15 +156,19 @@ impl MovingLoad {
         self.is_cycle
     }
 
-    /// The parts of the motion, or of one cycle; at least one.
+    /// When the motion begins, \[s].
+    pub const fn begins(&self) -> f64 {
+        self.begins
+    }
+
+    /// The parts of the motion, or of one cycle, in times after its beginning; at least one.
     pub fn stages(&self) -> &[Stage] {
         &self.stages
     }
 
-    /// When it begins and when it, or its cycle, ends, \[s].
-    pub fn times(&self) -> [f64; 2] {
-        let [first, last] = [&self.stages[0], &self.stages[self.stages.len() - 1]];
-        [first.start.time, last.end.time]
+    /// How long the motion, or a cycle of it, takes, \[s].
+    pub fn duration(&self) -> f64 {
+        self.stages[self.stages.len() - 1].end.time
     }
 
     /// Length of the path, or of one cycle of it, \[m].

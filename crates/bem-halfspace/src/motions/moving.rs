@@ -163,10 +163,13 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         let fastest = SlidingLoad::with(control, load.fastest())?;
         let mut plan = GridPlan::sliding(surface, elastomer, &fastest)?;
         if let Control::NormalForce(_) = control {
-            let [start, end] = load.times();
             let memory = MEMORIES * slowest(&creep);
-            let pressed = if load.is_cycle() { memory } else { end - start };
-            let duration = if pressed > 0.0 { pressed } else { end - start };
+            let pressed = if load.is_cycle() { memory } else { 0.0 };
+            let duration = if pressed > 0.0 {
+                pressed
+            } else {
+                load.duration()
+            };
             let rest = footprint_after(surface, elastomer, &PressingLoad::new(control, duration)?)?;
             plan.footprint = around(plan.footprint, rest);
         }
@@ -250,7 +253,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             Ok((record, march.memory().to_vec()))
         };
         let cycles = Cycles {
-            period: period_of(self.load),
+            period: self.load.duration(),
             slowest: slowest(&self.creep),
             tolerance: self.tolerance,
         };
@@ -299,12 +302,6 @@ pub(crate) const fn tolerance_of_cycles(accuracy: Accuracy) -> f64 {
         Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
         Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
     }
-}
-
-/// How long a motion, or a cycle of it, takes, \[s].
-pub(crate) fn period_of(load: &MovingLoad) -> f64 {
-    let [start, end] = load.times();
-    end - start
 }
 
 /// Force and depth are those at the end of a step.

@@ -110,7 +110,7 @@ fn cycles(
     (elements, spacing): Grids,
 ) -> (Vec<Motion>, usize) {
     let steps = load.steps(elements, spacing, 1e5).expect("steps");
-    let (start, [first, last]) = (load.stages()[0].start, load.times());
+    let start = load.stages()[0].start;
     let touch = 1e-3 * steps[0].duration;
     let motion = |time: f64, position: f64| Motion {
         time: touch + time,
@@ -121,11 +121,11 @@ fn cycles(
     let times = creep.elements().iter();
     let times = times.map(|element| element.retardation_time);
     let slowest = times.fold(0.0, f64::max);
-    let count = whole_part(MEMORIES * slowest / (last - first)) + 2;
+    let count = whole_part(MEMORIES * slowest / load.duration()) + 2;
     let all = (0..count).flat_map(|cycle| {
-        let before = cycle as f64 * (last - first);
+        let before = cycle as f64 * load.duration();
         let steps = steps.iter();
-        steps.map(move |step| motion(before + step.end.time - first, step.end.position))
+        steps.map(move |step| motion(before + step.end.time, step.end.position))
     });
     let motions = std::iter::once(motion(0.0, start.position)).chain(all);
     (motions.collect(), steps.len())

@@ -21,11 +21,10 @@ pub(super) fn cycle(
     legs: &[MovingStep],
     tell: &dyn Fn(f64),
 ) -> Result<Option<MotionRecord>, MdrError> {
-    let [start, end] = problem.load.times();
     let tolerance = problem.tolerance;
-    let slowness = -(-(end - start) / problem.memory).exp_m1().recip();
+    let slowness = -(-problem.load.duration() / problem.memory).exp_m1().recip();
     let unit = problem.unit(chain.spacing());
-    chain.lift(start);
+    chain.lift(0.0);
     if let Some(kept) = problem.kept.take() {
         chain.recall(&kept);
     }
@@ -36,7 +35,7 @@ pub(super) fn cycle(
         let depth = chain.depth();
         let record = problem.pass(&mut chain, legs, depth, &|_| ());
         let mut record = record.map_err(Stop::Failed)?.ok_or(Stop::TooLow)?;
-        let kept = chain.lift(start);
+        let kept = chain.lift(0.0);
         record.imbalance -= unit * (kept - returned);
         problem.kept.replace(Some(chain.kept()));
         Ok((record, chain.memory().to_vec()))

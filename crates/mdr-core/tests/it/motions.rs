@@ -262,6 +262,58 @@ fn bars_of_flat_ends_hold() {
     }
 }
 
+/// A date has few digits left for the steps.
+#[test]
+fn the_day_of_a_motion_changes_nothing_but_its_times() {
+    let (line, rubber) = (EquivalentLine(&ball()), rubber(2));
+    let moved = |begins: f64| {
+        let points = [[begins, 0.0], [begins + 1.0, 3e-3]];
+        let load = through(&points, Control::NormalForce(FORCE));
+        move_along(&line, &rubber, &load, 1e-3).expect("a motion")
+    };
+    let (now, late) = (moved(0.0), moved(1e12));
+    assert_eq!(now.friction_coefficient, late.friction_coefficient);
+    for (now, late) in now.points.iter().zip(&late.points) {
+        assert_eq!(now.tangential_force, late.tangential_force, "{now:?}");
+        assert!((now.time + 1e12 - late.time).abs() < 1e-3, "{late:?}");
+    }
+}
+
+#[test]
+fn no_cycle_gives_energy_back() {
+    let spring = RelaxationSpectrum::new(1e6, 0.0, Vec::new()).expect("a spectrum");
+    let spring = Prony::new(spring).expect("a material");
+    let load = to_and_fro(1e-3, 1.0, Control::NormalForce(FORCE));
+    let moved = move_along(&EquivalentLine(&ball()), &spring, &load, 1e-3).expect("a cycle");
+    let energy = moved.dissipated_energy.expect("of a cycle");
+    for known in [moved.friction_coefficient, energy] {
+        assert!(known.value >= 0.0 && known.error > 0.0, "{known:?}");
+    }
+}
+
+/// At a depth the normal force is no more exact than the friction.
+#[test]
+fn the_energy_of_a_cycle_at_a_depth_has_a_bar_of_its_own() {
+    let branch = RelaxationBranch::new(1.940_449_157e9, 1.895_872_687e-3);
+    let spectrum = RelaxationSpectrum::new(1e6, 0.0, vec![branch]).expect("a spectrum");
+    let rubber = Prony::new(spectrum).expect("a material");
+    let body = PowerProfile::paraboloid(100.0).expect("a paraboloid");
+    let stroke = Stroke {
+        length: 2.012_825_626e-5,
+        frequency: 6.391_659_781,
+        shape: Shape::Triangular,
+    };
+    let load = MovingLoad::reciprocating(Control::IndentationDepth(1e-4), stroke);
+    let load = load.expect("a motion");
+    let energy = |error: f64| {
+        let moved = move_along(&EquivalentLine(&body), &rubber, &load, error).expect("a cycle");
+        moved.dissipated_energy.expect("of a cycle")
+    };
+    let (coarse, fine) = (energy(1e-3), energy(1e-3 / 16.0));
+    let apart = (coarse.value - fine.value).abs();
+    assert!(apart <= coarse.error + fine.error, "{coarse:?}, {fine:?}");
+}
+
 #[test]
 fn what_cannot_move_so_is_refused() {
     let (ball, control) = (ball(), Control::NormalForce(FORCE));

@@ -282,10 +282,7 @@ impl Problem {
             Motion::Moving(_) => {
                 let stages = self.moving.iter().flat_map(MovingLoad::stages);
                 let each = stages.map(indenters::Stage::duration);
-                let all = self
-                    .moving
-                    .iter()
-                    .map(|load| load.times()[1] - load.times()[0]);
+                let all = self.moving.iter().map(MovingLoad::duration);
                 each.chain(all).collect()
             }
             Motion::History(_) => {

@@ -17,7 +17,7 @@ use rheology::Material as _;
 use rustfft::num_complex::Complex;
 
 use crate::motions::moving::{
-    Cycles, MOST_STEPS, ORDER, TOUCH, WORK, moved, period_of, slowest, tolerance_of_cycles,
+    Cycles, MOST_STEPS, ORDER, TOUCH, WORK, moved, slowest, tolerance_of_cycles,
 };
 use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::waves::Waves;
@@ -150,8 +150,9 @@ fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         .min()
         .unwrap_or(usize::MAX);
     let mut rests = view.rests(record);
-    if let (true, Some(friction)) = (record.n_cycles > 0, rests.first_mut()) {
+    if let (true, [friction, _, work, ..]) = (record.n_cycles > 0, &mut rests[..]) {
         friction.iteration = Some(TOLERANCE * record.steepness);
+        work.iteration = Some(TOLERANCE * record.steepness * record.normal_work);
     }
     if fewest >= 4 * FEWEST_IN_CONTACT {
         return rests;
@@ -354,7 +355,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             return Ok(self.record(first, &ends, steps));
         }
         let cycles = Cycles {
-            period: period_of(self.load),
+            period: self.load.duration(),
             slowest: slowest(&self.spectra.creep),
             tolerance: self.tolerance,
         };
@@ -525,7 +526,7 @@ mod tests {
         let creep = &problem.spectra.creep;
         let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
         let mut moved = vec![0.0; heights.len()];
-        let count = MEMORIES * slowest(creep) / period_of(load) + 2.0;
+        let count = MEMORIES * slowest(creep) / load.duration() + 2.0;
         let mut heat = 0.0;
         for _ in 0..numerics::whole_part(count) {
             heat = 0.0;

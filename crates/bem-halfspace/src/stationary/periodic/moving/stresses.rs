@@ -16,7 +16,6 @@ use rheology::{CreepSpectrum, ExponentialStep, RelaxationBranch, RelaxationSpect
 use rustfft::num_complex::Complex;
 
 use crate::BemError;
-use crate::motions::moving::period_of;
 use crate::transform::plane_transform::ZERO;
 
 /// Times of a cycle for each radian of the phase of the shortest wave, and besides: harmonics beyond are below rounding.
@@ -75,7 +74,7 @@ impl WaveMotion {
             .all(|stage| stage.shape() == Shape::Triangular);
         let stresses = if is_straight {
             let relaxation = &spectra.relaxation;
-            let period = load.is_cycle().then(|| period_of(load));
+            let period = load.is_cycle().then(|| load.duration());
             let stress = |q: &f64| straight(*q, &legs, relaxation, period);
             wave_numbers.iter().map(stress).collect()
         } else {
@@ -110,7 +109,7 @@ impl WaveMotion {
             for (leg, state) in legs.iter().zip(&self.states[1..]) {
                 step_of(leg)?.advance(&parts(&state.stress), &mut memory);
             }
-            let period = period_of(load);
+            let period = load.duration();
             for (element, field) in elements.iter().zip(memory.chunks_exact_mut(n_values)) {
                 let left = -(-period / element.retardation_time).exp_m1();
                 field.iter_mut().for_each(|value| *value /= left);
@@ -250,7 +249,7 @@ fn harmonic(
     relaxation: &RelaxationSpectrum,
 ) -> Result<Vec<Stressed>, BemError> {
     let [rear, front] = load.range();
-    let (half, period) = (0.5 * (front - rear), period_of(load));
+    let (half, period) = (0.5 * (front - rear), load.duration());
     let shortest = wave_numbers.iter().copied().fold(0.0, f64::max);
     let needed = TIMES_PER_RADIAN * shortest * half + TIMES_BESIDES;
     let finer = whole_part((needed / n_steps as f64).ceil()).max(1);
