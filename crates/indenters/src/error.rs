@@ -44,11 +44,11 @@ pub enum IndenterError {
         /// The entry before it.
         previous: f64,
     },
-    /// The path is too long for the contact.
+    /// The path is too long for the contact, or has too many points.
     #[error(
-        "the motion needs {steps:.0} steps of the length of an element of the contact, and {allowed:.0} are allowed: \
-         shorten its path or stroke, or take longer elements: press a body harder, or leave out the shortest waves of a periodic \
-         surface"
+        "the motion needs {steps:e} steps, each at most as long as an element of the contact, and as many between two points as \
+         there are elements along the contact, and {allowed:.0} are allowed: shorten its path or stroke, leave out points on a \
+         straight way, or take longer elements: press a body harder, or leave out the shortest waves of a periodic surface"
     )]
     TooManySteps {
         /// Steps needed.
