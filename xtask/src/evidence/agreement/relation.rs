@@ -54,7 +54,7 @@ pub(super) enum Relation {
     OtherThreads,
     /// A track that is so long that everything is forgotten is a straight one.
     LongTrack,
-    /// A motion through more points on the same path.
+    /// A motion through more points on the same path, and much later.
     SubdividedMotion,
     /// A history that begins later, after a time without load.
     LaterHistory,
@@ -96,6 +96,8 @@ const SERIES_ERROR: f64 = 1e-4;
 const SERIES_RANGE: f64 = 1e12;
 /// Contacts after which everything is forgotten.
 const LONG: f64 = 1e15;
+/// Durations of a motion after which the same one begins.
+const DATE: f64 = 1e6;
 /// Largest power of two of a unit.
 const POWERS: f64 = 12.0;
 
@@ -191,6 +193,8 @@ impl Relation {
             Self::SubdividedMotion => {
                 let points = scene.load.motion.as_mut()?;
                 *points = with_middles(points);
+                let date = DATE * points.last()?.time;
+                points.iter_mut().for_each(|point| point.time += date);
             }
             Self::LaterHistory => later(scene.load.history.as_mut()?)?,
             Self::SubdividedHistory => {
