@@ -162,13 +162,15 @@ impl LayerProfile {
     fn of_punch(layer: &BondedLayer, radius: f64) -> Result<Self, FrictionError> {
         let stiff = layer.punch_radius(radius)?;
         let constant = |_| Ok::<_, FrictionError>([stiff, radius]);
+        let radii = Series::of(constant, f64::INFINITY)?;
         Ok(Self {
             exponent: f64::INFINITY,
-            end: stiff,
+            // To the last digit where all its contacts end.
+            end: radii.at(0.0)[0],
             pieces: vec![Piece {
                 along: Map::new([0.0, f64::INFINITY], 1.0, 1.0),
                 apex: 0.0,
-                radii: Series::of(constant, f64::INFINITY)?,
+                radii,
             }],
             relative_error: LEFT_OUT,
         })

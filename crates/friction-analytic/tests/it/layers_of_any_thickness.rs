@@ -250,3 +250,22 @@ fn numbers_that_are_none_are_refused() {
         "{free:?}"
     );
 }
+
+/// Rounding must not place what a punch covers beyond its edge.
+#[test]
+fn all_contacts_of_a_punch_are_within_its_edge() {
+    let radius = 5e-6;
+    let punch = FlatPunch::new(radius).expect("a punch");
+    for nth in 0..40 {
+        let ratio = 10_f64.powf(-1.0 + 0.05 * f64::from(nth));
+        for poisson_ratio in [0.3, 0.45, 0.5] {
+            let layer = BondedLayer::new(radius / ratio, poisson_ratio).expect("a layer");
+            let profile = LayerProfile::new(&punch, &layer, 2e-7).expect("a profile");
+            let covered = profile.position(1e-7).expect("a position");
+            assert!(
+                covered <= profile.end(),
+                "{ratio}, {poisson_ratio}: {covered}"
+            );
+        }
+    }
+}
