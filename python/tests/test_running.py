@@ -23,8 +23,11 @@ SCENE = {
 }
 SPEEDS = np.logspace(-2, 1, 12)
 
+# Whoever starts the tests may have interruptions ignored.
 LONG = """
+import signal
 import viscofriction as vf
+signal.signal(signal.SIGINT, signal.default_int_handler)
 print("begun", flush=True)
 vf.slide(vf.Sphere(5e-3), vf.StandardSolid(1e6, 1e7, 1e4), normal_force=2.0, velocity=[1.0] * 10000)
 """
@@ -68,7 +71,10 @@ def test_an_interruption_ends_the_work_at_once(tmp_path: Path) -> None:
         assert child.stdout.readline() == "begun\n"
         time.sleep(1.0)
         child.send_signal(signal.SIGINT)
-        _, errors = child.communicate(timeout=20)
+        try:
+            _, errors = child.communicate(timeout=20)
+        finally:
+            child.kill()
     assert "KeyboardInterrupt" in errors
 
 
