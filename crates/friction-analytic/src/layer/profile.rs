@@ -238,6 +238,10 @@ impl EquivalentProfile for LayerProfile {
         if position > self.end {
             return f64::INFINITY;
         }
+        // A punch is flat.
+        if self.depth().is_infinite() {
+            return 0.0;
+        }
         bracketed_root(excess, [0.0, self.depth()]).unwrap_or(0.0)
     }
 
