@@ -9,9 +9,10 @@
 
 use indenters::RigidLine;
 
+use super::contacts::Contacts;
 use super::event::Event;
 use super::heights::{Heights, Row};
-use super::time_step::{Driven, LANES, TimeStep};
+use super::time_step::{Driven, TimeStep, n_slots};
 use crate::MdrError;
 use crate::contact::Instant;
 use crate::element_heights::ElementHeights;
@@ -86,6 +87,7 @@ pub(super) struct Chain<'a> {
     before: Row,
     /// Displacements at which the elements carry nothing at the end of the step.
     at_rest: Vec<f64>,
+    contacts: Contacts,
 }
 
 /// What the elements add up to in a step, in the units of the foundation.
@@ -125,8 +127,7 @@ impl<'a> Chain<'a> {
         let first = ((range[0] + rear) / spacing).floor() - MARGIN;
         let last = ((range[1] + front) / spacing).ceil() + MARGIN;
         let n_elements = whole(last - first) + 1;
-        let n_slots = foundation.branches.len().max(foundation.modes.len());
-        let n_slots = n_slots.next_multiple_of(LANES);
+        let n_slots = n_slots(foundation);
         let [time, position] = place;
         Ok(Self {
             line: Heights::new(line, sampled)?,
@@ -146,6 +147,7 @@ impl<'a> Chain<'a> {
             heights: Vec::new(),
             before: Row::default(),
             at_rest: Vec::new(),
+            contacts: Contacts::default(),
         })
     }
 
@@ -182,6 +184,7 @@ impl<'a> Chain<'a> {
         for index in 0..self.heights.len() {
             self.settle(index, to, &mut sums);
         }
+        self.contacts.end_step(duration);
         self.place = to;
         std::mem::swap(&mut self.heights, &mut self.before.heights);
         self.before.first = self.window[0];
@@ -337,6 +340,9 @@ impl<'a> Chain<'a> {
             }
             Touch::Never => return,
         };
+        let was_loaded = matches!(self.touches[element], Touch::Loaded { .. });
+        let given = (driven.impulse, self.step.duration);
+        self.contacts.note(element, given, [was_loaded, is_loaded]);
         self.touches[element] = touch;
         sums.add(driven, self.slope(element, heights, to.position));
         if is_loaded {
@@ -415,6 +421,16 @@ impl<'a> Chain<'a> {
             }
         }
         Ok(stored)
+    }
+
+    /// Notes what happens to the elements from now on.
+    pub(super) fn note(&mut self) {
+        self.contacts = Contacts::of(self.touches.len());
+    }
+
+    /// What was noted.
+    pub(super) fn noted(&mut self) -> Contacts {
+        std::mem::take(&mut self.contacts)
     }
 
     /// What recovers, of all elements one after the other, at one time.

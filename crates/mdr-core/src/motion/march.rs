@@ -1,13 +1,13 @@
 //! A motion on one resolution.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep, RigidLine};
-use numerics::KEPT_STATES;
 use rheology::Material;
 
 use super::chain::{Chain, Given, Kept, Stepped};
 use super::cycle::cycle;
+use super::time_step::n_slots;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
 use crate::error::enough_elements;
@@ -28,6 +28,8 @@ const REACH: f64 = 0.75;
 /// Elements of a chain per element of the contact, at most about, and what each takes besides its memory, \[bytes].
 const FOOTPRINT: f64 = 4.0;
 const PER_ELEMENT: f64 = 200.0;
+/// Lists of all that elements remember, in the search for a cycle.
+const KEPT_STATES: f64 = 8.0;
 
 /// What moves, on what, and how.
 pub(super) struct Problem<'a> {
@@ -36,12 +38,13 @@ pub(super) struct Problem<'a> {
     pub(super) load: &'a MovingLoad,
     /// Length of the contact that is divided into elements, \[m].
     pub(super) length: f64,
-    /// The slowest retardation time of the material, \[s]; 0 without any.
-    pub(super) memory: f64,
     /// Relative error by which cycles may differ.
     pub(super) tolerance: f64,
     /// What the cycle on the resolution before remembers, with which the next one begins.
     pub(super) kept: RefCell<Option<Kept>>,
+    /// How far its search went on at once, in cycles, and the height of the chain that it took, \[m].
+    pub(super) at_once: Cell<f64>,
+    height: Cell<f64>,
 }
 
 impl<'a> Problem<'a> {
@@ -55,18 +58,15 @@ impl<'a> Problem<'a> {
         if load.is_cycle() && creep.fluidity() > 0.0 {
             return Err(MdrError::NoCycle);
         }
-        let times = creep
-            .elements()
-            .iter()
-            .map(|element| element.retardation_time);
         Ok(Self {
             line,
             foundation: Foundation::new(material, 1.0)?,
             load,
             length,
-            memory: times.fold(0.0, f64::max),
             tolerance,
             kept: RefCell::new(None),
+            at_once: Cell::new(1.0),
+            height: Cell::new(0.0),
         })
     }
 
@@ -76,7 +76,7 @@ impl<'a> Problem<'a> {
         let legs = self.load.steps(elements, spacing, MOST_STEPS)?;
         let mut height = match self.load.largest_control() {
             Control::IndentationDepth(depth) => depth,
-            Control::NormalForce(_) => self.rise(),
+            Control::NormalForce(_) => self.rise().max(self.height.get()),
         };
         loop {
             let sampled = ElementHeights::below(self.line, spacing, height)?;
@@ -92,6 +92,9 @@ impl<'a> Problem<'a> {
             if let Some(record) = self.follow(&sampled, &legs, tell)? {
                 let contacts = record.steps.iter().map(|step| step.n_contact);
                 enough_elements(contacts.max().unwrap_or(0), spacing)?;
+                if self.load.is_cycle() {
+                    self.height.set(height);
+                }
                 return Ok(record);
             }
             height = 2.0 * sampled.ceiling;
@@ -104,13 +107,9 @@ impl<'a> Problem<'a> {
         let n_steps = self.load.steps(elements, spacing, MOST_STEPS)?.len() as f64;
         let [rear, front] = self.load.range();
         let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
-        let n_slots = self
-            .foundation
-            .branches
-            .len()
-            .max(self.foundation.modes.len());
+        let n_slots = n_slots(&self.foundation);
         let copies = if self.load.is_cycle() {
-            KEPT_STATES as f64
+            KEPT_STATES
         } else {
             1.0
         };

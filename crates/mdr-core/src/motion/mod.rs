@@ -7,6 +7,7 @@
 //! resolutions tell their errors.
 
 mod chain;
+mod contacts;
 mod cycle;
 mod event;
 mod heights;

@@ -60,6 +60,12 @@ pub(super) struct Driven {
     pub(super) lost: f64,
 }
 
+/// Numbers that an element remembers, stresses of branches or amplitudes of modes: whole [`LANES`].
+pub(super) fn n_slots(foundation: &Foundation) -> usize {
+    let used = foundation.branches.len().max(foundation.modes.len());
+    used.max(1).next_multiple_of(LANES)
+}
+
 impl TimeStep {
     /// Over branches and modes.
     pub(super) fn new(foundation: &Foundation, duration: f64) -> Self {

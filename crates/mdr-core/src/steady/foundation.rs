@@ -40,7 +40,7 @@ pub(crate) struct Branch {
 
 #[derive(Debug)]
 pub(crate) struct Mode {
-    compliance: f64,
+    pub(crate) compliance: f64,
     pub(crate) length: f64,
     /// l_i/(L − l_i) of all branches.
     ratios: Vec<f64>,
@@ -147,6 +147,17 @@ impl Foundation {
         let branches = self.branches.iter();
         let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();
         self.spring * length + self.dashpot + relaxing
+    }
+
+    /// The modulus in the mean over a time after a compression at once.
+    pub(crate) fn mean_modulus(&self, time: f64) -> f64 {
+        if time <= 0.0 {
+            return 0.0;
+        }
+        let branches = self.branches.iter();
+        let left = |b: &Branch| -(-time / b.length).exp_m1() * b.length / time;
+        let relaxing: f64 = branches.map(|b| b.modulus * left(b)).sum();
+        self.spring + self.dashpot / time + relaxing
     }
 
     /// Compresses the branches at once.

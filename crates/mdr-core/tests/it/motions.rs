@@ -314,6 +314,72 @@ fn the_energy_of_a_cycle_at_a_depth_has_a_bar_of_its_own() {
     assert!(apart <= coarse.error + fine.error, "{coarse:?}, {fine:?}");
 }
 
+/// Two branches, of which one remembers so many cycles.
+fn long_memory(period: f64, cycles: f64) -> Prony {
+    let slow = RelaxationBranch::new(3e6, cycles * period);
+    let branches = vec![RelaxationBranch::new(5e6, 0.1 * period), slow];
+    let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches).expect("a spectrum");
+    Prony::new(spectrum).expect("a material")
+}
+
+/// The cycle that is solved for is the one to which a motion through the points of all cycles comes.
+#[test]
+fn a_long_memory_ends_where_its_cycles_do() {
+    const PERIOD: f64 = 0.02;
+    const CYCLES: u32 = 350;
+    let (ball, control) = (ball(), Control::NormalForce(FORCE));
+    let rubber = long_memory(PERIOD, 10.0);
+    // The retardation time is four times the relaxation time.
+    let left = (-f64::from(CYCLES) / 40.0).exp();
+    for length in [5e-5, 3e-3] {
+        let line = EquivalentLine(&ball);
+        let stroke = Stroke {
+            length,
+            frequency: PERIOD.recip(),
+            shape: Shape::Triangular,
+        };
+        let stroke = MovingLoad::reciprocating(control, stroke).expect("a motion");
+        let cycle = move_along(&line, &rubber, &stroke, 1e-3).expect("a cycle");
+        let turns = (0..=2 * CYCLES).map(|turn| {
+            let place = if turn % 2 == 0 { -0.5 } else { 0.5 };
+            [0.5 * PERIOD * f64::from(turn), place * length]
+        });
+        let path = through(&turns.collect::<Vec<_>>(), control);
+        let path = move_along(&line, &rubber, &path, Accuracy::Elements(48)).expect("a motion");
+        let ends = [cycle.points.last(), path.points.last()];
+        let [found, followed] = ends.map(|end| end.expect("a point").indentation_depth);
+        let apart = (found.value - followed.value).abs();
+        assert!(
+            apart <= found.error + followed.error + left * found.value,
+            "stroke {length}: {found:?} and {followed:?}"
+        );
+    }
+}
+
+/// Where next to nothing is forgotten in a cycle, only the mean load counts, and not for how long.
+#[test]
+fn a_memory_of_endless_cycles_has_a_limit() {
+    const PERIOD: f64 = 0.02;
+    let ball = ball();
+    for length in [5e-5, 3e-3] {
+        let stroke = to_and_fro(length, PERIOD.recip(), Control::NormalForce(FORCE));
+        let friction = |cycles: f64| {
+            let rubber = long_memory(PERIOD, cycles);
+            let moved = move_along(&EquivalentLine(&ball), &rubber, &stroke, 1e-3);
+            moved.expect("a cycle").friction_coefficient
+        };
+        let limit = friction(1e12);
+        for cycles in [1e5, 1e8, 1e15] {
+            let found = friction(cycles);
+            let apart = (found.value - limit.value).abs();
+            assert!(
+                apart <= found.error + limit.error + 10.0 / cycles * limit.value,
+                "stroke {length}, {cycles:e} cycles: {found:?} and {limit:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn what_cannot_move_so_is_refused() {
     let (ball, control) = (ball(), Control::NormalForce(FORCE));

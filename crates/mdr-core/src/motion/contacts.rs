@@ -1,0 +1,268 @@
+//! Which elements were in contact in a cycle, and with it what elements remember when a cycle comes back, about.
+//!
+//! An element x of the retardation time λ ends a cycle of the time T with the part that it keeps and what the load adds:
+//!
+//! ```text
+//! F(x) = β ∫ w e^(−(T − t)/λ) dt / (λ (1 − e^(−T/λ))) − x = 0      where a cycle comes back
+//! δ = F − θ β M v,   v = Σ θ δ,   θ = (λ/T)(1 − e^(−T/λ))           the step of Newton's method, about
+//! M v = ⟨k (v − d)⟩ over the cycle in contact,   Σ k (v − d) = 0 under a force,   d = 0 at a depth
+//! ```
+//! k is the modulus in the mean over the time for which an element is touched at once. M is symmetric and not negative: where
+//! more is remembered, less is carried.
+
+use crate::steady::{Foundation, Mode};
+
+/// Residual with which conjugate gradients end, relative to that at first, and their most steps.
+const RESIDUAL: f64 = 1e-8;
+const MOST_ITERATIONS: usize = 200;
+
+/// What happened to the elements of a chain; nothing is noted for none of them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Contacts {
+    /// Duration of each step, \[s], and the number of runs up to its end.
+    steps: Vec<(f64, usize)>,
+    /// First loaded element, and the one after the last.
+    runs: Vec<[usize; 2]>,
+    elements: Vec<Element>,
+    /// Of all steps, \[s].
+    period: f64,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Element {
+    /// How many times it was touched.
+    n_touches: f64,
+    /// ∫ w dt and ∫ w t dt.
+    impulse: f64,
+    moment: f64,
+}
+
+impl Contacts {
+    /// Times T/λ below which F is found from the impulse of the load, which loses no digits against x.
+    pub(super) const SLOW: f64 = 1e-4;
+
+    /// To be noted for so many elements.
+    pub(super) fn of(n_elements: usize) -> Self {
+        Self {
+            elements: vec![Element::default(); n_elements],
+            ..Self::default()
+        }
+    }
+
+    /// An element gets an impulse in a step of this duration; it was loaded, and is so at the end. In the order of elements.
+    pub(super) fn note(
+        &mut self,
+        index: usize,
+        (impulse, duration): (f64, f64),
+        [was, is]: [bool; 2],
+    ) {
+        let Some(element) = self.elements.get_mut(index) else {
+            return;
+        };
+        element.impulse += impulse;
+        element.moment += impulse * (self.period + 0.5 * duration);
+        if !is {
+            return;
+        }
+        if !was {
+            element.n_touches += 1.0;
+        }
+        let before = self.steps.last().map_or(0, |(_, end)| *end);
+        match self.runs[before..].last_mut() {
+            Some([_, end]) if *end == index => *end += 1,
+            _ => self.runs.push([index, index + 1]),
+        }
+    }
+
+    pub(super) fn end_step(&mut self, duration: f64) {
+        if !self.elements.is_empty() {
+            self.steps.push((duration, self.runs.len()));
+            self.period += duration;
+        }
+    }
+
+    /// F of all elements, of a cycle from a state to an end.
+    pub(super) fn residual(&self, modes: &[Mode], state: &[f64], end: &[f64]) -> Vec<f64> {
+        let n_slots = state.len() / self.elements.len();
+        let mut residual = vec![0.0; state.len()];
+        let rows = residual.chunks_mut(n_slots).zip(&self.elements);
+        let states = state.chunks(n_slots).zip(end.chunks(n_slots));
+        for ((row, element), (state, end)) in rows.zip(states) {
+            for (k, mode) in modes.iter().enumerate() {
+                let periods = self.period / mode.length;
+                let lost = -(-periods).exp_m1();
+                row[k] = if periods < Self::SLOW {
+                    let since = self.period * element.impulse - element.moment;
+                    let given = element.impulse - since / mode.length;
+                    // What recovers is counted upwards.
+                    -mode.compliance * given / mode.length / lost - state[k]
+                } else {
+                    (end[k] - state[k]) / lost
+                };
+            }
+        }
+        residual
+    }
+
+    /// Durations of the steps, and the runs of elements that were loaded at their ends.
+    fn of_steps(&self) -> impl Iterator<Item = (f64, &[[usize; 2]])> {
+        let starts = std::iter::once(0).chain(self.steps.iter().map(|(_, end)| *end));
+        let steps = self.steps.iter().zip(starts);
+        steps.map(|((duration, end), start)| (*duration, &self.runs[start..*end]))
+    }
+}
+
+/// How the elements answer to what they remember.
+pub(super) struct Response<'a> {
+    contacts: &'a Contacts,
+    is_force: bool,
+    /// k of each element; 0 if it is never touched.
+    moduli: Vec<f64>,
+    /// Part of the cycle for which it is touched.
+    parts: Vec<f64>,
+}
+
+impl<'a> Response<'a> {
+    pub(super) fn new(contacts: &'a Contacts, foundation: &Foundation, is_force: bool) -> Self {
+        let mut times = vec![0.0; contacts.elements.len() + 1];
+        for (duration, runs) in contacts.of_steps() {
+            add_over(&mut times, runs, duration);
+        }
+        accumulate(&mut times);
+        let moduli = contacts.elements.iter().zip(&times).map(|(element, time)| {
+            let time = time / element.n_touches.max(1.0);
+            foundation.mean_modulus(time)
+        });
+        Self {
+            contacts,
+            is_force,
+            moduli: moduli.collect(),
+            parts: times.iter().map(|time| time / contacts.period).collect(),
+        }
+    }
+
+    /// δ of an F over so many cycles at once, in which no more than what they keep can change: (1 − κ + κ/n) δ = F − ….
+    pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
+        let n_slots = residual.len() / self.contacts.elements.len();
+        let weights = modes.iter().map(|mode| {
+            let periods = self.contacts.period / mode.length;
+            let lost = -(-periods).exp_m1();
+            let now = lost / (lost + (1.0 - lost) / cycles);
+            let part = lost / periods;
+            [now, part, part * mode.compliance * now]
+        });
+        let weights: Vec<[f64; 3]> = weights.collect();
+        let mut step = residual.to_vec();
+        let rows = step.chunks_mut(n_slots).map(|row| {
+            let slots = row.iter_mut().zip(&weights);
+            slots.fold(0.0, |sum, (slot, [now, part, _])| {
+                *slot *= now;
+                sum + part * *slot
+            })
+        });
+        let free: Vec<f64> = rows.collect();
+        let compliance = weights.iter().map(|[_, part, given]| part * given).sum();
+        let resisted = self.resisted(&free, compliance);
+        for (row, resisted) in step.chunks_mut(n_slots).zip(&resisted) {
+            for (slot, [_, _, given]) in row.iter_mut().zip(&weights) {
+                *slot -= given * resisted;
+            }
+        }
+        step
+    }
+
+    /// M v.
+    fn times(&self, v: &[f64]) -> Vec<f64> {
+        let weights = self.moduli.iter().zip(&self.parts);
+        let mut product: Vec<f64> = weights.zip(v).map(|((k, part), v)| k * part * v).collect();
+        if !self.is_force {
+            return product;
+        }
+        let [mut loads, mut moduli, mut means] = [(); 3].map(|()| vec![0.0; v.len() + 1]);
+        for (index, (k, v)) in self.moduli.iter().zip(v).enumerate() {
+            loads[index + 1] = k * v;
+            moduli[index + 1] = *k;
+        }
+        accumulate(&mut loads);
+        accumulate(&mut moduli);
+        for (duration, runs) in self.contacts.of_steps() {
+            let mean = sum_over(&loads, runs) / sum_over(&moduli, runs);
+            if mean.is_finite() {
+                add_over(&mut means, runs, duration / self.contacts.period * mean);
+            }
+        }
+        accumulate(&mut means);
+        let rows = product.iter_mut().zip(&self.moduli);
+        rows.zip(&means)
+            .for_each(|((product, k), mean)| *product -= k * mean);
+        product
+    }
+
+    /// M v of the v = free − compliance · M v, by conjugate gradients, which take the M of a depth first.
+    fn resisted(&self, free: &[f64], compliance: f64) -> Vec<f64> {
+        let over = |r: &[f64]| -> Vec<f64> {
+            let weights = self.moduli.iter().zip(&self.parts);
+            let scaled = r.iter().zip(weights);
+            scaled
+                .map(|(r, (k, part))| r / (1.0 + compliance * k * part))
+                .collect()
+        };
+        let applied = |v: &[f64]| -> Vec<f64> {
+            let product = self.times(v);
+            v.iter()
+                .zip(&product)
+                .map(|(v, m)| v + compliance * m)
+                .collect()
+        };
+        let mut v = over(free);
+        let mut r: Vec<f64> = free.iter().zip(applied(&v)).map(|(f, a)| f - a).collect();
+        let mut z = over(&r);
+        let mut p = z.clone();
+        let mut size = dot(&r, &z);
+        let enough = RESIDUAL * RESIDUAL * dot(free, &v);
+        for _ in 0..MOST_ITERATIONS {
+            if size <= enough {
+                break;
+            }
+            let a = applied(&p);
+            let step = size / dot(&p, &a);
+            add_to(&mut v, step, &p);
+            add_to(&mut r, -step, &a);
+            z = over(&r);
+            let before = std::mem::replace(&mut size, dot(&r, &z));
+            let ratio = size / before;
+            p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + ratio * *p);
+        }
+        self.times(&v)
+    }
+}
+
+/// Adds a number to the differences of a list whose elements in the runs become that much larger.
+fn add_over(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
+    for [start, end] in runs {
+        differences[*start] += number;
+        differences[*end] -= number;
+    }
+}
+
+/// Over the elements of the runs, from the sums of all up to each.
+fn sum_over(sums: &[f64], runs: &[[usize; 2]]) -> f64 {
+    runs.iter()
+        .map(|[start, end]| sums[*end] - sums[*start])
+        .sum()
+}
+
+fn accumulate(values: &mut [f64]) {
+    values.iter_mut().fold(0.0, |sum, value| {
+        *value += sum;
+        *value
+    });
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add_to(a: &mut [f64], factor: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
+}
