@@ -26,9 +26,11 @@ use march::Problem;
 const MOST_ELEMENTS: usize = 4096;
 /// There are about as many steps as elements.
 const WORK: f64 = 2.0;
-/// The friction of smooth bodies is of the second order, which their outline on the elements makes unsafe to assume; below
-/// the smallest order nothing converges.
+/// The friction of smooth bodies is of the second order, and of tips and cusps of that of their outline; but where the outline
+/// is on the elements makes so much unsafe to assume, and half an order less for single steps. Below the smallest order
+/// nothing converges.
 const ORDERS: [f64; 2] = [0.1, 1.0];
+const CHANCE: f64 = 0.5;
 /// Behind a steep kink the line rises like the root of the distance.
 const BEHIND_STEEP_KINK: f64 = 0.5;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
@@ -89,7 +91,7 @@ pub fn move_along<'w>(
         order: if has_steep_kinks(line) {
             BEHIND_STEEP_KINK
         } else {
-            (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1])
+            (line.apex_exponent() - CHANCE).clamp(ORDERS[0], ORDERS[1])
         },
         work: WORK,
         others: 0.0,

@@ -235,6 +235,57 @@ fn few_elements_know_the_friction_under_a_force() {
     }
 }
 
+/// Where the tip of a cone is between two elements is chance, which half of an order of the errors allows for.
+#[test]
+fn bars_of_tips_hold() {
+    let tip = PowerProfile::cone(0.226_829).expect("a cone");
+    let blunt = PowerProfile::cone(0.055_699_1).expect("a cone");
+    let branch = RelaxationBranch::new;
+    let short = vec![
+        branch(4.333_01e7, 3.452_99e-4),
+        branch(2.702e7, 0.043_229_9),
+        branch(118_155.0, 4.282_09e-3),
+    ];
+    let slow = vec![
+        branch(5.457_03e6, 2.421_57),
+        branch(543_618.0, 0.045_428_8),
+        branch(538_614.0, 0.065_041_7),
+    ];
+    for (cone, branches, force, stroke) in [
+        (
+            tip,
+            short,
+            0.055_084_8,
+            (1.079_05e-5, 119.198, Shape::Sinusoidal),
+        ),
+        (
+            blunt,
+            slow,
+            0.015_041_5,
+            (2.387_88e-4, 0.253_391, Shape::Triangular),
+        ),
+    ] {
+        let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches).expect("a spectrum");
+        let rubber = Prony::new(spectrum).expect("a material");
+        let (length, frequency, shape) = stroke;
+        let stroke = Stroke {
+            length,
+            frequency,
+            shape,
+        };
+        let load = MovingLoad::reciprocating(Control::NormalForce(force), stroke);
+        let load = load.expect("a motion");
+        let cycle = |error: f64| {
+            let cycle = move_along(&EquivalentLine(&cone), &rubber, &load, error).expect("a cycle");
+            [cycle.friction_coefficient, cycle.peak_friction]
+        };
+        for (coarse, fine) in cycle(1e-2).iter().zip(cycle(3e-4)) {
+            let error = (coarse.value - fine.value).abs();
+            assert!(error <= coarse.error + fine.error, "{coarse:?}, {fine:?}");
+        }
+    }
+}
+
 /// At the edge of a flat end the line is steeper than any number, and errors fall like the root of the elements.
 #[test]
 fn bars_of_flat_ends_hold() {
