@@ -1,15 +1,17 @@
 //! The tables of numbers that a scene names: radii and heights of a profile, grids of heights, and histories.
 
+use std::borrow::Cow;
 use std::path::Path;
 
-use csv::{ErrorKind, StringRecord};
+use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
+use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::load::{LoadPoint, MotionPoint};
-use crate::text::RecordLines;
+use crate::text::{RecordLines, line_of};
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -148,24 +150,66 @@ fn at(file: &Path, line: usize, problem: &str) -> String {
     format!("{}:{line}: {problem}", file.display())
 }
 
-/// The rows and the lines they begin at, or a line and what is wrong there.
+/// The rows and the lines they begin at, or a line and what is wrong there: of a text in UTF-8, or UTF-16 with its mark, with
+/// commas, semicolons or tabs between the columns, and lines of comments after `#`.
 fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize, String)> {
-    let mut reader = csv::Reader::from_reader(contents);
-    let mut lines = RecordLines::new(contents);
+    let (text, _, is_garbled) = UTF_8.decode(contents);
+    if is_garbled {
+        let line = line_of(
+            contents,
+            contents
+                .utf8_chunks()
+                .next()
+                .map_or(0, |chunk| chunk.valid().len()),
+        );
+        return Err((line, "the text is no UTF-8".to_owned()));
+    }
+    let separator = separator(&text);
+    let text = match separator {
+        b',' => text,
+        // Names have no commas, so that all of them are decimal marks.
+        _ => Cow::Owned(text.replace(',', ".")),
+    };
+    let mut reader = ReaderBuilder::new()
+        .delimiter(separator)
+        .comment(Some(b'#'))
+        .trim(Trim::All)
+        .from_reader(text.as_bytes());
+    let mut lines = RecordLines::new(text.as_bytes()).with_comments();
     let names = reader.headers().cloned();
     let names = names.map_err(|error| {
         let line = lines.of(error.position());
         (line, problem(&error, &StringRecord::new()))
     })?;
+    let head = lines.of(names.position());
     let mut rows = Vec::new();
     for record in reader.records() {
         let row = record.and_then(|record| {
             let row = record.deserialize(Some(&names))?;
             Ok((lines.of(record.position()), row))
         });
-        rows.push(row.map_err(|error| (lines.of(error.position()), problem(&error, &names)))?);
+        rows.push(row.map_err(|error| {
+            let is_of_names =
+                matches!(error.kind(), ErrorKind::Deserialize { err, .. } if err.field().is_none());
+            let line = if is_of_names {
+                head
+            } else {
+                lines.of(error.position())
+            };
+            (line, problem(&error, &names))
+        })?);
     }
     Ok(rows)
+}
+
+/// The first separator of columns in the line of names, a comma where there is but one column.
+fn separator(text: &str) -> u8 {
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let names = lines.next().unwrap_or_default();
+    let mut separators = names.bytes().filter(|byte| b",;\t".contains(byte));
+    separators.next().unwrap_or(b',')
 }
 
 /// What is wrong, with the name of the column.
@@ -178,7 +222,6 @@ fn problem(error: &csv::Error, names: &StringRecord) -> String {
                 None => err.kind().to_string(),
             }
         }
-        ErrorKind::Utf8 { .. } => "the text is no UTF-8".to_owned(),
         ErrorKind::UnequalLengths {
             expected_len, len, ..
         } => format!("{expected_len} values are needed, but there are {len}"),
@@ -200,4 +243,46 @@ fn line_of_error(error: &IndenterError, rows: &[(usize, ProfileRow)]) -> usize {
         _ => rows.last(),
     };
     row.map_or(1, |(line, _)| *line)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A path as programs of several countries write it is the same path.
+    #[test]
+    fn a_path_is_read_from_every_plain_table() {
+        let plain = "time_s,position_m\n0,0\n0.5,1.5e-3\n";
+        let read = |text: &[u8]| motion(Path::new("path.csv"), text);
+        let expected = read(plain.as_bytes()).expect("a path");
+        let [semicolons, tabs] = [";", "\t"].map(|mark| plain.replace(',', mark).replace('.', ","));
+        let wide = std::iter::once(0xfeff).chain(tabs.encode_utf16());
+        let wide: Vec<u8> = wide.flat_map(u16::to_le_bytes).collect();
+        for text in [
+            semicolons.as_bytes(),
+            tabs.as_bytes(),
+            &wide,
+            b"# of a drive\ntime_s , position_m\n0 , 0\n# half way\n0.5 , 1.5e-3\n",
+            b"\xef\xbb\xbf\"time_s\",\"position_m\"\r\n0,0\r\n\r\n\"0.5\",1.5e-3\r\n",
+        ] {
+            assert_eq!(read(text), Ok(expected.clone()), "{}", text.escape_ascii());
+        }
+    }
+
+    #[test]
+    fn wrong_names_are_in_the_line_of_names() {
+        let read =
+            |text: &str| motion(Path::new("path.csv"), text.as_bytes()).expect_err("refused");
+        for (text, place) in [
+            ("time_s,place\n0,0\n", "path.csv:1: "),
+            ("# a drive\n\ntime_s\n0\n", "path.csv:3: "),
+            (
+                "time_s;position_m\n0;0\n1;1,000.5\n",
+                "path.csv:3: position_m: ",
+            ),
+        ] {
+            let refused = read(text);
+            assert!(refused.starts_with(place), "{refused}");
+        }
+    }
 }
