@@ -1,5 +1,7 @@
 //! The contact on one grid, and the adjoint loads of its friction and its depth.
 
+use std::collections::HashSet;
+
 use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::elements::spread::measures_of_area;
@@ -48,6 +50,23 @@ impl<'mesh> Contact<'mesh> {
     pub(super) fn sum(&self, loads: &[f64]) -> f64 {
         let elements = self.elements.iter().copied();
         self.mesh.total_load(elements.zip(loads.iter().copied()))
+    }
+
+    /// Mean load of the elements that nothing touches ahead of, relative to that of all.
+    pub(super) fn load_at_front(&self) -> f64 {
+        let place = |element: usize| self.mesh.places(element)[0];
+        let touched: HashSet<[usize; 2]> = self.elements.iter().map(|&one| place(one)).collect();
+        let pairs = self.elements.iter().zip(&self.loads);
+        let front = pairs.filter(|(element, _)| {
+            let [x, y] = place(**element);
+            !touched.contains(&[x + 1, y])
+        });
+        let (sum, count) = front.fold((0.0, 0.0), |(sum, count), (&element, load)| {
+            let weight = self.mesh.weight(element);
+            (sum + weight * load, count + weight)
+        });
+        let ones = vec![1.0; self.loads.len()];
+        sum / count * self.sum(&ones) / self.total
     }
 
     /// The weights of the kernel for a quantity with these adjoint loads.

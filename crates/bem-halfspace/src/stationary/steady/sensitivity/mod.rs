@@ -72,7 +72,8 @@ pub struct Change<T> {
     pub indentation_depth: Option<T>,
     /// Of the normal force at a depth, \[N].
     pub normal_force: Option<T>,
-    /// Of the logarithm of the contact area, or of the width in plane strain; none under bodies with edges.
+    /// Of the logarithm of the contact area, or of the width in plane strain; none under bodies with edges, and none where
+    /// the pressure does not vanish at the front unless the contact is but dilated.
     pub contact_area: Option<T>,
 }
 

@@ -14,6 +14,10 @@ use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_me
 
 /// Relative step of the differences by all lengths of a body.
 const DILATION: f64 = 1e-5;
+/// Mean load at the front, relative to that of all elements, above which it is taken not to vanish there.
+const LOADED: f64 = 0.6;
+/// Difference between both measures of the area, relative to them, of a contact that is but dilated.
+const SIMILAR: f64 = 1e-6;
 
 /// A contact, and what each of its quantities asks of a change.
 #[derive(Debug)]
@@ -31,6 +35,8 @@ pub(super) struct State {
     by_track: Vec<f64>,
     control: Control,
     pub(super) dilation: Option<Dilation>,
+    /// Whether loads do not vanish where the contact begins, so that they do not know where that is: the gap ahead does.
+    has_loaded_front: bool,
 }
 
 /// What the dilation of all lengths changes, with the elements where they are; see the [module](super).
@@ -61,6 +67,7 @@ struct Unsummed {
     shares: Vec<f64>,
     drafts: Vec<Draft>,
     kernel: Kernel,
+    has_loaded_front: bool,
 }
 
 impl State {
@@ -127,6 +134,7 @@ impl Unsummed {
         Ok(Self {
             friction_coefficient: friction * points.slope_unit(),
             shares: shares.collect(),
+            has_loaded_front: contact.load_at_front() > LOADED,
             drafts: gradients.all(),
             kernel: Kernel::new(&loading.creep, &mesh)?,
             points,
@@ -158,6 +166,7 @@ impl Unsummed {
             by_thickness,
             by_track,
             control: loading.control,
+            has_loaded_front: self.has_loaded_front,
             dilation: None,
         }
     }
@@ -323,14 +332,15 @@ impl State {
     fn of_all(&self, mut changes: Vec<f64>) -> Change<Apart> {
         let areas = areas_of(&mut changes);
         let mut changes: Vec<Apart> = changes.into_iter().map(|change| [change, 0.0]).collect();
-        let contact_area = self.dilation.as_ref().map(|dilation| {
+        let contact_area = self.dilation.as_ref().and_then(|dilation| {
             let lengths = [0, 1].map(|measure| areas[measure] / dilation.areas[measure]);
             let length = [lengths[0], (lengths[0] - lengths[1]).abs()];
             for ([change, apart], excess) in changes.iter_mut().zip(&dilation.excess) {
                 *change -= length[0] * excess;
                 *apart = length[1] * excess.abs();
             }
-            length.map(|length| dilation.power_of_area * length)
+            let is_known = !self.has_loaded_front || length[1] <= SIMILAR * length[0].abs();
+            is_known.then(|| length.map(|length| dilation.power_of_area * length))
         });
         let other = changes.get(1).copied();
         let (indentation_depth, normal_force) = match self.control {
