@@ -13,8 +13,6 @@ pub(crate) struct RecordLines<'a> {
     counted: usize,
     /// The line there, counted from 1.
     line: usize,
-    /// Whether lines after `#` are comments.
-    has_comments: bool,
 }
 
 impl<'a> RecordLines<'a> {
@@ -23,31 +21,17 @@ impl<'a> RecordLines<'a> {
             contents,
             counted: 0,
             line: 1,
-            has_comments: false,
         }
     }
 
-    /// Lines after `#` are comments.
-    pub(crate) const fn with_comments(self) -> Self {
-        Self {
-            has_comments: true,
-            ..self
-        }
-    }
-
-    /// The line of a record that is not before the one asked for last; empty lines and comments before it belong to its
-    /// position.
+    /// The line of a record that is not before the one asked for last; empty lines before it belong to its position.
     pub(crate) fn of(&mut self, position: Option<&csv::Position>) -> usize {
         let start = position.map_or(0, csv::Position::byte);
         let start = usize::try_from(start).unwrap_or(usize::MAX);
         let start = start.clamp(self.counted, self.contents.len());
-        let lines = self.contents[start..].split_inclusive(|byte| *byte == b'\n');
-        let is_no_record = |line: &&[u8]| {
-            let is_comment = self.has_comments && line.starts_with(b"#");
-            is_comment || line.iter().all(|byte| b"\r\n".contains(byte))
-        };
-        let skipped = lines.take_while(is_no_record).map(<[u8]>::len);
-        let start = start + skipped.sum::<usize>();
+        let is_break = |byte: &&u8| b"\r\n".contains(byte);
+        let breaks = self.contents[start..].iter().take_while(is_break);
+        let start = start + breaks.count();
         self.line += line_of(&self.contents[self.counted..], start - self.counted) - 1;
         self.counted = start;
         self.line

@@ -1,6 +1,5 @@
 //! The tables of numbers that a scene names: radii and heights of a profile, grids of heights, and histories.
 
-use std::borrow::Cow;
 use std::path::Path;
 
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
@@ -153,29 +152,12 @@ fn at(file: &Path, line: usize, problem: &str) -> String {
 /// The rows and the lines they begin at, or a line and what is wrong there: of a text in UTF-8, or UTF-16 with its mark, with
 /// commas, semicolons or tabs between the columns, and lines of comments after `#`.
 fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize, String)> {
-    let (text, _, is_garbled) = UTF_8.decode(contents);
-    if is_garbled {
-        let line = line_of(
-            contents,
-            contents
-                .utf8_chunks()
-                .next()
-                .map_or(0, |chunk| chunk.valid().len()),
-        );
-        return Err((line, "the text is no UTF-8".to_owned()));
-    }
-    let separator = separator(&text);
-    let text = match separator {
-        b',' => text,
-        // Names have no commas, so that all of them are decimal marks.
-        _ => Cow::Owned(text.replace(',', ".")),
-    };
+    let (text, separator) = plain(contents)?;
     let mut reader = ReaderBuilder::new()
         .delimiter(separator)
-        .comment(Some(b'#'))
         .trim(Trim::All)
         .from_reader(text.as_bytes());
-    let mut lines = RecordLines::new(text.as_bytes()).with_comments();
+    let mut lines = RecordLines::new(text.as_bytes());
     let names = reader.headers().cloned();
     let names = names.map_err(|error| {
         let line = lines.of(error.position());
@@ -202,14 +184,38 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
     Ok(rows)
 }
 
-/// The first separator of columns in the line of names, a comma where there is but one column.
-fn separator(text: &str) -> u8 {
-    let mut lines = text
+/// The text with decimal points, without comments but with as many lines, and what separates its columns: the first comma,
+/// semicolon or tab in the line of names.
+fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
+    let (text, encoding, is_garbled) = UTF_8.decode(contents);
+    if is_garbled {
+        let valid = contents.utf8_chunks().next();
+        let valid = valid.map_or(0, |chunk| chunk.valid().len());
+        let problem = format!("the text is no {}", encoding.name());
+        return Err((line_of(contents, valid), problem));
+    }
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let is_read = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    let lines = text
         .lines()
-        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let names = lines.next().unwrap_or_default();
-    let mut separators = names.bytes().filter(|byte| b",;\t".contains(byte));
-    separators.next().unwrap_or(b',')
+        .map(|line| if is_read(line) { line } else { "" });
+    let lines: Vec<&str> = lines.collect();
+    let names = lines.iter().find(|line| !line.is_empty());
+    let mut separators = names.into_iter().flat_map(|names| names.bytes());
+    let separator = separators.find(|byte| b",;\t".contains(byte));
+    let text = lines.join("\n");
+    let Some(separator @ (b';' | b'\t')) = separator else {
+        return Ok((text, b','));
+    };
+    // Names have neither, and numbers have one of them.
+    let mixed = lines
+        .iter()
+        .position(|line| line.contains(',') && text.contains('.'));
+    if let Some(line) = mixed {
+        let problem = "decimal commas are needed, or decimal points, and not both".to_owned();
+        return Err((line + 1, problem));
+    }
+    Ok((text.replace(',', "."), separator))
 }
 
 /// What is wrong, with the name of the column.
@@ -263,6 +269,7 @@ mod tests {
             tabs.as_bytes(),
             &wide,
             b"# of a drive\ntime_s , position_m\n0 , 0\n# half way\n0.5 , 1.5e-3\n",
+            b" # of a drive\r \rtime_s;position_m\r0;0\r\t# half way\r0.5;1.5e-3\r",
             b"\xef\xbb\xbf\"time_s\",\"position_m\"\r\n0,0\r\n\r\n\"0.5\",1.5e-3\r\n",
         ] {
             assert_eq!(read(text), Ok(expected.clone()), "{}", text.escape_ascii());
@@ -277,8 +284,12 @@ mod tests {
             ("time_s,place\n0,0\n", "path.csv:1: "),
             ("# a drive\n\ntime_s\n0\n", "path.csv:3: "),
             (
-                "time_s;position_m\n0;0\n1;1,000.5\n",
-                "path.csv:3: position_m: ",
+                "time_s;position_m\n0;0\n0.5;1,500\n",
+                "path.csv:3: decimal commas",
+            ),
+            (
+                " # drive\n\ntime_s,position_m\n0,0\n #\n1,x\n",
+                "path.csv:6: position_m: ",
             ),
         ] {
             let refused = read(text);
