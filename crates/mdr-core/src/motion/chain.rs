@@ -7,7 +7,11 @@
 //! Over a step position and depth are straight in time, and so is the displacement of an element that is compressed. It is
 //! touched and let go at times inside the step, so that all work of the line is stored or lost, exactly.
 
+mod kept;
+
 use indenters::RigidLine;
+
+pub(super) use kept::Kept;
 
 use super::contacts::Contacts;
 use super::event::Event;
@@ -48,15 +52,6 @@ pub(super) enum Given {
     /// Σ w over the elements.
     Load(f64),
     Depth(f64),
-}
-
-/// What a chain remembers.
-#[derive(Debug, Clone)]
-pub(super) struct Kept {
-    /// Position of its first element, \[m].
-    first: f64,
-    spacing: f64,
-    slots: Vec<f64>,
 }
 
 /// Where the line is.
@@ -447,38 +442,6 @@ impl<'a> Chain<'a> {
             }
         }
         &mut self.slots
-    }
-
-    /// What recovers, for a chain of other elements.
-    pub(super) fn kept(&mut self) -> Kept {
-        let spacing = self.sampled.spacing;
-        Kept {
-            first: self.first * spacing,
-            spacing,
-            slots: self.memory().to_vec(),
-        }
-    }
-
-    /// Remembers what other elements do, straight between them.
-    pub(super) fn recall(&mut self, kept: &Kept) {
-        let (spacing, since) = (self.sampled.spacing, self.place.time);
-        let last = kept.slots.len() / self.n_slots.max(1);
-        for (element, touch) in self.touches.iter_mut().enumerate() {
-            let x = (self.first + element as f64) * spacing;
-            let place = ((x - kept.first) / kept.spacing).max(0.0);
-            let (at, part) = (whole(place), place.fract());
-            if at + 1 >= last {
-                continue;
-            }
-            let slots = &mut self.slots[element * self.n_slots..][..self.n_slots];
-            let (rear, front) = kept.slots[at * self.n_slots..].split_at(self.n_slots);
-            for (slot, (rear, front)) in slots.iter_mut().zip(rear.iter().zip(front)) {
-                *slot = rear + part * (front - rear);
-            }
-            if slots.iter().any(|slot| *slot != 0.0) {
-                *touch = Touch::Free { limit: 0.0, since };
-            }
-        }
     }
 }
 
