@@ -132,10 +132,12 @@ def test_a_table_goes_on_where_it_ended(tmp_path: Path) -> None:
 
 
 SWEEPING = """
+import signal
 import sys
 import numpy as np
 import viscofriction as vf
 
+signal.signal(signal.SIGINT, signal.default_int_handler)
 scene = {"indenter": vf.Sphere(5e-3), "material": vf.StandardSolid(1e6, 1e7, 1e4)}
 scene |= {"load": {"normal_force": 2.0, "velocity": 1.0}, "solve": {"relative_error": 5e-3}}
 vf.sweep(scene, {"load.velocity": np.logspace(-2, 1, 10000)}, out=sys.argv[1], progress=lambda done, _: print(done, flush=True))

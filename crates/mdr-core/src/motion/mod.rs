@@ -33,6 +33,10 @@ const ORDERS: [f64; 2] = [0.1, 1.0];
 const CHANCE: f64 = 0.5;
 /// Behind a steep kink the line rises like the root of the distance.
 const BEHIND_STEEP_KINK: f64 = 0.5;
+/// Elements over which a stroke goes on the resolution where a relative error is first sought, and the most elements there: on
+/// fewer of them the resolutions are alike by chance.
+const PER_STROKE: f64 = 4.0;
+const MOST_AT_FIRST: usize = 128;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
 const PART_OF_CYCLES: f64 = 0.05;
 const TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
@@ -86,7 +90,7 @@ pub fn move_along<'w>(
     let problem = Problem::new(line, material, load, (length, tolerance))?;
     let goal = Goal {
         request,
-        first: FIRST_ELEMENTS,
+        first: first_elements(load, length),
         largest: MOST_ELEMENTS,
         order: if has_steep_kinks(line) {
             BEHIND_STEEP_KINK
@@ -115,6 +119,18 @@ pub fn move_along<'w>(
             reached: Box::new(found),
         }),
     }
+}
+
+fn first_elements(load: &MovingLoad, length: f64) -> usize {
+    if !load.is_cycle() {
+        return FIRST_ELEMENTS;
+    }
+    let stroke = 0.5 * load.length();
+    let needed = (PER_STROKE * length / stroke).min(MOST_AT_FIRST as f64);
+    // Above 0 and at most that.
+    (needed as usize)
+        .next_power_of_two()
+        .clamp(FIRST_ELEMENTS, MOST_AT_FIRST)
 }
 
 /// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].

@@ -235,6 +235,30 @@ fn few_elements_know_the_friction_under_a_force() {
     }
 }
 
+/// On 16 elements this stroke would be shorter than one of them, and the resolutions alike but wrong.
+#[test]
+fn few_elements_do_not_know_short_strokes_by_chance() {
+    let ball = Sphere::new(5.084_55e-3).expect("a sphere");
+    let branch = RelaxationBranch::new;
+    let branches = vec![branch(2.138e5, 0.555), branch(1.806e5, 7.3)];
+    let spectrum = RelaxationSpectrum::new(2.240_388e6, 0.0, branches).expect("a spectrum");
+    let rubber = Prony::new(spectrum).expect("a material");
+    let load = to_and_fro(
+        9.439_636e-6,
+        0.525_269,
+        Control::IndentationDepth(3.027_064e-6),
+    );
+    let cycle = |error: f64| {
+        let moved = move_along(&EquivalentLine(&ball), &rubber, &load, error).expect("a cycle");
+        let energy = moved.dissipated_energy.expect("of a cycle");
+        [moved.friction_coefficient, energy]
+    };
+    for (coarse, fine) in cycle(1e-2).iter().zip(cycle(1e-4)) {
+        let error = (coarse.value - fine.value).abs();
+        assert!(error <= coarse.error + fine.error, "{coarse:?}, {fine:?}");
+    }
+}
+
 /// Where the tip of a cone is between two elements is chance, which half of an order of the errors allows for.
 #[test]
 fn bars_of_tips_hold() {
