@@ -36,7 +36,7 @@ const BEHIND_STEEP_KINK: f64 = 0.5;
 /// Elements over which a stroke goes on the resolution where a relative error is first sought, and the most elements there: on
 /// fewer of them the resolutions are alike by chance.
 const PER_STROKE: f64 = 4.0;
-const MOST_AT_FIRST: usize = 128;
+const MOST_AT_FIRST: usize = 8 * FIRST_ELEMENTS;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
 const PART_OF_CYCLES: f64 = 0.05;
 const TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
@@ -121,16 +121,15 @@ pub fn move_along<'w>(
     }
 }
 
+/// Elements along the contact where a relative error is first sought.
 fn first_elements(load: &MovingLoad, length: f64) -> usize {
     if !load.is_cycle() {
         return FIRST_ELEMENTS;
     }
     let stroke = 0.5 * load.length();
-    let needed = (PER_STROKE * length / stroke).min(MOST_AT_FIRST as f64);
-    // Above 0 and at most that.
-    (needed as usize)
-        .next_power_of_two()
-        .clamp(FIRST_ELEMENTS, MOST_AT_FIRST)
+    let is_enough = |elements: &usize| *elements as f64 * stroke >= PER_STROKE * length;
+    let mut all = [1, 2, 4].map(|factor| factor * FIRST_ELEMENTS).into_iter();
+    all.find(is_enough).unwrap_or(MOST_AT_FIRST)
 }
 
 /// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
