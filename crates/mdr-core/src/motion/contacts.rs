@@ -141,7 +141,7 @@ impl<'a> Response<'a> {
         }
     }
 
-    /// δ of an F over so many cycles at once, in which no more than what they keep can change: (1 − κ + κ/n) δ = F − ….
+    /// δ over n cycles at once instead of all: with κ = e^(−T/λ), F and β count for (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
         let n_slots = residual.len() / self.contacts.elements.len();
         let weights = modes.iter().map(|mode| {
