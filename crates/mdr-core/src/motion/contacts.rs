@@ -7,7 +7,7 @@
 //! δ = F − θ β M v,   v = Σ θ δ,   θ = (λ/T)(1 − e^(−T/λ))           the step of Newton's method, about
 //! M v = ⟨k (v − d)⟩ over the cycle in contact,   Σ k (v − d) = 0 under a force,   d = 0 at a depth
 //! ```
-//! k is the modulus in the mean over the time for which an element is touched at once. M is symmetric and not negative: where
+//! k is the modulus in the mean over the time for which an element is touched without a break. M is symmetric and not negative: where
 //! more is remembered, less is carried.
 
 use crate::steady::{Foundation, Mode};
@@ -16,7 +16,7 @@ use crate::steady::{Foundation, Mode};
 const RESIDUAL: f64 = 1e-8;
 const MOST_ITERATIONS: usize = 200;
 
-/// What happened to the elements of a chain; nothing is noted for none of them.
+/// What happened to the elements of a chain; by default it has no elements, and notes nothing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Contacts {
     /// Duration of each step, \[s], and the number of runs up to its end.
@@ -90,7 +90,7 @@ impl Contacts {
         for ((row, element), (state, end)) in rows.zip(states) {
             for (k, mode) in modes.iter().enumerate() {
                 let periods = self.period / mode.length;
-                let lost = -(-periods).exp_m1();
+                let lost = mode.recovered(self.period);
                 row[k] = if periods < Self::SLOW {
                     let since = self.period * element.impulse - element.moment;
                     let given = element.impulse - since / mode.length;
@@ -145,10 +145,10 @@ impl<'a> Response<'a> {
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
         let n_slots = residual.len() / self.contacts.elements.len();
         let weights = modes.iter().map(|mode| {
-            let periods = self.contacts.period / mode.length;
-            let lost = -(-periods).exp_m1();
+            let period = self.contacts.period;
+            let lost = mode.recovered(period);
             let now = lost / (lost + (1.0 - lost) / cycles);
-            let part = lost / periods;
+            let part = lost * mode.length / period;
             [now, part, part * mode.compliance * now]
         });
         let weights: Vec<[f64; 3]> = weights.collect();

@@ -127,7 +127,7 @@ impl<'a> Search<'a> {
 
     /// Part of a mode that a cycle forgets.
     fn lost(&self, mode: &Mode) -> f64 {
-        -(-self.problem.load.duration() / mode.length).exp_m1()
+        mode.recovered(self.problem.load.duration())
     }
 
     /// Compares the cycle from the state, which has this end, with what was expected.

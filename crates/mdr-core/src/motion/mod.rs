@@ -26,10 +26,10 @@ use march::Problem;
 const MOST_ELEMENTS: usize = 4096;
 /// There are about as many steps as elements.
 const WORK: f64 = 2.0;
-/// The friction of smooth bodies is of the second order, and of tips and cusps of that of their outline; but where the outline
-/// is on the elements makes so much unsafe to assume, and half an order less for single steps. Below the smallest order
-/// nothing converges.
+/// Smallest and largest order that errors are taken to have: below the first nothing converges, and that of smooth bodies is
+/// the second, which the place of their outline between the elements makes unsafe to assume.
 const ORDERS: [f64; 2] = [0.1, 1.0];
+/// By how much the order is less than the exponent of a tip or a cusp, because of its place between two elements.
 const CHANCE: f64 = 0.5;
 /// Behind a steep kink the line rises like the root of the distance.
 const BEHIND_STEEP_KINK: f64 = 0.5;

@@ -46,6 +46,13 @@ pub(crate) struct Mode {
     ratios: Vec<f64>,
 }
 
+impl Mode {
+    /// Part that recovers within a time, or over a distance.
+    pub(crate) fn recovered(&self, time: f64) -> f64 {
+        -(-time / self.length).exp_m1()
+    }
+}
+
 /// A boundary layer `amplitude · e^(−ratio (1 + t))`.
 pub(super) struct Layer {
     pub(super) amplitude: f64,

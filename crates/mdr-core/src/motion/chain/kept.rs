@@ -25,7 +25,7 @@ impl Chain<'_> {
     /// Remembers what other elements do, straight between them.
     pub(crate) fn recall(&mut self, kept: &Kept) {
         let (spacing, since) = (self.sampled.spacing, self.place.time);
-        let last = kept.slots.len() / self.n_slots.max(1);
+        let last = kept.slots.len() / self.n_slots;
         for (element, touch) in self.touches.iter_mut().enumerate() {
             let x = (self.first + element as f64) * spacing;
             let place = ((x - kept.first) / kept.spacing).max(0.0);
