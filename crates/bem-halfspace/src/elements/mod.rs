@@ -7,4 +7,5 @@ pub(crate) mod grid;
 pub(crate) mod mirror;
 pub(crate) mod pressure_field;
 pub(crate) mod resolution;
+pub(crate) mod rim;
 pub(crate) mod spread;

@@ -212,6 +212,15 @@ impl Mesh {
         direct + self.table.at(rows, to.column - self.image(from.column))
     }
 
+    /// By how much the kernel of one element falls to its neighbours along an axis, which is its bend.
+    pub(super) fn bend(&self, axis: usize) -> f64 {
+        let beside = match axis {
+            0 => 0.5 * (self.table.at(1, 0) + self.table.at(-1, 0)),
+            _ => self.table.at(0, 1),
+        };
+        self.table.at(0, 0) - beside
+    }
+
     /// The same where everything moves the other way.
     pub(super) fn reversed(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];

@@ -39,6 +39,7 @@ const SAME: f64 = 1e-9;
 /// The elements at edges scatter.
 const LIMIT: Limit = Limit {
     beyond: 0.0,
+    beyond_of_area: 0.0,
     bar: 2.5,
 };
 

@@ -18,24 +18,35 @@ const TOLERANCE: f64 = 1e-9;
 /// Unknowns that are factorised where the iteration does not end; their matrix takes 32 MB.
 const MOST_FACTORISED: usize = 2000;
 
-/// The loads on a contact that solve `Kᵀ y = r` for each of the right sides, in the units of the mesh; or the residual that
-/// is left, relative to the right side.
-pub(super) fn solve_transposed<const N: usize>(
+/// Which way the contact moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Motion {
+    /// As it does, with the kernel K.
+    Own,
+    /// Backwards, with its transpose.
+    Turned,
+}
+
+/// The loads on a contact that solve `K y = r` for each of the right sides, in the units of the mesh, with the kernel of the
+/// motion; or the residual that is left, relative to the right side.
+pub(super) fn solve(
     mesh: &Mesh,
     plans: &mut Plans,
-    contact: &[usize],
-    right: [Vec<f64>; N],
-) -> Result<[Vec<f64>; N], BemError> {
-    let region = mesh.region(contact.iter().copied());
+    (contact, motion): (&[usize], Motion),
+    right: &[Vec<f64>],
+) -> Result<Vec<Vec<f64>>, BemError> {
+    let mut region = mesh.region(contact.iter().copied());
     let n = contact.len();
     if is_factorised(n, region.n_places()) {
-        return factorise(mesh, contact, &right).ok_or_else(|| not_solved(1.0));
+        return factorise(mesh, (contact, motion), right).ok_or_else(|| not_solved(1.0));
     }
-    let region = region.turned();
+    if motion == Motion::Turned {
+        region = region.turned();
+    }
     let mut product = Product::new(plans.kernel(region.shape), &region);
     let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
     let (mut left, mut has_ended) = (0.0_f64, true);
-    let solved = right.each_ref().map(|right| {
+    let solved = right.iter().map(|right| {
         let allowed = TOLERANCE * norm(right);
         let mut loads = vec![0.0; n];
         let mut residual: Vec<f64> = right.iter().map(|value| -value).collect();
@@ -58,28 +69,34 @@ pub(super) fn solve_transposed<const N: usize>(
         has_ended &= norm(&residual) <= allowed;
         loads
     });
+    let solved = solved.collect();
     if has_ended {
         return Ok(solved);
     }
     // What is nearly viscous over the length of the contact may need a direction for every unknown.
-    let few = (n <= MOST_FACTORISED).then(|| factorise(mesh, contact, &right));
+    let few = (n <= MOST_FACTORISED).then(|| factorise(mesh, (contact, motion), right));
     few.flatten().ok_or_else(|| not_solved(left))
 }
 
-fn factorise<const N: usize>(
+fn factorise(
     mesh: &Mesh,
-    contact: &[usize],
-    right: &[Vec<f64>; N],
-) -> Option<[Vec<f64>; N]> {
+    (contact, motion): (&[usize], Motion),
+    right: &[Vec<f64>],
+) -> Option<Vec<Vec<f64>>> {
     let n = contact.len();
-    let entry = |row: usize, column: usize| mesh.reversed(contact[row], contact[column]);
+    let entry = |row: usize, column: usize| {
+        let [to, from] = [contact[row], contact[column]];
+        match motion {
+            Motion::Own => mesh.influence(to, from),
+            Motion::Turned => mesh.reversed(to, from),
+        }
+    };
     let factors = DMatrix::from_fn(n, n, entry).lu();
-    let solved = right.each_ref().map(|right| {
+    let solved = right.iter().map(|right| {
         let solved = factors.solve(&DVector::from_column_slice(right))?;
         Some(Vec::from(solved.data))
     });
-    let is_regular = solved.iter().all(Option::is_some);
-    is_regular.then(|| solved.map(Option::unwrap_or_default))
+    solved.collect()
 }
 
 const fn not_solved(residual: f64) -> BemError {

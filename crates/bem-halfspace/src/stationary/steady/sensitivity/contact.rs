@@ -1,23 +1,27 @@
 //! The contact on one grid, and the adjoint loads of its friction and its depth.
 
-use std::collections::HashSet;
-
 use crate::BemError;
 use crate::elements::bounds::Bounds;
-use crate::elements::spread::measures_of_area;
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::pivoting::Solution;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
-use crate::stationary::steady::sensitivity::adjoint::solve_transposed;
+use crate::stationary::steady::sensitivity::adjoint::{Motion, solve};
 use crate::stationary::steady::sensitivity::offsets::{Field, Offsets};
+use crate::stationary::steady::sensitivity::rim::{ContactRim, OfElements};
 
 /// The loads of a contact in the units of the mesh.
 pub(super) struct Contact<'mesh> {
     pub(super) mesh: &'mesh Mesh,
+    /// Those in contact, and then those beside it, on which a change is felt, too.
     pub(super) elements: Vec<usize>,
+    /// Of all of these.
     pub(super) loads: Vec<f64>,
+    /// How many are in contact.
+    n_touching: usize,
+    /// None under a body with edges, at which the contact ends.
+    rim: Option<ContactRim>,
     /// Sum of all loads.
     pub(super) total: f64,
     bounds: Bounds,
@@ -29,44 +33,51 @@ pub(super) struct Adjoint {
     pub(super) friction: Vec<f64>,
     /// For a unit depth.
     pub(super) depth: Vec<f64>,
-    /// For the derivatives of two measures of the logarithm of the area, see [`measures_of_area`].
-    pub(super) areas: [Vec<f64>; 2],
+    /// For the derivatives of the area and of the growth, see [`crate::elements::rim`]; none under a body with edges.
+    pub(super) measures: Vec<Vec<f64>>,
 }
 
 impl<'mesh> Contact<'mesh> {
-    pub(super) fn new(mesh: &'mesh Mesh, solution: &Solution) -> Self {
-        let (elements, loads): (Vec<usize>, Vec<f64>) = solution.loads.iter().copied().unzip();
+    pub(super) fn new(
+        mesh: &'mesh Mesh,
+        solution: &Solution,
+        plans: &mut Plans,
+    ) -> Result<Self, BemError> {
+        let pairs = solution.loads.iter().copied();
+        let (mut elements, mut loads): (Vec<usize>, Vec<f64>) = pairs.unzip();
+        let n_touching = elements.len();
+        let rim = (!mesh.loading.has_edges)
+            .then(|| ContactRim::new(mesh, plans, (&elements, &loads), solution.depth));
+        let rim = rim.transpose()?;
+        elements.extend(rim.iter().flat_map(|rim| &rim.beside));
+        loads.resize(elements.len(), 0.0);
         let places = elements.iter().flat_map(|&element| mesh.places(element));
-        Self {
+        Ok(Self {
             total: mesh.total_load(solution.loads.iter().copied()),
             bounds: Bounds::of(places).unwrap_or(Bounds::EMPTY),
             mesh,
             elements,
             loads,
-        }
+            n_touching,
+            rim,
+        })
+    }
+
+    /// Unknown pressures.
+    pub(super) const fn n_touching(&self) -> usize {
+        self.n_touching
+    }
+
+    /// The area and the growth, where they are asked for.
+    pub(super) fn measures(&self) -> impl Iterator<Item = &OfElements> {
+        let rim = self.rim.iter();
+        rim.flat_map(|rim| [&rim.area, &rim.growth])
     }
 
     /// Sum over the whole contact.
     pub(super) fn sum(&self, loads: &[f64]) -> f64 {
         let elements = self.elements.iter().copied();
         self.mesh.total_load(elements.zip(loads.iter().copied()))
-    }
-
-    /// Mean load of the elements that nothing touches ahead of, relative to that of all.
-    pub(super) fn load_at_front(&self) -> f64 {
-        let place = |element: usize| self.mesh.places(element)[0];
-        let touched: HashSet<[usize; 2]> = self.elements.iter().map(|&one| place(one)).collect();
-        let pairs = self.elements.iter().zip(&self.loads);
-        let front = pairs.filter(|(element, _)| {
-            let [x, y] = place(**element);
-            !touched.contains(&[x + 1, y])
-        });
-        let (sum, count) = front.fold((0.0, 0.0), |(sum, count), (&element, load)| {
-            let weight = self.mesh.weight(element);
-            (sum + weight * load, count + weight)
-        });
-        let ones = vec![1.0; self.loads.len()];
-        sum / count * self.sum(&ones) / self.total
     }
 
     /// The weights of the kernel for a quantity with these adjoint loads.
@@ -109,15 +120,31 @@ impl<'mesh> Contact<'mesh> {
         let mean = mean.sum::<f64>() / self.total;
         let by_loads = slopes.at_elements.iter().zip(&slopes.by_others);
         let by_loads = by_loads.map(|(here, others)| (here + others - mean) / self.total);
-        let [area, rough_area] = measures_of_area(&self.loads, |powers| self.sum(powers));
-        let ones = vec![1.0; self.elements.len()];
-        let right = [by_loads.collect(), ones, area, rough_area];
-        let [friction, depth, area, rough_area] =
-            solve_transposed(self.mesh, plans, &self.elements, right)?;
+        let n = self.n_touching;
+        let mut right = vec![by_loads.take(n).collect(), vec![1.0; n]];
+        let measures = self.measures();
+        right.extend(
+            measures.map(|one| one.by_loads_through_gaps(self.mesh, plans, &self.elements)),
+        );
+        let touching = (&self.elements[..n], Motion::Turned);
+        let mut solved = solve(self.mesh, plans, touching, &right)?.into_iter();
+        let mut felt = || {
+            let mut loads = solved.next().unwrap_or_default();
+            loads.resize(self.elements.len(), 0.0);
+            loads
+        };
+        let [friction, depth] = [felt(), felt()];
+        let measures = self.measures().map(|one| {
+            let mut loads = felt();
+            for (load, by_gap) in loads[n..].iter_mut().zip(&one.by_gaps) {
+                *load = -by_gap;
+            }
+            loads
+        });
         let adjoint = Adjoint {
             friction,
             depth,
-            areas: [area, rough_area],
+            measures: measures.collect(),
         };
         Ok((mean, adjoint))
     }

@@ -17,17 +17,19 @@
 //! elements lack to that is what the elements have to change when the contact grows by λ,
 //!
 //! ```text
-//! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dα/dθ)/(∂α/∂ln λ),      α = Σ wₛ ln Σ xˢ
+//! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dG/dθ)/(∂G/∂ln λ)
 //! ```
 //!
-//! with a measure α of the area that is made of the loads, `elements/spread.rs`. Then the derivatives add up in units of length, as
-//! they do in those of stress and time without it; and `(dα/dθ)/(∂α/∂ln λ)` is how much the contact grows.
+//! with a measure G of how much the rim moves, weighted as what is left undone there is, `elements/rim.rs`. The area is a sum over the
+//! rim, too, whose derivative is divided by that of the dilation and multiplied by 2. Then all derivatives add up in units of length, as
+//! they do in those of stress and time without it.
 
 mod adjoint;
 mod basis;
 mod contact;
 mod offsets;
 mod points;
+mod rim;
 mod state;
 mod waves;
 
@@ -54,9 +56,10 @@ const FINER_STRIP: f64 = 0.25;
 const PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
 const PHASES_OF_STRIP: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
 /// Beyond the fine grids lies the limit of what converges with the order 3/2 of the singular front, by 1/(2^1.5 − 1) of the
-/// difference from the coarse ones.
+/// difference from the coarse ones; areas converge with the order 1.
 const LIMIT: Limit = Limit {
     beyond: 0.547,
+    beyond_of_area: 1.0,
     bar: 2.0,
 };
 /// Where a depth has derivatives.
@@ -72,8 +75,7 @@ pub struct Change<T> {
     pub indentation_depth: Option<T>,
     /// Of the normal force at a depth, \[N].
     pub normal_force: Option<T>,
-    /// Of the logarithm of the contact area, or of the width in plane strain; none under bodies with edges, and none where
-    /// the pressure does not vanish at the front unless the contact is but dilated.
+    /// Of the logarithm of the contact area, or of the width in plane strain; none under bodies with edges.
     pub contact_area: Option<T>,
 }
 
@@ -465,8 +467,10 @@ fn mean(changes: Vec<Change<Apart>>) -> Change<Apart> {
 /// What is made of the difference between fine and coarse grids.
 #[derive(Clone, Copy)]
 pub(crate) struct Limit {
-    /// Part of it by which the limit lies beyond the fine grids; areas scatter too much for that.
+    /// Part of it by which the limit lies beyond the fine grids.
     pub(crate) beyond: f64,
+    /// The same of the area.
+    pub(crate) beyond_of_area: f64,
     /// Bar over it.
     pub(crate) bar: f64,
 }
@@ -487,7 +491,7 @@ impl Limit {
             friction_coefficient: estimate(self.beyond)(friction),
             indentation_depth: both(|one| one.indentation_depth, self.beyond),
             normal_force: both(|one| one.normal_force, self.beyond),
-            contact_area: both(|one| one.contact_area, 0.0),
+            contact_area: both(|one| one.contact_area, self.beyond_of_area),
         }
     }
 }

@@ -84,6 +84,21 @@ impl Offsets {
         }
     }
 
+    /// With a multiple of the bend k₀ − (k₁ + k₋₁)/2 along each axis.
+    pub(super) fn with_bend(mut self, [along_x, along_y]: [f64; 2]) -> Self {
+        let columns = self.reach[1] + 1;
+        let here = self.reach[0] * columns;
+        let weights = &mut self.weights;
+        weights[here] += along_x + along_y;
+        weights[here - columns] -= 0.5 * along_x;
+        weights[here + columns] -= 0.5 * along_x;
+        if columns > 1 {
+            // That of both sides.
+            weights[here + 1] -= along_y;
+        }
+        self
+    }
+
     /// Both together.
     pub(super) fn and(mut self, other: &Self) -> Self {
         add(&mut self.weights, 1.0, &other.weights);

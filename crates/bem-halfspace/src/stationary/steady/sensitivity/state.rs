@@ -14,10 +14,6 @@ use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_me
 
 /// Relative step of the differences by all lengths of a body.
 const DILATION: f64 = 1e-5;
-/// Mean load at the front, relative to that of all elements, above which it is taken not to vanish there.
-const LOADED: f64 = 0.6;
-/// Difference between both measures of the area, relative to them, of a contact that is but dilated.
-const SIMILAR: f64 = 1e-6;
 
 /// A contact, and what each of its quantities asks of a change.
 #[derive(Debug)]
@@ -27,25 +23,26 @@ pub(super) struct State {
     points: Points,
     /// Part of the load on each element, its image included.
     shares: Vec<f64>,
-    /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and of both measures of the
-    /// logarithm of the area.
+    /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and, unless the body has
+    /// edges, of the area and of the growth.
     gradients: Vec<Gradient>,
     /// Of each of them by the logarithms of the thickness of a layer and of the length of a track.
     by_thickness: Vec<f64>,
     by_track: Vec<f64>,
     control: Control,
+    n_unknowns: usize,
     pub(super) dilation: Option<Dilation>,
-    /// Whether loads do not vanish where the contact begins, so that they do not know where that is: the gap ahead does.
-    has_loaded_front: bool,
 }
 
 /// What the dilation of all lengths changes, with the elements where they are; see the [module](super).
 #[derive(Debug)]
 pub(super) struct Dilation {
     /// Of each quantity, beyond what it has to be.
-    excess: Vec<f64>,
-    /// Of both measures of the logarithm of the area, and what it has to be.
-    areas: [f64; 2],
+    pub(super) excess: Vec<f64>,
+    /// Of the area and of the growth.
+    area: f64,
+    growth: f64,
+    /// Of the logarithm of the area, which is what it has to be.
     power_of_area: f64,
 }
 
@@ -67,7 +64,7 @@ struct Unsummed {
     shares: Vec<f64>,
     drafts: Vec<Draft>,
     kernel: Kernel,
-    has_loaded_front: bool,
+    n_unknowns: usize,
 }
 
 impl State {
@@ -115,7 +112,7 @@ impl Unsummed {
     ) -> Result<Self, BemError> {
         let (mesh, solution) = solve_on_mesh(surface, loading, &options, reuse)?;
         reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
-        let contact = Contact::new(&mesh, &solution);
+        let contact = Contact::new(&mesh, &solution, &mut reuse.plans)?;
         let points = Points::new(&contact, loading);
         let own = points.own_slopes(&|point| surface.height(point))?;
         let slopes = match points.slope {
@@ -134,7 +131,7 @@ impl Unsummed {
         Ok(Self {
             friction_coefficient: friction * points.slope_unit(),
             shares: shares.collect(),
-            has_loaded_front: contact.load_at_front() > LOADED,
+            n_unknowns: contact.n_touching(),
             drafts: gradients.all(),
             kernel: Kernel::new(&loading.creep, &mesh)?,
             points,
@@ -166,14 +163,14 @@ impl Unsummed {
             by_thickness,
             by_track,
             control: loading.control,
-            has_loaded_front: self.has_loaded_front,
+            n_unknowns: self.n_unknowns,
             dilation: None,
         }
     }
 }
 
 impl State {
-    /// The excess R of each quantity, and ∂α/∂ln λ.
+    /// The excess R of each quantity, and what the measures of the contact change by.
     fn dilated(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
         let scaled = |[wide, high]: [f64; 2]| {
             move |[x, y]: [f64; 2]| high * surface.height([x / wide, y / wide])
@@ -210,8 +207,10 @@ impl State {
             };
             excess.push(changed - expected);
         }
+        let [area, growth] = measures_of(&mut excess);
         Ok(Dilation {
-            areas: areas_of(&mut excess),
+            area,
+            growth,
             excess,
             power_of_area: power_of_force,
         })
@@ -304,7 +303,7 @@ impl State {
     }
 
     pub(super) const fn n_unknowns(&self) -> usize {
-        self.shares.len()
+        self.n_unknowns
     }
 
     /// The force or the depth, whichever is given.
@@ -328,39 +327,37 @@ impl State {
         self.of_all(changes.map(|one| one.unit * of(&one.basis)).collect())
     }
 
-    /// With the elements that the change brings into the contact, as far as it is similar to itself.
+    /// With the elements that the change brings into the contact.
     fn of_all(&self, mut changes: Vec<f64>) -> Change<Apart> {
-        let areas = areas_of(&mut changes);
-        let mut changes: Vec<Apart> = changes.into_iter().map(|change| [change, 0.0]).collect();
-        let contact_area = self.dilation.as_ref().and_then(|dilation| {
-            let lengths = [0, 1].map(|measure| areas[measure] / dilation.areas[measure]);
-            let length = [lengths[0], (lengths[0] - lengths[1]).abs()];
-            for ([change, apart], excess) in changes.iter_mut().zip(&dilation.excess) {
-                *change -= length[0] * excess;
-                *apart = length[1] * excess.abs();
+        let contact_area = self.dilation.as_ref().map(|dilation| {
+            let [area, growth] = measures_of(&mut changes);
+            let grown = growth / dilation.growth;
+            for (change, excess) in changes.iter_mut().zip(&dilation.excess) {
+                *change -= grown * excess;
             }
-            let is_known = !self.has_loaded_front || length[1] <= SIMILAR * length[0].abs();
-            is_known.then(|| length.map(|length| dilation.power_of_area * length))
+            dilation.power_of_area * area / dilation.area
         });
-        let other = changes.get(1).copied();
+        let mut changes = changes.into_iter().map(|change| [change, 0.0]);
+        let friction_coefficient = changes.next().unwrap_or([f64::NAN; 2]);
+        let other = changes.next();
         let (indentation_depth, normal_force) = match self.control {
             Control::NormalForce(_) => (other, None),
             Control::IndentationDepth(_) => (None, other),
         };
         Change {
-            friction_coefficient: changes[0],
+            friction_coefficient,
             indentation_depth,
             normal_force,
-            contact_area,
+            contact_area: contact_area.map(|area| [area, 0.0]),
         }
     }
 }
 
-/// Takes both measures of the area, which are the last two, from the quantities.
-fn areas_of(quantities: &mut Vec<f64>) -> [f64; 2] {
+/// Takes the area and the growth, which are the last two, from the quantities.
+fn measures_of(quantities: &mut Vec<f64>) -> [f64; 2] {
     let mut last = || quantities.pop().unwrap_or(f64::NAN);
-    let rough = last();
-    [last(), rough]
+    let growth = last();
+    [last(), growth]
 }
 
 fn weighted(weights: &[f64], values: &[f64]) -> f64 {
@@ -387,7 +384,7 @@ struct Draft {
 }
 
 impl Gradients<'_> {
-    /// Of the friction, of the depth under a force or the force at a depth, and of both measures of the area.
+    /// Of the friction, of the depth under a force or the force at a depth, of the area and of the growth.
     fn all(&self) -> Vec<Draft> {
         let Loading {
             control,
@@ -411,8 +408,12 @@ impl Gradients<'_> {
         };
         let mut drafts = vec![self.of_friction(stiffness)];
         drafts.extend(other);
-        let areas = self.adjoint.areas.iter();
-        drafts.extend(areas.map(|area| self.of_loads(area, 1.0, stiffness)));
+        let measures = self.contact.measures().zip(&self.adjoint.measures);
+        drafts.extend(measures.map(|(measure, by_loads)| {
+            let mut draft = self.of_loads(by_loads, 1.0, stiffness);
+            draft.offsets = draft.offsets.with_bend(measure.by_bend);
+            draft
+        }));
         drafts
     }
 

@@ -191,7 +191,9 @@ fn cases() -> [Case; 6] {
 /// Derivatives of friction, and of depth or force, by differences and by the adjoint loads.
 fn compared(case: &Case, index: usize, options: SteadyOptions) -> [[f64; 2]; 2] {
     let (mut state, solution) = case.state(&[1.0; 8], options, None);
-    state.dilation = None;
+    if let Some(dilation) = &mut state.dilation {
+        dilation.excess.fill(0.0);
+    }
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 8];
         factors[index] += step;
