@@ -50,6 +50,8 @@ const COARSER: f64 = 2.0;
 /// halved, up to so many unknowns.
 const TOLERANCE: f64 = 4e-3;
 const MOST_UNKNOWNS: usize = 2000;
+/// Largest tolerance of a contact: gaps beside a rear that opens slowly are small.
+const LARGEST_TOLERANCE: f64 = 1e-10;
 /// Spacing of a strip over that of the options: few elements give its answer, and take next to no time.
 const FINER_STRIP: f64 = 0.25;
 /// Shifts of the grids that are averaged.
@@ -348,9 +350,12 @@ impl SensitivityOnGrid {
         options: &SteadyOptions,
         (phases, reuse): (&[[f64; 2]], &mut Reuse),
     ) -> Result<Self, BemError> {
-        let grids = phases
-            .iter()
-            .map(|&phase| SteadyOptions { phase, ..*options });
+        let tolerance = options.tolerance.min(LARGEST_TOLERANCE);
+        let grids = phases.iter().map(|&phase| SteadyOptions {
+            phase,
+            tolerance,
+            ..*options
+        });
         Ok(Self {
             states: State::all(surface, loading, grids, reuse)?,
         })
