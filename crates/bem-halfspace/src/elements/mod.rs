@@ -8,4 +8,3 @@ pub(crate) mod mirror;
 pub(crate) mod pressure_field;
 pub(crate) mod resolution;
 pub(crate) mod rim;
-pub(crate) mod spread;

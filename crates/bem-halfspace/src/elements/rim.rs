@@ -19,6 +19,9 @@
 //! With the same parts, weighted with the square of the load (x + κ g) with which an element leaves the rim, the *growth* is the measure
 //! of what elements leave undone: it is the product of a load and an adjoint load that both rise like this one.
 
+/// The ratio κ times the bend of the kernel where many elements are at the rim, on which errors of it average out.
+pub(crate) const RATIO: f64 = 0.4;
+
 /// Loads of the elements in contact and gaps of those beside it, on a box of elements.
 pub(crate) struct RimField {
     pub(crate) shape: [usize; 2],
@@ -161,8 +164,6 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-
-    const RATIO: f64 = 0.3;
 
     /// A disc of so many elements as its radius, on elements of this aspect, whose loads fall by 1 from one row to the next at the rim.
     fn disc(radius: f64, centre: f64, aspect: f64) -> RimField {

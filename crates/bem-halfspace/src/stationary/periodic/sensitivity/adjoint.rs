@@ -3,8 +3,9 @@
 use numerics::transforms;
 use rustfft::num_complex::Complex;
 
-use crate::elements::spread::measures_of_area;
+use crate::elements::rim::{Measure, RATIO, Rim, RimField};
 use crate::parallel::reductions::dot;
+use crate::stationary::periodic::area_fraction;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::waves::Waves;
@@ -35,11 +36,22 @@ pub(super) struct Adjoint<'a> {
     pub(super) waves: Waves,
     pub(super) sliding: &'a Sliding,
     pub(super) grid: &'a Grid,
+    /// \[m].
+    pub(super) heights: &'a [f64],
     pub(super) pressure: Vec<f64>,
 }
 
+/// What a contact asks of a change.
+#[derive(Debug)]
+pub(super) struct Gradients {
+    /// Of the friction, of the depth, and of the logarithm of the area.
+    pub(super) all: [Gradient; 3],
+    /// Of the logarithm of the area by the displacements of all elements under the pressure 1 of the first one.
+    pub(super) area_by_bend: Vec<f64>,
+}
+
 impl Adjoint<'_> {
-    pub(super) fn gradients(&mut self) -> Result<[Gradient; 4], BemError> {
+    pub(super) fn gradients(&mut self) -> Result<Gradients, BemError> {
         let n = self.pressure.len();
         let total: f64 = self.pressure.iter().sum();
         let none = || vec![0.0; n];
@@ -51,23 +63,116 @@ impl Adjoint<'_> {
         for value in &mut by_load {
             *value = (2.0 * *value - friction) / total;
         }
-        let [area, rough_area] = measures_of_area(&self.pressure, |powers| powers.iter().sum());
         let shares: Vec<f64> = self
             .pressure
             .iter()
             .map(|pressure| pressure / total)
             .collect();
-        let mut lifted = none();
-        let without_mean: Vec<f64> = shares.iter().map(|share| share - 1.0 / n as f64).collect();
+        let lifted = self.lifted(&shares);
+        let measure = self.area();
+        let mut friction = self.gradient([none(), by_load], &lifted, total)?;
+        let mut depth = self.gradient([shares.clone(), none()], &lifted, total)?;
+        depth.by_pressure += self.sliding.mean_compliance()?;
+        let (area, area_by_bend) = self.of_area(&measure, &shares, &lifted, total)?;
+        self.add_dissipation(&mut friction, total);
+        Ok(Gradients {
+            all: [friction, depth, area],
+            area_by_bend,
+        })
+    }
+
+    /// Displacements of a half space of compliance 1 in each row under loads.
+    fn lifted(&mut self, loads: &[f64]) -> Vec<f64> {
+        let mut lifted = vec![0.0; loads.len()];
+        let mean = loads.iter().sum::<f64>() / loads.len() as f64;
+        let without_mean: Vec<f64> = loads.iter().map(|load| load - mean).collect();
         self.waves
             .apply(&without_mean, &mut lifted, |_, [_, q]| q.recip().into());
-        let of = |given: [Vec<f64>; 2], adjoint: &mut Self| adjoint.gradient(given, &lifted, total);
-        let mut friction = of([none(), by_load], self)?;
-        let mut depth = of([shares, none()], self)?;
-        depth.by_pressure += self.sliding.mean_compliance()?;
-        let [area, rough_area] = [area, rough_area].map(|area| of([none(), area], self));
-        self.add_dissipation(&mut friction, total);
-        Ok([friction, depth, area?, rough_area?])
+        lifted
+    }
+
+    /// The logarithm of the area by the pressures in contact and the gaps beside it, and by the bend of the kernel along each
+    /// axis.
+    fn area(&mut self) -> Measure {
+        let kernel = &mut self.equations.kernel;
+        let [mut moved, mut heights] = [0; 2].map(|_| vec![0.0; self.pressure.len()]);
+        kernel.displace(&self.pressure, &mut moved);
+        kernel.shifted(self.heights, &mut heights);
+        let gaps: Vec<f64> = moved.iter().zip(&heights).map(|(u, h)| u + h).collect();
+        let inside: Vec<bool> = self.pressure.iter().map(|p| *p > 0.0).collect();
+        let touching = gaps.iter().zip(&inside).filter(|(_, inside)| **inside);
+        let (sum, n) = touching.fold((0.0, 0.0), |(sum, n), (gap, _)| (sum + gap, n + 1.0));
+        let values = gaps.iter().zip(&self.pressure);
+        let values = values.map(|(gap, &pressure)| match pressure {
+            pressure if pressure > 0.0 => pressure,
+            _ => gap - sum / n,
+        });
+        let [dx, dy] = self.grid.spacing();
+        let field = RimField {
+            shape: self.grid.shape(),
+            wraps: true,
+            aspect: dy / dx,
+            values: values.collect(),
+            inside,
+        };
+        kernel.displace(&first_of(self.pressure.len()), &mut moved);
+        let bend = [0, 1].map(|axis| dot(&moved, &self.bend(axis)));
+        let mut measure = Rim::new(&field, |side| RATIO / bend[side.axis]).area;
+        let area = area_fraction(field.shape[1], &self.pressure) * self.pressure.len() as f64;
+        measure
+            .by_values
+            .iter_mut()
+            .for_each(|value| *value /= area);
+        measure.by_bend = [0, 1].map(|axis| measure.by_bend[axis] / (area * bend[axis]));
+        measure
+    }
+
+    /// The displacement of the first element less the mean of its neighbours along an axis, by all displacements.
+    fn bend(&self, axis: usize) -> Vec<f64> {
+        let [rows, columns] = self.grid.shape();
+        let (next, last) = match axis {
+            0 => (columns % (rows * columns), (rows - 1) * columns),
+            _ => (1 % columns, columns - 1),
+        };
+        let mut bend = first_of(rows * columns);
+        bend[next] -= 0.5;
+        bend[last] -= 0.5;
+        bend
+    }
+
+    /// The derivatives of the area, and those by what the bend of the kernel is made of.
+    fn of_area(
+        &mut self,
+        measure: &Measure,
+        shares: &[f64],
+        lifted: &[f64],
+        total: f64,
+    ) -> Result<(Gradient, Vec<f64>), BemError> {
+        let (mut by_gaps, mut by_pressures) =
+            (measure.by_values.clone(), measure.by_values.clone());
+        for ((by_gap, by_pressure), pressure) in by_gaps
+            .iter_mut()
+            .zip(&mut by_pressures)
+            .zip(&self.pressure)
+        {
+            *(if *pressure > 0.0 { by_gap } else { by_pressure }) = 0.0;
+        }
+        // All gaps are measured from the contact.
+        let sum: f64 = by_gaps.iter().sum();
+        for (by_gap, share) in by_gaps.iter_mut().zip(shares) {
+            *by_gap -= sum * share;
+        }
+        let mut area = self.gradient([by_gaps, by_pressures], lifted, total)?;
+        let [along_x, along_y] = [0, 1].map(|axis| self.bend(axis));
+        let pairs = along_x.iter().zip(&along_y);
+        let [by_x, by_y] = measure.by_bend;
+        let bend: Vec<f64> = pairs.map(|(x, y)| by_x * x + by_y * y).collect();
+        let by_bend = self.by_heights(&turned(&bend, self.grid));
+        let lifted = self.lifted(&first_of(bend.len()));
+        for (by_row, own) in area.by_row.iter_mut().zip(self.by_rows(&by_bend, &lifted)?) {
+            *by_row += own;
+        }
+        Ok((area, by_bend))
     }
 
     /// Of a quantity with these derivatives by the pressures, from adjoint loads with the sum of those given; `lifted` is what
@@ -81,11 +186,26 @@ impl Adjoint<'_> {
         let n = start.len() as f64;
         let (loads, rise) =
             self.solve([&start, &by_pressures].map(|field| turned(field, self.grid)))?;
+        let by_height = self.by_heights(&loads);
+        let mut by_row = self.by_rows(&by_height, lifted)?;
+        by_row.iter_mut().for_each(|by_row| *by_row *= total);
+        Ok(Gradient {
+            by_row,
+            by_height,
+            by_pressure: n * rise,
+        })
+    }
+
+    /// By the heights at the centres, of loads that are turned about where the gaps are evaluated.
+    fn by_heights(&mut self, loads: &[f64]) -> Vec<f64> {
         let mut by_height = vec![0.0; loads.len()];
-        self.equations.kernel.shifted(&loads, &mut by_height);
-        let by_height = turned(&by_height, self.grid);
-        let sums = row_sums([&by_height, lifted], self.grid);
-        let mut by_row: Vec<_> = sums.into_iter().map(|sum| sum * total).collect();
+        self.equations.kernel.shifted(loads, &mut by_height);
+        turned(&by_height, self.grid)
+    }
+
+    /// By the compliance of each row.
+    fn by_rows(&self, by_height: &[f64], lifted: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
+        let mut by_row = row_sums([by_height, lifted], self.grid);
         let n_rows = by_row.len();
         if n_rows.is_multiple_of(2) {
             // The kernel has the absolute value of the compliance there, and the shift its phase.
@@ -93,11 +213,7 @@ impl Adjoint<'_> {
             let compliance = self.sliding.compliances(&[q_x])?[0];
             by_row[n_rows / 2] *= compliance.conj() / compliance.re;
         }
-        Ok(Gradient {
-            by_row,
-            by_height,
-            by_pressure: n * rise,
-        })
+        Ok(by_row)
     }
 
     /// The adjoint loads, turned about, and η.
@@ -150,6 +266,13 @@ impl Adjoint<'_> {
             *by_row -= sum / total;
         }
     }
+}
+
+/// A pressure of 1 on the first element.
+pub(super) fn first_of(n: usize) -> Vec<f64> {
+    let mut pressure = vec![0.0; n];
+    pressure[0] = 1.0;
+    pressure
 }
 
 /// Turned about across the motion.

@@ -32,7 +32,7 @@ use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{Apart, ByModuli, Change, Limit, bands};
 use crate::{BemError, Elastomer, Grid, PressureField};
-use adjoint::{Adjoint, Gradient, turned};
+use adjoint::{Adjoint, Gradient, Gradients, first_of, turned};
 
 /// Part of a period up to which two are the same.
 const SAME: f64 = 1e-9;
@@ -65,12 +65,11 @@ struct State {
     pressure: Vec<f64>,
     /// q_x of the rows of a transformed field, \[rad/m].
     along_x: Vec<f64>,
-    /// Of the friction, of the depth, and of both measures of the logarithm of the area.
-    gradients: [Gradient; 4],
+    gradients: Gradients,
 }
 
 /// The quantities in this order, and their derivatives.
-type Quantities = [f64; 4];
+type Quantities = [f64; 3];
 
 impl PeriodicSensitivity {
     /// Around the stationary state on the grid of a pressure, which is that of the state or near it, such as that of
@@ -229,6 +228,7 @@ impl State {
             waves,
             sliding,
             grid,
+            heights,
             pressure,
         };
         let gradients = adjoint.gradients()?;
@@ -270,14 +270,17 @@ impl State {
     }
 
     fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<Apart>, BemError> {
-        let [mut moved, mut dissipated] = [0; 2].map(|_| vec![0.0; self.pressure.len()]);
+        let n = self.pressure.len();
+        let [mut moved, mut dissipated, mut under_one] = [0; 3].map(|_| vec![0.0; n]);
         let mut depth = 0.0;
         for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
             let mut kernel = Kernel::new(end, &self.grid)?;
-            let mut field = vec![0.0; self.pressure.len()];
+            let mut field = vec![0.0; n];
             // At the centres of the elements.
             kernel.relax(&kernel.relaxation(0.0), &self.pressure, &mut field);
             add(&mut moved, sign, &field);
+            kernel.relax(&kernel.relaxation(0.0), &first_of(n), &mut field);
+            add(&mut under_one, sign, &field);
             kernel.dissipate(&self.pressure, &mut field);
             add(&mut dissipated, sign, &field);
             depth += sign * end.mean_compliance()? * self.mean_pressure;
@@ -285,6 +288,7 @@ impl State {
         let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &moved));
         quantities[0] += dot(&self.pressure, &dissipated) / self.total();
         quantities[1] += depth;
+        quantities[2] += dot(&self.gradients.area_by_bend, &under_one);
         Ok(self.of_all(quantities))
     }
 
@@ -294,7 +298,7 @@ impl State {
                 self.of_all(self.of_each(|gradient| gradient.by_pressure))
             }
             // A depth that is not given is one that has changed by itself.
-            PeriodicControl::MeanDepth(_) => self.of_all([0.0, -1.0, 0.0, 0.0]),
+            PeriodicControl::MeanDepth(_) => self.of_all([0.0, -1.0, 0.0]),
         }
     }
 
@@ -326,19 +330,19 @@ impl State {
     }
 
     fn of_each(&self, of: impl Fn(&Gradient) -> f64) -> Quantities {
-        self.gradients.each_ref().map(of)
+        self.gradients.all.each_ref().map(of)
     }
 
     /// Of changes under the same mean pressure.
     fn of_all(&self, changes: Quantities) -> Change<Apart> {
-        let [friction, depth, area, rough_area] = match self.control {
+        let [friction, depth, area] = match self.control {
             PeriodicControl::MeanPressure(_) => changes,
             PeriodicControl::MeanDepth(_) => {
                 let by_pressure = self.of_each(|gradient| gradient.by_pressure);
                 let pressed = -changes[1] / by_pressure[1];
-                let other = [0, 1, 2, 3].map(|index| changes[index] + pressed * by_pressure[index]);
+                let other = [0, 1, 2].map(|index| changes[index] + pressed * by_pressure[index]);
                 let area = self.grid.element_area() * self.grid.n_elements() as f64;
-                [other[0], pressed * area, other[2], other[3]]
+                [other[0], pressed * area, other[2]]
             }
         };
         let other = Some([depth, 0.0]);
@@ -350,7 +354,7 @@ impl State {
             friction_coefficient: [friction, 0.0],
             indentation_depth,
             normal_force,
-            contact_area: Some([area, (area - rough_area).abs()]),
+            contact_area: Some([area, 0.0]),
         }
     }
 

@@ -27,6 +27,7 @@
 mod adjoint;
 mod basis;
 mod contact;
+mod limit;
 mod offsets;
 mod points;
 mod rim;
@@ -42,6 +43,8 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
 use crate::{BemError, Elastomer};
+use limit::mean;
+pub(crate) use limit::{Apart, Limit};
 use state::State;
 
 /// Spacing of the grids whose derivatives are compared with those of the finest.
@@ -443,62 +446,6 @@ pub(crate) fn bands(frequencies: &[f64]) -> Result<Vec<[f64; 2]>, InvalidParamet
         Ok([ends[0], ends[1]])
     };
     frequencies.windows(2).map(band).collect()
-}
-
-/// A value, and how far two ways to it, or grids, are apart.
-pub(crate) type Apart = [f64; 2];
-
-/// The mean over shifted grids.
-fn mean(changes: Vec<Change<Apart>>) -> Change<Apart> {
-    let of = |values: Vec<Apart>| {
-        let mean = values.iter().map(|[value, _]| value).sum::<f64>() / values.len() as f64;
-        let apart = values
-            .iter()
-            .map(|[value, apart]| (value - mean).abs() + apart);
-        [mean, apart.fold(0.0, f64::max)]
-    };
-    let optional = |quantity: fn(&Change<Apart>) -> Option<Apart>| {
-        let values: Option<Vec<Apart>> = changes.iter().map(quantity).collect();
-        values.map(of)
-    };
-    Change {
-        friction_coefficient: of(changes.iter().map(|one| one.friction_coefficient).collect()),
-        indentation_depth: optional(|one| one.indentation_depth),
-        normal_force: optional(|one| one.normal_force),
-        contact_area: optional(|one| one.contact_area),
-    }
-}
-
-/// What is made of the difference between fine and coarse grids.
-#[derive(Clone, Copy)]
-pub(crate) struct Limit {
-    /// Part of it by which the limit lies beyond the fine grids.
-    pub(crate) beyond: f64,
-    /// The same of the area.
-    pub(crate) beyond_of_area: f64,
-    /// Bar over it.
-    pub(crate) bar: f64,
-}
-
-impl Limit {
-    pub(crate) fn of(self, fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
-        let estimate = |beyond: f64| {
-            move |([value, apart], [other, _]): (Apart, Apart)| {
-                let step = value - other;
-                Estimate::new(value + beyond * step, self.bar * step.abs() + apart)
-            }
-        };
-        let both = |of: fn(&Change<Apart>) -> Option<Apart>, beyond: f64| {
-            of(&fine).zip(of(&coarse)).map(estimate(beyond))
-        };
-        let friction = (fine.friction_coefficient, coarse.friction_coefficient);
-        Change {
-            friction_coefficient: estimate(self.beyond)(friction),
-            indentation_depth: both(|one| one.indentation_depth, self.beyond),
-            normal_force: both(|one| one.normal_force, self.beyond),
-            contact_area: both(|one| one.contact_area, self.beyond_of_area),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,15 +2,12 @@
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
-use crate::elements::rim::{Measure, Rim, RimField, Side};
+use crate::elements::rim::{Measure, RATIO, Rim, RimField, Side};
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::sensitivity::adjoint::{Motion, solve};
-
-/// The ratio of loads to gaps at the rim times the bend of the kernel, between that of singular pressures and that of roots.
-const RATIO: f64 = 0.4;
 
 /// Elements beside a contact, and two measures of the contact by what is known at its rim.
 #[derive(Debug)]
