@@ -76,14 +76,17 @@ fn short(value: f64) -> String {
     format!("{value:.8e}")
 }
 
-/// One row per number of the scene, with the derivatives that are known of any.
+/// One row per number of the scene, with the derivatives of quantities that have any, and of an area that is known without.
 pub(super) fn sensitivity(answer: &Answer) -> Table {
     let all = &answer.sensitivity;
     let names = all
         .first()
         .map_or([""; 4], |first| first.named().map(|(name, _)| name));
-    let is_known = |column: &usize| all.iter().any(|one| one.named()[*column].1.is_some());
-    let columns: Vec<usize> = (0..names.len()).filter(is_known).collect();
+    let is_shown = |column: &usize| {
+        let is_known = all.iter().any(|one| one.named()[*column].1.is_some());
+        is_known || names[*column] == "contact_area" && answer.contact_area.is_some()
+    };
+    let columns: Vec<usize> = (0..names.len()).filter(is_shown).collect();
     let heads = columns
         .iter()
         .map(|&column| format!("d ln {}", names[column].replace('_', " ")));
@@ -91,7 +94,8 @@ pub(super) fn sensitivity(answer: &Answer) -> Table {
     let mut table = markdown(&heads.join(" | "));
     for one in all {
         let known = columns.iter().map(|&column| one.named()[column].1);
-        let cells = known.map(|known| known.map_or_else(String::new, |known| with_bar(&known)));
+        let cells = known
+            .map(|known| known.map_or_else(|| "not known".to_owned(), |known| with_bar(&known)));
         table.add_row(iter::once(one.parameter.clone()).chain(cells));
     }
     table

@@ -30,7 +30,7 @@ use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
-use crate::steady::sensitivity::{Apart, ByModuli, Change, Limit, bands};
+use crate::steady::sensitivity::{ByModuli, Change, Limit, bands};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, Gradients, first_of, turned};
 
@@ -171,7 +171,7 @@ impl PeriodicSensitivity {
 
     /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is given.
     pub fn by_load(&self) -> Change<Estimate> {
-        LIMIT.of(self.fine.by_load(), self.coarse.by_load())
+        LIMIT.of_single(self.fine.by_load(), self.coarse.by_load())
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
@@ -187,8 +187,8 @@ impl PeriodicSensitivity {
             let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
             Ok(ByModuli {
                 frequencies,
-                storage_modulus: LIMIT.of(fine_storage, storage),
-                loss_modulus: LIMIT.of(fine_loss, loss),
+                storage_modulus: LIMIT.of_single(fine_storage, storage),
+                loss_modulus: LIMIT.of_single(fine_loss, loss),
             })
         };
         bands(frequencies)?.into_iter().map(of_band).collect()
@@ -196,9 +196,9 @@ impl PeriodicSensitivity {
 
     fn change(
         &self,
-        of: impl Fn(&State) -> Result<Change<Apart>, BemError>,
+        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        Ok(LIMIT.of(of(&self.fine)?, of(&self.coarse)?))
+        Ok(LIMIT.of_single(of(&self.fine)?, of(&self.coarse)?))
     }
 }
 
@@ -248,7 +248,7 @@ impl State {
         })
     }
 
-    fn between_surfaces(&self, surfaces: [&PeriodicSurface; 2]) -> Result<Change<Apart>, BemError> {
+    fn between_surfaces(&self, surfaces: [&PeriodicSurface; 2]) -> Result<Change<f64>, BemError> {
         let [from, to] = surfaces.map(|surface| surface.heights(self.grid.shape()));
         let (from, to) = (from?, to?);
         let mean = |heights: &[f64]| heights.iter().sum::<f64>() / heights.len() as f64;
@@ -260,7 +260,7 @@ impl State {
         Ok(self.of_all(quantities))
     }
 
-    fn between_materials(&self, ends: [&Sliding; 2]) -> Result<Change<Apart>, BemError> {
+    fn between_materials(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
         let [from, to] = ends.map(|end| end.compliances(&self.along_x));
         let (from, to) = (from?, to?);
         let changes: Vec<_> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
@@ -269,7 +269,7 @@ impl State {
         Ok(self.of_all(quantities))
     }
 
-    fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<Apart>, BemError> {
+    fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
         let n = self.pressure.len();
         let [mut moved, mut dissipated, mut under_one] = [0; 3].map(|_| vec![0.0; n]);
         let mut depth = 0.0;
@@ -292,7 +292,7 @@ impl State {
         Ok(self.of_all(quantities))
     }
 
-    fn by_load(&self) -> Change<Apart> {
+    fn by_load(&self) -> Change<f64> {
         match self.control {
             PeriodicControl::MeanPressure(_) => {
                 self.of_all(self.of_each(|gradient| gradient.by_pressure))
@@ -302,7 +302,7 @@ impl State {
         }
     }
 
-    fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<Apart>; 2], BemError> {
+    fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
         let compliances = self.sliding.compliances(&self.along_x)?;
         let of = |part: fn(Complex<f64>) -> Complex<f64>| {
             let rows = compliances.iter().zip(&self.along_x);
@@ -334,7 +334,7 @@ impl State {
     }
 
     /// Of changes under the same mean pressure.
-    fn of_all(&self, changes: Quantities) -> Change<Apart> {
+    fn of_all(&self, changes: Quantities) -> Change<f64> {
         let [friction, depth, area] = match self.control {
             PeriodicControl::MeanPressure(_) => changes,
             PeriodicControl::MeanDepth(_) => {
@@ -345,16 +345,16 @@ impl State {
                 [other[0], pressed * area, other[2]]
             }
         };
-        let other = Some([depth, 0.0]);
+        let other = Some(depth);
         let (indentation_depth, normal_force) = match self.control {
             PeriodicControl::MeanPressure(_) => (other, None),
             PeriodicControl::MeanDepth(_) => (None, other),
         };
         Change {
-            friction_coefficient: [friction, 0.0],
+            friction_coefficient: friction,
             indentation_depth,
             normal_force,
-            contact_area: Some([area, 0.0]),
+            contact_area: Some(area),
         }
     }
 

@@ -4,20 +4,18 @@ use numerics::Estimate;
 
 use crate::stationary::steady::sensitivity::Change;
 
-/// A value, and how far two ways to it, or grids, are apart.
-pub(crate) type Apart = [f64; 2];
+/// A mean over shifted grids, and how far they are apart.
+pub(super) type Apart = [f64; 2];
 
 /// The mean over shifted grids.
-pub(super) fn mean(changes: Vec<Change<Apart>>) -> Change<Apart> {
-    let of = |values: Vec<Apart>| {
-        let mean = values.iter().map(|[value, _]| value).sum::<f64>() / values.len() as f64;
-        let apart = values
-            .iter()
-            .map(|[value, apart]| (value - mean).abs() + apart);
+pub(super) fn mean(changes: Vec<Change<f64>>) -> Change<Apart> {
+    let of = |values: Vec<f64>| {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let apart = values.iter().map(|value| (value - mean).abs());
         [mean, apart.fold(0.0, f64::max)]
     };
-    let optional = |quantity: fn(&Change<Apart>) -> Option<Apart>| {
-        let values: Option<Vec<Apart>> = changes.iter().map(quantity).collect();
+    let optional = |quantity: fn(&Change<f64>) -> Option<f64>| {
+        let values: Option<Vec<f64>> = changes.iter().map(quantity).collect();
         values.map(of)
     };
     Change {
@@ -40,7 +38,13 @@ pub(crate) struct Limit {
 }
 
 impl Limit {
-    pub(crate) fn of(self, fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
+    /// Of one grid of either spacing.
+    pub(crate) fn of_single(self, fine: Change<f64>, coarse: Change<f64>) -> Change<Estimate> {
+        let [fine, coarse] = [fine, coarse].map(|change| mean(vec![change]));
+        self.of(fine, coarse)
+    }
+
+    pub(super) fn of(self, fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
         let estimate = |beyond: f64| {
             move |([value, apart], [other, _]): (Apart, Apart)| {
                 let step = value - other;

@@ -43,8 +43,8 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
 use crate::{BemError, Elastomer};
-use limit::mean;
-pub(crate) use limit::{Apart, Limit};
+pub(crate) use limit::Limit;
+use limit::{Apart, mean};
 use state::State;
 
 /// Spacing of the grids whose derivatives are compared with those of the finest.
@@ -191,7 +191,7 @@ impl SteadySensitivity {
 
     /// Whether the derivatives of the friction by the load and by the velocity are known well enough.
     fn is_known(&self) -> bool {
-        let of = |of: &dyn Fn(&State) -> Change<Apart>| {
+        let of = |of: &dyn Fn(&State) -> Change<f64>| {
             let [fine, coarse] = [&self.fine, &self.coarse].map(|grids| grids.mean_by(of));
             LIMIT.of(fine, coarse).friction_coefficient.error
         };
@@ -238,7 +238,7 @@ impl SteadySensitivity {
     pub fn friction_coefficient(&self) -> Estimate {
         let of = |grids: &SensitivityOnGrid| {
             let change = |state: &State| Change {
-                friction_coefficient: [state.friction_coefficient, 0.0],
+                friction_coefficient: state.friction_coefficient,
                 indentation_depth: None,
                 normal_force: None,
                 contact_area: None,
@@ -395,7 +395,7 @@ impl SensitivityOnGrid {
         self.states.first().map_or(0.0, State::given)
     }
 
-    fn mean_by(&self, of: impl Fn(&State) -> Change<Apart>) -> Change<Apart> {
+    fn mean_by(&self, of: impl Fn(&State) -> Change<f64>) -> Change<Apart> {
         mean(self.states.iter().map(of).collect())
     }
 
@@ -411,7 +411,7 @@ impl SensitivityOnGrid {
 
     fn mean_of(
         &self,
-        of: impl Fn(&State) -> Result<Change<Apart>, BemError>,
+        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
     ) -> Result<Change<Apart>, BemError> {
         let changes = self.states.iter().map(of).collect::<Result<_, _>>()?;
         Ok(mean(changes))

@@ -4,11 +4,11 @@ use indenters::{Control, Surface};
 
 use crate::BemError;
 use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::sensitivity::Change;
 use crate::stationary::steady::sensitivity::basis::{Basis, Kernel};
 use crate::stationary::steady::sensitivity::contact::{Adjoint, Contact};
 use crate::stationary::steady::sensitivity::offsets::Offsets;
 use crate::stationary::steady::sensitivity::points::{Height, Points, Slope, differences};
-use crate::stationary::steady::sensitivity::{Apart, Change};
 use crate::stationary::steady::sliding_creep::{MovingCreep, SlidingCreep};
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
 
@@ -31,6 +31,9 @@ pub(super) struct State {
     by_track: Vec<f64>,
     control: Control,
     n_unknowns: usize,
+    /// Whether the last two gradients are those of the area and of the growth.
+    has_measures: bool,
+    /// None of a body with edges, whose elements at them stay where they are, and where the rim does not move as it must.
     pub(super) dilation: Option<Dilation>,
 }
 
@@ -44,6 +47,13 @@ pub(super) struct Dilation {
     growth: f64,
     /// Of the logarithm of the area, which is what it has to be.
     power_of_area: f64,
+}
+
+impl Dilation {
+    /// Whether a dilated contact is the larger one, by both measures.
+    fn is_growth(&self) -> bool {
+        self.area > 0.0 && self.growth > 0.0
+    }
 }
 
 /// A quantity in the units of the mesh.
@@ -93,9 +103,9 @@ impl State {
         let mut sums = bases.into_iter().zip(by_lengths);
         let states = unsummed.into_iter().map(|one| {
             let mut state = one.summed(&mut sums, loading);
-            // Elements at the edge of a body stay where they are.
-            if !loading.has_edges {
-                state.dilation = Some(state.dilated(surface, loading.strip)?);
+            if state.has_measures {
+                let dilation = state.dilated(surface, loading.strip)?;
+                state.dilation = Some(dilation).filter(Dilation::is_growth);
             }
             Ok(state)
         });
@@ -164,6 +174,7 @@ impl Unsummed {
             by_track,
             control: loading.control,
             n_unknowns: self.n_unknowns,
+            has_measures: !loading.has_edges,
             dilation: None,
         }
     }
@@ -221,7 +232,7 @@ impl State {
     pub(super) fn between_bodies(
         &self,
         [from, to]: [&dyn Surface; 2],
-    ) -> Result<Change<Apart>, BemError> {
+    ) -> Result<Change<f64>, BemError> {
         let heights: [Height; 2] = [&|point| from.height(point), &|point| to.height(point)];
         Ok(self.of_all(self.between_heights(heights)?))
     }
@@ -243,7 +254,7 @@ impl State {
     pub(super) fn between_materials(
         &self,
         ends: [&SlidingCreep; 2],
-    ) -> Result<Change<Apart>, BemError> {
+    ) -> Result<Change<f64>, BemError> {
         let [from, to] = ends.map(SlidingCreep::moving);
         if [&from, &to].iter().all(|end| self.has_delays_of(end)) {
             return Ok(self.change(|basis| basis.between_creeps([&from, &to])));
@@ -259,7 +270,7 @@ impl State {
     pub(super) fn all_to_elastomer(
         states: &[Self],
         creep: &SlidingCreep,
-    ) -> Result<Vec<Change<Apart>>, BemError> {
+    ) -> Result<Vec<Change<f64>>, BemError> {
         let gradients = states.iter().flat_map(|state| &state.gradients);
         let bases: Vec<&Basis> = gradients.map(|one| &one.basis).collect();
         let mut changes = Basis::to_elastomer(&bases, creep)?.into_iter();
@@ -271,10 +282,7 @@ impl State {
     }
 
     /// By the logarithms of the storage and of the loss modulus in each band of frequencies.
-    pub(super) fn by_moduli(
-        &self,
-        bands: &[[f64; 2]],
-    ) -> Result<Vec<[Change<Apart>; 2]>, BemError> {
+    pub(super) fn by_moduli(&self, bands: &[[f64; 2]]) -> Result<Vec<[Change<f64>; 2]>, BemError> {
         let of_band = |sums: Vec<[f64; 2]>| {
             [0, 1].map(|part| {
                 let pairs = self.gradients.iter().zip(&sums);
@@ -285,20 +293,20 @@ impl State {
         Ok(sums.into_iter().map(of_band).collect())
     }
 
-    pub(super) fn by_load(&self) -> Change<Apart> {
+    pub(super) fn by_load(&self) -> Change<f64> {
         self.of_all(self.gradients.iter().map(|one| one.by_load).collect())
     }
 
     /// By the logarithm of the velocity.
-    pub(super) fn by_velocity(&self) -> Change<Apart> {
+    pub(super) fn by_velocity(&self) -> Change<f64> {
         self.change(Basis::by_velocity)
     }
 
-    pub(super) fn by_thickness(&self) -> Change<Apart> {
+    pub(super) fn by_thickness(&self) -> Change<f64> {
         self.of_all(self.by_thickness.clone())
     }
 
-    pub(super) fn by_track(&self) -> Change<Apart> {
+    pub(super) fn by_track(&self) -> Change<f64> {
         self.of_all(self.by_track.clone())
     }
 
@@ -322,23 +330,24 @@ impl State {
         self.gradients.iter().map(|one| &one.basis).collect()
     }
 
-    fn change(&self, of: impl Fn(&Basis) -> f64) -> Change<Apart> {
+    fn change(&self, of: impl Fn(&Basis) -> f64) -> Change<f64> {
         let changes = self.gradients.iter();
         self.of_all(changes.map(|one| one.unit * of(&one.basis)).collect())
     }
 
     /// With the elements that the change brings into the contact.
-    fn of_all(&self, mut changes: Vec<f64>) -> Change<Apart> {
-        let contact_area = self.dilation.as_ref().map(|dilation| {
-            let [area, growth] = measures_of(&mut changes);
+    fn of_all(&self, mut changes: Vec<f64>) -> Change<f64> {
+        let measures = self.has_measures.then(|| measures_of(&mut changes));
+        let known = self.dilation.as_ref().zip(measures);
+        let contact_area = known.map(|(dilation, [area, growth])| {
             let grown = growth / dilation.growth;
             for (change, excess) in changes.iter_mut().zip(&dilation.excess) {
                 *change -= grown * excess;
             }
             dilation.power_of_area * area / dilation.area
         });
-        let mut changes = changes.into_iter().map(|change| [change, 0.0]);
-        let friction_coefficient = changes.next().unwrap_or([f64::NAN; 2]);
+        let mut changes = changes.into_iter();
+        let friction_coefficient = changes.next().unwrap_or(f64::NAN);
         let other = changes.next();
         let (indentation_depth, normal_force) = match self.control {
             Control::NormalForce(_) => (other, None),
@@ -348,7 +357,7 @@ impl State {
             friction_coefficient,
             indentation_depth,
             normal_force,
-            contact_area: contact_area.map(|area| [area, 0.0]),
+            contact_area,
         }
     }
 }

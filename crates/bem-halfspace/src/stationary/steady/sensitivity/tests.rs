@@ -99,7 +99,7 @@ const NAMES: [&str; 8] = [
     "track",
 ];
 
-fn changed(case: &Case, state: &State, index: usize) -> Change<Apart> {
+fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 8];
         factors[index] += step;
@@ -135,16 +135,13 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<Apart> {
 }
 
 /// Of the friction, and of the depth or the force.
-fn values(change: &Change<Apart>) -> [f64; 2] {
+fn values(change: &Change<f64>) -> [f64; 2] {
     let other = change.indentation_depth.or(change.normal_force);
-    [
-        change.friction_coefficient[0],
-        other.map_or(0.0, |[value, _]| value),
-    ]
+    [change.friction_coefficient, other.unwrap_or(0.0)]
 }
 
-fn scaled(change: Change<Apart>, factor: f64) -> Change<Apart> {
-    let times = |known: Apart| known.map(|value| factor * value);
+fn scaled(change: Change<f64>, factor: f64) -> Change<f64> {
+    let times = |known: f64| factor * known;
     Change {
         friction_coefficient: times(change.friction_coefficient),
         indentation_depth: change.indentation_depth.map(times),
@@ -434,7 +431,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
         };
         for index in [0, 1, 2, 5, 6] {
             let [fine, coarse] = [0, 1].map(|grid| changed(case, &states[grid], index));
-            let got = LIMIT.of(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
+            let got = LIMIT.of_single(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
             let ends = [WIDE.recip(), WIDE].map(|factor| {
                 let mut factors = [1.0; 8];
                 factors[index] *= factor;
