@@ -100,7 +100,10 @@ fn require_track(problem: &Problem, method: Method) -> Result<(), Refusal> {
 /// Whether a body rises where it ends; a flat punch does not.
 fn has_front(body: &Body) -> bool {
     match body {
-        Body::Revolution(body) => body.profile(body.max_radius()).height > 0.0,
+        Body::Revolution(body) => {
+            let end = body.max_radius();
+            end.is_infinite() || body.profile(end).height > 0.0
+        }
         _ => true,
     }
 }
