@@ -67,7 +67,7 @@ impl Measure {
         }
     }
 
-    /// Adds a multiple of the change of κ g/x at a side, relative to the square of the load that leaves.
+    /// Adds the derivatives of x/(x + κ g) at a side, times (x + κ g)²/κ and a weight.
     fn add(&mut self, side: Side, weight: f64, [load, gap]: [f64; 2]) {
         self.by_values[side.inside] += weight * gap;
         self.by_values[side.beside] -= weight * load;
