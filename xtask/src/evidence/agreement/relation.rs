@@ -88,9 +88,11 @@ const DIFFERENCE: f64 = 1e-5;
 const VAGUE: f64 = 0.01;
 /// Factor of the load that is larger.
 const MORE: f64 = 1.5;
-/// Elements along a contact, and along a period.
+/// Elements along a contact, along a period of what slides, and along one of what moves, whose cycles take as many steps as there
+/// are elements in a stroke, and may be many.
 const ELEMENTS: usize = 40;
 const ELEMENTS_OF_PERIOD: usize = 256;
+const ELEMENTS_OF_MOTION: usize = 64;
 /// Relative error of another series, and by how many times the times for which it holds go beyond its own.
 const SERIES_ERROR: f64 = 1e-4;
 const SERIES_RANGE: f64 = 1e12;
@@ -168,10 +170,11 @@ impl Relation {
         match self {
             Self::QuarterOfTheError => *scene.solve.relative_error.as_mut()? *= 0.25,
             Self::GivenElements => {
-                let elements = if is_periodic(&scene.indenter) {
-                    ELEMENTS_OF_PERIOD
-                } else {
-                    ELEMENTS
+                let moves = scene.load.stroke.is_some() || scene.load.motion.is_some();
+                let elements = match is_periodic(&scene.indenter) {
+                    true if moves => ELEMENTS_OF_MOTION,
+                    true => ELEMENTS_OF_PERIOD,
+                    false => ELEMENTS,
                 };
                 scene.solve.relative_error.take()?;
                 scene.solve.elements = Some(elements);
