@@ -6,24 +6,54 @@
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use rustfft::num_traits::NumAssign;
+use rustfft::{Fft, FftNum, FftPlanner};
 
-/// Σ f_n e^(−2πikn/N) of N complex numbers.
-pub fn forward(length: usize) -> Arc<dyn Fft<f64>> {
-    FftPlanner::new().plan_fft_forward(length)
+/// Numbers that are transformed.
+pub trait Real: FftNum + NumAssign + Default + Into<f64> {
+    /// The nearest of them.
+    fn of(value: f64) -> Self;
+
+    /// Σ f_n e^(−2πikn/N) of N complex numbers.
+    fn forward(length: usize) -> Arc<dyn Fft<Self>>;
+
+    /// Σ f_n e^(2πikn/N) of N complex numbers.
+    fn inverse(length: usize) -> Arc<dyn Fft<Self>>;
+
+    /// The first N/2 + 1 sums Σ f_n e^(−2πikn/N) of N real numbers; the others are their conjugates.
+    fn real_forward(length: usize) -> Arc<dyn RealToComplex<Self>>;
+
+    /// N real numbers Σ f_n e^(2πikn/N) from the first N/2 + 1 of N complex ones.
+    fn real_inverse(length: usize) -> Arc<dyn ComplexToReal<Self>>;
 }
 
-/// Σ f_n e^(2πikn/N) of N complex numbers.
-pub fn inverse(length: usize) -> Arc<dyn Fft<f64>> {
-    FftPlanner::new().plan_fft_inverse(length)
+macro_rules! transforms_of {
+    ($real:ty) => {
+        impl Real for $real {
+            #[expect(clippy::allow_attributes, reason = "one of both types loses digits")]
+            #[allow(clippy::cast_possible_truncation, reason = "so it is meant")]
+            fn of(value: f64) -> Self {
+                value as Self
+            }
+
+            fn forward(length: usize) -> Arc<dyn Fft<Self>> {
+                FftPlanner::new().plan_fft_forward(length)
+            }
+
+            fn inverse(length: usize) -> Arc<dyn Fft<Self>> {
+                FftPlanner::new().plan_fft_inverse(length)
+            }
+
+            fn real_forward(length: usize) -> Arc<dyn RealToComplex<Self>> {
+                RealFftPlanner::new().plan_fft_forward(length)
+            }
+
+            fn real_inverse(length: usize) -> Arc<dyn ComplexToReal<Self>> {
+                RealFftPlanner::new().plan_fft_inverse(length)
+            }
+        }
+    };
 }
 
-/// The first N/2 + 1 sums Σ f_n e^(−2πikn/N) of N real numbers; the others are their conjugates.
-pub fn real_forward(length: usize) -> Arc<dyn RealToComplex<f64>> {
-    RealFftPlanner::new().plan_fft_forward(length)
-}
-
-/// N real numbers Σ f_n e^(2πikn/N) from the first N/2 + 1 of N complex ones.
-pub fn real_inverse(length: usize) -> Arc<dyn ComplexToReal<f64>> {
-    RealFftPlanner::new().plan_fft_inverse(length)
-}
+transforms_of!(f64);
+transforms_of!(f32);

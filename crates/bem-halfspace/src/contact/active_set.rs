@@ -145,20 +145,20 @@ impl ActiveSet {
     }
 
     /// Lists the values of a field.
-    pub(crate) fn gather(&self, field: &[f64], list: &mut [f64]) {
+    pub(crate) fn gather<T: Copy + Send + Sync>(&self, field: &[T], list: &mut [T]) {
         self.bands.for_each_part([self.list(list)], |band, [list]| {
             self.gather_in(band, field, list);
         });
     }
 
-    pub(crate) fn gather_in(&self, band: usize, field: &[f64], list: &mut [f64]) {
+    pub(crate) fn gather_in<T: Copy>(&self, band: usize, field: &[T], list: &mut [T]) {
         for run in self.runs(band) {
             list[run.places()].copy_from_slice(&field[run.elements()]);
         }
     }
 
     /// Writes the values of a list into a field.
-    pub(crate) fn scatter(&self, list: &[f64], field: &mut [f64]) {
+    pub(crate) fn scatter<T: Copy + Send + Sync>(&self, list: &[T], field: &mut [T]) {
         self.bands
             .for_each_part([self.field(field)], |band, [field]| {
                 self.scatter_in(band, &list[self.places(band)], field);
@@ -166,7 +166,7 @@ impl ActiveSet {
     }
 
     /// Writes the part of a list that belongs to a band into the same part of a field.
-    pub(crate) fn scatter_in(&self, band: usize, list: &[f64], field: &mut [f64]) {
+    pub(crate) fn scatter_in<T: Copy>(&self, band: usize, list: &[T], field: &mut [T]) {
         let first = self.bands.elements(band).start;
         for run in self.runs(band) {
             field[run.elements_from(first)].copy_from_slice(&list[run.places()]);

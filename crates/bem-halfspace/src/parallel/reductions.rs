@@ -1,15 +1,17 @@
 //! Sums and extremes of long lists, with several accumulators because an operation on one would wait for the last.
 
+use numerics::transforms::Real;
+
 const ACCUMULATORS: usize = 8;
 
 /// Reduces `start` and the terms of all numbers of equally long lists by `pick`; the order, and with it the rounding
 /// of a sum, depends on their length alone.
-pub(crate) fn reduce<const N: usize>(
-    lists: [&[f64]; N],
-    start: f64,
-    term: impl Fn([f64; N]) -> f64,
-    pick: impl Fn(f64, f64) -> f64,
-) -> f64 {
+pub(crate) fn reduce<const N: usize, T: Copy>(
+    lists: [&[T]; N],
+    start: T,
+    term: impl Fn([T; N]) -> T,
+    pick: impl Fn(T, T) -> T,
+) -> T {
     let length = lists.first().map_or(0, |list| list.len());
     let lists = lists.map(|list| list[..length].as_chunks::<ACCUMULATORS>());
     let mut accumulators = [start; ACCUMULATORS];
@@ -24,28 +26,8 @@ pub(crate) fn reduce<const N: usize>(
 }
 
 /// Sum of the terms of all numbers of equally long lists.
-pub(crate) fn sum<const N: usize>(lists: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
-    reduce(lists, 0.0, term, |sum, term| sum + term)
-}
-
-/// Likewise with a last list of numbers that may be of another type.
-pub(crate) fn sum_with<const N: usize, T: Copy + Into<f64>>(
-    lists: [&[f64]; N],
-    last: &[T],
-    term: impl Fn([f64; N], f64) -> f64,
-) -> f64 {
-    let lists = lists.map(|list| list[..last.len()].as_chunks::<ACCUMULATORS>());
-    let (last, last_rest) = last.as_chunks::<ACCUMULATORS>();
-    let mut sums = [0.0; ACCUMULATORS];
-    for (chunk, last) in last.iter().enumerate() {
-        let chunks = lists.map(|(whole, _)| &whole[chunk]);
-        for (place, sum) in sums.iter_mut().enumerate() {
-            *sum += term(chunks.map(|chunk| chunk[place]), last[place].into());
-        }
-    }
-    let rest = last_rest.iter().enumerate();
-    let rest = rest.map(|(index, last)| term(lists.map(|(_, rest)| rest[index]), (*last).into()));
-    sums.into_iter().chain(rest).sum()
+pub(crate) fn sum<const N: usize, T: Real>(lists: [&[T]; N], term: impl Fn([T; N]) -> T) -> T {
+    reduce(lists, T::default(), term, |sum, term| sum + term)
 }
 
 /// The larger of two numbers of which none is NaN; faster than `f64::max`.
@@ -65,8 +47,8 @@ pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
 }
 
 /// Adds a multiple.
-pub(crate) fn add<T: Copy + Into<f64>>(sum: &mut [f64], factor: f64, values: &[T]) {
+pub(crate) fn add<T: Real>(sum: &mut [T], factor: T, values: &[T]) {
     for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * (*value).into();
+        *sum += factor * *value;
     }
 }

@@ -245,7 +245,8 @@ fn derivatives_by_frequencies_add_up_to_the_unit_of_stress() {
             let parts: Vec<f64> = parts.chain([by_pressure]).collect();
             let sum: f64 = parts.iter().sum();
             let size: f64 = parts.iter().map(|part| part.abs()).sum();
-            assert!(sum.abs() < 1e-6 * size + 1e-11, "{parts:?}");
+            // In full contact the depth depends on no modulus: what is left are 1e-8 of the heights.
+            assert!(sum.abs() < 1e-6 * size + 1e-10, "{parts:?}");
         };
         of(|change| change.friction_coefficient.value);
         of(|change| change.indentation_depth.expect("a depth").value);

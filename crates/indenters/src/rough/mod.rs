@@ -14,7 +14,8 @@ mod through;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use numerics::{InvalidParameter, finite, in_range, positive, transforms};
+use numerics::transforms::Real;
+use numerics::{InvalidParameter, finite, in_range, positive};
 use rustfft::num_complex::Complex;
 
 use crate::IndenterError;
@@ -164,9 +165,9 @@ impl PeriodicSurface {
         for wave in &self.waves {
             add_wave(wave, &mut spectrum, rows);
         }
-        let along_x = transforms::inverse(rows);
+        let along_x = f64::inverse(rows);
         along_x.process(&mut spectrum);
-        let along_y = transforms::real_inverse(columns);
+        let along_y = f64::real_inverse(columns);
         let mut coefficients = along_y.make_input_vec();
         let mut scratch = along_y.make_scratch_vec();
         let mut heights = vec![0.0; rows * columns];

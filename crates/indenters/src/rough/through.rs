@@ -1,6 +1,7 @@
 //! Periodic surfaces through heights on a grid.
 
-use numerics::{in_range, not_negative, positive, transforms};
+use numerics::transforms::Real;
+use numerics::{in_range, not_negative, positive};
 use rustfft::num_complex::Complex;
 
 use crate::rough::{PeriodicSurface, Wave};
@@ -67,7 +68,7 @@ impl PeriodicSurface {
 /// Σ h e^(−i(…)), column by column of the numbers along y, which are not negative.
 fn spectrum(map: &HeightMap) -> Vec<Complex<f64>> {
     let [rows, columns] = map.shape();
-    let along_y = transforms::real_forward(columns);
+    let along_y = f64::real_forward(columns);
     let (mut row, mut found) = (along_y.make_input_vec(), along_y.make_output_vec());
     let mut spectrum = vec![Complex::default(); found.len() * rows];
     for (index, heights) in map.heights().chunks_exact(columns).enumerate() {
@@ -78,6 +79,6 @@ fn spectrum(map: &HeightMap) -> Vec<Complex<f64>> {
             column[index] = *coefficient;
         }
     }
-    transforms::forward(rows).process(&mut spectrum);
+    f64::forward(rows).process(&mut spectrum);
     spectrum
 }

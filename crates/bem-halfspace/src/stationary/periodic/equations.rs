@@ -8,10 +8,14 @@
 //! known after every step. The preconditioner is the inverse of K restricted to the contact, less what other patches make
 //! unnecessary. Contacts of few elements are solved by elimination, which no ratio of moduli slows down, once the steps have taken
 //! as long for one of them. Lists hold the elements in contact and their neighbours, of which the gap shows whether they penetrate.
+//!
+//! In one contact all numbers have seven digits, in units of its gaps; the search renews the gaps with all digits between contacts.
 
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
+use numerics::transforms::Real as _;
+use rustfft::num_complex::Complex;
 
 use crate::contact::active_set::{ActiveSet, Run};
 use crate::parallel::bands::copies;
@@ -40,18 +44,23 @@ pub(super) struct Equations {
     far: Option<FarLoads>,
     pub(super) near: ActiveSet,
     /// 1 in contact, 0 beside it.
-    inside: Arc<[f64]>,
+    inside: Arc<[f32]>,
     n_contact: f64,
+    /// \[Pa].
     pressure: Vec<f64>,
+    /// Unit of gaps, \[m]; that of pressures displaces an element by one.
+    unit: f64,
     /// Less its mean in the contact.
-    gap: Vec<f64>,
+    gap: Vec<f32>,
     /// What S, and what the preconditioner, makes of the gap one.
-    weights: Vec<f64>,
-    lowered: Vec<f64>,
+    weights: Vec<f32>,
+    lowered: Vec<f32>,
     total_lowered: f64,
+    /// K and its inverse on the whole grid.
+    symbols: [Vec<Complex<f32>>; 2],
     /// Fields that carry lists through transforms; the first vanishes outside them.
-    spread: Vec<f64>,
-    image: Vec<f64>,
+    spread: Vec<f32>,
+    image: Vec<f32>,
     /// Displacement of an element under its own unit pressure, [m/Pa].
     pub(super) own_displacement: f64,
     /// Whether minimal residuals took longer for some contact of few elements than elimination.
@@ -60,37 +69,30 @@ pub(super) struct Equations {
     pub(super) products: usize,
 }
 
-/// |gap| in the contact, \[m].
-struct Residual {
-    largest: f64,
-    root_mean_square: f64,
-}
-
 impl Equations {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
+        let mut kernel = Kernel::new(sliding, grid)?;
+        let own_displacement = displaced_by_first(&mut kernel, grid.n_elements())[0];
         let field = || copies(0.0, grid.n_elements());
-        let mut equations = Self {
-            kernel: Kernel::new(sliding, grid)?,
-            far: FarLoads::new(sliding, grid)?,
+        Ok(Self {
+            symbols: kernel.symbols(own_displacement),
+            far: FarLoads::new(sliding, grid, own_displacement)?,
+            kernel,
             near: ActiveSet::new(grid.shape()),
             inside: Arc::new([]),
             n_contact: 0.0,
             pressure: Vec::new(),
+            unit: 1.0,
             gap: Vec::new(),
             weights: Vec::new(),
             lowered: Vec::new(),
             total_lowered: 0.0,
             spread: field(),
             image: field(),
-            own_displacement: 0.0,
+            own_displacement,
             is_slow: false,
             products: 0,
-        };
-        equations.spread[0] = 1.0;
-        let (spread, image) = (&equations.spread, &mut equations.image);
-        equations.kernel.displace(spread, image);
-        equations.own_displacement = equations.image[0];
-        Ok(equations)
+        })
     }
 
     /// K p of a whole field.
@@ -108,12 +110,10 @@ impl Equations {
         self.spread.fill(0.0);
         let runs = (0..self.near.bands.n_bands()).flat_map(|band| self.near.runs(band));
         let inside = runs.flat_map(|run| &contact[run.elements()]);
-        self.inside = inside.map(|inside| f64::from(*inside)).collect();
+        self.inside = inside.map(|inside| f32::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);
         self.pressure = self.listed(pressure);
-        let mut gap = self.listed(gap);
-        self.subtract_mean(&mut gap);
-        self.gap = gap;
+        self.take_gap(self.listed(gap));
         let mut weights = self.inside.to_vec();
         self.invert(&mut weights);
         self.weights = weights;
@@ -124,32 +124,47 @@ impl Equations {
         self.total_lowered = self.total(&self.lowered);
     }
 
+    /// Lists a gap less its mean in the contact, which takes the more digits the smaller the residual is.
+    fn take_gap(&mut self, mut gap: Vec<f64>) {
+        let inside = gap.iter().zip(&*self.inside);
+        let sum: f64 = inside.map(|(gap, inside)| gap * f64::from(*inside)).sum();
+        gap.iter_mut().for_each(|gap| *gap -= sum / self.n_contact);
+        let unit = gap.iter().fold(0.0, |top, gap| larger(top, gap.abs()));
+        self.unit = if unit > 0.0 { unit } else { 1.0 };
+        self.gap = gap.iter().map(|gap| f32::of(gap / self.unit)).collect();
+    }
+
     /// Writes pressure and gap into fields, as far as the lists reach.
     pub(super) fn give(&self, pressure: &mut [f64], gap: &mut [f64]) {
         self.near.scatter(&self.pressure, pressure);
-        self.near.scatter(&self.gap, gap);
+        let gaps = self.gap.iter().map(|gap| f64::from(*gap) * self.unit);
+        self.near.scatter(&gaps.collect::<Vec<_>>(), gap);
     }
 
     /// Solves until the largest residual is small enough, or the root mean square a part of what it was and no more than a
     /// `mean`; it is returned.
     pub(super) fn iterate(&mut self, part: f64, mean: f64, largest: f64) -> f64 {
-        let target = mean.min(part * self.residual(&self.gap).root_mean_square);
-        let is_small =
-            |residual: Residual| residual.root_mean_square <= target || residual.largest <= largest;
+        let [mean, largest] = [mean, largest].map(|length| length / self.unit);
+        let size = |equations: &Self| equations.residual(&equations.gap);
+        let target = mean.min(part * size(self));
+        let is_small = |equations: &Self, size: f64, gap: &[f32]| {
+            size <= target || size <= largest && equations.largest(gap) <= largest
+        };
         let are_few = self.n_contact <= FEW;
         let elimination = ELIMINATION * self.n_contact.powi(3) / self.spread.len() as f64;
         if !(are_few && self.is_slow) {
             self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
         }
-        if are_few && !is_small(self.residual(&self.gap)) {
+        if are_few && !is_small(self, size(self), &self.gap) {
             self.is_slow = true;
             self.eliminate();
         }
-        self.residual(&self.gap).root_mean_square
+        size(self) * self.unit
     }
 
-    fn minimise(&mut self, most: f64, is_small: impl Fn(Residual) -> bool) {
-        let [mut pressure, mut gap] = [&mut self.pressure, &mut self.gap].map(std::mem::take);
+    fn minimise(&mut self, most: f64, is_small: impl Fn(&Self, f64, &[f32]) -> bool) {
+        let mut gap = std::mem::take(&mut self.gap);
+        let mut added = copies(0.0, gap.len());
         let inside = Arc::clone(&self.inside);
         let numbers = NUMBERS.max(NUMBERS_PER_ELEMENT * self.spread.len());
         let fitting = numbers / (2 * inside.len());
@@ -157,24 +172,32 @@ impl Equations {
         #[expect(clippy::cast_sign_loss, reason = "positive")]
         let most = most.min(MOST_STEPS as f64) as usize;
         let steps = [most, fitting.clamp(1, MOST_STEPS) - 1];
-        let unknowns = [&mut pressure[..], &mut gap[..]];
+        let unknowns = [&mut added[..], &mut gap[..]];
         let mut before = f64::INFINITY;
-        minimise::<f32>(unknowns, Some(&inside), steps, |gap, from, found| {
-            let residual = self.residual(gap);
-            let now = residual.root_mean_square;
-            let goes_on = !is_small(residual);
-            if goes_on {
-                if let Some(far) = &mut self.far
-                    && now > LITTLE * before
-                {
-                    far.refine();
+        minimise(
+            unknowns,
+            Some(&inside),
+            steps,
+            |size, [gap, from], found| {
+                let now = (size / self.n_contact).sqrt();
+                let goes_on = !is_small(self, now, gap);
+                if goes_on {
+                    if let Some(far) = &mut self.far
+                        && now > LITTLE * before
+                    {
+                        far.refine();
+                    }
+                    before = now;
+                    self.find_direction(from, found);
                 }
-                before = now;
-                self.find_direction(from, found);
-            }
-            goes_on
-        });
-        (self.pressure, self.gap) = (pressure, gap);
+                goes_on
+            },
+        );
+        self.gap = gap;
+        let unit = self.unit / self.own_displacement;
+        for (pressure, added) in self.pressure.iter_mut().zip(added) {
+            *pressure += unit * f64::from(added);
+        }
     }
 
     /// Adds the pressures without mean that close the gaps, by the dense influence of the elements in contact on each other.
@@ -184,63 +207,68 @@ impl Equations {
         let (places, elements): (Vec<usize>, Vec<usize>) = listed
             .filter(|(place, _)| self.inside[*place] > 0.0)
             .unzip();
-        self.spread.fill(0.0);
-        self.spread[0] = 1.0;
-        self.kernel.displace(&self.spread, &mut self.image);
-        self.spread[0] = 0.0;
+        let image = displaced_by_first(&mut self.kernel, self.spread.len());
         let columns = self.near.columns;
         let rows = self.spread.len() / columns;
         let influence = |to: usize, from: usize| {
             let row = (to / columns + rows - from / columns) % rows;
             let column = (to % columns + columns - from % columns) % columns;
-            self.image[row * columns + column]
+            image[row * columns + column] / self.own_displacement
         };
         let n = elements.len();
         let matrix = DMatrix::from_fn(n, n, |to, from| influence(elements[to], elements[from]));
         let sides = [&self.gap, &*self.inside];
-        let sides = DMatrix::from_fn(n, 2, |place, side| sides[side][places[place]]);
+        let sides = DMatrix::from_fn(n, 2, |place, side| f64::from(sides[side][places[place]]));
         let Some(solved) = matrix.lu().solve(&sides) else {
             return;
         };
         let depth = solved.column(0).sum() / solved.column(1).sum();
         let mut added = copies(0.0, self.inside.len());
+        let unit = self.unit / self.own_displacement;
         for (row, place) in places.into_iter().enumerate() {
-            added[place] = depth * solved[(row, 1)] - solved[(row, 0)];
+            let pressure = depth * solved[(row, 1)] - solved[(row, 0)];
+            self.pressure[place] += unit * pressure;
+            added[place] = f32::of(pressure);
         }
         let mut image = copies(0.0, added.len());
         self.displaced(&added, &mut image);
-        add(&mut self.pressure, 1.0, &added);
         add(&mut self.gap, 1.0, &image);
     }
 
     /// The gaps that a list of pressures causes.
-    fn displaced(&mut self, pressures: &[f64], gaps: &mut [f64]) {
+    fn displaced(&mut self, pressures: &[f32], gaps: &mut [f32]) {
         self.near.scatter(pressures, &mut self.spread);
         self.products += 1;
-        self.kernel.displace(&self.spread, &mut self.image);
+        self.kernel
+            .apply_roughly(&self.symbols[0], &self.spread, &mut self.image);
         self.near.gather(&self.image, gaps);
         self.subtract_mean(gaps);
     }
 
-    fn residual(&self, gap: &[f64]) -> Residual {
+    /// Root mean square of the gap in the contact.
+    fn residual(&self, gap: &[f32]) -> f64 {
         let square = self.near.sum(|places| {
             let lists = [&self.inside[places.clone()], &gap[places]];
-            sum(lists, |[inside, gap]| inside * gap * gap)
+            sum(lists, |[inside, gap]| inside * gap * gap).into()
         });
+        (square / self.n_contact).sqrt()
+    }
+
+    /// Largest |gap| in the contact.
+    fn largest(&self, gap: &[f32]) -> f64 {
         let largest = |band: usize| {
             let places = self.near.places(band);
             let pairs = self.inside[places.clone()].iter().zip(&gap[places]);
-            pairs.fold(0.0, |top, (inside, gap)| larger(top, inside * gap.abs()))
+            pairs.fold(0.0, |top, (inside, gap)| {
+                larger(top, f64::from(inside * gap.abs()))
+            })
         };
-        Residual {
-            root_mean_square: (square / self.n_contact).sqrt(),
-            largest: self.near.bands.gather(largest, larger),
-        }
+        self.near.bands.gather(largest, larger)
     }
 
     /// Pressures without mean that about close the gaps, and the gaps that they cause.
-    fn find_direction(&mut self, gap: &[f64], [direction, image]: [&mut [f64]; 2]) {
-        let closing = |band, [direction]: [&mut [f64]; 1]| {
+    fn find_direction(&mut self, gap: &[f32], [direction, image]: [&mut [f32]; 2]) {
+        let closing = |band, [direction]: [&mut [f32]; 1]| {
             let places = self.near.places(band);
             let pairs = gap[places.clone()].iter().zip(&self.inside[places]);
             for (place, (gap, inside)) in direction.iter_mut().zip(pairs) {
@@ -254,14 +282,19 @@ impl Equations {
             far.correct(&self.near, &self.weights, direction);
         }
         let total = self.total(direction);
-        add(direction, -total / self.total_lowered, &self.lowered);
+        add(
+            direction,
+            f32::of(-total / self.total_lowered),
+            &self.lowered,
+        );
         self.displaced(direction, image);
     }
 
     /// S of a list, on the contact.
-    fn invert(&mut self, list: &mut [f64]) {
+    fn invert(&mut self, list: &mut [f32]) {
         self.near.scatter(list, &mut self.spread);
-        self.kernel.invert(&self.spread, &mut self.image);
+        self.kernel
+            .apply_roughly(&self.symbols[1], &self.spread, &mut self.image);
         let (near, image, inside) = (&self.near, &self.image, &self.inside);
         near.bands.for_each_part([near.list(list)], |band, [list]| {
             near.gather_in(band, image, list);
@@ -278,19 +311,27 @@ impl Equations {
     }
 
     /// Subtracts the mean over the contact.
-    fn subtract_mean(&self, list: &mut [f64]) {
+    fn subtract_mean(&self, list: &mut [f32]) {
         let sum = self.near.sum(|places| {
             let lists = [&list[places.clone()], &self.inside[places]];
-            sum(lists, |[value, inside]| inside * value * inside)
+            sum(lists, |[value, inside]| inside * value).into()
         });
-        let mean = sum / self.n_contact;
+        let mean = f32::of(sum / self.n_contact);
         list.iter_mut().for_each(|value| *value -= mean);
     }
 
-    fn total(&self, list: &[f64]) -> f64 {
+    fn total(&self, list: &[f32]) -> f64 {
         self.near
-            .sum(|places| sum([&list[places]], |[value]| value))
+            .sum(|places| sum([&list[places]], |[value]| value).into())
     }
+}
+
+/// Displacements under a unit pressure on the first element of so many, [m/Pa].
+fn displaced_by_first(kernel: &mut Kernel, n_elements: usize) -> Vec<f64> {
+    let [mut first, mut image] = [(); 2].map(|()| copies(0.0, n_elements));
+    first[0] = 1.0;
+    kernel.displace(&first, &mut image);
+    image
 }
 
 fn has_neighbour(contact: &[bool], columns: usize, element: usize) -> bool {

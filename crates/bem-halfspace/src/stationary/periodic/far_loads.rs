@@ -12,6 +12,7 @@
 //! The blocks are eight elements long along x and one across: waves with crests along x relax at every speed, so that
 //! they are the softest by far, and short ones among them matter.
 
+use numerics::transforms::Real as _;
 use rustfft::num_complex::Complex;
 
 use crate::contact::active_set::ActiveSet;
@@ -24,6 +25,7 @@ use crate::{BemError, Grid};
 
 /// Length of a block in elements.
 const BLOCK: usize = Bands::LARGEST_BLOCK;
+const ONE_OF_BLOCK: f32 = 1.0 / BLOCK as f32;
 /// Residual of the equation of the blocks at first, relative to its right side: on 1024² elements a contact takes an eighth to a
 /// third more products with 1e-2, and as much less with 1e-3, of which each takes longer.
 const TOLERANCE: f64 = 3e-3;
@@ -42,20 +44,26 @@ const KEPT: usize = 2;
 pub(super) struct FarLoads {
     columns: usize,
     kernel: Kernel,
+    /// Displacement of an element under its own unit pressure, by which displacements are measured, [m/Pa].
+    own_displacement: f64,
     /// W.
-    weights: Vec<f64>,
+    weights: Vec<f32>,
     /// That of the inverse by which the equation is solved, and its symbols.
-    one_weight: f64,
-    relaxation: Vec<Complex<f64>>,
+    one_weight: f32,
+    relaxation: Vec<Complex<f32>>,
     /// The displacement d under the pressures w.
-    lifted: Vec<f64>,
+    lifted: Vec<f32>,
     /// Of the residual, relative to the right side.
     tolerance: f64,
 }
 
 impl FarLoads {
     /// None where the rows of the grid are no whole number of blocks.
-    pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Option<Self>, BemError> {
+    pub(super) fn new(
+        sliding: &Sliding,
+        grid: &Grid,
+        own_displacement: f64,
+    ) -> Result<Option<Self>, BemError> {
         let ([rows, columns], [dx, dy]) = (grid.shape(), grid.spacing());
         if !rows.is_multiple_of(BLOCK) {
             return Ok(None);
@@ -64,6 +72,7 @@ impl FarLoads {
         Ok(Some(Self {
             columns,
             kernel: Kernel::new(sliding, &blocks)?,
+            own_displacement,
             weights: copies(0.0, blocks.n_elements()),
             one_weight: 0.0,
             relaxation: Vec::new(),
@@ -79,12 +88,13 @@ impl FarLoads {
 
     /// Takes the pressures w = S 1 of another contact and subtracts from a copy of them those that other patches make unnecessary;
     /// blocks with a mean tension take no part.
-    pub(super) fn weigh(&mut self, near: &ActiveSet, weights: &[f64], lowered: &mut [f64]) {
+    pub(super) fn weigh(&mut self, near: &ActiveSet, weights: &[f32], lowered: &mut [f32]) {
         let means = self.means(near, weights);
         self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
-        let total = sum([&self.weights], |[weight]| weight);
-        self.one_weight = PART_OF_MEAN * total / self.weights.len() as f64;
-        self.relaxation = self.kernel.relaxation(self.one_weight);
+        let total = f64::from(sum([&self.weights], |[weight]| weight));
+        let weight = PART_OF_MEAN * total / self.weights.len() as f64;
+        self.one_weight = f32::of(weight);
+        self.relaxation = self.kernel.relaxation(weight, self.own_displacement);
         // That of the contact before is not far from it.
         let mut lifted = std::mem::take(&mut self.lifted);
         self.solve(&means, &mut lifted);
@@ -93,7 +103,7 @@ impl FarLoads {
     }
 
     /// Subtracts from a list of pressures S r those that other patches make unnecessary; `weights` lists w.
-    pub(super) fn correct(&mut self, near: &ActiveSet, weights: &[f64], pressures: &mut [f64]) {
+    pub(super) fn correct(&mut self, near: &ActiveSet, weights: &[f32], pressures: &mut [f32]) {
         let mut displacement = copies(0.0, self.weights.len());
         self.solve(&self.means(near, pressures), &mut displacement);
         self.subtract(near, weights, &displacement, pressures);
@@ -104,9 +114,9 @@ impl FarLoads {
     fn subtract(
         &self,
         near: &ActiveSet,
-        weights: &[f64],
-        displacement: &[f64],
-        pressures: &mut [f64],
+        weights: &[f32],
+        displacement: &[f32],
+        pressures: &mut [f32],
     ) {
         let columns = self.columns;
         let list = [near.list(pressures)];
@@ -131,7 +141,7 @@ impl FarLoads {
     }
 
     /// Means of a list over the blocks.
-    fn means(&self, near: &ActiveSet, list: &[f64]) -> Vec<f64> {
+    fn means(&self, near: &ActiveSet, list: &[f32]) -> Vec<f32> {
         let columns = self.columns;
         let mut means = copies(0.0, self.weights.len());
         let starts = Starts::Every(near.bands.rows(0).len() / BLOCK * columns);
@@ -142,7 +152,7 @@ impl FarLoads {
             for run in near.runs(band) {
                 let first = run.elements().start;
                 let block = (first / columns - first_row) / BLOCK * columns + first % columns;
-                add(&mut means[block..], 1.0 / BLOCK as f64, &list[run.places()]);
+                add(&mut means[block..], ONE_OF_BLOCK, &list[run.places()]);
             }
         });
         means
@@ -150,7 +160,7 @@ impl FarLoads {
 
     /// Solves for the displacement d from a guess of it, by the inverse for one weight: with it the residual of the equation is a
     /// displacement.
-    fn solve(&mut self, means: &[f64], displacement: &mut [f64]) {
+    fn solve(&mut self, means: &[f32], displacement: &mut [f32]) {
         let Self {
             kernel,
             weights,
@@ -161,10 +171,10 @@ impl FarLoads {
         } = self;
         let of = Bands::new([means.len(), 1]);
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
-        kernel.relax(relaxation, means, &mut residual);
+        kernel.apply_roughly(relaxation, means, &mut residual);
         let target = *tolerance * norm(&residual);
         // What a displacement adds to the residual.
-        let mut find_image = |from: &[f64], image: &mut [f64]| {
+        let mut find_image = |from: &[f32], image: &mut [f32]| {
             of.for_each([&mut load], |band, [load]| {
                 let elements = of.elements(band);
                 let pairs = from[elements.clone()].iter().zip(&weights[elements]);
@@ -172,7 +182,7 @@ impl FarLoads {
                     *load = (*one_weight - weight) * value;
                 }
             });
-            kernel.relax(relaxation, &load, image);
+            kernel.apply_roughly(relaxation, &load, image);
             of.for_each([image], |band, [image]| {
                 add(image, -1.0, &from[of.elements(band)]);
             });
@@ -182,14 +192,14 @@ impl FarLoads {
             find_image(displacement, &mut image);
             add(&mut residual, 1.0, &image);
         }
-        let find = |residual: &[f64], from: &[f64], [direction, image]: [&mut [f64]; 2]| {
-            let goes_on = norm(residual) > target;
+        let mut find = |size: f64, [_, from]: [&[f32]; 2], [direction, image]: [&mut [f32]; 2]| {
+            let goes_on = size.sqrt() > target;
             if goes_on {
                 direction.copy_from_slice(from);
                 find_image(from, image);
             }
             goes_on
         };
-        minimise::<f32>([displacement, &mut residual], None, [MOST, KEPT], find);
+        minimise([displacement, &mut residual], None, [MOST, KEPT], &mut find);
     }
 }

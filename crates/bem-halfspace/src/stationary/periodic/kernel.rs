@@ -113,9 +113,8 @@ pub(super) struct Kernel {
     at_centre: Vec<Complex<f64>>,
     /// The shift to the point at which the gap is evaluated.
     shift: Vec<Complex<f64>>,
-    /// Their product, and its inverse.
+    /// Their product.
     factors: Vec<Complex<f64>>,
-    inverse: Vec<Complex<f64>>,
 }
 
 impl Kernel {
@@ -142,7 +141,6 @@ impl Kernel {
             waves,
             at_centre,
             shift,
-            inverse: factors.iter().map(Complex::inv).collect(),
             factors,
         })
     }
@@ -153,10 +151,20 @@ impl Kernel {
         self.waves.apply(pressure, result, symbol);
     }
 
-    /// The inverse of [`displace`](Self::displace) on the whole grid.
-    pub(super) fn invert(&mut self, displacement: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.inverse[row] * q;
-        self.waves.apply(displacement, result, symbol);
+    /// Displacements of the centres.
+    pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row] / q;
+        self.waves.apply(pressure, result, symbol);
+    }
+
+    /// The symbols of displacements in units of that of an element under its own unit pressure, and of the inverse on the whole
+    /// grid, for [`apply_roughly`](Self::apply_roughly).
+    pub(super) fn symbols(&self, own_displacement: f64) -> [Vec<Complex<f32>>; 2] {
+        let factor = |row: usize, q: f64| self.factors[row] / (q * own_displacement);
+        [
+            self.waves.symbols(factor),
+            self.waves.symbols(|row, q| factor(row, q).inv()),
+        ]
     }
 
     /// The pressure that displaces the centres of all elements.
@@ -165,17 +173,23 @@ impl Kernel {
         self.waves.apply(field, result, symbol);
     }
 
-    /// The symbols that make of r the displacements K z of the centres for (1 + w K) z = r with one weight w for all elements.
-    pub(super) fn relaxation(&self, weight: f64) -> Vec<Complex<f64>> {
+    /// The symbols that make of r the displacements K z of the centres for (1 + w K) z = r with one weight w for all elements, in
+    /// the same unit.
+    pub(super) fn relaxation(&self, weight: f64, own_displacement: f64) -> Vec<Complex<f32>> {
         self.waves.symbols(|row, q| {
-            let kernel = self.at_centre[row];
+            let kernel = self.at_centre[row] / own_displacement;
             kernel / (kernel * weight + q)
         })
     }
 
-    /// Multiplies every wave by a symbol of its own.
-    pub(super) fn relax(&mut self, symbols: &[Complex<f64>], field: &[f64], result: &mut [f64]) {
-        self.waves.apply_all(field, result, symbols);
+    /// Multiplies every wave by a symbol of its own, with seven digits.
+    pub(super) fn apply_roughly(
+        &mut self,
+        symbols: &[Complex<f32>],
+        field: &[f32],
+        result: &mut [f32],
+    ) {
+        self.waves.apply_roughly(field, result, symbols);
     }
 
     /// Heights at the points where the gaps are evaluated, by trigonometric interpolation.

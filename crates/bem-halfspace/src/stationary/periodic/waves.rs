@@ -2,16 +2,18 @@
 
 use std::f64::consts::PI;
 
+use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
 use crate::parallel::bands::{copies, for_each_row};
-use crate::transform::plane_transform::{PlaneTransform, Workspace, ZERO};
+use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 
-/// The waves that fit on a grid, with buffers for their transforms.
+/// The waves that fit on a grid.
 pub(super) struct Waves {
-    transform: PlaneTransform,
-    workspace: Workspace,
+    shape: [usize; 2],
+    accurate: Option<Transforms<f64>>,
+    rough: Option<Transforms<f32>>,
     /// q_x of the rows of a transformed field, \[rad/m]: that of the shortest wave is positive.
     pub(super) along_x: Vec<f64>,
     /// |q|/M of all waves by column and row of the transform, \[rad/m]; that of the longest wave stands for the mean.
@@ -20,7 +22,6 @@ pub(super) struct Waves {
 
 impl Waves {
     pub(super) fn new(grid: &Grid, base: &Base) -> Self {
-        let transform = PlaneTransform::new(grid.shape());
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
         let unit_x = 2.0 * PI / (rows as f64 * dx);
@@ -39,15 +40,16 @@ impl Waves {
             }
         });
         Self {
-            workspace: Workspace::new(&transform, grid.shape()),
-            transform,
+            shape: grid.shape(),
+            accurate: None,
+            rough: None,
             along_x,
             stiffness,
         }
     }
 
     /// Multiplies every wave of a field by a symbol of its row in the transform, its q_x and its |q|/M \[rad/m], which is
-    /// that of the longest wave for the mean. Does not allocate.
+    /// that of the longest wave for the mean. Does not allocate after the first time.
     pub(super) fn apply(
         &mut self,
         field: &[f64],
@@ -55,70 +57,79 @@ impl Waves {
         symbol: impl Fn(usize, [f64; 2]) -> Complex<f64> + Sync,
     ) {
         let (along_x, stiffness) = (&self.along_x, &self.stiffness);
-        let normalisation = self.transform.normalisation();
-        let multiply = |column: usize, values: &mut [Complex<f64>]| {
+        let transforms = Transforms::of(&mut self.accurate, self.shape);
+        let normalisation = transforms.plans.normalisation();
+        transforms.pass((field, result), |column, values| {
             let stiffness = &stiffness[column * along_x.len()..];
             let waves = along_x.iter().zip(stiffness).enumerate();
             for (value, (row, (&q_x, &q))) in values.iter_mut().zip(waves) {
                 *value *= symbol(row, [q_x, q]) * normalisation;
             }
-        };
-        pass(
-            &self.transform,
-            &mut self.workspace,
-            (field, result),
-            multiply,
-        );
+        });
     }
 
-    /// Symbols of all waves for [`apply_all`](Self::apply_all).
+    /// Symbols of all waves for [`apply_roughly`](Self::apply_roughly).
     pub(super) fn symbols(
         &self,
         symbol: impl Fn(usize, f64) -> Complex<f64> + Sync,
-    ) -> Vec<Complex<f64>> {
+    ) -> Vec<Complex<f32>> {
         let (rows, stiffness) = (self.along_x.len(), &self.stiffness);
-        let normalisation = self.transform.normalisation();
-        let mut symbols = copies(ZERO, stiffness.len());
+        let normalisation = 1.0 / (self.shape[0] as f64 * self.shape[1] as f64);
+        let mut symbols = copies(Complex::default(), stiffness.len());
         for_each_row(&mut symbols, rows, |column, symbols| {
             let waves = stiffness[column * rows..].iter().enumerate();
             for (place, (row, &q)) in symbols.iter_mut().zip(waves) {
-                *place = symbol(row, q) * normalisation;
+                *place = rounded(symbol(row, q) * normalisation);
             }
         });
         symbols
     }
 
-    /// Multiplies every wave of a field by its symbol. Does not allocate.
-    pub(super) fn apply_all(
+    /// Multiplies every wave by its symbol, with seven digits. Does not allocate after the first time.
+    pub(super) fn apply_roughly(
         &mut self,
-        field: &[f64],
-        result: &mut [f64],
-        symbols: &[Complex<f64>],
+        field: &[f32],
+        result: &mut [f32],
+        symbols: &[Complex<f32>],
     ) {
         let rows = self.along_x.len();
-        let multiply = |column: usize, values: &mut [Complex<f64>]| {
+        let transforms = Transforms::of(&mut self.rough, self.shape);
+        transforms.pass((field, result), |column, values| {
             for (value, symbol) in values.iter_mut().zip(&symbols[column * rows..]) {
                 *value *= symbol;
             }
-        };
-        pass(
-            &self.transform,
-            &mut self.workspace,
-            (field, result),
-            multiply,
-        );
+        });
     }
 }
 
-/// Multiplies the columns of the transform of a whole field.
-fn pass(
-    transform: &PlaneTransform,
-    workspace: &mut Workspace,
-    (field, result): (&[f64], &mut [f64]),
-    multiply: impl Fn(usize, &mut [Complex<f64>]) + Sync,
-) {
-    let rows = 0..transform.padded[0];
-    transform.load(workspace, field, &rows);
-    transform.pass(workspace, (&rows, &rows), multiply);
-    transform.read(workspace, result, &rows);
+/// Transforms of whole fields with their buffers.
+struct Transforms<T> {
+    plans: PlaneTransform<T>,
+    workspace: Workspace<T>,
+}
+
+impl<T: Real> Transforms<T> {
+    /// Those of a place, which are made where there are none.
+    fn of(place: &mut Option<Self>, shape: [usize; 2]) -> &mut Self {
+        place.get_or_insert_with(|| {
+            let plans = PlaneTransform::new(shape);
+            Self {
+                workspace: Workspace::new(&plans, shape),
+                plans,
+            }
+        })
+    }
+
+    /// Multiplies the columns of the transform of a whole field.
+    fn pass(
+        &mut self,
+        (field, result): (&[T], &mut [T]),
+        multiply: impl Fn(usize, &mut [Complex<T>]) + Sync,
+    ) {
+        let Self { plans, workspace } = self;
+        let rows = 0..plans.padded[0];
+        plans.load(workspace, field, &rows);
+        plans.pass(workspace, (&rows, &rows), multiply);
+        plans.read(workspace, result, &rows);
+    }
 }

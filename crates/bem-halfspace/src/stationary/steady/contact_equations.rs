@@ -9,7 +9,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::parallel::reductions::add;
-use crate::stationary::conjugate_residuals::{minimise, norm};
+use crate::stationary::conjugate_residuals::minimise;
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
@@ -117,16 +117,21 @@ impl<'mesh> ContactEquations<'mesh> {
         loads.push(depth);
         let unknowns = [&mut loads[..], &mut gaps[..]];
         let most = [MOST_DIRECTIONS; 2];
-        minimise::<f64>(unknowns, None, most, |gaps, from, [direction, image]| {
-            if norm(gaps) <= allowed {
-                return false;
-            }
-            let (mut loads, depth) = self.correct(from);
-            image.copy_from_slice(&self.displacements_below(&loads, depth));
-            loads.push(depth);
-            direction.copy_from_slice(&loads);
-            true
-        });
+        minimise(
+            unknowns,
+            None,
+            most,
+            |size, [_, from], [direction, image]| {
+                if size.sqrt() <= allowed {
+                    return false;
+                }
+                let (mut loads, depth) = self.correct(from);
+                image.copy_from_slice(&self.displacements_below(&loads, depth));
+                loads.push(depth);
+                direction.copy_from_slice(&loads);
+                true
+            },
+        );
         EquationSolution {
             depth: loads.remove(n),
             loads,

@@ -23,7 +23,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use numerics::transforms;
+use numerics::transforms::Real;
 use realfft::RealToComplex;
 use rustfft::num_complex::Complex;
 
@@ -35,23 +35,23 @@ const SHORT: usize = 512;
 
 /// The sums F of real numbers.
 #[derive(Clone)]
-pub(super) struct Cosines {
-    plan: Arc<dyn RealToComplex<f64>>,
+pub(super) struct Cosines<T> {
+    plan: Arc<dyn RealToComplex<T>>,
     /// sin(πn/L) for n = 0 … L/2; none where the period is transformed.
-    sines: Option<Vec<f64>>,
+    sines: Option<Vec<T>>,
 }
 
-impl Cosines {
+impl<T: Real> Cosines<T> {
     pub(super) fn new(length: usize) -> Self {
-        let sine = |n| (PI * n as f64 / length as f64).sin();
+        let sine = |n| T::of((PI * n as f64 / length as f64).sin());
         if length > SHORT {
             return Self {
-                plan: transforms::real_forward(2 * length),
+                plan: T::real_forward(2 * length),
                 sines: None,
             };
         }
         Self {
-            plan: transforms::real_forward(length),
+            plan: T::real_forward(length),
             sines: Some((0..=length / 2).map(sine).collect()),
         }
     }
@@ -63,12 +63,12 @@ impl Cosines {
     }
 
     /// The transform that finds them.
-    pub(super) fn plan(&self) -> &dyn RealToComplex<f64> {
+    pub(super) fn plan(&self) -> &dyn RealToComplex<T> {
         &*self.plan
     }
 
     /// Replaces f_0 … f_L by F_0 … F_L in the row of the buffers.
-    pub(super) fn apply(&self, buffers: &mut Buffers) {
+    pub(super) fn apply(&self, buffers: &mut Buffers<T>) {
         let (numbers, reals) = (&mut buffers.row, &mut buffers.folded);
         let (coefficients, scratch) = (&mut buffers.half_row, &mut buffers.scratch);
         if let Some(sines) = &self.sines {
@@ -87,11 +87,11 @@ impl Cosines {
 }
 
 /// Writes y_0 … y_(L−1) for f_0 … f_L.
-fn fold(sines: &[f64], numbers: &[f64], folded: &mut [f64]) {
+fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
     let length = folded.len();
-    for (n, sine) in sines.iter().enumerate() {
+    for (n, &sine) in sines.iter().enumerate() {
         let [near, far] = [numbers[n], numbers[length - n]];
-        let (sum, difference) = (near + far, 2.0 * sine * (near - far));
+        let (sum, difference) = (near + far, T::of(2.0) * sine * (near - far));
         if n > 0 {
             folded[length - n] = sum + difference;
         }
@@ -100,8 +100,8 @@ fn fold(sines: &[f64], numbers: &[f64], folded: &mut [f64]) {
 }
 
 /// Writes F_0 … F_L from Y_0 … Y_(L/2) and the mean of those with odd k.
-fn separate(coefficients: &[Complex<f64>], mean: f64, numbers: &mut [f64]) {
-    let (mut odd, mut total) = (0.0, 0.0);
+fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
+    let (mut odd, mut total) = (T::default(), T::default());
     for (pair, coefficient) in numbers.chunks_mut(2).zip(coefficients) {
         odd -= coefficient.im;
         pair[0] = coefficient.re;
@@ -113,9 +113,9 @@ fn separate(coefficients: &[Complex<f64>], mean: f64, numbers: &mut [f64]) {
     let length = numbers.len() - 1;
     if !length.is_multiple_of(2) {
         // The last stands alone in the period, the others twice.
-        total -= 0.5 * odd;
+        total -= T::of(0.5) * odd;
     }
-    let shift = mean - total * 2.0 / length as f64;
+    let shift = mean - total * T::of(2.0) / T::of(length as f64);
     for number in numbers.iter_mut().skip(1).step_by(2) {
         *number += shift;
     }

@@ -16,11 +16,19 @@
 
 use std::f64::consts::PI;
 
+use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
+use crate::transform::plane_transform::rounded;
+
 /// The numbers w_k for k = 0 … L/2.
-pub(super) fn turns(length: usize) -> Vec<Complex<f64>> {
-    let turn = |k| Complex::from_polar(1.0, -0.5 * PI * k as f64 / length as f64);
+pub(super) fn turns<T: Real>(length: usize) -> Vec<Complex<T>> {
+    let turn = |k| {
+        rounded(Complex::from_polar(
+            1.0,
+            -0.5 * PI * k as f64 / length as f64,
+        ))
+    };
     (0..=length / 2).map(turn).collect()
 }
 
@@ -34,25 +42,25 @@ pub(super) const fn place(element: usize, length: usize) -> usize {
 }
 
 /// Puts values and zeros behind them into the order of the transform.
-pub(super) fn order(values: &[f64], ordered: &mut [f64]) {
-    ordered.fill(0.0);
+pub(super) fn order<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
+    ordered.fill(T::default());
     for (element, value) in values.iter().enumerate() {
-        ordered[place(element, ordered.len())] = *value;
+        ordered[place(element, ordered.len())] = T::of((*value).into());
     }
 }
 
 /// Takes the first values from the order of the transform.
-pub(super) fn order_back(ordered: &[f64], values: &mut [f64]) {
+pub(super) fn order_back<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
     for (element, value) in values.iter_mut().enumerate() {
-        *value = ordered[place(element, ordered.len())];
+        *value = F::of(ordered[place(element, ordered.len())].into());
     }
 }
 
 /// U_0 … U_(L−1) of real x, from V_0 … V_(L/2).
-pub(super) fn turn(turns: &[Complex<f64>], half: &[Complex<f64>], numbers: &mut [f64]) {
+pub(super) fn turn<T: Real>(turns: &[Complex<T>], half: &[Complex<T>], numbers: &mut [T]) {
     let length = numbers.len();
     for (k, (value, turn)) in half.iter().zip(turns).enumerate() {
-        let turned = 2.0 * value * turn;
+        let turned = value * turn * T::of(2.0);
         if k > 0 {
             numbers[length - k] = -turned.im;
         }
@@ -61,10 +69,14 @@ pub(super) fn turn(turns: &[Complex<f64>], half: &[Complex<f64>], numbers: &mut 
 }
 
 /// Twice V_0 … V_(L/2) from real U_0 … U_(L−1).
-pub(super) fn turn_back(turns: &[Complex<f64>], numbers: &[f64], half: &mut [Complex<f64>]) {
+pub(super) fn turn_back<T: Real>(turns: &[Complex<T>], numbers: &[T], half: &mut [Complex<T>]) {
     let length = numbers.len();
     for (k, (value, turn)) in half.iter_mut().zip(turns).enumerate() {
-        let opposite = if k > 0 { numbers[length - k] } else { 0.0 };
+        let opposite = if k > 0 {
+            numbers[length - k]
+        } else {
+            T::default()
+        };
         *value = turn.conj() * Complex::new(numbers[k], -opposite);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use numerics::transforms;
+use numerics::transforms::Real;
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
 
@@ -11,15 +11,15 @@ use crate::transform::plane_transform::{about_centre, about_edge};
 
 /// The transforms of a column, or of the part of it in front of a mirror.
 #[derive(Clone)]
-pub(super) struct ColumnTransform {
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+pub(super) struct ColumnTransform<T> {
+    forward: Arc<dyn Fft<T>>,
+    inverse: Arc<dyn Fft<T>>,
     pub(super) mirror: Mirror,
     /// Of [`about_edge`]; empty without a mirror there.
-    pub(super) turns: Vec<Complex<f64>>,
+    pub(super) turns: Vec<Complex<T>>,
 }
 
-impl ColumnTransform {
+impl<T: Real> ColumnTransform<T> {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let (length, turns) = match mirror {
@@ -27,8 +27,8 @@ impl ColumnTransform {
             Mirror::Edge => (period / 2, about_edge::turns(period / 2)),
         };
         Self {
-            forward: transforms::forward(length),
-            inverse: transforms::inverse(length),
+            forward: T::forward(length),
+            inverse: T::inverse(length),
             mirror,
             turns,
         }
@@ -60,15 +60,15 @@ impl ColumnTransform {
         }
     }
 
-    pub(super) fn forward(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+    pub(super) fn forward(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
-            column[0] *= 2.0;
+            column[0] *= T::of(2.0);
             return self.sum_of_period(scratch, column);
         }
         self.forward.process_with_scratch(column, scratch);
     }
 
-    pub(super) fn inverse(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+    pub(super) fn inverse(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
             return self.sum_of_period(scratch, column);
         }
@@ -77,7 +77,7 @@ impl ColumnTransform {
 
     /// The sums F of [`about_centre`], in both directions, as the Fourier transform of the period: here a mirror halves
     /// the rows only.
-    fn sum_of_period(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+    fn sum_of_period(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         let (period, scratch) = scratch.split_at_mut(self.forward.len());
         about_centre::unfold(column, period);
         self.forward.process_with_scratch(period, scratch);

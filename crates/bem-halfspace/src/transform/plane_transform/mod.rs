@@ -18,6 +18,7 @@ mod workspace;
 use std::fmt;
 use std::ops::Range;
 
+use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
 use crate::elements::mirror::{Mirror, NO_MIRRORS};
@@ -35,13 +36,13 @@ pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
 #[derive(Clone)]
-pub(crate) struct PlaneTransform {
+pub(crate) struct PlaneTransform<T = f64> {
     pub(crate) padded: [usize; 2],
-    rows: RowTransform,
-    columns: ColumnTransform,
+    rows: RowTransform<T>,
+    columns: ColumnTransform<T>,
 }
 
-impl fmt::Debug for PlaneTransform {
+impl<T> fmt::Debug for PlaneTransform<T> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("PlaneTransform")
@@ -50,7 +51,7 @@ impl fmt::Debug for PlaneTransform {
     }
 }
 
-impl PlaneTransform {
+impl<T: Real> PlaneTransform<T> {
     /// Plans the transforms of whole fields.
     pub(crate) fn new(padded: [usize; 2]) -> Self {
         Self::folded(padded, NO_MIRRORS)
@@ -90,24 +91,29 @@ impl PlaneTransform {
     }
 
     /// Transforms a real row of the whole period; its values are overwritten.
-    pub(crate) fn transform_row(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
+    pub(crate) fn transform_row(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
         self.rows.forward_whole(row, transformed);
     }
 
     /// Transforms columns of the whole period, without normalisation.
-    pub(crate) fn column_forward(&self, columns: &mut [Complex<f64>]) {
-        let mut scratch = vec![ZERO; self.columns.scratch_len()];
+    pub(crate) fn column_forward(&self, columns: &mut [Complex<T>]) {
+        let mut scratch = vec![Complex::default(); self.columns.scratch_len()];
         self.columns.forward(&mut scratch, columns);
     }
 
     /// The inverse of [`column_forward`](Self::column_forward).
-    pub(crate) fn column_back(&self, columns: &mut [Complex<f64>]) {
-        let mut scratch = vec![ZERO; self.columns.scratch_len()];
+    pub(crate) fn column_back(&self, columns: &mut [Complex<T>]) {
+        let mut scratch = vec![Complex::default(); self.columns.scratch_len()];
         self.columns.inverse(&mut scratch, columns);
     }
 
     /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
-    pub(crate) fn load(&self, workspace: &mut Workspace, field: &[f64], loaded: &Range<usize>) {
+    pub(crate) fn load<F: Real>(
+        &self,
+        workspace: &mut Workspace<T>,
+        field: &[F],
+        loaded: &Range<usize>,
+    ) {
         let width = workspace.shape[1];
         let (strips, buffers) = (&mut workspace.strips, &mut workspace.buffers);
         let unit = self.n_tiles() * STRIP;
@@ -135,9 +141,9 @@ impl PlaneTransform {
     /// Applies `multiply` to every column of the transform of the rows `loaded`, and keeps the rows `wanted`.
     pub(crate) fn pass(
         &self,
-        workspace: &mut Workspace,
+        workspace: &mut Workspace<T>,
         (loaded, wanted): (&Range<usize>, &Range<usize>),
-        multiply: impl Fn(usize, &mut [Complex<f64>]) + Sync,
+        multiply: impl Fn(usize, &mut [Complex<T>]) + Sync,
     ) {
         let stride = workspace.tile_stride();
         let (strips, tiles) = (&workspace.strips, &mut workspace.tiles[..]);
@@ -160,12 +166,12 @@ impl PlaneTransform {
 
     fn gather_columns(
         &self,
-        buffers: &mut Buffers,
-        strips: &[[Complex<f64>; TILE]],
+        buffers: &mut Buffers<T>,
+        strips: &[[Complex<T>; TILE]],
         (tile, loaded): (usize, &Range<usize>),
     ) {
         let stride = self.column_stride();
-        buffers.columns.fill(ZERO);
+        buffers.columns.fill(Complex::default());
         for strip in loaded.start / STRIP..loaded.end.div_ceil(STRIP) {
             let pieces = &strips[(strip * self.n_tiles() + tile) * STRIP..][..STRIP];
             for row in rows_of_strip(strip, loaded) {
@@ -180,9 +186,9 @@ impl PlaneTransform {
 
     fn multiply_columns(
         &self,
-        buffers: &mut Buffers,
+        buffers: &mut Buffers<T>,
         columns: &Range<usize>,
-        multiply: impl Fn(usize, &mut [Complex<f64>]),
+        multiply: impl Fn(usize, &mut [Complex<T>]),
     ) {
         let stored = buffers.columns.chunks_exact_mut(self.column_stride());
         for (column, values) in columns.clone().zip(stored) {
@@ -194,10 +200,10 @@ impl PlaneTransform {
     }
 
     /// Writes the rows `wanted` of the result; the other rows are left as they are.
-    pub(crate) fn read(
+    pub(crate) fn read<F: Real>(
         &self,
-        workspace: &mut Workspace,
-        result: &mut [f64],
+        workspace: &mut Workspace<T>,
+        result: &mut [F],
         wanted: &Range<usize>,
     ) {
         let (stride, width) = (workspace.tile_stride(), workspace.shape[1]);
@@ -218,6 +224,11 @@ impl PlaneTransform {
             }
         });
     }
+}
+
+/// The nearest number of the type of a transform.
+pub(crate) fn rounded<T: Real>(value: Complex<f64>) -> Complex<T> {
+    Complex::new(T::of(value.re), T::of(value.im))
 }
 
 /// Those of the rows that lie in a strip.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use numerics::transforms;
+use numerics::transforms::Real;
 use realfft::{ComplexToReal, RealToComplex};
 use rustfft::num_complex::Complex;
 
@@ -17,17 +17,17 @@ use crate::transform::plane_transform::workspace::Buffers;
 /// The coefficients of a whole row are complex, and those of the other half of the period their conjugates; those beside
 /// a mirror are real, and two of them side by side are stored as one complex number.
 #[derive(Clone)]
-pub(super) enum RowTransform {
+pub(super) enum RowTransform<T> {
     Fourier {
-        forward: Arc<dyn RealToComplex<f64>>,
-        inverse: Arc<dyn ComplexToReal<f64>>,
+        forward: Arc<dyn RealToComplex<T>>,
+        inverse: Arc<dyn ComplexToReal<T>>,
         /// Of [`about_edge`]; none without a mirror there.
-        turns: Option<Vec<Complex<f64>>>,
+        turns: Option<Vec<Complex<T>>>,
     },
-    AboutCentre(Cosines),
+    AboutCentre(Cosines<T>),
 }
 
-impl RowTransform {
+impl<T: Real> RowTransform<T> {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let half = period / 2;
@@ -37,8 +37,8 @@ impl RowTransform {
             Mirror::Edge => (half, Some(about_edge::turns(half))),
         };
         Self::Fourier {
-            forward: transforms::real_forward(length),
-            inverse: transforms::real_inverse(length),
+            forward: T::real_forward(length),
+            inverse: T::real_inverse(length),
             turns,
         }
     }
@@ -82,7 +82,7 @@ impl RowTransform {
     }
 
     /// Transforms all elements of a row without a mirror; they are overwritten.
-    pub(super) fn forward_whole(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
+    pub(super) fn forward_whole(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
         assert!(!self.has_mirror(), "a whole row");
         if let Self::Fourier { forward, .. } = self {
             let mut scratch = forward.make_scratch_vec();
@@ -92,7 +92,7 @@ impl RowTransform {
 
     /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
     /// the buffers.
-    pub(super) fn forward(&self, buffers: &mut Buffers, values: &[f64]) {
+    pub(super) fn forward<F: Real>(&self, buffers: &mut Buffers<T>, values: &[F]) {
         match self {
             Self::Fourier { forward, turns, .. } => {
                 match turns {
@@ -108,7 +108,7 @@ impl RowTransform {
             }
             Self::AboutCentre(cosines) => {
                 fill(&mut buffers.row, values);
-                buffers.row[0] *= 2.0;
+                buffers.row[0] *= T::of(2.0);
                 cosines.apply(buffers);
                 pair(&buffers.row, &mut buffers.half_row);
             }
@@ -116,7 +116,7 @@ impl RowTransform {
     }
 
     /// Transforms back, without normalisation, the coefficients in the half row of the buffers.
-    pub(super) fn inverse(&self, buffers: &mut Buffers, values: &mut [f64]) {
+    pub(super) fn inverse<F: Real>(&self, buffers: &mut Buffers<T>, values: &mut [F]) {
         match self {
             Self::Fourier { inverse, turns, .. } => {
                 if let Some(turns) = turns {
@@ -134,20 +134,24 @@ impl RowTransform {
                 cosines.apply(buffers);
             }
         }
-        values.copy_from_slice(&buffers.row[..values.len()]);
+        for (value, found) in values.iter_mut().zip(&buffers.row) {
+            *value = F::of((*found).into());
+        }
     }
 }
 
 /// Values, and zeros behind them.
-fn fill(row: &mut [f64], values: &[f64]) {
-    row[..values.len()].copy_from_slice(values);
-    row[values.len()..].fill(0.0);
+fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
+    for (place, value) in row.iter_mut().zip(values) {
+        *place = T::of((*value).into());
+    }
+    row[values.len()..].fill(T::default());
 }
 
 /// Stores two real numbers each as one complex number.
-fn pair(reals: &[f64], pairs: &mut [Complex<f64>]) {
+fn pair<T: Real>(reals: &[T], pairs: &mut [Complex<T>]) {
     let (whole, rest) = reals.as_chunks::<2>();
-    let alone = rest.iter().map(|&real| Complex::new(real, 0.0));
+    let alone = rest.iter().map(|&real| Complex::new(real, T::default()));
     let whole = whole.iter().map(|&[re, im]| Complex::new(re, im));
     for (place, pair) in pairs.iter_mut().zip(whole.chain(alone)) {
         *place = pair;
@@ -155,7 +159,7 @@ fn pair(reals: &[f64], pairs: &mut [Complex<f64>]) {
 }
 
 /// The inverse of [`pair`].
-fn unpair(pairs: &[Complex<f64>], reals: &mut [f64]) {
+fn unpair<T: Real>(pairs: &[Complex<T>], reals: &mut [T]) {
     for (reals, pair) in reals.chunks_mut(2).zip(pairs) {
         for (real, value) in reals.iter_mut().zip([pair.re, pair.im]) {
             *real = value;

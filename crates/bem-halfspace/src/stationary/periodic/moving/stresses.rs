@@ -11,7 +11,8 @@
 use std::f64::consts::TAU;
 
 use indenters::{MovingLoad, MovingStep, Shape};
-use numerics::{transforms, whole_part};
+use numerics::transforms::Real;
+use numerics::whole_part;
 use rheology::{CreepSpectrum, ExponentialStep, RelaxationBranch, RelaxationSpectrum};
 use rustfft::num_complex::Complex;
 
@@ -262,7 +263,7 @@ fn harmonic(
         Ok(Complex::new(modulus.storage, sign * modulus.loss))
     };
     let moduli: Vec<Complex<f64>> = (0..count).map(modulus).collect::<Result<_, BemError>>()?;
-    let (forward, inverse) = (transforms::forward(count), transforms::inverse(count));
+    let (forward, inverse) = (f64::forward(count), f64::inverse(count));
     let of_wave = |q: &f64| {
         let at = |index: usize| {
             let quarter = (0.5 * TAU * index as f64 / count as f64).sin();

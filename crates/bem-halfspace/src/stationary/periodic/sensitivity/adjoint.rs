@@ -1,6 +1,6 @@
 //! The adjoint loads of a contact of a periodic surface, and what each quantity asks of its kernel.
 
-use numerics::transforms;
+use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
 use crate::elements::rim::{Measure, RATIO, Rim, RimField};
@@ -12,8 +12,8 @@ use crate::stationary::periodic::waves::Waves;
 use crate::{BemError, Grid};
 
 /// Residual of the adjoint equations over their right side, and the part of it that is left after a round of directions.
-const TOLERANCE: f64 = 1e-6;
-const ROUND: f64 = 3e-7;
+const TOLERANCE: f64 = 1e-7;
+const ROUND: f64 = 1e-3;
 const MOST_ROUNDS: usize = 20;
 /// Rounds that leave more of the residual are the last.
 const LEAST_REDUCTION: f64 = 0.7;
@@ -286,7 +286,7 @@ pub(super) fn turned(field: &[f64], grid: &Grid) -> Vec<f64> {
 /// with the factors.
 fn row_sums([left, right]: [&[f64]; 2], grid: &Grid) -> Vec<Complex<f64>> {
     let [rows, columns] = grid.shape();
-    let transform = transforms::forward(rows);
+    let transform = f64::forward(rows);
     let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
     let mut sums = vec![Complex::default(); rows];
     let mut column = |field: &[f64], index: usize| {

@@ -277,9 +277,9 @@ impl State {
             let mut kernel = Kernel::new(end, &self.grid)?;
             let mut field = vec![0.0; n];
             // At the centres of the elements.
-            kernel.relax(&kernel.relaxation(0.0), &self.pressure, &mut field);
+            kernel.displace_centres(&self.pressure, &mut field);
             add(&mut moved, sign, &field);
-            kernel.relax(&kernel.relaxation(0.0), &first_of(n), &mut field);
+            kernel.displace_centres(&first_of(n), &mut field);
             add(&mut under_one, sign, &field);
             kernel.dissipate(&self.pressure, &mut field);
             add(&mut dissipated, sign, &field);

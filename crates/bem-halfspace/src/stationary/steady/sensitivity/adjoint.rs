@@ -52,12 +52,12 @@ pub(super) fn solve(
         let mut residual: Vec<f64> = right.iter().map(|value| -value).collect();
         let unknowns = [&mut loads[..], &mut residual[..]];
         let most = [MOST_DIRECTIONS; 2];
-        minimise::<f64>(
+        minimise(
             unknowns,
             None,
             most,
-            |residual, from, [direction, image]| {
-                if norm(residual) <= allowed {
+            |size, [_, from], [direction, image]| {
+                if size.sqrt() <= allowed {
                     return false;
                 }
                 direction.copy_from_slice(&preconditioner.loads(from, &region));
