@@ -152,6 +152,7 @@ impl Kernel {
     }
 
     /// Displacements of the centres.
+    #[cfg(feature = "rough")]
     pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row] / q;
         self.waves.apply(pressure, result, symbol);

@@ -39,6 +39,7 @@ pub(crate) struct Limit {
 
 impl Limit {
     /// Of one grid of either spacing.
+    #[cfg(any(feature = "rough", test))]
     pub(crate) fn of_single(self, fine: Change<f64>, coarse: Change<f64>) -> Change<Estimate> {
         let [fine, coarse] = [fine, coarse].map(|change| mean(vec![change]));
         self.of(fine, coarse)
