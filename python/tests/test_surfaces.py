@@ -319,5 +319,7 @@ def test_many_surfaces_of_a_spectrum_have_their_mean_and_its_standard_error(tmp_
     both = vf.slide(vf.Spectrum(file, (1e-2, 1e-2), 3, realisations=2), rubber, **load)
     assert both.mu == pytest.approx(np.mean(single), rel=1e-12)
     assert both.standard_error["friction_coefficient"] == pytest.approx(abs(single[0] - single[1]) / 2, rel=1e-9)
+    known = vf.slide(vf.Spectrum(file, (1e-2, 1e-2), 3, standard_error=0.2), rubber, **load)
+    assert known.standard_error["friction_coefficient"] <= 0.2 * known.mu
     with pytest.raises(ValueError, match=r"indenter\.spectrum\.realisations must be from 1 to 1000, but is 0"):
         vf.slide(vf.Spectrum(file, (1e-2, 1e-2), 3, realisations=0), rubber, **load)

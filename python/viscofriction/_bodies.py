@@ -194,7 +194,8 @@ class SelfAffine(Body):
 
     Waves from the longest to the shortest wavelength, with a constant spectrum above the roll-off wavelength if there is one;
     0 < hurst_exponent < 1; rms_slope > 0 is that of this surface; another seed draws another one, and with ``realisations`` the
-    answer is the mean of so many.
+    answer is the mean of so many; with ``standard_error`` of as many as make it that part of the mean, and ``realisations``
+    at most.
     """
 
     period: tuple[float, float]
@@ -205,6 +206,7 @@ class SelfAffine(Body):
     seed: int
     roll_off_wavelength: float | None = None
     realisations: int | None = None
+    standard_error: float | None = None
     _kind = "self-affine"
 
     def _table(self) -> dict[str, Any]:
@@ -219,7 +221,8 @@ class Spectrum(Body):
     ``file`` is a CSV file with the columns wave_number q = 2π/λ [1/m] and density C [m⁴], such as the spectrum.csv of
     ``viscofriction surface``. ⟨h²⟩ = 2π ∫ q C dq with ``convention="persson"``; with ``"surface-topography"`` C is 4π² times as
     large. Waves shorter than ``shortest_wavelength`` are left out, another seed draws another surface, and with ``realisations``
-    the answer is the mean of so many.
+    the answer is the mean of so many; with ``standard_error`` of as many as make it that part of the mean, and ``realisations``
+    at most.
     """
 
     file: str | os.PathLike[str]
@@ -228,6 +231,7 @@ class Spectrum(Body):
     convention: Convention = "persson"
     shortest_wavelength: float | None = None
     realisations: int | None = None
+    standard_error: float | None = None
     _kind = "spectrum"
 
     def _table(self) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use numerics::in_range;
+use numerics::{between_zero_and_one, in_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
@@ -136,6 +136,10 @@ pub struct SelfAffineSurface {
     /// How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub realisations: Option<u64>,
+    /// Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
+    /// without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standard_error: Option<f64>,
 }
 
 /// A random surface of an isotropic power spectrum C, whose waves are drawn by the seed.
@@ -158,6 +162,10 @@ pub struct SpectrumSurface {
     /// How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub realisations: Option<u64>,
+    /// Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
+    /// without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standard_error: Option<f64>,
 }
 
 /// What the densities of a power spectrum are.
@@ -201,36 +209,53 @@ impl Indenter {
         format!("indenter.{name}")
     }
 
-    /// How many surfaces are drawn; 1 of a body that is not random.
+    /// How many surfaces are drawn at most, 1 of a body that is not random, and the relative standard error of the mean at which no
+    /// more are.
     ///
     /// # Errors
     /// [`SceneError`] for a number out of range.
-    pub fn realisations(&self) -> Result<u64, SceneError> {
-        let (Self::SelfAffine(SelfAffineSurface { realisations, .. })
-        | Self::Spectrum(SpectrumSurface { realisations, .. })) = self
+    pub fn realisations(&self) -> Result<(u64, Option<f64>), SceneError> {
+        let (Self::SelfAffine(SelfAffineSurface {
+            realisations,
+            standard_error,
+            ..
+        })
+        | Self::Spectrum(SpectrumSurface {
+            realisations,
+            standard_error,
+            ..
+        })) = self
         else {
-            return Ok(1);
+            return Ok((1, None));
         };
-        let count = realisations.unwrap_or(1);
+        let within = |refused| SceneError::within(&self.key(), refused);
+        let asked = standard_error.map(|asked| between_zero_and_one("standard_error", asked));
+        let asked = asked.transpose().map_err(within)?;
+        let count = realisations.unwrap_or(asked.map_or(1, |_| MOST_REALISATIONS));
         let holds = (1..=MOST_REALISATIONS).contains(&count);
-        in_range("realisations", count as f64, holds, "from 1 to 1000")
-            .map_err(|refused| SceneError::within(&self.key(), refused))?;
-        Ok(count)
+        in_range("realisations", count as f64, holds, "from 1 to 1000").map_err(within)?;
+        Ok((count, asked))
     }
 
     /// One surface of those that are drawn, counted from 0, with its seed; none of a body that is not random.
     pub fn realisation(&self, index: u64) -> Option<(Self, u64)> {
         let mut one = self.clone();
         let (Self::SelfAffine(SelfAffineSurface {
-            seed, realisations, ..
+            seed,
+            realisations,
+            standard_error,
+            ..
         })
         | Self::Spectrum(SpectrumSurface {
-            seed, realisations, ..
+            seed,
+            realisations,
+            standard_error,
+            ..
         })) = &mut one
         else {
             return None;
         };
-        *realisations = None;
+        (*realisations, *standard_error) = (None, None);
         *seed = seed.wrapping_add(index);
         let seed = *seed;
         Some((one, seed))

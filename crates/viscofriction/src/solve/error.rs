@@ -71,6 +71,19 @@ pub enum SolveError {
         /// Its absolute error.
         error: f64,
     },
+    /// The mean of all surfaces that may be drawn is not known as well as asked for.
+    #[error(
+        "the relative standard error {asked:e} of the mean was not reached: it is {reached:.1e} after {surfaces} surfaces, and eight are \
+         the fewest that tell it; give a larger standard_error, more realisations, or a larger period"
+    )]
+    TooFewSurfaces {
+        /// Relative standard error asked for.
+        asked: f64,
+        /// How many were drawn.
+        surfaces: usize,
+        /// Relative standard error that was reached; infinite where they are too few to tell.
+        reached: f64,
+    },
     /// An answer whose derivatives are not known.
     #[error(
         "{} knows no derivatives of this answer; stationary sliding of a single body or a cylinder has some by bem-steady, and \

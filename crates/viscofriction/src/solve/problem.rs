@@ -49,7 +49,10 @@ pub struct Problem {
 /// From what the surfaces of a random body are drawn.
 #[derive(Debug, Clone)]
 struct Realisations {
+    /// At most.
     count: u64,
+    /// Relative standard error at which they are enough.
+    standard_error: Option<f64>,
     scene: Scene,
     folder: PathBuf,
     read: ReadFile,
@@ -124,9 +127,10 @@ impl Problem {
         };
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let of_method = scene.solve.method.and_then(Method::model);
-        let count = scene.indenter.realisations()?;
+        let (count, standard_error) = scene.indenter.realisations()?;
         let realisations = (count > 1).then(|| Realisations {
             count,
+            standard_error,
             scene: scene.clone(),
             folder: folder.to_owned(),
             read,
@@ -169,9 +173,14 @@ impl Problem {
         self
     }
 
-    /// How many random surfaces the answer is the mean of; 1 of any other body.
+    /// How many random surfaces the answer is the mean of, at most; 1 of any other body.
     pub fn realisations(&self) -> u64 {
         self.realisations.as_ref().map_or(1, |of| of.count)
+    }
+
+    /// Relative standard error of the mean at which no more random surfaces are drawn.
+    pub fn standard_error(&self) -> Option<f64> {
+        self.realisations.as_ref().and_then(|of| of.standard_error)
     }
 
     /// The scenes of the random surfaces, one of each, with their seeds; none of one surface alone.

@@ -15,6 +15,9 @@ use super::plan::plan;
 use super::problem::Problem;
 use crate::sweep::each_once;
 
+/// Surfaces from which a standard error is taken for one.
+const FEWEST: usize = 8;
+
 /// What one of the surfaces answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Realisation {
@@ -52,6 +55,24 @@ impl Scatter {
             standard_error: standard_deviation / count.sqrt(),
         })
     }
+}
+
+/// The standard error of what is asked for over its mean, as much larger as one of few surfaces may be wrong itself (Student's
+/// distribution, to the first order in 1/N).
+fn relative_standard_error(answers: &[Answer]) -> f64 {
+    let values = answers
+        .iter()
+        .map(|answer| answer.requested_quantity().value);
+    let values: Vec<f64> = values.collect();
+    let (count, sum) = (values.len() as f64, values.iter().sum::<f64>());
+    let scatter = Scatter::of(&values).filter(|_| values.len() >= FEWEST);
+    scatter.map_or(f64::INFINITY, |scatter| {
+        let wider = 1.0 + 0.5 / (count - 1.0);
+        match scatter.standard_error {
+            0.0 => 0.0,
+            error => wider * error * count / sum.abs(),
+        }
+    })
 }
 
 impl Answer {
@@ -110,6 +131,20 @@ pub(super) fn mean(problem: &Problem, first: Result<Answer>, watch: &dyn Watch) 
         };
         answers.push(answer);
         seeds.push(seed);
+        let asked = problem.standard_error();
+        if asked.is_some_and(|asked| relative_standard_error(&answers) <= asked) {
+            break;
+        }
+    }
+    if let Some(asked) = problem.standard_error() {
+        let reached = relative_standard_error(&answers);
+        let surfaces = answers.len();
+        let why = (reached > asked).then_some(SolveError::TooFewSurfaces {
+            asked,
+            surfaces,
+            reached,
+        });
+        missed = missed.or(why.map(Box::new));
     }
     let mut answer = mean_of(answers, &seeds);
     let Some(why) = missed else {

@@ -51,6 +51,7 @@ pub(super) fn as_spectrum(surface: &SelfAffineSurface) -> Result<(Indenter, Leng
         shortest_wavelength: None,
         seed: surface.seed,
         realisations: surface.realisations,
+        standard_error: surface.standard_error,
     };
     Ok((Indenter::Spectrum(other), table))
 }
