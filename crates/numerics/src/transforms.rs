@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::num_traits::NumAssign;
+use rustfft::num_traits::{AsPrimitive as _, NumAssign};
 use rustfft::{Fft, FftNum, FftPlanner};
 
 /// Numbers that are transformed.
@@ -30,10 +30,8 @@ pub trait Real: FftNum + NumAssign + Default + Into<f64> {
 macro_rules! transforms_of {
     ($real:ty) => {
         impl Real for $real {
-            #[expect(clippy::allow_attributes, reason = "one of both types loses digits")]
-            #[allow(clippy::cast_possible_truncation, reason = "so it is meant")]
             fn of(value: f64) -> Self {
-                value as Self
+                value.as_()
             }
 
             fn forward(length: usize) -> Arc<dyn Fft<Self>> {

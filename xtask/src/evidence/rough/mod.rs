@@ -1,6 +1,7 @@
 //! Theories beside random rough surfaces that slide: friction and area over speeds, loads, spectra and solids.
 
 mod line;
+mod pages;
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -12,9 +13,8 @@ use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
 
 use super::Report;
-use super::report::resume;
-use crate::meter::median;
-use crate::output::{WrongInput, markdown_table};
+use super::report::{Table, resume};
+use crate::output::WrongInput;
 use crate::picture::chart;
 
 /// Rows that were computed; an interrupted run goes on where it was.
@@ -47,6 +47,17 @@ const STYLES: [(Shape, Colour); 3] = [
     (Shape::Square, Colour::Red),
     (Shape::Diamond, Colour::Green),
 ];
+/// Lengths of the longest and of the shortest wave, in periods.
+const SPECTRA: [[f64; 2]; 5] = [
+    [0.5, 0.125],
+    [0.25, 0.0625],
+    [0.125, 0.03125],
+    [0.0625, 0.015625],
+    [0.25, 0.03125],
+];
+/// Surfaces of each spectrum, and speeds.
+const SURFACES: usize = 10;
+const SPEEDS: usize = 5;
 /// A theory is right where it is not farther from the surfaces than this.
 const WITHIN: f64 = 0.1;
 /// Ratios that are drawn.
@@ -54,21 +65,28 @@ const DRAWN: RangeInclusive<f64> = 0.01..=10.0;
 /// Ends of the classes of the area fraction; what is below the first is not drawn.
 const AREAS: [f64; 7] = [1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 0.9];
 
-/// Compares the theory with all scenes, of which `out` may hold some; a quick run takes a few cheap ones.
+/// Compares the theories with all scenes, of which `out` may hold some; a quick run takes a few cheap ones.
 pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
-    let plans = SOLIDS.iter().zip(RANGES);
-    let plans = plans.map(|((_, scene), range)| plan(scene, range, quick));
-    let plans: Vec<Plan> = plans.collect::<Result<_>>()?;
+    let (surfaces, spectra) = if quick {
+        (2, 1)
+    } else {
+        (SURFACES, SPECTRA.len())
+    };
+    let mut plans = Vec::new();
+    for ((solid, scene), range) in SOLIDS.iter().zip(RANGES) {
+        for spectrum in &SPECTRA[..spectra] {
+            plans.push((*solid, plan(scene, range, (surfaces, *spectrum), quick)?));
+        }
+    }
     let file = out.join(ROWS);
-    let mut rows = read(&file, &plans[0])?;
-    // One surface after the other, so that what is there of a run that was interrupted is of all solids.
-    let surfaces = if quick { 2 } else { 4 };
+    let mut rows = read(&file, &plans[0].1)?;
+    // One surface after the other, so that what is there of a run that was interrupted is of all solids and spectra.
     let mut missing = Vec::new();
     for surface in 0..surfaces {
-        for (plan, (solid, ..)) in plans.iter().zip(SOLIDS) {
+        for (solid, plan) in &plans {
             let each = plan.n_points() / surfaces;
             let points = surface * each..(surface + 1) * each;
-            let points = points.map(|point| (solid, plan, point));
+            let points = points.map(|point| (*solid, plan, point));
             missing.extend(points.filter(|(_, plan, point)| {
                 let identity = identity(plan, *point);
                 !rows.iter().any(|row| row[1..].starts_with(&identity))
@@ -83,34 +101,34 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
         row.push(of_line.unwrap_or_default());
         Ok(vec![row])
     })?;
-    let ratios = ratios(&rows);
-    let [all, known] = [rows.len() - 1, ratios.len()];
-    let table = table(&ratios);
-    let summary = format!("{table}\n\n{known} of {all} scenes in [{ROWS}]({ROWS}) have an answer.");
+    let points = points(&rows, surfaces);
     Ok(Report {
         name: "rough",
-        pictures: vec![("rough", figure(&ratios))],
-        summary,
+        tables: vec![Table::new("rough_points", &pages::rows(&points))?],
+        pictures: vec![("rough", figure(&points))],
+        summary: pages::summary(&points, rows.len() - 1),
         ..Report::default()
     })
 }
 
-fn plan(scene: &str, (stiffness, speeds): (f64, &str), quick: bool) -> Result<Plan> {
+fn plan(
+    scene: &str,
+    (stiffness, speeds): (f64, &str),
+    (surfaces, [longest, shortest]): (usize, [f64; 2]),
+    quick: bool,
+) -> Result<Plan> {
     let source = Source::new(Path::new("rough.toml"), scene.into())?;
     let loads = [0.02, 0.1, 0.5].map(|load| (load * stiffness).to_string());
-    let (surface, count) = if quick {
-        ("seed=1,2", 3)
-    } else {
-        (
-            "seed=1,2,3,4 hurst_exponent=0.3,0.6,0.9 shortest_wavelength=0.125,0.0625,0.03125",
-            13,
-        )
-    };
-    let surface = surface.split(' ');
-    let surface = surface.map(|vary| format!("indenter.self-affine.{vary}"));
-    let load = format!("load.mean_pressure={}", loads.join(","));
-    let speed = format!("load.velocity={speeds}:{count}:log");
-    let vary = surface.chain([load, speed]).map(|vary| vary.parse());
+    let count = if quick { 3 } else { SPEEDS };
+    let seeds: Vec<String> = (1..=surfaces).map(|seed| seed.to_string()).collect();
+    let vary = [
+        format!("indenter.self-affine.seed={}", seeds.join(",")),
+        format!("indenter.self-affine.longest_wavelength={longest}:{longest}:1"),
+        format!("indenter.self-affine.shortest_wavelength={shortest}:{shortest}:1"),
+        format!("load.mean_pressure={}", loads.join(",")),
+        format!("load.velocity={speeds}:{count}:log"),
+    ];
+    let vary = vary.map(|vary| vary.parse()).into_iter();
     let vary: Vec<Vary> = vary.collect::<Result<_, _>>().map_err(WrongInput)?;
     Ok(Plan::new(source, &vary, |_, _| Ok(Vec::new()))?)
 }
@@ -133,66 +151,95 @@ fn read(file: &Path, plan: &Plan) -> Result<Rows> {
     Ok(rows)
 }
 
-/// Name of the solid, area fraction, and what was solved over what each theory says.
-type Ratios<'a> = (&'a str, f64, [Option<f64>; 4]);
-
-fn ratios(rows: &Rows) -> Vec<Ratios<'_>> {
-    let ratios = |row: &Vec<String>| {
-        let of = |name: &str| -> Option<f64> {
-            let place = rows[0].iter().position(|column| column == name)?;
-            row.get(place)?.parse().ok()
-        };
-        let over = |(_, [solved, theory]): (_, [&str; 2])| Some(of(solved)? / of(theory)?);
-        Some((of("area_fraction")?, THEORIES.map(over)))
-    };
-    let with_name = |row| ratios(row).map(|(area, ratios)| (&*row[0], area, ratios));
-    rows.iter().filter_map(with_name).collect()
+/// All surfaces of a spectrum under one pressure at one speed.
+struct Point<'a> {
+    solid: &'a str,
+    /// Longest waves in the period, and shortest ones in the longest.
+    waves: [f64; 2],
+    /// Mean pressure \[Pa] and velocity \[m/s].
+    load: [f64; 2],
+    /// Mean over the surfaces.
+    area: f64,
+    /// What was solved over what each theory says, in the mean over the surfaces.
+    ratios: [Option<Ratio>; THEORIES.len()],
+    /// Friction and what it is by both forms of Persson's theory, surface by surface.
+    frictions: Vec<[f64; 3]>,
 }
 
-/// By solid and class of area: scenes, and for each theory the median ratio, between what nine of ten are, and how many are
-/// within a tenth.
-fn table(ratios: &[Ratios]) -> comfy_table::Table {
-    let mut classes: BTreeMap<(&str, usize), Vec<&Ratios>> = BTreeMap::new();
-    for one in ratios {
-        let class = AREAS.partition_point(|end| one.1 >= *end);
-        classes.entry((one.0, class)).or_default().push(one);
+#[derive(Clone, Copy)]
+struct Ratio {
+    value: f64,
+    standard_error: f64,
+}
+
+/// What all surfaces answer; the others would be chosen by their contact.
+fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
+    let place = |name: &str| rows[0].iter().position(|column| column == name);
+    let number =
+        |row: &[String], name: &str| -> Option<f64> { row.get(place(name)?)?.parse().ok() };
+    let mut groups: BTreeMap<Vec<&str>, Vec<&[String]>> = BTreeMap::new();
+    let given = [
+        "indenter.self-affine.longest_wavelength",
+        "indenter.self-affine.shortest_wavelength",
+        "load.mean_pressure",
+        "load.velocity",
+    ];
+    for row in &rows[1..] {
+        let of_point = given.iter().filter_map(|name| Some(&*row[place(name)?]));
+        let key = std::iter::once(&*row[0]).chain(of_point).collect();
+        groups.entry(key).or_default().push(row);
     }
-    let header = ["solid", "area fraction from", "scenes"];
-    let lines = classes.into_iter().map(|((solid, class), ratios)| {
-        let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
-        let mut line = vec![solid.to_owned(), from.to_string(), ratios.len().to_string()];
-        for theory in 0..THEORIES.len() {
-            let values = ratios.iter().filter_map(|ratios| ratios.2[theory]);
-            line.push(summary(values.collect()));
-        }
-        line
+    let known = groups.into_iter().filter_map(|(key, rows)| {
+        let answered = |row: &&&[String]| place("failure").is_some_and(|at| row[at].is_empty());
+        let all = |name: &str| -> Option<Vec<f64>> {
+            let numbers = rows.iter().filter(answered).map(|row| number(row, name));
+            let numbers: Option<Vec<f64>> = numbers.collect();
+            numbers.filter(|numbers| numbers.len() == surfaces)
+        };
+        let area = all("area_fraction")?;
+        let over =
+            |(_, [solved, theory]): (_, [&str; 2])| Some(ratio(&all(solved)?, &all(theory)?));
+        let given = |index: usize| key[index].parse::<f64>().ok();
+        let (longest, shortest) = (given(1)?, given(2)?);
+        let [friction, of_2001, of_2006] =
+            [THEORIES[0].1[0], THEORIES[0].1[1], THEORIES[1].1[1]].map(all);
+        let pairs = friction?.into_iter().zip(of_2001?).zip(of_2006?);
+        Some(Point {
+            solid: key[0],
+            waves: [longest.recip(), longest / shortest],
+            load: [given(3)?, given(4)?],
+            area: area.iter().sum::<f64>() / surfaces as f64,
+            ratios: THEORIES.map(over),
+            frictions: pairs.map(|((one, two), three)| [one, two, three]).collect(),
+        })
     });
-    markdown_table(
-        header.into_iter().chain(THEORIES.map(|(name, _)| name)),
-        lines,
-    )
+    known.collect()
 }
 
-fn summary(mut values: Vec<f64>) -> String {
-    values.sort_by(f64::total_cmp);
-    let Some(last) = values.len().checked_sub(1) else {
-        return String::new();
-    };
-    let within = values.iter().filter(|ratio| (*ratio - 1.0).abs() <= WITHIN);
-    let within = 100 * within.count() / values.len();
-    let [low, high] = [last / 20, last - last / 20].map(|place| values[place]);
-    let median = median(values);
-    format!("{median:.2} ({low:.2} to {high:.2}), {within} %")
+/// Of two means of numbers that belong together.
+fn ratio(solved: &[f64], theory: &[f64]) -> Ratio {
+    let count = solved.len() as f64;
+    let [sum, of_theory] = [solved, theory].map(|numbers| numbers.iter().sum::<f64>());
+    let value = sum / of_theory;
+    let pairs = solved.iter().zip(theory);
+    let squares: f64 = pairs
+        .map(|(one, other)| (one - value * other).powi(2))
+        .sum();
+    Ratio {
+        value,
+        standard_error: (squares * count / (count - 1.0)).sqrt() / of_theory,
+    }
 }
 
 /// What was solved over what each theory says, over the area.
-fn figure(ratios: &[Ratios]) -> Figure {
+fn figure(points: &[Point]) -> Figure {
     let charts = THEORIES.into_iter().enumerate();
     let charts = charts.map(|(theory, (name, _))| {
         let series = SOLIDS.iter().zip(STYLES);
         let series = series.map(|((solid, _), (shape, colour))| {
-            let of_solid = ratios.iter().filter(|ratios| ratios.0 == *solid);
-            let points = of_solid.filter_map(|(_, area, ratios)| Some([*area, ratios[theory]?]));
+            let of_solid = points.iter().filter(|point| point.solid == *solid);
+            let points =
+                of_solid.filter_map(|point| Some([point.area, point.ratios[theory]?.value]));
             let points = points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN.contains(ratio));
             Series::markers(points.collect(), Marker::open(shape), colour).labelled(*solid)
         });
