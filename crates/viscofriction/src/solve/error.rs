@@ -73,7 +73,7 @@ pub enum SolveError {
     },
     /// The mean of all surfaces that may be drawn is not known as well as asked for.
     #[error(
-        "the relative standard error {asked:e} of the mean was not reached: it is {reached:.1e} after {surfaces} surfaces, and eight are \
+        "the relative standard error {asked:e} of the mean was not reached: it is {reached:.1e} after {surfaces} surfaces, and ten are \
          the fewest that tell it; give a larger standard_error, more realisations, or a larger period"
     )]
     TooFewSurfaces {

@@ -16,7 +16,7 @@ use super::problem::Problem;
 use crate::sweep::each_once;
 
 /// Surfaces from which a standard error is taken for one.
-const FEWEST: usize = 8;
+const FEWEST: usize = 10;
 
 /// What one of the surfaces answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
