@@ -24,8 +24,8 @@ const FEWEST_STEPS: f64 = 4.0;
 #[must_use]
 #[non_exhaustive]
 pub struct PeriodicEstimate<S> {
-    /// Friction coefficient; of a stationary state from slopes or from the dissipated power, whichever the last refinement
-    /// changed less. Each bar reaches to that of the other.
+    /// Friction coefficient; of a stationary state the mean of that from slopes and that from the dissipated power, weighted by
+    /// how little the last refinements changed them. Each bar reaches to that of the other.
     pub friction_coefficient: Estimate,
     /// That of a stationary state from the dissipated power alone; none on the way there.
     pub friction_from_dissipation: Option<Estimate>,
