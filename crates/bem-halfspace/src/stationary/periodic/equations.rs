@@ -134,11 +134,9 @@ impl Equations {
         self.gap = gap.iter().map(|gap| f32::of(gap / self.unit)).collect();
     }
 
-    /// Writes pressure and gap into fields, as far as the lists reach.
-    pub(super) fn give(&self, pressure: &mut [f64], gap: &mut [f64]) {
+    /// Writes the pressure into a field, as far as the list reaches.
+    pub(super) fn give(&self, pressure: &mut [f64]) {
         self.near.scatter(&self.pressure, pressure);
-        let gaps = self.gap.iter().map(|gap| f64::from(*gap) * self.unit);
-        self.near.scatter(&gaps.collect::<Vec<_>>(), gap);
     }
 
     /// Solves until the largest residual is small enough, or the root mean square a part of what it was and no more than a

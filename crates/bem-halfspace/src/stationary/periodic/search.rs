@@ -24,9 +24,6 @@ const FINEST: i32 = 4;
 const NOISE: f64 = 3.0;
 /// Likewise far from it, as a part of the largest residual.
 const HIDING_RESIDUAL: f64 = 0.3;
-/// Part of the pressure up to which tension is small. With 1e-2 thousands of elements came in far away that had to leave
-/// again, and now and then without end.
-const SMALL_TENSION: f64 = 1e-3;
 /// Contacts without fewer violations up to which all violating elements change sides, and then the larger ones.
 const ALL: i32 = 10;
 const LARGER: i32 = 30;
@@ -175,44 +172,43 @@ impl<'a> Search<'a> {
     /// whether the problem is solved; `noise` is the root mean square of the residual.
     fn change(&mut self, noise: f64, least: Least) -> (usize, bool) {
         let tolerance = self.problem.tolerance;
-        self.equations.give(&mut self.pressure, &mut self.gap);
+        self.equations.give(&mut self.pressure);
         let tension = -self.pressure.iter().map(|p| p.min(0.0)).sum::<f64>();
         let is_slight = tension <= tolerance * self.total();
-        // Without much tension the gaps far away are hardly changed by what is taken from it.
-        let is_small = tension <= SMALL_TENSION * self.total();
-        let hidden = if is_small { HIDING_RESIDUAL } else { 1.0 };
-        let mut changed = if least.is_some() {
-            let allowed = (NOISE * noise).max(tolerance * self.scale);
-            self.exchange(allowed, least, Some(true))
-        } else {
-            self.renew_gaps();
-            self.exchange(tolerance * self.scale, least, None)
-        };
-        self.release();
+        self.balance();
+        // Still with the tension: what is taken from it may throw the surfaces apart far away.
         self.renew_gaps();
-        let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
-        let is_open = !self.gap.iter().zip(&self.contact).any(penetrates);
-        let is_solved = is_slight && is_open && self.residual <= tolerance;
-        if least.is_some() {
-            let allowed = (hidden * self.residual).max(tolerance) * self.scale;
-            changed += self.exchange(allowed, least, Some(false));
+        let far = HIDING_RESIDUAL * self.residual * self.scale;
+        let allowed = least.map_or([0.0; 2], |_| [NOISE * noise, far]);
+        let mut is_solved = self.is_within(tolerance);
+        let changed = self.exchange(allowed, least);
+        if tension > 0.0 {
+            self.release();
+            self.renew_gaps();
+            is_solved = is_slight && self.is_within(tolerance);
         }
         (changed, is_solved)
     }
 
-    /// Exchanges elements that are listed by the equations, or others, or any, and counts those that should be.
-    fn exchange(&mut self, allowed: f64, least: Least, are_near: Option<bool>) -> usize {
+    /// Whether no gap in the contact and no penetration beside it is larger.
+    fn is_within(&self, tolerance: f64) -> bool {
+        let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
+        self.residual <= tolerance && !self.gap.iter().zip(&self.contact).any(penetrates)
+    }
+
+    /// Exchanges elements on the wrong side, and counts those that should be; smaller penetrations than allowed of those that are
+    /// listed by the equations, and of others, and than the tolerance, are none.
+    fn exchange(&mut self, allowed: [f64; 2], least: Least) -> usize {
         let own = self.equations.own_displacement;
+        let [near, far] = allowed.map(|allowed| allowed.max(self.problem.tolerance * self.scale));
         let violation = |element: usize| {
-            let is_near = self.equations.near.contains(element);
-            if are_near.is_some_and(|are_near| are_near != is_near) {
-                return None;
-            }
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
             let (size, least) = if self.contact[element] {
                 (-pressure * own, 0.0)
+            } else if self.equations.near.contains(element) {
+                (-gap, near)
             } else {
-                (-gap, allowed)
+                (-gap, far)
             };
             (size >= least).then_some((element, size))
         };

@@ -243,7 +243,7 @@ impl Adjoint<'_> {
             before = residual;
             self.equations.take(&self.contact, &loads, &gap);
             self.equations.iterate(ROUND, f64::INFINITY, 0.0);
-            self.equations.give(&mut loads, &mut gap);
+            self.equations.give(&mut loads);
         }
         Err(BemError::ContactNotConverged {
             iterations: self.equations.products,
