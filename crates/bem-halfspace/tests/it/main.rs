@@ -28,6 +28,8 @@ mod periodic_motions;
 mod periodic_sensitivity;
 mod periodic_sliding;
 mod pressure_spectrum;
+#[cfg(feature = "rough")]
+mod soft_waves;
 mod stationary_state;
 mod substrates;
 mod support;

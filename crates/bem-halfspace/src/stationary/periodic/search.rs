@@ -3,9 +3,10 @@
 //!
 //! The equations are solved to a fifth of the residual that the change of the contact has left, and to a part of the
 //! heights, which is smaller after each contact in vain; penetrations are told from what is left of the residual, on
-//! average. Should the number of violations not fall below its minimum in ten contacts, only the larger ones change sides,
-//! and after thirty only the last one of all, after an accurate solution: the operator has a positive symmetric part, so that
-//! this ends (Murty 1974).
+//! average, before tension is taken away: that moves soft waves, and with them all that is far from the contact. Should
+//! the number of violations not fall below its minimum in ten contacts, only the larger ones change sides, and after
+//! thirty only the last one of all, after an accurate solution: the operator has a positive symmetric part, so that this
+//! ends (Murty 1974).
 
 use crate::parallel::reductions::larger;
 use crate::stationary::periodic::equations::Equations;
@@ -176,7 +177,7 @@ impl<'a> Search<'a> {
         let tension = -self.pressure.iter().map(|p| p.min(0.0)).sum::<f64>();
         let is_slight = tension <= tolerance * self.total();
         self.balance();
-        // Still with the tension: what is taken from it may throw the surfaces apart far away.
+        // With the tension.
         self.renew_gaps();
         let far = HIDING_RESIDUAL * self.residual * self.scale;
         let allowed = least.map_or([0.0; 2], |_| [NOISE * noise, far]);
