@@ -30,8 +30,8 @@ pub(super) const OTHERS: Fall = Fall {
     left: 0.5,
     as_a_rule: 0.5,
 };
-/// The least error of the mean of two frictions, as a part of what they are apart: of 1135 results the worst erred by 4.2 bars without
-/// it, and by 2.6 with it.
+/// The least error of a friction that is mostly that from slopes, as a part of what both are apart: of 1135 results the worst
+/// erred by 4.2 bars without it, and by 2.6 with it.
 const PART_OF_DIFFERENCE: f64 = 0.25;
 /// Fewest elements in contact on the coarsest of the three grids of which the bars are made: with fewer, their number may jump
 /// to the same one, and the friction with it.
@@ -357,8 +357,16 @@ fn mean_of(slopes: Estimate, dissipation: Estimate) -> Estimate {
     }
     let part = dissipation.error / (slopes.error + dissipation.error);
     let apart = slopes.value - dissipation.value;
-    let error = (part * slopes.error).max(PART_OF_DIFFERENCE * apart.abs());
-    Estimate::new(dissipation.value + part * apart, error)
+    // Slopes change little by chance more often than the power, which is the better one of a contact that is nearly elastic.
+    let least = if slopes.error < dissipation.error {
+        PART_OF_DIFFERENCE * apart.abs()
+    } else {
+        0.0
+    };
+    Estimate::new(
+        dissipation.value + part * apart,
+        (part * slopes.error).max(least),
+    )
 }
 
 impl<S> PeriodicEstimate<S> {
@@ -458,6 +466,8 @@ mod tests {
         assert!((opposite.error - 0.015).abs() < 1e-5, "{opposite:?}");
         let sharp = bars_of([(1.16, 1.0), (1.04, 1.0), (1.01, 1.0)]).friction_coefficient;
         assert!((sharp.value - 1.0).abs() < 1e-5, "{sharp:?}");
-        assert!((sharp.error - 0.0025).abs() < 1e-5, "{sharp:?}");
+        assert!(sharp.error < 1e-5, "{sharp:?}");
+        let slopes = bars_of([(1.0, 1.16), (1.0, 1.04), (1.0, 1.01)]).friction_coefficient;
+        assert!((slopes.error - 0.0025).abs() < 1e-5, "{slopes:?}");
     }
 }
