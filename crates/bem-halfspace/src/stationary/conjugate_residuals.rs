@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-7;
 ///
 /// `find` is given the sum of squares of the residual, the residual, and the list from which it takes a direction: the residual
 /// too, or, where the step before took nothing off and the residual would lead to it again, what that step added (Young & Jea
-/// 1980). It writes the direction and what this adds to the residual, and says whether there is one; of what they add, so many
+/// 1980), made as large as the residual. It writes the direction and what this adds to the residual, and says whether there is one; of what they add, so many
 /// `earlier` ones are made orthogonal. Sums of squares and products have the `weights`, which are 1 where there are none. By the
 /// rounding of its numbers, relative to the first residual, the solution misses the residual that is known. A direction that adds
 /// nothing new to the residual is the last.
@@ -45,7 +45,11 @@ pub(crate) fn minimise<T: Real>(
             return;
         }
         let step = -along / square;
-        added = (step * step * square < LEAST_REDUCTION * size).then(|| found.image.clone());
+        added = (step * step * square < LEAST_REDUCTION * size).then(|| {
+            // What a preconditioner makes larger each time would not be a number in the end.
+            let scale = T::of((size / square).sqrt());
+            found.image.iter().map(|value| scale * *value).collect()
+        });
         advance(
             [&mut *solution, &mut found.direction],
             step,
@@ -204,5 +208,22 @@ mod tests {
             "{solution:?}"
         );
         assert!(residual[0].hypot(residual[1]) < 1e-14, "{residual:?}");
+    }
+    /// A step that takes nothing off leads to another one, which is then as much longer.
+    #[test]
+    fn directions_that_grow_remain_numbers() {
+        let [mut solution, mut residual] = [[0.0_f32; 2], [3.0, -4.0]];
+        let unknowns = [&mut solution[..], &mut residual[..]];
+        minimise(
+            unknowns,
+            None,
+            [2, 2],
+            |_, [_, from], [direction, image]| {
+                direction.copy_from_slice(&[1e15 * from[0], 1e15 * from[1]]);
+                image.copy_from_slice(&[-1e15 * from[1], 1e15 * from[0]]);
+                true
+            },
+        );
+        assert!(residual[0].hypot(residual[1]) < 1e-5, "{residual:?}");
     }
 }

@@ -6,30 +6,54 @@ use indenters::rough::SelfAffine;
 
 use crate::support::prony;
 
-/// Waves along the motion are so soft that the tension that is taken from a contact moves all others by more than they penetrate;
-/// whether a search goes astray by it depends on all digits.
-#[test]
-fn what_is_taken_from_a_contact_brings_no_others_in() {
+/// Whether a contact under a mean pressure is found in so many products, of a surface with waves from a longest one to one that fits
+/// so many times into the period, sliding at a speed on a solid of relaxation time 1 and moduli of 1 and a ratio.
+fn is_found(
+    surface: (f64, f64, f64, u64),
+    (ratio, mean_pressure, velocity): (f64, f64, f64),
+    max_products: usize,
+) {
+    let (longest, shortest, hurst_exponent, seed) = surface;
     let surface = SelfAffine {
         period: [1.0; 2],
-        hurst_exponent: 0.477_496_675_541_850_16,
+        hurst_exponent,
         rms_slope: 0.1,
-        longest_wavelength: 0.5 * 1.000_000_1,
-        shortest_wavelength: 0.999_999_9 / 11.0,
-        roll_off_wavelength: 0.5,
-        seed: 93,
+        longest_wavelength: longest * 1.000_000_1,
+        shortest_wavelength: 0.999_999_9 / shortest,
+        roll_off_wavelength: longest,
+        seed,
     };
     let n = 256;
     let heights = surface.surface().expect("a surface").heights([n; 2]);
     let heights = heights.expect("heights");
-    let material = prony([1.0, 0.0], &[(24_975.672_227_854_41 - 1.0, 1.0)]);
-    let load = PeriodicLoad::new(1.932_758_811_269_640_3, 6.013_923_721_978_102e-4);
+    let material = prony([1.0, 0.0], &[(ratio - 1.0, 1.0)]);
+    let load = PeriodicLoad::new(mean_pressure, velocity).expect("a load");
     let options = PeriodicOptions {
-        max_products: 300,
+        max_products,
         ..PeriodicOptions::default()
     };
-    let load = load.expect("a load");
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a grid");
     let solved = steady_on_grid(&grid, &heights, &material, &load, &options);
     assert!(solved.is_ok(), "{solved:?}");
+}
+
+/// Waves along the motion are so soft that the tension that is taken from a contact moves all others by more than they penetrate;
+/// whether a search goes astray by it depends on all digits.
+#[test]
+fn what_is_taken_from_a_contact_brings_no_others_in() {
+    is_found(
+        (0.5, 11.0, 0.477_496_675_541_850_16, 93),
+        (
+            24_975.672_227_854_41,
+            1.932_758_811_269_640_3,
+            6.013_923_721_978_102e-4,
+        ),
+        300,
+    );
+}
+
+/// The equations of a contact without many gaps take a hundred steps and more of which none may be forgotten.
+#[test]
+fn a_dense_contact_is_found_with_all_directions() {
+    is_found((1.0, 7.0, 0.684, 187), (87_593.0, 22_092.0, 0.316_23), 900);
 }

@@ -25,12 +25,16 @@ use crate::stationary::periodic::far_loads::FarLoads;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Steps tried with one contact, of which all directions are kept where they fit.
-const MOST_STEPS: usize = 80;
-/// Numbers of half the usual length that directions may occupy, per element of the grid or in all, whichever is more; the oldest
-/// are forgotten. Without those of small grids one of a hundred contacts of moduli that differ by up to 10⁶ never ended.
+/// Steps tried with one contact whose directions do not all fit into memory, and with one whose do. With 80 in all a dense contact of
+/// moduli that differ by some thousand, or one of a hundred sparse ones by some ten thousand, does not end: only with all directions
+/// the residual falls again after a hundred steps.
+const STEPS: usize = 80;
+const MOST_STEPS: usize = 400;
+/// Numbers of half the usual length that directions may occupy, per element of a large grid and of a small one, and at most on the
+/// small one; beyond them the oldest are forgotten.
 const NUMBERS_PER_ELEMENT: usize = 12;
-const NUMBERS: usize = 1 << 22;
+const NUMBERS_PER_ELEMENT_OF_FEW: usize = 256;
+const NUMBERS_OF_FEW: usize = 1 << 24;
 /// A step that leaves more than this part of the residual took little off.
 const LITTLE: f64 = 0.9;
 /// Elements in contact up to which elimination is tried, for the sake of memory, and the time that it takes for n of them on a grid
@@ -164,12 +168,14 @@ impl Equations {
         let mut gap = std::mem::take(&mut self.gap);
         let mut added = copies(0.0, gap.len());
         let inside = Arc::clone(&self.inside);
-        let numbers = NUMBERS.max(NUMBERS_PER_ELEMENT * self.spread.len());
-        let fitting = numbers / (2 * inside.len());
+        let n = self.spread.len();
+        let of_few = NUMBERS_OF_FEW.min(NUMBERS_PER_ELEMENT_OF_FEW * n);
+        let numbers = of_few.max(NUMBERS_PER_ELEMENT * n);
+        let fitting = (numbers / (2 * inside.len())).clamp(1, MOST_STEPS);
         #[expect(clippy::cast_possible_truncation, reason = "at most all steps")]
         #[expect(clippy::cast_sign_loss, reason = "positive")]
-        let most = most.min(MOST_STEPS as f64) as usize;
-        let steps = [most, fitting.clamp(1, MOST_STEPS) - 1];
+        let most = most.min(fitting.max(STEPS) as f64) as usize;
+        let steps = [most, fitting - 1];
         let unknowns = [&mut added[..], &mut gap[..]];
         let mut before = f64::INFINITY;
         minimise(

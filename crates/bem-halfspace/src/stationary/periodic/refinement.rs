@@ -45,11 +45,12 @@ const ROUNDING: f64 = 1e-12;
 /// Elements times steps of a march that are not exceeded: about half an hour of one thread.
 const MOST_STEPS: f64 = 2e9;
 
-/// Elements of the largest grid at all, and memory that one of them takes at most, and what contacts of few elements on stiff solids
-/// take besides, \[bytes].
+/// Elements of the largest grid at all, and memory that one of them takes at most, and what the contacts of a small grid take
+/// besides, of which an element takes some more, \[bytes].
 const LARGEST_GRID: f64 = 268_435_456.0;
 const BYTES_PER_ELEMENT: f64 = 170.0;
-const BYTES_BESIDE: f64 = 33_554_432.0;
+const BYTES_OF_FEW: f64 = 1024.0;
+const BYTES_BESIDE: [f64; 2] = [33_554_432.0, 67_108_864.0];
 /// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
 const THREE_GRIDS: usize = 4;
 
@@ -145,12 +146,19 @@ fn last_elements(first: [usize; 2]) -> f64 {
 
 /// Elements of the largest grid that a memory \[bytes] allows; without it of the largest one at all.
 pub fn largest_grid(memory: Option<f64>) -> f64 {
-    let fitting = |bytes: f64| {
-        ((bytes - BYTES_BESIDE) / BYTES_PER_ELEMENT)
+    memory.map_or(LARGEST_GRID, |bytes| {
+        let beside = BYTES_BESIDE.map(|beside| (bytes - beside) / BYTES_PER_ELEMENT);
+        let all = bytes / (BYTES_PER_ELEMENT + BYTES_OF_FEW);
+        all.max(beside[1])
+            .min(beside[0])
             .floor()
-            .max(0.0)
-    };
-    memory.map_or(LARGEST_GRID, |bytes| fitting(bytes).min(LARGEST_GRID))
+            .clamp(0.0, LARGEST_GRID)
+    })
+}
+
+fn bytes_on(elements: f64) -> f64 {
+    let beside = (BYTES_OF_FEW * elements).clamp(BYTES_BESIDE[0], BYTES_BESIDE[1]);
+    beside + BYTES_PER_ELEMENT * elements
 }
 
 /// Memory that [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide) take at most on a grid with so
@@ -160,7 +168,7 @@ pub fn largest_grid(memory: Option<f64>) -> f64 {
 /// [`BemError::PeriodTooCoarse`].
 pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemError> {
     let first = first_shape(surface, &Accuracy::Elements(elements).into())?;
-    Ok(BYTES_BESIDE + BYTES_PER_ELEMENT * last_elements(first))
+    Ok(bytes_on(last_elements(first)))
 }
 
 /// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact; `solve` is told
@@ -192,9 +200,14 @@ where
         let heights = told.as_deref().unwrap_or(surface).heights(shape)?;
         let has_all_waves = matches!(told, Some(Cow::Borrowed(_)));
         check_surface(&grid, &heights)?;
-        let (found, state) = progress.during(goal.work_on(shape), |tell| {
+        let solved = progress.during(goal.work_on(shape), |tell| {
             solve(&grid, &heights, tolerance, tell)
-        })?;
+        });
+        let is_lost = matches!(solved, Err(BemError::ContactNotConverged { .. }));
+        if let Some(((known, bars), asked)) = best.take_if(|_| is_lost).zip(asked) {
+            return Err(known.missed(asked, bars.into()));
+        }
+        let (found, state) = solved?;
         grids.push(Found {
             has_all_waves,
             ..found
