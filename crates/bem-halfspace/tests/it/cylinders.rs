@@ -135,3 +135,23 @@ fn one_grid_carries_the_load_between_the_ends_of_the_contact() {
         }
     }
 }
+
+/// It has sunk so deep that the depth alone has a larger rounding than the tolerance.
+#[test]
+fn a_long_memory_does_not_keep_a_line_from_any_tolerance() {
+    let (scene, _) = Scene::hunter(1e-4, 1e-7);
+    let load = under_force(scene.line_load, scene.velocity);
+    let friction = |tolerance: f64| {
+        let options = LineOptions {
+            spacing: 1.0 / 16.0,
+            phase: 0.0,
+            footprint: [-3.0, 3.0],
+            tolerance,
+            max_iterations: 100,
+        };
+        let state = steady_line_on_grid(&unit_cylinder(), &scene.material, &load, &options);
+        state.expect("a state").friction_coefficient
+    };
+    let [rough, fine] = [1e-6, 1e-13].map(friction);
+    assert!((rough - fine).abs() <= 1e-6, "{rough}, {fine}");
+}

@@ -302,7 +302,15 @@ fn added_up(first: Answered) -> Result<Option<Row>> {
     let mut row = Row::of(Relation::Derivatives.into());
     row.method = first.answer.method.name().to_owned();
     row.seconds = cost.seconds;
-    for sum in sums? {
+    let sums = match sums {
+        Err(error) if error.is::<SolveError>() => {
+            let message = format!("{error:#}");
+            row.verdict = Verdict::refusal(&message);
+            return Ok(Some(Row { message, ..row }));
+        }
+        known => known?,
+    };
+    for sum in sums {
         let part = (sum.value - sum.expected).abs() / sum.allowed;
         if row.part.is_none_or(|worst| part > worst) {
             row.part = Some(part.min(f64::MAX));

@@ -9,7 +9,7 @@ mod units;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context as _, Result};
 use strum::IntoEnumIterator as _;
 
 use super::Report;
@@ -46,7 +46,7 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
     let all: BTreeSet<usize> = (1..=count).collect();
     let missing: Vec<usize> = all.difference(&done).copied().collect();
     resume((&file, &mut rows), &missing, |number| {
-        judge(seed, *number, &source, out)
+        judge(seed, *number, &source, out).with_context(|| format!("agreement-{seed}-{number}"))
     })?;
     let tables = format!("{}\n\n{}", table(&rows), calibration(&rows));
     Ok(Report {

@@ -80,6 +80,7 @@ pub struct SteadyOptions {
     /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale D.
     /// That is F_N/(4ηv) on a dashpot, the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
     /// height h(a) at the distance a from the lowest point, and the depth where that is given.
+    /// A residual of some units in the last place of the depth is always allowed.
     pub tolerance: f64,
     /// Active sets tried before the solver gives up.
     pub max_iterations: usize,

@@ -31,6 +31,9 @@ const PART_OF_TOLERANCE: f64 = 0.2;
 const NEIGHBOURHOOD_FROM: usize = 500;
 /// A tolerance that fails this far below the target fails because of rounding.
 const ROUNDING_OF_TOLERANCE: f64 = 1e-3;
+/// Units in the last place of the depth that a residual may have, whatever tolerance is asked for: after a long memory a line has
+/// sunk a million times as deep as it touches.
+const UNITS_OF_DEPTH: f64 = 16.0;
 /// The largest residual of a contact is that many times its root mean square, at most, as a rule.
 const PEAK: f64 = 10.0;
 
@@ -66,7 +69,8 @@ pub(super) fn solve(
         // That of the whole problem: elements on the wrong side count too.
         (residual, made) = (sizes.fold(state.residual, f64::max), iterations);
         if state.violations.is_empty() {
-            if residual <= target {
+            let rounding = UNITS_OF_DEPTH * f64::EPSILON * search.depth.abs();
+            if residual <= target.max(rounding) {
                 let opening = mesh.opening(&search.loads, &state.gaps);
                 return Ok(search.finish(residual, iterations, opening));
             }
