@@ -17,10 +17,10 @@ const ROUNDING: f64 = 1e-7;
 ///
 /// `find` is given the sum of squares of the residual, the residual, and the list from which it takes a direction: the residual
 /// too, or, where the step before took nothing off and the residual would lead to it again, what that step added (Young & Jea
-/// 1980), made as large as the residual. It writes the direction and what this adds to the residual, and says whether there is one; of what they add, so many
-/// `earlier` ones are made orthogonal. Sums of squares and products have the `weights`, which are 1 where there are none. By the
-/// rounding of its numbers, relative to the first residual, the solution misses the residual that is known. A direction that adds
-/// nothing new to the residual is the last.
+/// 1980), made as large as the residual. It writes the direction and what this adds to the residual, and says whether there is
+/// one; of what they add, so many `earlier` ones are made orthogonal. Sums of squares and products have the `weights`, which are 1
+/// where there are none. By the rounding of its numbers, relative to the first residual, the solution misses the residual that is
+/// known. A direction that adds nothing new to the residual is the last.
 pub(crate) fn minimise<T: Real>(
     [solution, residual]: [&mut [T]; 2],
     weights: Option<&[T]>,
@@ -209,6 +209,7 @@ mod tests {
         );
         assert!(residual[0].hypot(residual[1]) < 1e-14, "{residual:?}");
     }
+
     /// A step that takes nothing off leads to another one, which is then as much longer.
     #[test]
     fn directions_that_grow_remain_numbers() {

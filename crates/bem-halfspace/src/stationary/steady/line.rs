@@ -37,7 +37,7 @@ pub struct LineOptions {
     pub footprint: [f64; 2],
     /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale
     /// D = h(a) = 2 (1 − ν) F' J(a/v)/(2π), with the force F' per length and the mean height h(a) at the distance a from
-    /// the lowest point.
+    /// the lowest point. A residual of some units in the last place of the depth is always allowed.
     pub tolerance: f64,
     /// Active sets tried before the solver gives up.
     pub max_iterations: usize,
