@@ -6,9 +6,9 @@ use indenters::rough::SelfAffine;
 
 use crate::support::prony;
 
-/// Whether a contact under a mean pressure is found in so many products, of a surface with waves from a longest one to one that fits
+/// Asserts that a contact under a mean pressure is found in so many products, of a surface with waves from a longest one to one that fits
 /// so many times into the period, sliding at a speed on a solid of relaxation time 1 and moduli of 1 and a ratio.
-fn is_found(
+fn assert_found(
     surface: (f64, f64, f64, u64),
     (ratio, mean_pressure, velocity): (f64, f64, f64),
     max_products: usize,
@@ -41,7 +41,7 @@ fn is_found(
 /// whether a search goes astray by it depends on all digits.
 #[test]
 fn what_is_taken_from_a_contact_brings_no_others_in() {
-    is_found(
+    assert_found(
         (0.5, 11.0, 0.477_496_675_541_850_16, 93),
         (
             24_975.672_227_854_41,
@@ -55,5 +55,5 @@ fn what_is_taken_from_a_contact_brings_no_others_in() {
 /// The equations of a contact without many gaps take a hundred steps and more of which none may be forgotten.
 #[test]
 fn a_dense_contact_is_found_with_all_directions() {
-    is_found((1.0, 7.0, 0.684, 187), (87_593.0, 22_092.0, 0.316_23), 900);
+    assert_found((1.0, 7.0, 0.684, 187), (87_593.0, 22_092.0, 0.316_23), 900);
 }

@@ -32,8 +32,8 @@ const MOST_STEPS: usize = 400;
 /// Numbers of half the usual length that directions may occupy, per element of a large grid and of a small one, and at most on the
 /// small one; beyond them the oldest are forgotten.
 const NUMBERS_PER_ELEMENT: usize = 12;
-const NUMBERS_PER_ELEMENT_OF_FEW: usize = 256;
-const NUMBERS_OF_FEW: usize = 1 << 24;
+pub(super) const NUMBERS_PER_ELEMENT_OF_FEW: usize = 256;
+pub(super) const NUMBERS_OF_FEW: usize = 1 << 24;
 /// A step that leaves more than this part of the residual took little off.
 const LITTLE: f64 = 0.9;
 /// Elements in contact up to which elimination is tried, for the sake of memory, and the time that it takes for n of them on a grid

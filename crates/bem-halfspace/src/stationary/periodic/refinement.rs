@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use indenters::rough::PeriodicSurface;
 use numerics::{Accuracy, Estimate, Progress, Request, between_zero_and_one};
 
+use crate::stationary::periodic::equations::{NUMBERS_OF_FEW, NUMBERS_PER_ELEMENT_OF_FEW};
 use crate::stationary::periodic::unseen::Unseen;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
 use crate::transform::fast_length::fast_length;
@@ -45,12 +46,13 @@ const ROUNDING: f64 = 1e-12;
 /// Elements times steps of a march that are not exceeded: about half an hour of one thread.
 const MOST_STEPS: f64 = 2e9;
 
-/// Elements of the largest grid at all, and memory that one of them takes at most, and what the contacts of a small grid take
-/// besides, of which an element takes some more, \[bytes].
+/// Elements of the largest grid at all, and memory that one of them takes at most, \[bytes].
 const LARGEST_GRID: f64 = 268_435_456.0;
 const BYTES_PER_ELEMENT: f64 = 170.0;
-const BYTES_OF_FEW: f64 = 1024.0;
-const BYTES_BESIDE: [f64; 2] = [33_554_432.0, 67_108_864.0];
+/// What directions take besides, so much for each element; no less than elimination may take, and no more than is kept on a small
+/// grid, \[bytes].
+const BYTES_OF_FEW: f64 = (size_of::<f32>() * NUMBERS_PER_ELEMENT_OF_FEW) as f64;
+const BYTES_BESIDE: [f64; 2] = [33_554_432.0, (size_of::<f32>() * NUMBERS_OF_FEW) as f64];
 /// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
 const THREE_GRIDS: usize = 4;
 
@@ -156,6 +158,7 @@ pub fn largest_grid(memory: Option<f64>) -> f64 {
     })
 }
 
+/// Memory that a grid of so many elements takes at most, \[bytes].
 fn bytes_on(elements: f64) -> f64 {
     let beside = (BYTES_OF_FEW * elements).clamp(BYTES_BESIDE[0], BYTES_BESIDE[1]);
     beside + BYTES_PER_ELEMENT * elements
@@ -427,13 +430,13 @@ impl<S> PeriodicEstimate<S> {
 
 #[cfg(test)]
 mod tests {
-    use numerics::Accuracy;
+    use indenters::rough::Wave;
 
-    use super::{FRICTION, Found, Goal, PeriodicControl, PeriodicEstimate, Unseen};
+    use super::*;
+    use crate::{PeriodicTransient, PressureField};
 
-    /// Slopes and dissipation on three grids, and what follows.
-    fn bars_of(frictions: [(f64, f64); 3]) -> PeriodicEstimate<()> {
-        let found = |(friction, dissipated)| Found {
+    fn found((friction, dissipated): (f64, f64)) -> Found {
+        Found {
             friction,
             from_dissipation: Some(dissipated),
             area_fraction: 0.05,
@@ -443,14 +446,66 @@ mod tests {
             mean_pressure: 1.0,
             mean_depth: 0.0,
             residual: 1e-7,
-        };
-        let goal = Goal {
+        }
+    }
+
+    fn goal() -> Goal<'static> {
+        Goal {
             request: Accuracy::RelativeError(0.01).into(),
             control: PeriodicControl::MeanPressure(1.0),
             friction: FRICTION,
             steps_per_row: None,
+        }
+    }
+
+    /// Slopes and dissipation on three grids, and what follows.
+    fn bars_of(frictions: [(f64, f64); 3]) -> PeriodicEstimate<()> {
+        let bars = goal().bars(&frictions.map(found), ());
+        bars.expect("three grids")
+    }
+
+    /// The memory of the largest grid that fits is no more than is allowed, and that of the next one is.
+    #[test]
+    fn the_largest_grid_is_the_one_that_fits() {
+        for bytes in [4e7, 5e7, 6e7, 7e7, 7.83e7, 1e8, 1e9] {
+            let elements = largest_grid(Some(bytes));
+            assert!(bytes_on(elements) <= bytes, "{bytes} bytes, {elements}");
+            assert!(
+                bytes_on(elements + 1.0) > bytes,
+                "{bytes} bytes, {elements}"
+            );
+        }
+    }
+
+    /// What coarser grids know, with its error, where the contact of a finer one is not found.
+    #[test]
+    fn a_contact_that_is_not_found_leaves_what_was_reached() {
+        let wave = Wave {
+            numbers: [1, 0],
+            amplitude: 1e-3,
+            phase: 0.0,
         };
-        goal.bars(&frictions.map(found), ()).expect("three grids")
+        let surface = PeriodicSurface::new([1.0; 2], vec![wave]).expect("a surface");
+        let mut frictions = [(1.3, 1.3), (1.1, 1.1), (1.0, 1.0)].into_iter();
+        let refined = refine(&surface, &goal(), |grid, _, tolerance, _| {
+            let pressure = PressureField {
+                grid: *grid,
+                origin: [0.0; 2],
+                pressure: Vec::new(),
+            };
+            let rows = Vec::new();
+            let lost = BemError::ContactNotConverged {
+                iterations: 1,
+                residual: 1.0,
+                tolerance,
+            };
+            let known = frictions.next().ok_or(lost)?;
+            Ok((found(known), PeriodicTransient { rows, pressure }))
+        });
+        let Err(BemError::NotReached { value, error, .. }) = refined else {
+            panic!("{refined:?}");
+        };
+        assert!((value - 1.0).abs() <= error, "{value} ± {error}");
     }
 
     /// Frictions that both changed little and yet differ: on a finer grid they are 0.0592.
