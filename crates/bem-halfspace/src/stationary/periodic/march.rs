@@ -278,3 +278,90 @@ impl<'a> PeriodicMarch<'a> {
         self.step.advance(&self.input, &mut self.memory);
     }
 }
+
+#[cfg(all(test, feature = "rough"))]
+mod tests {
+    use casebook::{decades, fixed_cases, prony};
+    use indenters::rough::SelfAffine;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use rheology::Prony;
+
+    use super::*;
+
+    const EDGE: usize = 16;
+    /// Of every part of a history.
+    const STEPS: usize = 4;
+    const STILL: [Complex<f64>; 2] = [Complex::new(1.0, 0.0); 2];
+
+    fn heights() -> impl Strategy<Value = Vec<f64>> {
+        let heights = |(seed, hurst_exponent, waves): (u64, f64, f64)| {
+            let surface = SelfAffine {
+                period: [1.0; 2],
+                hurst_exponent,
+                rms_slope: 0.1,
+                longest_wavelength: 1.01,
+                shortest_wavelength: 1.0 / waves,
+                roll_off_wavelength: 1.01,
+                seed,
+            };
+            let surface = surface.surface().expect("a surface");
+            surface.heights([EDGE; 2]).expect("heights")
+        };
+        (any::<u64>(), 0.3..0.9, 3.0..8.0).prop_map(heights)
+    }
+
+    /// Solids and fluids.
+    fn material() -> impl Strategy<Value = Prony> {
+        let equilibrium = prop_oneof![Just(0.0), Just(1.0)];
+        let branches = vec((decades(1.0), decades(1.5)), 1..4);
+        (equilibrium, branches)
+            .prop_map(|(equilibrium, branches)| prony([equilibrium, 0.0], &branches))
+    }
+
+    /// Elements in contact after parts of a history, each with a duration and the pressure at its end.
+    fn in_contact(heights: &[f64], material: &Prony, parts: &[(f64, f64)]) -> usize {
+        let grid = Grid::new([EDGE; 2], [1.0 / EDGE as f64; 2]).expect("a grid");
+        let mut march = PeriodicMarch::new(&grid, heights, material, 1.0).expect("a march");
+        let options = ContactOptions {
+            tolerance: 1e-9,
+            ..ContactOptions::default()
+        };
+        let mut before = parts[parts.len() - 1].1;
+        for (duration, end) in parts {
+            march
+                .place(duration / STEPS as f64, |_| STILL)
+                .expect("a step");
+            for step in 1..=STEPS {
+                let pressure = before + step as f64 / STEPS as f64 * (end - before);
+                let _: PeriodicRow = march.step(pressure, &options).expect("a contact");
+            }
+            before = *end;
+        }
+        let pressures = march.state.pressure().iter();
+        pressures.filter(|pressure| **pressure > 0.0).count()
+    }
+
+    proptest! {
+        #![proptest_config(fixed_cases(1000))]
+
+        /// After a higher pressure the contact is no smaller than if the lower one had been there for all the time (Li, Brenner
+        /// and Frérot 2025), on any surface and any linear viscoelastic material.
+        #[test]
+        fn no_history_above_a_pressure_leaves_less_contact_than_that_pressure(
+            heights in heights(),
+            material in material(),
+            above in vec((decades(1.0), 1.0..11.0), 2..6),
+            last in decades(1.0),
+            left in 0.0..1.0,
+        ) {
+            let last = 1e-2 * last;
+            let above = above.into_iter().map(|(duration, times)| (duration, times * last));
+            let parts: Vec<(f64, f64)> = above.chain([(left, last)]).collect();
+            let duration = parts.iter().map(|part| part.0).sum();
+            let after = in_contact(&heights, &material, &parts);
+            let held = in_contact(&heights, &material, &[(duration, last)]);
+            prop_assert!(after >= held, "{} after {}", after, held);
+        }
+    }
+}
