@@ -5,6 +5,7 @@
 mod agreement;
 mod calibration;
 mod derivatives;
+mod ensembles;
 mod fit;
 mod friction_fit;
 mod material;
@@ -63,6 +64,8 @@ enum Experiment {
     FrictionFit,
     /// Compare derivatives of answers with differences on random scenes; fails when their bars hold too seldom.
     Derivatives(sample::Options),
+    /// Compare means over random rough surfaces with means over others; fails when their standard errors hold too seldom.
+    Ensembles(sample::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
     SpeedRange,
     /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
@@ -99,6 +102,7 @@ impl Experiment {
             Self::Calibration(options) => calibration::report(options, quick),
             Self::FrictionFit => friction_fit::report(quick),
             Self::Derivatives(options) => derivatives::report(options, quick),
+            Self::Ensembles(options) => ensembles::report(options, quick),
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),
             Self::Rough => rough::report(out, quick),

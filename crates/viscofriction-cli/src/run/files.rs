@@ -40,8 +40,8 @@ pub(super) fn write(
         let figure = spectrum::figure(problem, spectral);
         pictures.push(("spectral_sensitivity", figure));
     }
-    if !answer.realisations.is_empty() {
-        out.write("realisations.csv", &to_csv("", &answer.realisations)?)?;
+    if let Some(ensemble) = &answer.ensemble {
+        out.write("realisations.csv", &to_csv("", &ensemble.realisations)?)?;
     }
     write_pressure(answer, (out, &mut pictures))?;
     write_line(answer, (out, &mut pictures))?;

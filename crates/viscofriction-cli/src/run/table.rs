@@ -164,10 +164,15 @@ pub(super) fn scatter(answer: &Answer) -> Option<String> {
         format!("of the {name} {error:.1e}, with a scatter of {scatter:.1e}")
     });
     let words: Vec<String> = words.collect();
-    let count = answer.realisations.len();
+    let ensemble = answer.ensemble.as_ref()?;
+    let more = match ensemble.on_coarse_grid {
+        0 => String::new(),
+        more => format!(" and {more} more on a coarse grid"),
+    };
+    let count = ensemble.realisations.len();
     (!words.is_empty()).then(|| {
         format!(
-            "mean of {count} surfaces; standard error {}",
+            "mean of {count} surfaces{more}; standard error {}",
             words.join("; ")
         )
     })

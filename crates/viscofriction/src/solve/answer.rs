@@ -13,7 +13,7 @@ use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
-use super::realisations::Realisation;
+use super::realisations::Ensemble;
 use super::sensitivity::{Budget, Sensitivity, SpectralSensitivity};
 use crate::scene::{Method, Model};
 
@@ -70,13 +70,15 @@ pub struct Answer {
     /// How much it depends on the modulus at each frequency, where [that](super::spectral_sensitivity()) was asked for.
     pub spectral_sensitivity: Option<SpectralSensitivity>,
     /// The surfaces of which it is the mean; none of a body that is not random, and of one surface alone.
-    pub realisations: Vec<Realisation>,
+    pub ensemble: Option<Ensemble>,
     /// What makes it uncertain, where that was asked for and its scene says what is uncertain.
     pub budget: Budget,
     /// The finest boundary elements.
     pub(crate) grid: Option<Grid>,
     /// Those of a stationary contact.
     pub(crate) stationary: Option<StationaryGrid>,
+    /// Elements of the finest grid of a period.
+    pub(crate) period_grid: Option<[usize; 2]>,
     /// Fields and histories.
     pub fields: Fields,
 }
@@ -198,9 +200,10 @@ impl Answer {
             left_out: Vec::new(),
             sensitivity: Vec::new(),
             spectral_sensitivity: None,
-            realisations: Vec::new(),
+            ensemble: None,
             budget: Budget::default(),
             stationary: None,
+            period_grid: None,
             grid: None,
             fields: Fields::default(),
         }

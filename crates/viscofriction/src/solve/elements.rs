@@ -159,6 +159,23 @@ fn of_pressed(
     answer
 }
 
+/// What a coarse grid says of a periodic surface that slides or was pressed, without error bars, and Persson's theory.
+pub(crate) fn on_coarse_grid(
+    problem: &Problem,
+    rough: Rough,
+    finer: usize,
+) -> Result<(PeriodicSliding, Option<Persson>)> {
+    let elastomer = problem.elastomer()?;
+    let Motion::Pressing(load) = problem.motion() else {
+        let found = periodic::steady_on_coarse_grid(rough.surface, &elastomer, &rough.load, finer)?;
+        return Ok((found, persson(problem, rough)?));
+    };
+    let pressure = rough.mean_pressure;
+    let time = load.duration();
+    let found = periodic::indent_on_coarse_grid(rough.surface, &elastomer, pressure, time, finer)?;
+    Ok((found, None))
+}
+
 /// A periodic surface on the way from rest to the stationary state.
 pub(crate) fn periodic_transient(
     problem: &Problem,
@@ -249,6 +266,7 @@ impl Answer {
     fn under(mut self, pressure: PressureField) -> Self {
         let elements = pressure.pressure.iter();
         self.unknowns = elements.filter(|pressure| **pressure > 0.0).count();
+        self.period_grid = Some(pressure.grid.shape());
         self.fields.pressure = Some(pressure);
         self
     }

@@ -184,6 +184,15 @@ impl SolveError {
             _ => None,
         }
     }
+
+    /// Whether more memory might help.
+    pub(super) fn is_of_memory(&self) -> bool {
+        match self {
+            Self::TooMuchMemory(_) | Self::MemoryReached { .. } => true,
+            Self::NotReached { why, .. } => why.is_of_memory(),
+            _ => false,
+        }
+    }
 }
 
 // Not by the attribute `from`, which would say the cause a second time.

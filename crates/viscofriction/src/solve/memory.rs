@@ -132,7 +132,7 @@ impl Watch for Limited<'_> {
 }
 
 /// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
-fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
+pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
     let elastomer = problem.elastomer().ok()?;
     if let Body::Periodic(surface) = problem.body() {
         let needed = match problem.moving() {

@@ -40,7 +40,7 @@ use memory::Limited;
 pub use omission::Omission;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
-pub use realisations::{Realisation, Scatter};
+pub use realisations::{Ensemble, Realisation, Scatter};
 pub use road::{CutOff, cut_offs};
 pub use sensitivity::{
     Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties, sampled,
@@ -73,8 +73,7 @@ impl Plan<'_> {
     /// [`SolveError`] where what was asked for was not reached; it says what was.
     pub fn solve(self, watch: &dyn Watch) -> Result<Answer> {
         let problem = self.problem;
-        let first = self.solve_one(watch);
-        realisations::mean(problem, first, watch)
+        realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
     /// The answer of the surface that the problem holds.

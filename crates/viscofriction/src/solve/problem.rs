@@ -183,27 +183,27 @@ impl Problem {
         self.realisations.as_ref().and_then(|of| of.standard_error)
     }
 
-    /// The scenes of the random surfaces, one of each, with their seeds; none of one surface alone.
-    pub(super) fn surfaces(&self) -> impl Iterator<Item = (Scene, u64)> {
-        self.realisations.iter().flat_map(|of| {
-            let scene = |index| {
-                let (indenter, seed) = of.scene.indenter.realisation(index)?;
-                let rest = of.scene.clone();
-                Some((Scene { indenter, ..rest }, seed))
-            };
-            (0..of.count).filter_map(scene)
-        })
+    /// The seeds of the random surfaces.
+    pub(super) fn seeds(&self) -> Vec<u64> {
+        let all = self.realisations.iter();
+        let seed = |of: &Realisations, index| Some(of.scene.indenter.realisation(index)?.1);
+        all.flat_map(|of| (0..of.count).filter_map(move |index| seed(of, index)))
+            .collect()
     }
 
-    /// The same problem of one of the random surfaces.
-    pub(super) fn of_surface(&self, scene: &Scene) -> Result<Self, SceneError> {
-        let of = self.realisations.as_ref();
-        let (folder, read) = of.map_or((Path::new(""), no_files as ReadFile), |of| {
-            (&of.folder, of.read)
-        });
-        let mut problem = Self::new(scene, folder, read)?;
+    /// The same problem of one of the random surfaces, counted from 0, with a part of the memory.
+    pub(super) fn of_surface(&self, surface: u64, parts: u64) -> Result<Self, SceneError> {
+        let nothing_random = || SceneError::at("indenter", "no surface is drawn".to_owned());
+        let of = self.realisations.as_ref().ok_or_else(nothing_random)?;
+        let (indenter, _) = of
+            .scene
+            .indenter
+            .realisation(surface)
+            .ok_or_else(nothing_random)?;
+        let rest = of.scene.clone();
+        let mut problem = Self::new(&Scene { indenter, ..rest }, &of.folder, of.read)?;
         problem.accuracy = self.accuracy;
-        problem.max_memory = self.max_memory;
+        problem.max_memory = self.max_memory.map(|bytes| bytes / parts);
         if let Some(shortest) = self.shortest_wavelength {
             problem = problem.without_waves_below(shortest)?;
         }

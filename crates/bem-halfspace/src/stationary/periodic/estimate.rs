@@ -8,13 +8,18 @@ use numerics::{Estimate, Request, positive};
 use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::march::{Steps, slide_along};
-use crate::stationary::periodic::refinement::{FRICTION, Found, Goal, OTHERS, first_shape, refine};
+use crate::stationary::periodic::refinement::{
+    FRICTION, Found, Goal, OTHERS, OnGrid, TOLERANCE, first_shape, refine,
+};
+use crate::stationary::periodic::search::PeriodicContact;
 use crate::stationary::periodic::unseen::Unseen;
 use crate::stationary::periodic::{
     PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, solve_from,
 };
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
+/// Any error asks for the same first grid.
+const FIRST_GRID: f64 = 0.1;
 /// Fewest steps of a march on the first grid.
 const FEWEST_STEPS: f64 = 4.0;
 
@@ -96,6 +101,59 @@ pub fn indent<'w>(
     let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
     let control = PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?);
     solve(surface, &spring, control, request.into())
+}
+
+/// What [`steady`] finds on the first of its grids, or on one with `finer` times the elements along both axes; without an error bar,
+/// which a single grid does not know. It is for differences between surfaces: how much two of them differ coarse grids tell well.
+///
+/// # Errors
+/// Those of [`steady`] but [`BemError::NotReached`].
+pub fn steady_on_coarse_grid(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &PeriodicLoad,
+    finer: usize,
+) -> Result<PeriodicSliding, BemError> {
+    let sliding = Sliding::new(elastomer, load.velocity())?;
+    on_coarse_grid(surface, &sliding, load.require_stationary()?, finer)
+}
+
+/// What [`indent`] finds on the first of its grids, or on a finer one, as [`steady_on_coarse_grid`].
+///
+/// # Errors
+/// Those of [`indent`] but [`BemError::NotReached`].
+pub fn indent_on_coarse_grid(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    mean_pressure: f64,
+    time: f64,
+    finer: usize,
+) -> Result<PeriodicSliding, BemError> {
+    let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
+    let control = PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?);
+    on_coarse_grid(surface, &spring, control, finer)
+}
+
+fn on_coarse_grid(
+    surface: &PeriodicSurface,
+    sliding: &Sliding,
+    control: PeriodicControl,
+    finer: usize,
+) -> Result<PeriodicSliding, BemError> {
+    let first = first_shape(surface, &Request::from(FIRST_GRID))?;
+    let OnGrid { grid, heights, .. } = OnGrid::of(surface, first.map(|edge| finer * edge))?;
+    let on_grid = Surface {
+        sliding,
+        grid: &grid,
+        heights: &heights,
+        options: PeriodicOptions {
+            tolerance: TOLERANCE,
+            ..PeriodicOptions::default()
+        },
+    };
+    let guess = RefCell::new(Vec::new());
+    let solve = |problem: PeriodicContact| solve_from(&mut guess.borrow_mut(), problem);
+    Ok(hold(control, &on_grid, None, solve)?.state)
 }
 
 /// Slides a sum of waves from rest over the sliding distance of the load, to a relative error of the friction at its end; or

@@ -49,7 +49,9 @@ use crate::{BemError, Elastomer, Grid, PressureField};
 use depth::{Surface, hold};
 use equations::Equations;
 #[cfg(feature = "rough")]
-pub use estimate::{PeriodicEstimate, indent, slide, steady};
+pub use estimate::{
+    PeriodicEstimate, indent, indent_on_coarse_grid, slide, steady, steady_on_coarse_grid,
+};
 use kernel::Sliding;
 pub use load::{PeriodicControl, PeriodicLoad};
 pub use march::{PeriodicRow, PeriodicTransient, slide_on_grid};

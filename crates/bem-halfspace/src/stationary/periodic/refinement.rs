@@ -39,7 +39,7 @@ const PART_OF_DIFFERENCE: f64 = 0.25;
 const FEWEST_IN_CONTACT: usize = 30;
 /// Tolerance of the contact on the first grid, which is halved on each of the next, whatever error is asked for; ten residuals are
 /// added to the bars.
-const TOLERANCE: f64 = 1e-5;
+pub(super) const TOLERANCE: f64 = 1e-5;
 const RESIDUALS: f64 = 10.0;
 /// Rounding of what is known in closed form.
 const ROUNDING: f64 = 1e-12;
@@ -174,6 +174,29 @@ pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemErro
     Ok(bytes_on(last_elements(first)))
 }
 
+/// A surface on one of the grids.
+pub(super) struct OnGrid {
+    pub(super) grid: Grid,
+    /// Of the waves that the grid tells, at the centres of its elements, \[m].
+    pub(super) heights: Vec<f64>,
+    has_all_waves: bool,
+}
+
+impl OnGrid {
+    pub(super) fn of(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
+        let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
+        let grid = Grid::new(shape, spacing)?;
+        let told = surface.told_by(shape);
+        let heights = told.as_deref().unwrap_or(surface).heights(shape)?;
+        check_surface(&grid, &heights)?;
+        Ok(Self {
+            grid,
+            heights,
+            has_all_waves: matches!(told, Some(Cow::Borrowed(_))),
+        })
+    }
+}
+
 /// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact; `solve` is told
 /// the grid, its heights, the tolerance, and what is to be told of its progress. The grids do not depend on the error asked for, so
 /// that a smaller one is answered by what follows on the answer to a larger one.
@@ -197,12 +220,11 @@ where
     let (mut grids, mut tolerance) = (Vec::new(), TOLERANCE);
     let mut best: Option<(Known, PeriodicEstimate<S>)> = None;
     loop {
-        let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
-        let grid = Grid::new(shape, spacing)?;
-        let told = surface.told_by(shape);
-        let heights = told.as_deref().unwrap_or(surface).heights(shape)?;
-        let has_all_waves = matches!(told, Some(Cow::Borrowed(_)));
-        check_surface(&grid, &heights)?;
+        let OnGrid {
+            grid,
+            heights,
+            has_all_waves,
+        } = OnGrid::of(surface, shape)?;
         let solved = progress.during(goal.work_on(shape), |tell| {
             solve(&grid, &heights, tolerance, tell)
         });

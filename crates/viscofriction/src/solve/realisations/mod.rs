@@ -1,7 +1,13 @@
 //! Many random surfaces of one spectrum: the mean of their answers, and how far they scatter.
 //!
 //! The error of a mean is the mean of the errors of the answers, which may all be off to the same side. How far the mean of so many
-//! surfaces may be off from that of all is another thing, the standard error s/√N with the standard deviation s.
+//! surfaces may be off from that of all is another thing, the standard error. Where that is asked for, most surfaces are solved on a
+//! coarse grid only, without a bar, and a few with one, which tell what the coarse grid errs by.
+
+mod coarse;
+mod draw;
+mod each;
+mod sample;
 
 use numerics::{ErrorParts, Estimate, Watch};
 use serde::Serialize;
@@ -11,12 +17,12 @@ use super::answer::{Answer, Persson, RoughAnswer};
 use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
 use super::error::{Result, SolveError};
-use super::plan::plan;
 use super::problem::Problem;
 use crate::sweep::each_once;
-
-/// Surfaces from which a standard error is taken for one.
-const FEWEST: usize = 10;
+use coarse::Coarse;
+use draw::Drawn;
+use sample::Sample;
+pub use sample::Scatter;
 
 /// What one of the surfaces answers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -35,57 +41,44 @@ pub struct Realisation {
     pub area_fraction_error: f64,
 }
 
-/// How far the surfaces differ.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scatter {
-    /// Standard deviation s of one surface.
-    pub standard_deviation: f64,
-    /// Standard error s/√N of the mean of N.
-    pub standard_error: f64,
-}
-
-impl Scatter {
-    fn of(values: &[f64]) -> Option<Self> {
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let squares = values.iter().map(|value| (value - mean).powi(2));
-        let standard_deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
-        (values.len() > 1).then(|| Self {
-            standard_deviation,
-            standard_error: standard_deviation / count.sqrt(),
-        })
+impl Realisation {
+    fn of((answer, seed): (&Answer, &u64)) -> Self {
+        let area = answer.rough.map(|rough| rough.area_fraction);
+        let area = area.unwrap_or(Estimate::exact(0.0));
+        Self {
+            seed: *seed,
+            friction_coefficient: answer.friction_coefficient.map(|known| known.value),
+            friction_coefficient_error: answer.friction_coefficient.map(|known| known.error),
+            area_fraction: area.value,
+            area_fraction_error: area.error,
+        }
     }
 }
 
-/// The standard error of what is asked for over its mean, as much larger as one of few surfaces may be wrong itself (Student's
-/// distribution, to the first order in 1/N).
-fn relative_standard_error(answers: &[Answer]) -> f64 {
-    let values = answers
-        .iter()
-        .map(|answer| answer.requested_quantity().value);
-    let values: Vec<f64> = values.collect();
-    let (count, sum) = (values.len() as f64, values.iter().sum::<f64>());
-    let scatter = Scatter::of(&values).filter(|_| values.len() >= FEWEST);
-    scatter.map_or(f64::INFINITY, |scatter| {
-        let wider = 1.0 + 0.5 / (count - 1.0);
-        match scatter.standard_error {
-            0.0 => 0.0,
-            error => wider * error * count / sum.abs(),
-        }
-    })
+/// The random surfaces of which an answer is the mean.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ensemble {
+    /// Those that were solved with error bars.
+    pub realisations: Vec<Realisation>,
+    /// How many more a coarse grid told apart from these; their answers have no bars.
+    pub on_coarse_grid: usize,
+    /// None where nothing slides.
+    pub friction_coefficient: Option<Scatter>,
+    /// None of one surface.
+    pub area_fraction: Option<Scatter>,
 }
 
 impl Answer {
     /// How far friction and area of the surfaces differ, by their names in JSON; none where there is one surface.
     pub fn scatters(&self) -> [(&'static str, Option<Scatter>); 2] {
-        let frictions = self.realisations.iter();
-        let frictions = frictions.filter_map(|one| one.friction_coefficient);
-        let areas = self.realisations.iter().map(|one| one.area_fraction);
+        let known = |of: fn(&Ensemble) -> Option<Scatter>| self.ensemble.as_ref().and_then(of);
         [
-            ("friction_coefficient", frictions.collect::<Vec<f64>>()),
-            ("area_fraction", areas.collect()),
+            (
+                "friction_coefficient",
+                known(|all| all.friction_coefficient),
+            ),
+            ("area_fraction", known(|all| all.area_fraction)),
         ]
-        .map(|(name, values)| (name, Scatter::of(&values)))
     }
 
     /// What is said of rough surfaces only.
@@ -96,8 +89,11 @@ impl Answer {
                 map.serialize_entry(&format!("{name}_scatter"), &scatter.standard_deviation)?;
             }
         }
-        if !self.realisations.is_empty() {
-            map.serialize_entry("realisations", &self.realisations)?;
+        if let Some(ensemble) = &self.ensemble {
+            map.serialize_entry("realisations", &ensemble.realisations)?;
+            if ensemble.on_coarse_grid > 0 {
+                map.serialize_entry("realisations_on_coarse_grid", &ensemble.on_coarse_grid)?;
+            }
         }
         if let Some(persson) = self.rough.and_then(|rough| rough.persson) {
             map.serialize_entry("persson", &persson)?;
@@ -109,54 +105,128 @@ impl Answer {
     }
 }
 
-/// The mean of all answers, of which the first is there; the answer itself where there is one surface.
-pub(super) fn mean(problem: &Problem, first: Result<Answer>, watch: &dyn Watch) -> Result<Answer> {
+/// The mean of all answers, of which `first` solves one; that itself where there is one surface.
+pub(super) fn mean(
+    problem: &Problem,
+    first: impl FnOnce(&dyn Watch) -> Result<Answer>,
+    watch: &dyn Watch,
+) -> Result<Answer> {
     if problem.realisations() == 1 {
-        return first;
+        return first(watch);
     }
-    let (mut answers, mut seeds, mut missed) = (Vec::new(), Vec::new(), None);
-    let mut first = Some(first);
-    for (scene, seed) in problem.surfaces() {
-        let found = match first.take() {
-            Some(first) => first,
-            None => plan(&problem.of_surface(&scene)?)?.solve_one(watch),
-        };
-        let answer = match found {
-            Ok(answer) => answer,
-            Err(SolveError::NotReached { answer, why }) => {
-                missed.get_or_insert(why);
-                *answer
-            }
-            Err(why) => return Err(why),
-        };
-        answers.push(answer);
-        seeds.push(seed);
-        let asked = problem.standard_error();
-        if asked.is_some_and(|asked| relative_standard_error(&answers) <= asked) {
-            break;
-        }
-    }
+    let mut drawn = Drawn::new(problem, watch, first)?;
     if let Some(asked) = problem.standard_error() {
-        let reached = relative_standard_error(&answers);
-        let surfaces = answers.len();
-        let why = (reached > asked).then_some(SolveError::TooFewSurfaces {
-            asked,
-            surfaces,
-            reached,
-        });
-        missed = missed.or(why.map(Box::new));
+        drawn.until_known(asked)?;
     }
-    let mut answer = mean_of(answers, &seeds);
+    let Drawn {
+        answers,
+        coarse,
+        missed,
+        ..
+    } = drawn;
+    let mut answer = mean_of(&answers, &problem.seeds());
+    answer.count((&answers, &coarse));
     let Some(why) = missed else {
         return Ok(answer);
     };
     answer.not_reached = Some(why.to_string());
-    let answer = Box::new(answer);
+    let (answer, why) = (Box::new(answer), Box::new(why));
     Err(SolveError::NotReached { answer, why })
 }
 
+/// A quantity that coarse grids know too.
+struct Quantity {
+    of_answer: fn(&Answer) -> Option<f64>,
+    on_coarse_grid: fn(&Coarse) -> f64,
+    in_mean: fn(&mut Answer) -> Option<&mut Estimate>,
+}
+
+const FRICTION: Quantity = Quantity {
+    of_answer: |one| one.friction_coefficient.map(|known| known.value),
+    on_coarse_grid: |one| one.friction_coefficient,
+    in_mean: |mean| mean.friction_coefficient.as_mut(),
+};
+const AREA_FRACTION: Quantity = Quantity {
+    of_answer: |one| one.rough.map(|rough| rough.area_fraction.value),
+    on_coarse_grid: |one| one.area_fraction,
+    in_mean: |mean| mean.rough.as_mut().map(|rough| &mut rough.area_fraction),
+};
+const QUANTITIES: [Quantity; 5] = [
+    FRICTION,
+    AREA_FRACTION,
+    Quantity {
+        of_answer: |one| one.contact_area.map(|known| known.value),
+        on_coarse_grid: |one| one.contact_area,
+        in_mean: |mean| mean.contact_area.as_mut(),
+    },
+    Quantity {
+        of_answer: |one| Some(one.rough?.friction_from_dissipation?.value),
+        on_coarse_grid: |one| one.friction_coefficient,
+        in_mean: |mean| mean.rough.as_mut()?.friction_from_dissipation.as_mut(),
+    },
+    Quantity {
+        of_answer: |one| one.indentation_depth.map(|known| known.value),
+        on_coarse_grid: |one| one.mean_depth,
+        in_mean: |mean| mean.indentation_depth.as_mut(),
+    },
+];
+
+impl Quantity {
+    /// A statistic of it over all surfaces; none where not all answers have it.
+    fn over<T>(
+        &self,
+        (answers, coarse): (&[Answer], &[Coarse]),
+        statistic: impl FnOnce(Sample) -> T,
+    ) -> Option<T> {
+        let fine: Option<Vec<f64>> = answers.iter().map(self.of_answer).collect();
+        let fine = fine?;
+        let coarse: Vec<f64> = coarse.iter().map(self.on_coarse_grid).collect();
+        let coarse = if coarse.is_empty() { &fine } else { &coarse };
+        Some(statistic(Sample {
+            fine: &fine,
+            coarse,
+        }))
+    }
+}
+
+impl Answer {
+    /// With the surfaces that a coarse grid alone knows; the bars are those of the answers.
+    fn count(&mut self, all @ (answers, coarse): (&[Self], &[Coarse])) {
+        let scatter = |of: Quantity| of.over(all, |sample| sample.scatter()).flatten();
+        if let Some(ensemble) = &mut self.ensemble {
+            ensemble.friction_coefficient = scatter(FRICTION);
+            ensemble.area_fraction = scatter(AREA_FRACTION);
+            ensemble.on_coarse_grid = coarse.len().saturating_sub(answers.len());
+        }
+        if coarse.len() <= answers.len() {
+            return;
+        }
+        for quantity in QUANTITIES {
+            let shift = quantity.over(all, |sample| sample.shift());
+            if let Some((mean, shift)) = (quantity.in_mean)(self).zip(shift) {
+                *mean = Estimate::new(mean.value + shift, mean.error);
+            }
+        }
+        if let Some(rough) = &mut self.rough {
+            rough.persson = mean_of_theory(coarse);
+        }
+    }
+}
+
+fn mean_of_theory(surfaces: &[Coarse]) -> Option<Persson> {
+    let theories: Option<Vec<Persson>> = surfaces.iter().map(|one| one.persson).collect();
+    let theories = theories?;
+    let mean =
+        |of: fn(&Persson) -> f64| theories.iter().map(of).sum::<f64>() / theories.len() as f64;
+    Some(Persson {
+        area_fraction: mean(|one| one.area_fraction),
+        friction_coefficient: mean(|one| one.friction_coefficient),
+        friction_coefficient_2006: mean(|one| one.friction_coefficient_2006),
+    })
+}
+
 /// Fields are those of the first.
-fn mean_of(answers: Vec<Answer>, seeds: &[u64]) -> Answer {
+fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
     let known = |of: &dyn Fn(&Answer) -> Option<Estimate>| {
         let estimates: Option<Vec<Estimate>> = answers.iter().map(of).collect();
         let estimates = estimates?;
@@ -175,18 +245,6 @@ fn mean_of(answers: Vec<Answer>, seeds: &[u64]) -> Answer {
         let [some, all] = [one.answers, one.of];
         format!("{} (of {some} of {all} surfaces)", one.sentence)
     });
-    let realisation = |(answer, seed): (&Answer, &u64)| {
-        let area = answer
-            .rough
-            .map_or(Estimate::exact(0.0), |rough| rough.area_fraction);
-        Realisation {
-            seed: *seed,
-            friction_coefficient: answer.friction_coefficient.map(|known| known.value),
-            friction_coefficient_error: answer.friction_coefficient.map(|known| known.error),
-            area_fraction: area.value,
-            area_fraction_error: area.error,
-        }
-    };
     let mut mean = Answer {
         friction_coefficient: known(&|one| one.friction_coefficient),
         indentation_depth: known(&|one| one.indentation_depth),
@@ -199,7 +257,12 @@ fn mean_of(answers: Vec<Answer>, seeds: &[u64]) -> Answer {
             shortest_octave: share(3),
         },
         warnings: warnings.collect(),
-        realisations: answers.iter().zip(seeds).map(realisation).collect(),
+        ensemble: Some(Ensemble {
+            realisations: answers.iter().zip(seeds).map(Realisation::of).collect(),
+            on_coarse_grid: 0,
+            friction_coefficient: None,
+            area_fraction: None,
+        }),
         ..answers[0].clone()
     };
     mean.error_parts = ErrorParts::of_elements(mean.requested_quantity().error);

@@ -1,0 +1,235 @@
+//! Which surfaces are solved, and which on a coarse grid only.
+
+use std::ops::Range;
+
+use numerics::Watch;
+
+use super::coarse::{self, Coarse, FINER, has_coarse_grids};
+use super::each::{Pace, at_once, on_threads, solve_each};
+use super::sample::{Counts, FEWEST, Sample, first_enough};
+use super::{AREA_FRACTION, FRICTION};
+use crate::solve::answer::{Answer, Fields};
+use crate::solve::error::{Result, SolveError};
+use crate::solve::problem::Problem;
+
+/// The surfaces that were drawn.
+pub(super) struct Drawn<'a> {
+    problem: &'a Problem,
+    pace: Pace<'a>,
+    at_once: usize,
+    /// Of the first ones, with error bars.
+    pub(super) answers: Vec<Answer>,
+    /// Of all, where there are more of them than answers.
+    pub(super) coarse: Vec<Coarse>,
+    /// Why the first of those that were not reached was not.
+    pub(super) missed: Option<SolveError>,
+}
+
+/// Part of the elements of an answer that a coarse grid has at most.
+const LARGEST_PART: f64 = 0.25;
+
+/// A coarse grid and what it said of the first surfaces.
+struct Trial {
+    finer: usize,
+    found: Vec<Coarse>,
+}
+
+/// How many surfaces may be drawn.
+fn most(problem: &Problem) -> usize {
+    usize::try_from(problem.realisations()).unwrap_or(usize::MAX)
+}
+
+impl<'a> Drawn<'a> {
+    /// With the answer of the first surface, which tells how much memory one takes.
+    pub(super) fn new(
+        problem: &'a Problem,
+        watch: &'a dyn Watch,
+        first: impl FnOnce(&dyn Watch) -> Result<Answer>,
+    ) -> Result<Self> {
+        let count = match problem.standard_error() {
+            Some(_) => FEWEST.min(most(problem)),
+            None => most(problem),
+        };
+        let mut drawn = Self {
+            problem,
+            pace: Pace::new(watch, count as f64),
+            at_once: 1,
+            answers: Vec::new(),
+            coarse: Vec::new(),
+            missed: None,
+        };
+        let first = first(&drawn.pace.share(1.0));
+        drawn.take([first])?;
+        drawn.pace.add(1.0);
+        drawn.at_once = at_once(problem, &drawn.answers[0]);
+        drawn.solve(count)?;
+        Ok(drawn)
+    }
+
+    /// Keeps the fields of the first only.
+    fn take(&mut self, found: impl IntoIterator<Item = Result<Answer>>) -> Result<()> {
+        for found in found {
+            let mut answer = match found {
+                Ok(answer) => answer,
+                Err(SolveError::NotReached { answer, why }) => {
+                    self.missed.get_or_insert(*why);
+                    *answer
+                }
+                Err(why) => return Err(why),
+            };
+            if !self.answers.is_empty() {
+                answer.fields = Fields::default();
+            }
+            self.answers.push(answer);
+        }
+        Ok(())
+    }
+
+    /// Solves until so many are.
+    fn solve(&mut self, count: usize) -> Result<()> {
+        let surfaces = self.answers.len() as u64..count as u64;
+        let found = solve_each(self.problem, surfaces, self.at_once, &mut self.pace);
+        self.take(found)
+    }
+
+    /// Draws more until the mean is known to a relative standard error, with the least work.
+    pub(super) fn until_known(&mut self, asked: f64) -> Result<()> {
+        let most = most(self.problem);
+        if self.relative_standard_error() > asked && most > FEWEST {
+            match self.trial(asked) {
+                Some(trial) => self.with_coarse_grid(trial, asked, most)?,
+                None => self.one_by_one(asked, most)?,
+            }
+        }
+        let reached = self.relative_standard_error();
+        if reached > asked {
+            self.missed.get_or_insert(SolveError::TooFewSurfaces {
+                asked,
+                surfaces: self.surfaces(),
+                reached,
+            });
+        }
+        Ok(())
+    }
+
+    /// How many surfaces the mean is of.
+    pub(super) fn surfaces(&self) -> usize {
+        self.answers.len().max(self.coarse.len())
+    }
+
+    /// Without a coarse grid, no more than are needed.
+    fn one_by_one(&mut self, asked: f64, most: usize) -> Result<()> {
+        while self.relative_standard_error() > asked && self.answers.len() < most {
+            let solved = self.answers.len();
+            let wanted = self.counts(&[], asked, most, 1.0).coarse;
+            self.pace
+                .expect(wanted.saturating_sub(solved).max(1) as f64);
+            self.solve(most.min(solved + self.at_once))?;
+            let enough = |Sample { fine, .. }: Sample| first_enough(fine, solved + 1, asked);
+            let enough = self.with(&[], enough).flatten();
+            self.answers.truncate(enough.unwrap_or(self.answers.len()));
+        }
+        Ok(())
+    }
+
+    /// More of both kinds until they are enough, at most twice as many at a time: few surfaces tell little of how far they scatter.
+    fn with_coarse_grid(&mut self, trial: Trial, asked: f64, most: usize) -> Result<()> {
+        let Trial { finer, found } = trial;
+        let part = self.part(&found);
+        self.coarse = found;
+        while self.relative_standard_error() > asked {
+            let now = Counts {
+                fine: self.answers.len(),
+                coarse: self.coarse.len(),
+            };
+            let wanted = self.counts(&self.coarse, asked, most, part);
+            let coarse = wanted.coarse.clamp(now.coarse, 2 * now.coarse);
+            let fine = wanted.fine.clamp(now.fine, 2 * now.fine).min(coarse);
+            if [fine, coarse] == [now.fine, now.coarse] {
+                break;
+            }
+            let [fine_left, coarse_left] = [
+                wanted.fine.max(fine) - now.fine,
+                wanted.coarse.max(coarse) - now.coarse,
+            ];
+            self.pace
+                .expect(fine_left as f64 + part * coarse_left as f64);
+            self.solve(fine)?;
+            // Every surface has an answer, if not on this grid.
+            let Ok(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
+                self.coarse.clear();
+                return self.one_by_one(asked, most);
+            };
+            self.pace.add(part * more.len() as f64);
+            self.coarse.extend(more);
+        }
+        Ok(())
+    }
+
+    /// The coarse grid with which the first surfaces say that it takes the least work, if any number of surfaces may be drawn; none
+    /// where that is without any. A finer one is not tried where it would take more, however well it told surfaces apart.
+    fn trial(&self, asked: f64) -> Option<Trial> {
+        if !has_coarse_grids(self.problem) {
+            return None;
+        }
+        let alone = self.counts(&[], asked, usize::MAX, 1.0).coarse as f64;
+        let (mut best, mut least) = (None, alone);
+        for finer in FINER {
+            let found = self.on_coarse_grid(finer, 0..self.answers.len()).ok()?;
+            let part = self.part(&found);
+            let Counts { fine, coarse } = self.counts(&found, asked, usize::MAX, part);
+            let work = fine as f64 + part * coarse as f64;
+            if work < least {
+                (best, least) = (Some(Trial { finer, found }), work);
+            }
+            let next = 4.0 * part;
+            if next > LARGEST_PART || FEWEST as f64 + next * alone > least {
+                break;
+            }
+        }
+        best
+    }
+
+    /// They take a part of the memory.
+    fn on_coarse_grid(&self, finer: usize, surfaces: Range<usize>) -> Result<Vec<Coarse>> {
+        let surfaces: Vec<u64> = surfaces.map(|surface| surface as u64).collect();
+        let one = |surface| coarse::solve(self.problem, surface, finer);
+        let found = surfaces
+            .chunks(4 * self.at_once)
+            .flat_map(|some| on_threads(some, one));
+        let found: Result<Option<Vec<Coarse>>> = found.collect();
+        Ok(found?.unwrap_or_default())
+    }
+
+    /// Work on a coarse grid as a part of that of an answer.
+    fn part(&self, coarse: &[Coarse]) -> f64 {
+        let on = |elements: Option<usize>| elements.map_or(f64::INFINITY, |n| n as f64);
+        let of_answer = self.answers[0]
+            .period_grid
+            .map(|[rows, columns]| rows * columns);
+        on(coarse.first().map(|one| one.elements)) / on(of_answer)
+    }
+
+    /// A statistic of what is asked for, with the values of a coarse grid.
+    fn with<T>(&self, coarse: &[Coarse], statistic: impl FnOnce(Sample) -> T) -> Option<T> {
+        let asked = match self.answers[0].friction_coefficient {
+            Some(_) => FRICTION,
+            None => AREA_FRACTION,
+        };
+        asked.over((&self.answers, coarse), statistic)
+    }
+
+    fn counts(&self, coarse: &[Coarse], asked: f64, most: usize, part: f64) -> Counts {
+        let all = Counts {
+            fine: most,
+            coarse: most,
+        };
+        let wanted = self.with(coarse, |sample| sample.wanted(asked, most, part));
+        wanted.unwrap_or(all)
+    }
+
+    fn relative_standard_error(&self) -> f64 {
+        let error = self.with(&self.coarse, |sample| sample.relative_standard_error());
+        error.unwrap_or(f64::INFINITY)
+    }
+}

@@ -1,0 +1,276 @@
+//! The mean of a quantity over many surfaces that coarse grids know, and few that are known with an error bar.
+//!
+//! Of N surfaces a coarse grid says cᵢ, and of the first n of them fᵢ is known. The mean of all is
+//!
+//! ```text
+//! ⟨f⟩ₙ + ⟨c⟩_N − ⟨c⟩ₙ,      (standard error)² = s²(f − c)/n + (s²(c) + 2 cov(c, f − c))/N,
+//! ```
+//!
+//! without an error of the coarse grid, which the difference takes away; that scatters the less the better the grid tells surfaces
+//! apart (multilevel Monte Carlo with two levels: Giles 2008). Without a coarse grid c = f and N = n.
+
+/// Surfaces from which a standard error is taken for one.
+pub(super) const FEWEST: usize = 10;
+
+/// How far the surfaces differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scatter {
+    /// Standard deviation s of one surface.
+    pub standard_deviation: f64,
+    /// Standard error of the mean; s/√N of N surfaces of which each is solved.
+    pub standard_error: f64,
+}
+
+/// How many surfaces are to be solved, and how many on the coarse grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Counts {
+    pub(super) fine: usize,
+    pub(super) coarse: usize,
+}
+
+/// One quantity of all surfaces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample<'a> {
+    /// Of the first ones.
+    pub(super) fine: &'a [f64],
+    /// Of all; the same where there is no coarse grid.
+    pub(super) coarse: &'a [f64],
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Of pairs of values.
+fn covariance(pairs: impl ExactSizeIterator<Item = (f64, f64)> + Clone) -> f64 {
+    let count = pairs.len() as f64;
+    let (a, b) = pairs
+        .clone()
+        .fold((0.0, 0.0), |sums, pair| (sums.0 + pair.0, sums.1 + pair.1));
+    let products = pairs.map(|pair| (pair.0 - a / count) * (pair.1 - b / count));
+    products.sum::<f64>() / (count - 1.0)
+}
+
+impl Sample<'_> {
+    /// By which the mean of the surfaces that are known changes when the others count.
+    pub(super) fn shift(&self) -> f64 {
+        match self.fine.len() == self.coarse.len() {
+            true => 0.0,
+            false => mean(self.coarse) - mean(&self.coarse[..self.fine.len()]),
+        }
+    }
+
+    pub(super) fn mean(&self) -> f64 {
+        mean(self.fine) + self.shift()
+    }
+
+    /// Of the difference, and of the rest.
+    fn variances(&self) -> [f64; 2] {
+        let values = self.coarse.iter().map(|value| (*value, *value));
+        let both = self.fine.iter().zip(self.coarse);
+        let difference = both.clone().map(|(fine, coarse)| fine - coarse);
+        let pairs = both.map(|(fine, coarse)| (*coarse, fine - coarse));
+        let rest = covariance(values) + 2.0 * covariance(pairs);
+        [
+            covariance(difference.map(|value| (value, value))),
+            rest.max(0.0),
+        ]
+    }
+
+    /// None of one surface.
+    pub(super) fn scatter(&self) -> Option<Scatter> {
+        let [difference, rest] = self.variances();
+        let error = self.errors_squared([difference, rest]).iter().sum::<f64>();
+        (self.fine.len() > 1).then(|| Scatter {
+            standard_deviation: (difference + rest).sqrt(),
+            standard_error: error.sqrt(),
+        })
+    }
+
+    fn errors_squared(&self, [difference, rest]: [f64; 2]) -> [f64; 2] {
+        let [fine, coarse] = [self.fine, self.coarse].map(|values| values.len() as f64);
+        [difference / fine, rest / coarse]
+    }
+
+    /// The standard error over the mean, as much larger as one of few surfaces may be wrong itself (Student's distribution, to the
+    /// first order in 1/N); without limit of fewer than ten.
+    pub(super) fn relative_standard_error(&self) -> f64 {
+        if self.fine.len() < FEWEST {
+            return f64::INFINITY;
+        }
+        let [difference, rest] = self.errors_squared(self.variances());
+        let difference = difference * wider(self.fine.len());
+        let rest = rest * wider(self.coarse.len());
+        match (difference + rest).sqrt() {
+            0.0 => 0.0,
+            error => error / self.mean().abs(),
+        }
+    }
+
+    /// With how many surfaces the least work leaves a relative standard error, of at most so many; a surface takes a part of the
+    /// work on the coarse grid, 1 where there is none.
+    pub(super) fn wanted(&self, asked: f64, most: usize, part: f64) -> Counts {
+        let allowed = (asked * self.mean()).powi(2);
+        let [difference, rest] = self.variances();
+        let difference = difference * wider(self.fine.len());
+        let rest = rest * wider(self.coarse.len());
+        let fine = (difference + (difference * rest * part).sqrt()) / allowed;
+        let fine = fine.max(FEWEST as f64).ceil();
+        let coarse = rest / (allowed - difference / fine);
+        let most = most as f64;
+        let [fine, coarse] = if coarse.max(fine) <= most {
+            [fine, coarse]
+        } else {
+            let left = allowed - rest / most;
+            let enough = if left > 0.0 {
+                difference / left
+            } else {
+                // The most do not suffice; the error that they leave takes the least work so.
+                most * (difference * part / rest).sqrt()
+            };
+            [enough.max(FEWEST as f64).min(most), most]
+        };
+        Counts {
+            fine: whole(fine),
+            coarse: whole(coarse.max(fine)),
+        }
+    }
+}
+
+/// As few of the values as have a relative standard error, from so many on.
+pub(super) fn first_enough(values: &[f64], from: usize, asked: f64) -> Option<usize> {
+    let error = |count: usize| {
+        let [fine, coarse] = [&values[..count]; 2];
+        Sample { fine, coarse }.relative_standard_error()
+    };
+    (from..=values.len()).find(|count| error(*count) <= asked)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a number of surfaces"
+)]
+fn whole(count: f64) -> usize {
+    count.ceil() as usize
+}
+
+/// Square of the factor of a standard error of few values.
+fn wider(count: usize) -> f64 {
+    (1.0 + 0.5 / (count as f64 - 1.0)).powi(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_close(found: f64, expected: f64, tolerance: f64) {
+        let error = found / expected - 1.0;
+        assert!(error.abs() < tolerance, "{found} for {expected}");
+    }
+
+    /// Numbers that look random, of variance 1 and mean 0.
+    fn noise(seed: u64) -> impl Iterator<Item = f64> {
+        let mut state = seed;
+        std::iter::repeat_with(move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let unit = (state >> 11) as f64 / (1u64 << 53) as f64;
+            12.0_f64.sqrt() * (unit - 0.5)
+        })
+    }
+
+    #[test]
+    fn the_mean_of_surfaces_that_are_all_known_is_that_of_them() {
+        let values: Vec<f64> = noise(1).take(20).map(|one| 3.0 + one).collect();
+        let sample = Sample {
+            fine: &values,
+            coarse: &values,
+        };
+        let scatter = sample.scatter().expect("a scatter");
+        assert_close(sample.mean(), mean(&values), 1e-15);
+        let deviation = scatter.standard_deviation;
+        assert_close(scatter.standard_error, deviation / 20.0_f64.sqrt(), 1e-12);
+        let alone = Sample {
+            fine: &values[..1],
+            coarse: &values[..1],
+        };
+        assert_eq!(alone.scatter(), None);
+    }
+
+    #[test]
+    fn surfaces_are_enough_as_soon_as_their_mean_is_known() {
+        let values: Vec<f64> = noise(5).take(100).map(|one| 3.0 + one).collect();
+        let count = first_enough(&values, 1, 0.05).expect("enough");
+        let error = |count: usize| {
+            let [fine, coarse] = [&values[..count]; 2];
+            let sample = Sample { fine, coarse };
+            let error = sample.scatter().expect("a scatter").standard_error;
+            error / sample.mean() * (1.0 + 0.5 / (count as f64 - 1.0))
+        };
+        assert!(count > 20 && error(count) <= 0.05, "{count}");
+        assert!((FEWEST..count).all(|fewer| error(fewer) > 0.05), "{count}");
+        assert_eq!(first_enough(&values, count + 3, 0.05), Some(count + 3));
+        assert_eq!(first_enough(&values, 1, 1e-3), None);
+        assert_eq!(first_enough(&values[..9], 1, 0.9), None, "too few to tell");
+    }
+
+    /// Over many samples the standard error is the deviation of the means from the true one, whatever the coarse grid errs by.
+    #[test]
+    fn the_standard_error_is_the_deviation_of_means() {
+        let mut numbers = noise(2);
+        let mut draw = |count: usize| -> Vec<f64> { numbers.by_ref().take(count).collect() };
+        let [mut squares, mut said, mut ratio] = [0.0; 3];
+        for _ in 0..2000 {
+            let (common, own) = (draw(100), draw(100));
+            let coarse: Vec<f64> = common.iter().map(|one| 7.0 + 0.8 * one).collect();
+            let all = common.iter().zip(&own).take(15);
+            let fine: Vec<f64> = all.map(|(a, b)| 5.0 + a + 0.3 * b).collect();
+            let sample = Sample {
+                fine: &fine,
+                coarse: &coarse,
+            };
+            squares += (sample.mean() - 5.0).powi(2) / 2000.0;
+            let scatter = sample.scatter().expect("a scatter");
+            said += scatter.standard_error.powi(2) / 2000.0;
+            ratio += scatter.standard_deviation.powi(2) / (1.09 * 2000.0);
+        }
+        assert_close(squares.sqrt(), said.sqrt(), 0.05);
+        assert_close(ratio, 1.0, 0.05);
+    }
+
+    /// No other pair of counts leaves that error with less work.
+    #[test]
+    fn the_wanted_counts_take_the_least_work() {
+        let coarse: Vec<f64> = noise(3).take(10).map(|one| 4.0 + one).collect();
+        let own = noise(4).take(10);
+        let fine = coarse.iter().zip(own).map(|(a, b)| 1.0 + a + 0.4 * b);
+        let fine: Vec<f64> = fine.collect();
+        let sample = Sample {
+            fine: &fine,
+            coarse: &coarse,
+        };
+        let (asked, part) = (5e-3, 0.05);
+        let work = |counts: Counts| counts.fine as f64 + part * counts.coarse as f64;
+        let found = sample.wanted(asked, usize::MAX, part);
+        let [difference, rest] = sample.variances().map(|one| one * wider(10));
+        let allowed = (asked * sample.mean()).powi(2);
+        let left = |counts: Counts| {
+            difference / counts.fine as f64 + rest / counts.coarse as f64 <= allowed
+        };
+        assert!(left(found), "{found:?}");
+        for fine in (10..5 * found.fine).step_by(7) {
+            let rest = rest / (allowed - difference / fine as f64);
+            let coarse = if rest > 0.0 {
+                rest.ceil()
+            } else {
+                f64::INFINITY
+            };
+            let other = fine as f64 + part * coarse;
+            assert!(work(found) <= 1.01 * other, "{found:?} {fine} {coarse}");
+        }
+        let few = sample.wanted(asked, 30, part);
+        assert!(few.coarse == 30 && few.fine < 30, "too few anyway: {few:?}");
+    }
+}

@@ -1,0 +1,208 @@
+//! Do the standard errors of means over random surfaces hold? Two means over other surfaces of one spectrum are compared.
+
+use std::path::Path;
+
+use anyhow::Result;
+use numerics::{AtMost, Estimate};
+use serde::Serialize;
+use viscofriction::scene::{Indenter, Scene};
+use viscofriction::solve::{Answer, Problem, Scatter, SolveError, plan};
+
+use super::sample::{Options, Source, sample};
+use super::{Report, Table};
+use crate::output::markdown_table;
+use crate::random::Random;
+use crate::tasks::in_turn;
+
+const SCENES: [usize; 2] = [200, 6];
+const RANGE: &str = "ensembles";
+/// Along the edge of a period, at most.
+const ELEMENTS: usize = 512;
+/// Of every surface.
+const RELATIVE_ERROR: f64 = 0.05;
+/// Relative standard errors that are asked for, and of the mean with which that is compared.
+const ASKED: [f64; 2] = [0.05, 0.02];
+/// Seeds of the two means.
+const SEEDS: [u64; 2] = [1, 1_000_000];
+/// Seeds that scenes have for themselves.
+const APART: u64 = 2000;
+/// Standard errors within which a mean is said to be, and how often it must be.
+const WITHIN: f64 = 2.0;
+const HOLD: f64 = 0.92;
+/// Standard deviations by which a few scenes may miss that.
+const CHANCE: f64 = 3.0;
+
+/// One quantity of one spectrum.
+#[derive(Debug, Serialize)]
+struct Row {
+    scene: usize,
+    quantity: &'static str,
+    /// Of both means.
+    surfaces: usize,
+    on_coarse_grid: usize,
+    compared_surfaces: usize,
+    compared_on_coarse_grid: usize,
+    /// Of the first.
+    value: f64,
+    standard_error: f64,
+    /// From the other one.
+    deviation: f64,
+    /// Over the standard error of the difference.
+    relative_deviation: f64,
+}
+
+/// A mean that has no answer.
+#[derive(Debug, Serialize)]
+struct Refusal {
+    scene: usize,
+    why: String,
+}
+
+/// Compares means over random surfaces of random scenes; fails where their standard errors hold too seldom.
+pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+    let count = options.count(SCENES[usize::from(quick)])?;
+    let source = Source::new(RANGE)?;
+    let mut random = Random::new(options.seed());
+    let scenes = (1..=count).map(|number| {
+        let case = sample(&mut random, &source, Path::new(""))?;
+        Ok((number, case.scene))
+    });
+    let scenes: Vec<(usize, Scene)> = scenes.collect::<Result<_>>()?;
+    let found = in_turn("ensembles", &scenes, |(number, scene)| {
+        Ok(compared(*number, scene))
+    })?;
+    let (mut rows, mut refusals): (Vec<Row>, Vec<Refusal>) = Default::default();
+    for (scene, found) in (1..).zip(found) {
+        match found {
+            Ok(some) => rows.extend(some),
+            Err(why) => refusals.push(Refusal {
+                scene,
+                why: why.to_string(),
+            }),
+        }
+    }
+    let failures = QUANTITIES
+        .iter()
+        .filter_map(|(name, _)| failure(name, &rows));
+    let failures: Vec<String> = failures.collect();
+    Ok(Report {
+        name: "ensembles",
+        summary: format!("{}\n\nnot solved: {}", table(&rows), refusals.len()),
+        tables: vec![
+            Table::new("ensembles", &rows)?,
+            Table::new("ensembles_refused", &refusals)?,
+        ],
+        failure: (!failures.is_empty()).then(|| failures.join("\n")),
+        ..Report::default()
+    })
+}
+
+type OfAnswer = fn(&Answer) -> Option<(Estimate, Scatter)>;
+
+const QUANTITIES: [(&str, OfAnswer); 2] = [
+    ("friction_coefficient", |answer| {
+        let scatter = answer.ensemble.as_ref()?.friction_coefficient?;
+        Some((answer.friction_coefficient?, scatter))
+    }),
+    ("area_fraction", |answer| {
+        let scatter = answer.ensemble.as_ref()?.area_fraction?;
+        Some((answer.rough?.area_fraction, scatter))
+    }),
+];
+
+/// Friction and area of a spectrum; a mean that has not the standard error asked for has one all the same.
+fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
+    let mean = |at: usize| -> Result<Answer> {
+        let mut given = given.clone();
+        given.solve.relative_error = Some(RELATIVE_ERROR);
+        given.solve.max_memory = None;
+        if let Indenter::SelfAffine(surface) = &mut given.indenter {
+            surface.seed = SEEDS[at] + APART * scene as u64;
+            surface.standard_error = Some(ASKED[at]);
+        }
+        let problem = Problem::try_from(&given)?;
+        match plan(&problem)?.solve(&AtMost(ELEMENTS)) {
+            Err(SolveError::NotReached { answer, .. }) => Ok(*answer),
+            found => Ok(found?),
+        }
+    };
+    let [one, other] = [mean(0)?, mean(1)?];
+    let counts = |answer: &Answer| {
+        let ensemble = answer.ensemble.as_ref();
+        ensemble.map_or([0; 2], |all| [all.realisations.len(), all.on_coarse_grid])
+    };
+    let [counted, compared] = [&one, &other].map(counts);
+    let row = |(quantity, of): &(&'static str, OfAnswer)| {
+        let [(value, error), (reference, reference_error)] = [of(&one)?, of(&other)?];
+        let deviation = value.value - reference.value;
+        let of_both = error.standard_error.hypot(reference_error.standard_error);
+        // Of surfaces that are all alike.
+        let nothing = deviation.abs() <= value.error + reference.error && of_both == 0.0;
+        Some(Row {
+            scene,
+            quantity,
+            surfaces: counted[0],
+            on_coarse_grid: counted[1],
+            compared_surfaces: compared[0],
+            compared_on_coarse_grid: compared[1],
+            value: value.value,
+            standard_error: error.standard_error,
+            deviation,
+            relative_deviation: if nothing { 0.0 } else { deviation / of_both },
+        })
+    };
+    Ok(QUANTITIES.iter().filter_map(row).collect())
+}
+
+fn of<'a>(quantity: &str, rows: &'a [Row]) -> Vec<&'a Row> {
+    rows.iter().filter(|row| row.quantity == quantity).collect()
+}
+
+/// How many deviate by no more than so many standard errors.
+fn within(rows: &[&Row], errors: f64) -> usize {
+    let within = |row: &&&Row| row.relative_deviation.abs() <= errors;
+    rows.iter().filter(within).count()
+}
+
+fn failure(quantity: &str, rows: &[Row]) -> Option<String> {
+    let rows = of(quantity, rows);
+    let all = rows.len() as f64;
+    let chance = CHANCE * (HOLD * (1.0 - HOLD) / all.max(1.0)).sqrt();
+    let held = within(&rows, WITHIN);
+    let holds = held as f64 >= (HOLD - chance) * all && all > 0.0;
+    (!holds).then(|| {
+        format!("ensembles: {held} of {all} of {quantity} are within {WITHIN} standard errors")
+    })
+}
+
+/// One line for each quantity, of all and of those with surfaces on a coarse grid.
+fn table(rows: &[Row]) -> comfy_table::Table {
+    let lines = QUANTITIES.iter().flat_map(|(quantity, _)| {
+        let all = of(quantity, rows);
+        let coarse = all.iter().copied().filter(|row| row.on_coarse_grid > 0);
+        let coarse: Vec<&Row> = coarse.collect();
+        let line = |kind: &str, rows: &[&Row]| {
+            let part = |errors| {
+                let part = 100.0 * within(rows, errors) as f64 / rows.len().max(1) as f64;
+                format!("{part:.1} %")
+            };
+            let [one, two, three] = [1.0, WITHIN, 3.0].map(part);
+            let kind = format!("{}{kind}", quantity.replace('_', " "));
+            [kind, rows.len().to_string(), one, two, three]
+        };
+        [line("", &all), line(", with a coarse grid", &coarse)]
+    });
+    let header = "quantity|spectra|within one standard error|two|three";
+    markdown_table(header.split('|'), lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_of_a_few_random_scenes_are_within_their_standard_errors() {
+        let report = report(&Options::default(), true).expect("a report");
+        assert_eq!(report.failure, None, "{}", report.summary);
+    }
+}
