@@ -3,7 +3,13 @@
 
 use std::f64::consts::PI;
 
-use bem_halfspace::{Contact, ContactOptions, ContactState, Control, Convolution, Grid};
+use bem_halfspace::indenters::rough::SelfAffine;
+use bem_halfspace::periodic::steady_on_grid;
+use bem_halfspace::rheology::Elastic;
+use bem_halfspace::{
+    Contact, ContactOptions, ContactState, Control, Convolution, Grid, PeriodicLoad,
+    PeriodicOptions,
+};
 use casebook::group;
 
 use crate::support::{Pressing, assert_close, assert_near, assert_refused};
@@ -153,4 +159,50 @@ fn no_contact_stalls_from_one_element_to_full() {
     assert_eq!((first, last), (1, n * n), "first touch and full contact");
     let missing = 1..n * n / 100;
     assert!(missing.contains(&(n * n - before)), "{parts:?}");
+}
+
+/// Part of the elements in contact, and that without their excess at edges, of surfaces with two decades of waves.
+fn areas_of_two_decades(edge: usize, mean_pressure: f64, seed: u64) -> [f64; 2] {
+    let surface = SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.8,
+        rms_slope: 0.2766,
+        longest_wavelength: 1.000_001,
+        shortest_wavelength: 0.009_999_99,
+        roll_off_wavelength: 1.000_001,
+        seed,
+    };
+    let surface = surface.surface().expect("a surface");
+    let heights = surface.heights([edge; 2]).expect("heights");
+    let grid = Grid::new([edge; 2], [1.0 / edge as f64; 2]).expect("a grid");
+    // E* = 1.
+    let spring = Elastic::new(0.25).expect("a spring");
+    let load = PeriodicLoad::new(mean_pressure, 0.0).expect("a load");
+    let options = PeriodicOptions {
+        tolerance: 1e-5,
+        ..PeriodicOptions::default()
+    };
+    let found = steady_on_grid(&grid, &heights, &spring, &load, &options).expect("a contact");
+    let pressures = found.pressure.pressure.iter();
+    let count = pressures.filter(|pressure| **pressure > 0.0).count();
+    [count as f64 / grid.n_elements() as f64, found.area_fraction]
+}
+
+/// Areas that Zhou computed by Green's functions, published with Xu's work on Persson's theory: they are those of elements in
+/// contact on four elements per shortest wave.
+#[test]
+fn areas_of_two_decades_of_waves_are_those_of_zhou() {
+    for (mean_pressure, zhou) in [(0.04, 0.28459), (0.147, 0.77187), (0.37, 0.99513)] {
+        let surfaces = [1, 2, 3].map(|seed| areas_of_two_decades(400, mean_pressure, seed)[0]);
+        let mean = surfaces.iter().sum::<f64>() / 3.0;
+        assert_close("area", mean, zhou, 0.02);
+    }
+}
+
+/// Without their excess at edges the areas hardly depend on the elements, on as few as four per shortest wave.
+#[test]
+fn areas_without_their_excess_hardly_depend_on_the_elements() {
+    let [few, many] = [400, 800].map(|edge| areas_of_two_decades(edge, 0.04, 1));
+    assert!(few[0] > 1.025 * many[0], "{few:?} {many:?}");
+    assert_close("area", few[1], many[1], 0.004);
 }
