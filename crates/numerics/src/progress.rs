@@ -35,6 +35,24 @@ impl Watch for AtMost {
     fn done(&self, _: f64) {}
 }
 
+/// Tells of a piece of work as a part of all.
+#[derive(Debug)]
+pub struct Share<'a> {
+    watch: &'a dyn Watch,
+    from: f64,
+    part: f64,
+}
+
+impl Watch for Share<'_> {
+    fn allows(&self, elements: usize) -> bool {
+        self.watch.allows(elements)
+    }
+
+    fn done(&self, part: f64) {
+        self.watch.done((self.from + part * self.part).min(1.0));
+    }
+}
+
 /// Work that is done and expected, in a unit of one's own.
 #[derive(Debug)]
 pub struct Progress<'a> {
@@ -68,9 +86,51 @@ impl<'a> Progress<'a> {
         value
     }
 
+    /// Follows a piece of work that is done elsewhere; work 0 tells nothing of itself.
+    pub fn share(&self, work: f64) -> Share<'a> {
+        Share {
+            watch: self.watch,
+            from: self.done / self.expected,
+            part: work / self.expected,
+        }
+    }
+
     /// A piece of work is done.
     pub fn add(&mut self, work: f64) {
         self.done += work;
         self.watch.done((self.done / self.expected).min(1.0));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+
+    #[derive(Debug, Default)]
+    struct Recorder(Mutex<Vec<f64>>);
+
+    impl Watch for Recorder {
+        fn allows(&self, elements: usize) -> bool {
+            elements < 8
+        }
+
+        fn done(&self, part: f64) {
+            self.0.lock().expect("a list").push(part);
+        }
+    }
+
+    #[test]
+    fn a_share_tells_of_itself_as_a_part_of_all() {
+        let recorder = Recorder::default();
+        let mut progress = Progress::new(&recorder, 4.0);
+        progress.add(1.0);
+        let share = progress.share(2.0);
+        share.done(0.5);
+        progress.share(0.0).done(1.0);
+        assert!(share.allows(7) && !share.allows(8));
+        let told = recorder.0.into_inner().expect("a list");
+        assert_eq!(told, [0.25, 0.5, 0.25]);
     }
 }

@@ -5,7 +5,6 @@ use bem_halfspace::PeriodicSliding;
 use crate::solve::answer::Persson;
 use crate::solve::body::Body;
 use crate::solve::elements;
-use crate::solve::error::Result;
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
@@ -33,17 +32,15 @@ pub(super) fn has_coarse_grids(problem: &Problem) -> bool {
     }
 }
 
-/// One surface on a coarse grid; none of what is no random surface.
-pub(super) fn solve(problem: &Problem, surface: u64, finer: usize) -> Result<Option<Coarse>> {
-    let one = problem.of_surface(surface, 1)?;
+/// One surface on a coarse grid; none where its contact is not found there.
+pub(super) fn solve(problem: &Problem, surface: u64, finer: usize) -> Option<Coarse> {
+    let one = problem.of_surface(surface, 1).ok()?;
     let Body::Periodic(surface) = one.body() else {
-        return Ok(None);
+        return None;
     };
-    let Ok(rough) = rough(&one, surface) else {
-        return Ok(None);
-    };
-    let (found, persson) = elements::on_coarse_grid(&one, rough, finer)?;
-    Ok(Some(Coarse::of(&found, persson)))
+    let rough = rough(&one, surface).ok()?;
+    let (found, persson) = elements::on_coarse_grid(&one, rough, finer).ok()?;
+    Some(Coarse::of(&found, persson))
 }
 
 impl Coarse {

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use numerics::Watch;
+use numerics::{Progress, Watch};
 
 use super::coarse::{self, Coarse, FINER, has_coarse_grids};
-use super::each::{Pace, at_once, on_threads, solve_each};
+use super::each::{at_once, on_threads, solve_each};
 use super::sample::{Counts, FEWEST, Sample, first_enough};
 use super::{AREA_FRACTION, FRICTION};
 use crate::solve::answer::{Answer, Fields};
@@ -15,7 +15,7 @@ use crate::solve::problem::Problem;
 /// The surfaces that were drawn.
 pub(super) struct Drawn<'a> {
     problem: &'a Problem,
-    pace: Pace<'a>,
+    progress: Progress<'a>,
     at_once: usize,
     /// Of the first ones, with error bars.
     pub(super) answers: Vec<Answer>,
@@ -52,15 +52,15 @@ impl<'a> Drawn<'a> {
         };
         let mut drawn = Self {
             problem,
-            pace: Pace::new(watch, count as f64),
+            progress: Progress::new(watch, count as f64),
             at_once: 1,
             answers: Vec::new(),
             coarse: Vec::new(),
             missed: None,
         };
-        let first = first(&drawn.pace.share(1.0));
+        let first = first(&drawn.progress.share(1.0));
         drawn.take([first])?;
-        drawn.pace.add(1.0);
+        drawn.progress.add(1.0);
         drawn.at_once = at_once(problem, &drawn.answers[0]);
         drawn.solve(count)?;
         Ok(drawn)
@@ -88,7 +88,7 @@ impl<'a> Drawn<'a> {
     /// Solves until so many are.
     fn solve(&mut self, count: usize) -> Result<()> {
         let surfaces = self.answers.len() as u64..count as u64;
-        let found = solve_each(self.problem, surfaces, self.at_once, &mut self.pace);
+        let found = solve_each(self.problem, surfaces, self.at_once, &mut self.progress);
         self.take(found)
     }
 
@@ -122,7 +122,7 @@ impl<'a> Drawn<'a> {
         while self.relative_standard_error() > asked && self.answers.len() < most {
             let solved = self.answers.len();
             let wanted = self.counts(&[], asked, most, 1.0).coarse;
-            self.pace
+            self.progress
                 .expect(wanted.saturating_sub(solved).max(1) as f64);
             self.solve(most.min(solved + self.at_once))?;
             let enough = |Sample { fine, .. }: Sample| first_enough(fine, solved + 1, asked);
@@ -152,15 +152,15 @@ impl<'a> Drawn<'a> {
                 wanted.fine.max(fine) - now.fine,
                 wanted.coarse.max(coarse) - now.coarse,
             ];
-            self.pace
+            self.progress
                 .expect(fine_left as f64 + part * coarse_left as f64);
             self.solve(fine)?;
             // Every surface has an answer, if not on this grid.
-            let Ok(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
+            let Some(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
                 self.coarse.clear();
                 return self.one_by_one(asked, most);
             };
-            self.pace.add(part * more.len() as f64);
+            self.progress.add(part * more.len() as f64);
             self.coarse.extend(more);
         }
         Ok(())
@@ -175,7 +175,7 @@ impl<'a> Drawn<'a> {
         let alone = self.counts(&[], asked, usize::MAX, 1.0).coarse as f64;
         let (mut best, mut least) = (None, alone);
         for finer in FINER {
-            let found = self.on_coarse_grid(finer, 0..self.answers.len()).ok()?;
+            let found = self.on_coarse_grid(finer, 0..self.answers.len())?;
             let part = self.part(&found);
             let Counts { fine, coarse } = self.counts(&found, asked, usize::MAX, part);
             let work = fine as f64 + part * coarse as f64;
@@ -190,15 +190,14 @@ impl<'a> Drawn<'a> {
         best
     }
 
-    /// They take a part of the memory.
-    fn on_coarse_grid(&self, finer: usize, surfaces: Range<usize>) -> Result<Vec<Coarse>> {
+    /// They take a part of the memory; none where one of them has no contact that is found.
+    fn on_coarse_grid(&self, finer: usize, surfaces: Range<usize>) -> Option<Vec<Coarse>> {
         let surfaces: Vec<u64> = surfaces.map(|surface| surface as u64).collect();
         let one = |surface| coarse::solve(self.problem, surface, finer);
         let found = surfaces
             .chunks(4 * self.at_once)
             .flat_map(|some| on_threads(some, one));
-        let found: Result<Option<Vec<Coarse>>> = found.collect();
-        Ok(found?.unwrap_or_default())
+        found.collect()
     }
 
     /// Work on a coarse grid as a part of that of an answer.

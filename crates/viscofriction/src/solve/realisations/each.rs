@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use numerics::Watch;
+use numerics::{Progress, Watch};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
@@ -11,61 +11,6 @@ use crate::solve::error::Result;
 use crate::solve::memory::needed;
 use crate::solve::plan::plan;
 use crate::solve::problem::Problem;
-
-/// How far all surfaces are, in a unit of one's own.
-pub(super) struct Pace<'w> {
-    watch: &'w dyn Watch,
-    done: f64,
-    expected: f64,
-}
-
-impl<'w> Pace<'w> {
-    pub(super) const fn new(watch: &'w dyn Watch, expected: f64) -> Self {
-        Self {
-            watch,
-            done: 0.0,
-            expected,
-        }
-    }
-
-    /// So much is left.
-    pub(super) const fn expect(&mut self, work: f64) {
-        self.expected = self.done + work;
-    }
-
-    pub(super) fn add(&mut self, work: f64) {
-        self.done += work;
-        self.watch.done((self.done / self.expected).min(1.0));
-    }
-
-    /// Tells of a piece of work as a part of all.
-    pub(super) fn share(&self, work: f64) -> Share<'w> {
-        Share {
-            watch: self.watch,
-            from: self.done / self.expected,
-            part: work / self.expected,
-        }
-    }
-}
-
-/// Follows a part of the work.
-#[derive(Debug)]
-pub(super) struct Share<'w> {
-    watch: &'w dyn Watch,
-    from: f64,
-    part: f64,
-}
-
-impl Watch for Share<'_> {
-    fn allows(&self, elements: usize) -> bool {
-        self.watch.allows(elements)
-    }
-
-    fn done(&self, part: f64) {
-        let part = self.from + part * self.part;
-        self.watch.done(part.min(1.0));
-    }
-}
 
 /// How many surfaces are solved at the same time: as many as there are threads and memory for, if all take what the first did.
 pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
@@ -96,17 +41,17 @@ pub(super) fn solve_each(
     problem: &Problem,
     surfaces: Range<u64>,
     at_once: usize,
-    pace: &mut Pace,
+    progress: &mut Progress,
 ) -> Vec<Result<Answer>> {
     let surfaces: Vec<u64> = surfaces.collect();
     let mut answers = Vec::new();
     for some in surfaces.chunks(at_once) {
         let count = some.len() as f64;
         // Several cannot tell of parts of themselves.
-        let share = pace.share(if some.len() > 1 { 0.0 } else { 1.0 });
+        let share = progress.share(if some.len() > 1 { 0.0 } else { 1.0 });
         let one = |surface| solve_one(problem, surface, at_once, &share);
         answers.extend(on_threads(some, one));
-        pace.add(count);
+        progress.add(count);
     }
     answers
 }
