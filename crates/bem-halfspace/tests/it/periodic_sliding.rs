@@ -262,7 +262,8 @@ fn a_light_contact_goes_on_from_the_coarser_grid() {
 #[cfg(feature = "rough")]
 #[test]
 fn every_contact_on_a_small_grid_is_found() {
-    for case in 380..420_u32 {
+    // The last one takes more products than are allowed if all of its contacts are solved by minimal residuals.
+    for case in (380..420_u32).chain([795]) {
         // Evenly spread over all parameters.
         let part = |root: f64| (f64::from(case + 1) * root.sqrt()).fract();
         let shape = [21, 27 + 2 * (case as usize % 5)];
