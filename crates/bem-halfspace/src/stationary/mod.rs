@@ -2,6 +2,7 @@
 
 mod conjugate_residuals;
 pub mod periodic;
+mod pivots;
 pub mod steady;
 
 pub use steady::steady;

@@ -3,14 +3,12 @@
 //!
 //! The equations are solved to a fifth of the residual that the change of the contact has left, and to a part of the
 //! heights, which is smaller after each contact in vain; penetrations are told from what is left of the residual, on
-//! average, before tension is taken away: that moves soft waves, and with them all that is far from the contact. A contact is in
-//! vain if it has as many violations as one before it. After ten in vain only the largest violation of those near to each other
-//! changes sides, and near means the farther the more contacts are in vain; after more than a hundred it is the last one of all,
-//! after an accurate solution: the operator has a positive symmetric part, so that this ends (Murty 1974).
+//! average, before tension is taken away: that moves soft waves, and with them all that is far from the contact.
 
 use crate::parallel::reductions::larger;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::pivots::{Pivots, Violation};
 use crate::{BemError, Grid};
 
 /// Part of the residual to which the equations are solved; with 0.1 there are up to a quarter more products in light contact.
@@ -25,13 +23,6 @@ const FINEST: i32 = 4;
 const NOISE: f64 = 3.0;
 /// Likewise far from it, as a part of the largest residual.
 const HIDING_RESIDUAL: f64 = 0.3;
-/// Contacts in vain up to which all violating elements change sides, and up to which one of those near to each other does. What
-/// counts as near begins with two elements and doubles whenever `AS_NEAR` more contacts are in vain. Of 160 light contacts of
-/// dashpots, whose moduli grow with the frequency, all were found so, with 90 products each; where the violations above a part of
-/// the largest one change instead, four were not found.
-const ALL: i32 = 10;
-const APART: i32 = 110;
-const AS_NEAR: i32 = 10;
 /// Part of the tolerance to which the equations are solved.
 const PART_OF_TOLERANCE: f64 = 0.5;
 
@@ -74,26 +65,6 @@ struct Search<'a> {
     roughness: f64,
     /// Largest residual, relative to the largest displacement.
     residual: f64,
-}
-
-/// Which elements on the wrong side change it.
-#[derive(Clone, Copy, PartialEq)]
-enum Changing {
-    All,
-    /// The one with the largest violation of those that are nearer to each other than so many elements along both axes.
-    Apart(usize),
-    Last,
-}
-
-impl Changing {
-    /// After so many contacts in vain.
-    const fn after(vain: i32) -> Self {
-        match vain {
-            0..=ALL => Self::All,
-            ..=APART => Self::Apart(2 << ((vain - ALL - 1) / AS_NEAR)),
-            _ => Self::Last,
-        }
-    }
 }
 
 /// Solves the problem from a first guess of the pressure, which is the solution afterwards: outside the contact it is the
@@ -151,20 +122,20 @@ impl<'a> Search<'a> {
         let (tolerance, max_products) = (self.problem.tolerance, self.problem.max_products);
         self.balance();
         self.renew_gaps();
-        let (mut fewest, mut vain) = (usize::MAX, 0);
+        let mut pivots = Pivots::new(self.problem.grid.shape());
         loop {
             self.equations
                 .take(&self.contact, &self.pressure, &self.gap);
-            let changing = Changing::after(vain);
             // What cycles with rough solutions may end with better ones.
-            let part = match changing {
-                Changing::Last => 0.0,
-                _ => PART_OF_RESIDUAL,
+            let part = if pivots.are_single() {
+                0.0
+            } else {
+                PART_OF_RESIDUAL
             };
-            let rough = ROUGH * FINER.powi(vain.min(FINEST)) * self.roughness;
+            let rough = ROUGH * FINER.powi(pivots.in_vain().min(FINEST)) * self.roughness;
             let largest = PART_OF_TOLERANCE * tolerance * self.scale;
             let noise = self.equations.iterate(part, rough, largest);
-            let (violations, is_solved) = self.change(noise, changing);
+            let is_solved = self.change(noise, &mut pivots);
             if is_solved {
                 return Ok(Solved {
                     depth: self.depth,
@@ -179,17 +150,12 @@ impl<'a> Search<'a> {
                     tolerance,
                 });
             }
-            if violations < fewest {
-                (fewest, vain) = (violations, 0);
-            } else {
-                vain += 1;
-            }
         }
     }
 
-    /// Moves elements that violate the conditions to the other side; how many there were, and
-    /// whether the problem is solved; `noise` is the root mean square of the residual.
-    fn change(&mut self, noise: f64, changing: Changing) -> (usize, bool) {
+    /// Moves elements that violate the conditions to the other side, and says whether the problem is solved; `noise` is the root mean
+    /// square of the residual.
+    fn change(&mut self, noise: f64, pivots: &mut Pivots) -> bool {
         let tolerance = self.problem.tolerance;
         self.equations.give(&mut self.pressure);
         let tension = -self.pressure.iter().map(|p| p.min(0.0)).sum::<f64>();
@@ -198,18 +164,21 @@ impl<'a> Search<'a> {
         // With the tension.
         self.renew_gaps();
         let far = HIDING_RESIDUAL * self.residual * self.scale;
-        let allowed = match changing {
-            Changing::Last => [0.0; 2],
-            _ => [NOISE * noise, far],
+        let allowed = if pivots.are_single() {
+            [0.0; 2]
+        } else {
+            [NOISE * noise, far]
         };
         let mut is_solved = self.is_within(tolerance);
-        let changed = self.exchange(allowed, changing);
+        for element in pivots.choose(&self.violations(allowed)) {
+            self.contact[element] ^= true;
+        }
         if tension > 0.0 {
             self.release();
             self.renew_gaps();
             is_solved = is_slight && self.is_within(tolerance);
         }
-        (changed, is_solved)
+        is_solved
     }
 
     /// Whether no gap in the contact and no penetration beside it is larger.
@@ -218,10 +187,11 @@ impl<'a> Search<'a> {
         self.residual <= tolerance && !self.gap.iter().zip(&self.contact).any(penetrates)
     }
 
-    /// Exchanges elements on the wrong side, and counts those that should be; smaller penetrations than allowed of those that are
-    /// listed by the equations, and of others, and than the tolerance, are none.
-    fn exchange(&mut self, allowed: [f64; 2], changing: Changing) -> usize {
+    /// The elements on the wrong side; smaller penetrations than allowed of those that are listed by the equations, and of others,
+    /// and than the tolerance, are none.
+    fn violations(&self, allowed: [f64; 2]) -> Vec<Violation> {
         let own = self.equations.own_displacement;
+        let columns = self.problem.grid.shape()[1];
         let [near, far] = allowed.map(|allowed| allowed.max(self.problem.tolerance * self.scale));
         let violation = |element: usize| {
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
@@ -232,47 +202,13 @@ impl<'a> Search<'a> {
             } else {
                 (-gap, far)
             };
-            (size >= least).then_some((element, size))
+            (size >= least).then_some(Violation {
+                element,
+                place: [element / columns, element % columns],
+                size,
+            })
         };
-        let violations = (0..self.contact.len()).filter_map(violation);
-        let violations: Vec<(usize, f64)> = violations.collect();
-        let count = violations.len();
-        let changed = match changing {
-            Changing::All => violations,
-            Changing::Apart(distance) => self.largest_apart(violations, distance),
-            Changing::Last => violations.last().copied().into_iter().collect(),
-        };
-        for (element, _) in changed {
-            self.contact[element] ^= true;
-        }
-        count
-    }
-
-    /// The largest violations, each with no larger one of these nearer than a distance in elements along both axes.
-    fn largest_apart(
-        &self,
-        mut violations: Vec<(usize, f64)>,
-        distance: usize,
-    ) -> Vec<(usize, f64)> {
-        violations.sort_by(|one, other| other.1.total_cmp(&one.1));
-        let [rows, columns] = self.problem.grid.shape();
-        let around = |place: usize, count: usize| {
-            let reach = (distance - 1).min(count / 2);
-            (count + place - reach..=count + place + reach).map(move |near| near % count)
-        };
-        let mut is_near = vec![false; self.contact.len()];
-        violations.retain(|(element, _)| {
-            let is_apart = !is_near[*element];
-            if is_apart {
-                for row in around(element / columns, rows) {
-                    for column in around(element % columns, columns) {
-                        is_near[row * columns + column] = true;
-                    }
-                }
-            }
-            is_apart
-        });
-        violations
+        (0..self.contact.len()).filter_map(violation).collect()
     }
 
     /// Sum of the pressures, \[Pa].

@@ -45,7 +45,6 @@ pub(super) struct Mesh {
     pub(super) loading: GridLoading,
     /// Whether only elements over which the body rises may touch.
     only_rising: bool,
-    /// Number of rows and columns of the footprint.
     shape: [usize; 2],
     /// Position of the row and the column 0 in elements from the lowest point.
     origin: [f64; 2],
@@ -112,6 +111,11 @@ impl Mesh {
             }),
             _ => Ok(()),
         }
+    }
+
+    /// Rows and columns of the footprint.
+    pub(super) const fn shape(&self) -> [usize; 2] {
+        self.shape
     }
 
     pub(super) const fn n_elements(&self) -> usize {

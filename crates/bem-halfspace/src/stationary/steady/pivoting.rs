@@ -1,12 +1,11 @@
 //! Block principal pivoting: guess the active set, solve its equations, move the elements in tension out of it and those
 //! that penetrate into it.
 //!
-//! While the number of violations falls, all of them change at once, or their neighbourhood is solved by itself where
-//! they are few. A few pivots without progress are allowed; then the larger violations or every other one, so that
-//! neighbours at the front do not flip to and fro together; in the end single pivots of the last violation (Murty
-//! 1974), until there is progress again. Early active sets are solved roughly, the last one to the tolerance.
+//! Where the violations are few, their neighbourhood is solved by itself. Early active sets are solved roughly, the last one to the
+//! tolerance.
 
 use crate::BemError;
+use crate::stationary::pivots::{Pivots, Violation};
 use crate::stationary::steady::contact_equations::solve_equations;
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
@@ -14,11 +13,8 @@ use crate::stationary::steady::neighbourhood::solve_neighbourhood;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 
-/// Pivots without progress up to which all violations change, then the larger ones, then every other one, and in the end
-/// a single one.
-const BLOCKS: usize = 3;
-const LARGER_ONES: usize = 30;
-const EVERY_OTHER: usize = 200;
+/// Contacts in vain up to which neighbourhoods are solved by themselves: that may repeat itself.
+const NEIGHBOURHOODS: i32 = 3;
 /// Largest tolerance of the first contact, and its ratio from contact to contact.
 const FIRST_TOLERANCE: f64 = 1e-4;
 const TOLERANCE_RATIO: f64 = 0.1;
@@ -58,10 +54,7 @@ pub(super) fn solve(
 ) -> Result<Solution, BemError> {
     let target = mesh.options.tolerance;
     let mut search = Search::new(mesh, plans, guess);
-    let mut progress = Progress {
-        fewest: usize::MAX,
-        vain: 0,
-    };
+    let mut pivots = Pivots::new(mesh.shape());
     let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
         let state = search.solve();
@@ -81,9 +74,8 @@ pub(super) fn solve(
             search.tolerance *= TOLERANCE_RATIO.max(0.5 * target / residual);
         } else {
             search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(PART_OF_TOLERANCE * target);
-            let chosen = progress.choose(&state.violations);
-            // That too may repeat itself.
-            if progress.vain > BLOCKS || !search.solve_neighbourhood(&state) {
+            let chosen = pivots.choose(&state.violations);
+            if pivots.in_vain() > NEIGHBOURHOODS || !search.solve_neighbourhood(&state) {
                 search.pivot(chosen);
             }
         }
@@ -93,52 +85,6 @@ pub(super) fn solve(
         residual,
         tolerance: target,
     })
-}
-
-/// An element in tension or penetrating, and by how much in the units of the mesh, which are the same for both.
-struct Violation {
-    element: usize,
-    size: f64,
-    in_tension: bool,
-}
-
-/// How the number of violations falls.
-struct Progress {
-    fewest: usize,
-    /// Pivots since there were fewest.
-    vain: usize,
-}
-
-impl Progress {
-    /// The violations that change: all, then the larger ones, then every other one, then the last.
-    fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
-        if violations.len() < self.fewest {
-            (self.fewest, self.vain) = (violations.len(), 0);
-        } else {
-            self.vain += 1;
-        }
-        let at_least = |threshold: f64| -> Vec<usize> {
-            let large = violations.iter().filter(|one| one.size >= threshold);
-            large.map(|violation| violation.element).collect()
-        };
-        // Only neighbours of different kinds hinder each other.
-        let mut pairs = violations.windows(2);
-        let alike = pairs.all(|pair| pair[0].in_tension == pair[1].in_tension);
-        if self.vain <= BLOCKS || alike && self.vain <= LARGER_ONES {
-            at_least(0.0)
-        } else if self.vain <= LARGER_ONES {
-            let sizes = violations.iter().map(|violation| violation.size);
-            at_least(0.5 * sizes.fold(0.0, f64::max))
-        } else if self.vain <= EVERY_OTHER {
-            // Neighbours that still flip together are taken apart.
-            let mut chosen = at_least(0.0);
-            chosen.retain(|element| (element + self.vain).is_multiple_of(2));
-            chosen
-        } else {
-            let last = violations.last().map(|violation| violation.element);
-            Vec::from_iter(last)
-        }
-    }
 }
 
 /// The contact as it is guessed now.
@@ -229,16 +175,15 @@ impl<'mesh> Search<'mesh> {
         let residual = in_contact.fold(0.0, |largest: f64, (gap, _)| largest.max(gap.abs()));
         let allowed = residual.max(self.mesh.options.tolerance);
         let violation = |(element, gap): (usize, f64)| {
-            let in_tension = self.inside[element];
-            let (size, allowed) = if in_tension {
+            let (size, allowed) = if self.inside[element] {
                 (-self.loads[element], 0.0)
             } else {
                 (-gap, allowed)
             };
             (size > allowed).then_some(Violation {
                 element,
+                place: self.mesh.places(element)[0],
                 size,
-                in_tension,
             })
         };
         let violations = gaps.iter().copied().enumerate().filter_map(violation);
