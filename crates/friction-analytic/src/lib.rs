@@ -88,7 +88,8 @@ pub use layer::{BondedLayer, LayerContact, LayerProfile};
 pub use line::line_sliding;
 pub use numerics::InvalidParameter;
 pub use persson::{
-    PerssonSliding, RoughLoad, SelfAffineSpectrum, persson_of_spectrum, persson_of_waves,
+    EnergyFactor, PerssonSliding, RoughLoad, SelfAffineSpectrum, persson_of_spectrum,
+    persson_of_waves,
 };
 pub use power::power_sliding;
 pub use ramp::{DepthRamp, ramp_force};

@@ -5,9 +5,9 @@
 //! μ = (1/2) ∫ d²q |q| |qₓ| C S P Im E*(|qₓ| v)/σ₀,               E* = 2 G*/(1 − ν)
 //! ```
 //!
-//! with ⟨h²⟩ = ∫ C d²q, S = 1 in Persson (2001), J. Chem. Phys. 115, 3840, and S = (1 + P²)/2 in Persson (2006), Surf. Sci.
-//! Rep. 61, 201. In full contact, S = P = 1, the friction is exact; otherwise the theory is an approximation whose error the
-//! bars here do not contain.
+//! with ⟨h²⟩ = ∫ C d²q. S, a polynomial in P², is how much energy a wave holds in contact, as a part of that which it holds in
+//! full contact, P = S = 1; there the friction is exact. Otherwise the theory is an approximation whose error the bars here do not
+//! contain.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -45,6 +45,30 @@ pub struct SelfAffineSpectrum {
     pub shortest_wavelength: f64,
 }
 
+/// Part S = c₀ + c₁ P² + c₂ P⁴ of the energy in full contact that a wave holds in contact, where P is the area fraction with all
+/// longer waves. The coefficients add up to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct EnergyFactor([f64; N_PARTS]);
+
+impl EnergyFactor {
+    /// S = 1, Persson (2001), J. Chem. Phys. 115, 3840.
+    pub const PERSSON_2001: Self = Self([1.0, 0.0, 0.0]);
+    /// S = (1 + P²)/2, Persson (2006), Surf. Sci. Rep. 61, 201.
+    pub const PERSSON_2006: Self = Self([0.5, 0.5, 0.0]);
+    /// S = (5 − 2 P² + 6 P⁴)/9, Wang and Müser (2017), Tribol. Lett. 65, 103.
+    pub const WANG_MUSER_2017: Self = Self([5.0 / 9.0, -2.0 / 9.0, 2.0 / 3.0]);
+
+    /// S = γ + (1 − γ) P².
+    ///
+    /// # Errors
+    /// [`FrictionError::InvalidParameter`] for a γ that is not finite.
+    pub fn interpolated(gamma: f64) -> Result<Self, FrictionError> {
+        let gamma = numerics::finite("gamma", gamma)?;
+        Ok(Self([gamma, 1.0 - gamma, 0.0]))
+    }
+}
+
 /// What Persson's theory says about a rough surface. The errors are those of the quadrature, not of the theory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -52,10 +76,63 @@ pub struct SelfAffineSpectrum {
 pub struct PerssonSliding {
     /// Real area of contact as a part of the nominal one.
     pub area_fraction: Estimate,
-    /// Friction coefficient with S = 1, as in 2001.
-    pub friction_coefficient: Estimate,
-    /// Friction coefficient with S = (1 + P²)/2, as in 2006.
-    pub friction_coefficient_2006: Estimate,
+    /// Variance of the pressure in full contact, divided by the square of the mean pressure: 2 G of all waves.
+    pub pressure_variance: Estimate,
+    /// Frictions with S = 1, P² and P⁴.
+    parts: [Estimate; N_PARTS],
+}
+
+impl PerssonSliding {
+    /// Friction coefficient.
+    pub fn friction_coefficient(&self, factor: EnergyFactor) -> Estimate {
+        let pairs = factor.0.into_iter().zip(self.parts);
+        let pairs = pairs.map(|(weight, part)| [weight * part.value, weight.abs() * part.error]);
+        let [value, error] =
+            pairs.fold([0.0; 2], |sums, pair| [0, 1].map(|at| sums[at] + pair[at]));
+        Estimate::new(value, error)
+    }
+
+    /// Area fraction A of Xu and others (2024), Int. J. Solids Struct. 290, 112684, where pressures differ less where less is in contact:
+    ///
+    /// ```text
+    /// A = erf(1/√(2 V (γ + (1 − γ) A)))
+    /// ```
+    ///
+    /// V is the [variance](Self::pressure_variance). With γ = 1 it is that of Persson; of elastic surfaces they find γ = 0.42 to 0.45.
+    ///
+    /// # Errors
+    /// [`FrictionError::InvalidParameter`] for a γ that is not above 0 and at most 1.
+    pub fn area_fraction_of_xu(&self, gamma: f64) -> Result<Estimate, FrictionError> {
+        in_range(
+            "gamma",
+            gamma,
+            gamma > 0.0 && gamma <= 1.0,
+            "above 0 and at most 1",
+        )?;
+        let variance = self.pressure_variance.value;
+        let next = |area: f64| area_fraction(variance * (gamma + (1.0 - gamma) * area));
+        // The right-hand side falls with A, so that it cuts the left-hand side once, between 0 and 1.
+        let [mut below, mut above] = [0.0, 1.0];
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (below + above);
+            if next(middle) > middle {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        // A changes at most with the square root of V.
+        let area = next(above);
+        let change = if variance > 0.0 {
+            self.pressure_variance.error / variance
+        } else {
+            0.0
+        };
+        Ok(Estimate::new(
+            area,
+            0.5 * area * change + (area - above).abs(),
+        ))
+    }
 }
 
 /// Persson's area and friction of a sum of waves, which may be anisotropic; waves of one length count with the area fraction
@@ -90,7 +167,7 @@ pub fn persson_of_waves(
         sums.rub(total(1));
         sums.spread += 0.5 * total(0);
     }
-    finished(sums.results(), [0.0; 3])
+    finished(sums.results(), [0.0; N_RESULTS])
 }
 
 /// Persson's area and friction of a self-affine spectrum, to a relative error of the quadrature between 1e-11 and 1.
@@ -115,17 +192,17 @@ pub fn persson_of_spectrum(
         steps *= 2;
         let mut worst = 0.0;
         let fine = sliding.integrate(spectrum, steps, &mut worst);
-        // P and S P change at most with the power 3/2 of G.
+        // P⁵ changes at most with the power 5/2 of G.
         let error =
-            |index: usize| (fine[index] - coarse[index]).abs() + 3.0 * worst * fine[index].abs();
-        let result = finished(fine, [0, 1, 2].map(error))?;
+            |index: usize| (fine[index] - coarse[index]).abs() + 4.0 * worst * fine[index].abs();
+        let result = finished(fine, std::array::from_fn(error))?;
         let bars = [
             ("area fraction", result.area_fraction),
-            ("friction coefficient", result.friction_coefficient),
-            ("friction coefficient", result.friction_coefficient_2006),
+            ("variance of the pressure", result.pressure_variance),
         ];
+        let frictions = result.parts.map(|part| ("friction coefficient", part));
         let is_missed = |(_, bar): &(_, Estimate)| !bar.is_within(relative_error);
-        match bars.into_iter().find(is_missed) {
+        match bars.into_iter().chain(frictions).find(is_missed) {
             None => return Ok(result),
             Some((quantity, known)) if steps >= MOST_STEPS => {
                 return Err(FrictionError::NotConverged {
@@ -139,6 +216,9 @@ pub fn persson_of_spectrum(
     }
 }
 
+/// Parts of the friction, and results of the theory.
+const N_PARTS: usize = 3;
+const N_RESULTS: usize = N_PARTS + 2;
 /// Wave vectors whose lengths differ by less, relatively, differ by rounding.
 const SAME_LENGTH: f64 = 1e-12;
 /// Steps of Simpson's rule between the longest wave and the roll-off, and from there to the shortest wave.
@@ -226,7 +306,12 @@ impl Sliding {
     /// By Simpson's rule, and at the odd points by that of the parabola through three points.
     ///
     /// Between the ends of a range ln q grows like t³, because P falls from 1 like 1/√(ln q − ln q₀).
-    fn integrate(&self, spectrum: &SelfAffineSpectrum, steps: usize, worst: &mut f64) -> [f64; 3] {
+    fn integrate(
+        &self,
+        spectrum: &SelfAffineSpectrum,
+        steps: usize,
+        worst: &mut f64,
+    ) -> [f64; N_RESULTS] {
         let mut sums = Sums::default();
         let roll_off = TAU / spectrum.roll_off_wavelength;
         let longest = TAU / spectrum.longest_wavelength;
@@ -255,42 +340,50 @@ impl Sliding {
     }
 }
 
-/// G and both frictions up to a wave number.
+/// G and the parts of the friction up to a wave number.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     spread: f64,
-    friction: f64,
-    friction_2006: f64,
+    parts: [f64; N_PARTS],
 }
 
 impl Sums {
-    fn area_fraction(&self) -> f64 {
-        libm::erf(0.5 / self.spread.sqrt())
-    }
-
     /// Adds what would be friction in full contact.
     fn rub(&mut self, friction: f64) {
-        let area = self.area_fraction();
-        self.friction += area * friction;
-        self.friction_2006 += 0.5 * (1.0 + area * area) * area * friction;
+        let area = area_fraction(2.0 * self.spread);
+        let mut added = area * friction;
+        for part in &mut self.parts {
+            *part += added;
+            added *= area * area;
+        }
     }
 
-    /// Area fraction and both frictions.
-    fn results(&self) -> [f64; 3] {
-        [self.area_fraction(), self.friction, self.friction_2006]
+    /// Area fraction, variance of the pressure and parts of the friction.
+    fn results(&self) -> [f64; N_RESULTS] {
+        let variance = 2.0 * self.spread;
+        let [one, two, three] = self.parts;
+        [area_fraction(variance), variance, one, two, three]
     }
 }
 
-fn finished(results: [f64; 3], errors: [f64; 3]) -> Result<PerssonSliding, FrictionError> {
+/// Area fraction of a variance of the pressure.
+fn area_fraction(variance: f64) -> f64 {
+    libm::erf((0.5 / variance).sqrt())
+}
+
+fn finished(
+    results: [f64; N_RESULTS],
+    errors: [f64; N_RESULTS],
+) -> Result<PerssonSliding, FrictionError> {
     representable("area fraction", results[0])?;
     // An elastic material has no friction.
-    if results[1].to_bits() != 0 {
-        representable("friction coefficient", results[1])?;
+    if results[2].to_bits() != 0 {
+        representable("friction coefficient", results[2])?;
     }
     let known = |index: usize| Estimate::new(results[index], errors[index]);
     Ok(PerssonSliding {
         area_fraction: known(0),
-        friction_coefficient: known(1),
-        friction_coefficient_2006: known(2),
+        pressure_variance: known(1),
+        parts: [2, 3, 4].map(known),
     })
 }

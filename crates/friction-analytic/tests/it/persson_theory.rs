@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 
 use casebook::{assert_close, assert_matches, numbers, prony, refused, refuses};
 use friction_analytic::{
-    FrictionError, PerssonSliding, RoughLoad, SelfAffineSpectrum, SurfaceWave, persson_of_spectrum,
-    persson_of_waves,
+    EnergyFactor, FrictionError, PerssonSliding, RoughLoad, SelfAffineSpectrum, SurfaceWave,
+    persson_of_spectrum, persson_of_waves,
 };
+use numerics::Estimate;
 use rheology::{Elastic, Prony};
 
 /// v, area, μ with S = 1, μ with S = (1 + P²)/2 and μ with S = P = 1 under the mean pressure 0.05. The frictions
@@ -35,6 +36,15 @@ fn load(mean_pressure: f64, velocity: f64) -> RoughLoad {
     }
 }
 
+/// Area, and friction as in 2001 and 2006.
+fn both(state: PerssonSliding) -> [Estimate; 3] {
+    [
+        state.area_fraction,
+        state.friction_coefficient(EnergyFactor::PERSSON_2001),
+        state.friction_coefficient(EnergyFactor::PERSSON_2006),
+    ]
+}
+
 fn theory(mean_pressure: f64, velocity: f64, relative_error: f64) -> PerssonSliding {
     let load = load(mean_pressure, velocity);
     persson_of_spectrum(&SPECTRUM, &material(), load, relative_error).expect("a friction")
@@ -46,12 +56,7 @@ fn area_and_friction_are_those_of_the_casebook() {
         let v = row[0];
         for relative_error in [1e-3, 1e-9] {
             let state = theory(PRESSURE, v, relative_error);
-            let bars = [
-                state.area_fraction,
-                state.friction_coefficient,
-                state.friction_coefficient_2006,
-            ];
-            for (bar, exact) in bars.into_iter().zip(&row[1..]) {
+            for (bar, exact) in both(state).into_iter().zip(&row[1..]) {
                 let off = (bar.value - exact).abs();
                 let holds = off <= bar.error + 1.5e-10 * exact;
                 let is_kept = bar.error <= relative_error * exact;
@@ -60,8 +65,13 @@ fn area_and_friction_are_those_of_the_casebook() {
         }
         // A million times the pressure closes all gaps.
         let state = theory(1e6 * PRESSURE, v, 1e-10);
-        for bar in [state.friction_coefficient, state.friction_coefficient_2006] {
-            assert_close!(bar.value => 1e-6 * row[4], within 1e-10; "v = {v}");
+        for factor in [
+            EnergyFactor::PERSSON_2001,
+            EnergyFactor::PERSSON_2006,
+            EnergyFactor::WANG_MUSER_2017,
+        ] {
+            let friction = state.friction_coefficient(factor).value;
+            assert_close!(friction => 1e-6 * row[4], within 1e-10; "v = {v}");
         }
     }
 }
@@ -90,15 +100,11 @@ fn waves(rings: u32, angles: u32) -> Vec<SurfaceWave> {
 
 #[test]
 fn many_waves_have_the_friction_of_the_spectrum() {
-    let exact = theory(PRESSURE, 0.004, 1e-10);
+    let exact = both(theory(PRESSURE, 0.004, 1e-10));
     let off = |rings: u32| {
         let state = persson_of_waves(&waves(rings, 64), &material(), load(PRESSURE, 0.004));
-        let state = state.expect("a friction");
-        [
-            state.area_fraction.value / exact.area_fraction.value - 1.0,
-            state.friction_coefficient.value / exact.friction_coefficient.value - 1.0,
-            state.friction_coefficient_2006.value / exact.friction_coefficient_2006.value - 1.0,
-        ]
+        let state = both(state.expect("a friction"));
+        [0, 1, 2].map(|index| state[index].value / exact[index].value - 1.0)
     };
     // The midpoint rule is of second order.
     for (coarse, fine) in off(16).into_iter().zip(off(32)) {
@@ -116,7 +122,8 @@ fn an_elastic_material_has_the_area_of_its_modulus_and_no_friction() {
     for spectrum in [SPECTRUM, with(0.8, 0.1), with(0.3, 0.05)] {
         let state = persson_of_spectrum(&spectrum, &elastic, load(PRESSURE, 1.0), 1e-10);
         let state = state.expect("an area");
-        assert!(state.friction_coefficient.value.abs() < 1e-300, "{state:?}");
+        let friction = state.friction_coefficient(EnergyFactor::PERSSON_2001);
+        assert!(friction.value.abs() < 1e-300, "{state:?}");
         // G = (E* slope/σ₀)²/8 with 2π ∫ q³ C dq = slope² and E* = 1, and erf(1/(2 √G)) = erf(1/√2).
         let expected = 0.682_689_492_137_085_9;
         assert_close!(state.area_fraction.value => expected, within 1e-10);
@@ -141,9 +148,71 @@ fn a_wave_is_the_sum_of_its_parts() {
             wave_vector: [5.0, 3.0],
         };
         let state = persson_of_waves(&vec![wave; n_waves], &material(), load(PRESSURE, 0.1));
-        state.expect("a friction").friction_coefficient.value
+        both(state.expect("a friction"))[1].value
     });
     assert_close!(parts => whole, within 1e-14);
+}
+
+/// What a wave adds to the friction is what it adds with S = 1, times S after half of it.
+#[test]
+fn factors_weigh_what_each_wave_adds() {
+    let waves = waves(6, 1);
+    let state = |waves: &[SurfaceWave]| {
+        persson_of_waves(waves, &material(), load(PRESSURE, 0.004)).expect("a friction")
+    };
+    let of_2001 = |waves: &[SurfaceWave]| match waves {
+        [] => 0.0,
+        _ => both(state(waves))[1].value,
+    };
+    let mut expected = [0.0; 3];
+    for last in 0..waves.len() {
+        let mut half = waves[..=last].to_vec();
+        half[last].amplitude *= 0.5_f64.sqrt();
+        let square = state(&half).area_fraction.value.powi(2);
+        let added = of_2001(&waves[..=last]) - of_2001(&waves[..last]);
+        let factors = [
+            0.5 * (1.0 + square),
+            (5.0 - 2.0 * square + 6.0 * square * square) / 9.0,
+            0.4 + 0.6 * square,
+        ];
+        for (sum, factor) in expected.iter_mut().zip(factors) {
+            *sum += added * factor;
+        }
+    }
+    let factors = [
+        EnergyFactor::PERSSON_2006,
+        EnergyFactor::WANG_MUSER_2017,
+        EnergyFactor::interpolated(0.4).expect("a factor"),
+    ];
+    let state = state(&waves);
+    for (factor, expected) in factors.into_iter().zip(expected) {
+        let friction = state.friction_coefficient(factor).value;
+        assert_close!(friction => expected, within 1e-13; "{factor:?}");
+    }
+}
+
+/// It is Persson's area of a surface with so much smaller slopes.
+#[test]
+fn the_area_of_xu_has_less_pressure_where_less_is_in_contact() {
+    let elastic = Elastic::new(0.25).expect("a material");
+    let state = |pressure: f64, part: f64| {
+        let spectrum = SelfAffineSpectrum {
+            rms_slope: SPECTRUM.rms_slope * part.sqrt(),
+            ..SPECTRUM
+        };
+        persson_of_spectrum(&spectrum, &elastic, load(pressure, 1.0), 1e-10).expect("an area")
+    };
+    for pressure in [1e-7, 1e-3, PRESSURE, 0.2, 10.0] {
+        let all = state(pressure, 1.0);
+        for gamma in [0.1, 0.45, 1.0] {
+            let area = all.area_fraction_of_xu(gamma).expect("an area");
+            let expected = state(pressure, gamma + (1.0 - gamma) * area.value).area_fraction;
+            assert_close!(area.value => expected.value, within 1e-9; "{gamma} {pressure}");
+            assert!(area.error < 2e-10, "{area:?}");
+        }
+    }
+    let refused = |gamma| state(PRESSURE, 1.0).area_fraction_of_xu(gamma);
+    refuses("gamma", &[0.0, -1.0, 1.1, f64::NAN], refused);
 }
 
 #[test]

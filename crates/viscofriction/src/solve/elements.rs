@@ -7,7 +7,7 @@ use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
     PeriodicTransient, Reached, indent, move_along, periodic, steady, steady_line,
 };
-use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
+use friction_analytic::{EnergyFactor, RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
@@ -245,10 +245,11 @@ fn persson(problem: &Problem, rough: Rough) -> Result<Option<Persson>> {
         velocity: rough.load.velocity(),
     };
     let theory = persson_of_waves(&waves, problem.material(), load)?;
+    let friction = |factor| theory.friction_coefficient(factor).value;
     Ok(Some(Persson {
         area_fraction: theory.area_fraction.value,
-        friction_coefficient: theory.friction_coefficient.value,
-        friction_coefficient_2006: theory.friction_coefficient_2006.value,
+        friction_coefficient: friction(EnergyFactor::PERSSON_2001),
+        friction_coefficient_2006: friction(EnergyFactor::PERSSON_2006),
     }))
 }
 
