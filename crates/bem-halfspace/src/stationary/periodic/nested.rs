@@ -90,7 +90,7 @@ fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
 /// half of what is in contact would be lost because it is a few elements beside wide gaps.
 fn doubled(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
     let in_contact = |field: &[f64]| field.iter().filter(|pressure| **pressure > 0.0).count();
-    let fine = interpolated(field, shape);
+    let fine = interpolated(field, shape, shape.map(|n| 2 * n));
     if in_contact(&fine) >= 2 * in_contact(field) {
         return fine;
     }
@@ -101,22 +101,30 @@ fn doubled(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
         .collect()
 }
 
-fn interpolated(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
-    let value = |element: usize| {
-        let place = [element / (2 * columns), element % (2 * columns)];
-        let [row, column] = place.map(|index| index / 2);
-        let beside = |index: usize, length: usize| match index % 2 {
-            0 => (index / 2 + length - 1) % length,
-            _ => (index / 2 + 1) % length,
+/// A field that repeats itself on another number of elements, bilinear between the centres of its own.
+pub(super) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
+    // The two nearest elements along an axis, and the part of the second.
+    let beside = |axis: usize| -> Vec<([usize; 2], f64)> {
+        let [n, finer] = [from[axis], to[axis]];
+        let between = |index: usize| {
+            let place = (index as f64 + 0.5) * n as f64 / finer as f64 + 0.5;
+            let second = numerics::whole_part(place);
+            let both = [second + n - 1, second].map(|index| index % n);
+            (both, place - second as f64)
         };
-        let [next_row, next_column] = [beside(place[0], rows), beside(place[1], columns)];
-        let at = |row: usize, column: usize| field[row * columns + column];
-        (9.0 * at(row, column)
-            + 3.0 * (at(next_row, column) + at(row, next_column))
-            + at(next_row, next_column))
-            / 16.0
+        (0..finer).map(between).collect()
     };
-    (0..4 * field.len()).map(value).collect()
+    let [along, across] = [0, 1].map(beside);
+    let value = |element: usize| {
+        let (rows, part) = along[element / to[1]];
+        let (columns, part_across) = across[element % to[1]];
+        let [first, second] = rows.map(|row| {
+            let [first, second] = columns.map(|column| field[row * from[1] + column]);
+            first + part_across * (second - first)
+        });
+        first + part * (second - first)
+    };
+    (0..to[0] * to[1]).map(value).collect()
 }
 
 /// The pressure that makes the half space follow the surface everywhere, where it is nowhere a tension.
@@ -141,4 +149,38 @@ fn full_contact(
         products: 1,
         residual: 0.0,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::interpolated;
+
+    fn wave(shape: [usize; 2]) -> Vec<f64> {
+        let value = |element: usize| {
+            let place = [element / shape[1], element % shape[1]];
+            let [x, y] = [0, 1].map(|axis| (place[axis] as f64 + 0.5) / shape[axis] as f64);
+            (TAU * (x - 2.0 * y) + 0.3).cos()
+        };
+        (0..shape[0] * shape[1]).map(value).collect()
+    }
+
+    #[test]
+    fn a_wave_is_interpolated_with_the_second_order_on_any_number_of_elements() {
+        let to = [23, 90];
+        let error = |from: [usize; 2]| {
+            let found = interpolated(&wave(from), from, to);
+            let pairs = found.into_iter().zip(wave(to));
+            pairs.fold(0.0, |top: f64, (found, exact)| {
+                top.max((found - exact).abs())
+            })
+        };
+        let [coarse, fine] = [[16, 32], [32, 64]].map(error);
+        assert!(
+            (3.5..4.5).contains(&(coarse / fine)),
+            "{coarse}, then {fine}"
+        );
+        assert!(fine < 0.02, "{fine}");
+    }
 }

@@ -8,6 +8,7 @@
 mod full_contact;
 mod stresses;
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use indenters::rough::PeriodicSurface;
@@ -20,6 +21,7 @@ use crate::motions::moving::{
     Cycles, MOST_STEPS, ORDER, TOUCH, WORK, moved, slowest, tolerance_of_cycles,
 };
 use crate::stationary::periodic::march::PeriodicMarch;
+use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::waves::Waves;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 use full_contact::{Closed, of_row};
@@ -121,7 +123,8 @@ pub fn move_along_memory(
     let n_steps = problem.steps(elements, shape)?.len() as f64;
     let creep = &problem.spectra.creep;
     let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
-    let copies = if load.is_cycle() { KEPT_STATES } else { 1 };
+    // One more is that of the grid before.
+    let copies = if load.is_cycle() { KEPT_STATES + 1 } else { 1 };
     let per_element = BYTES_PER_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
     let waves = surface.largest_numbers()[0] as f64 + 1.0;
     let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
@@ -172,6 +175,8 @@ struct Moving<'a, M: ?Sized> {
     wave_numbers: Vec<f64>,
     /// Relative error by which cycles may differ.
     tolerance: f64,
+    /// Rows and columns of the grid whose cycle was found last, and what its elements remember at the end.
+    settled: RefCell<Option<([usize; 2], Vec<f64>)>>,
 }
 
 /// A motion on one grid.
@@ -219,6 +224,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             spectra: Spectra { relaxation, creep },
             wave_numbers: numbers.map(|number| number as f64 * unit).collect(),
             tolerance: tolerance_of_cycles(accuracy),
+            settled: RefCell::default(),
         };
         if let Accuracy::Elements(elements) = accuracy {
             problem.check_coarsest(elements)?;
@@ -359,14 +365,29 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             slowest: slowest(&self.spectra.creep),
             tolerance: self.tolerance,
         };
-        let touched = march.memory.clone();
+        let start = self.before_cycles(&march.memory, grid.shape());
         let pass = |from: &[f64]| {
             march.memory.copy_from_slice(from);
             let ends = self.pass(&mut march, on_grid, &|_| ())?;
             let record = self.record(ends[ends.len() - 1], &ends, steps);
             Ok((record, march.memory.clone()))
         };
-        cycles.settle(touched, pass, tell)
+        let record = cycles.settle(start, pass, tell)?;
+        self.settled.replace(Some((grid.shape(), march.memory)));
+        Ok(record)
+    }
+
+    /// What elements remember before the first cycle on a grid: as much as at the end of that on another one, from which a material
+    /// that forgets slowly is nearly settled; on the first grid what is left of the first touch.
+    fn before_cycles(&self, touched: &[f64], shape: [usize; 2]) -> Vec<f64> {
+        let settled = self.settled.borrow();
+        let Some((from, memory)) = &*settled else {
+            return touched.to_vec();
+        };
+        let fields = memory.chunks_exact(from[0] * from[1]);
+        fields
+            .flat_map(|field| interpolated(field, *from, shape))
+            .collect()
     }
 
     /// All steps once.
