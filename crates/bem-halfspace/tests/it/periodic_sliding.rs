@@ -415,6 +415,47 @@ fn bars_hold_gaps_between_elements_that_are_all_in_contact() {
     }
 }
 
+/// Four elements per shortest wave tell whether a contact is full, as what is between them follows from the waves.
+#[cfg(feature = "rough")]
+#[test]
+fn a_contact_that_is_hardly_full_has_no_gaps_in_its_bars() {
+    use bem_halfspace::periodic::steady;
+    use indenters::rough::PeriodicSurface;
+    let modulus = 3.0;
+    let surface = indenters::rough::SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.5,
+        rms_slope: 0.1,
+        longest_wavelength: 0.5,
+        shortest_wavelength: 1.0 / 16.0,
+        roll_off_wavelength: 0.5,
+        seed: 8,
+    };
+    let surface = surface.surface().expect("a surface");
+    // The pressure E* |q|/2 that closes each wave, E* = 4 G.
+    let mut waves = surface.waves().to_vec();
+    for wave in &mut waves {
+        let [q_x, q_y] = surface.wave_vector(wave);
+        wave.amplitude *= 2.0 * modulus * q_x.hypot(q_y);
+    }
+    let closing = PeriodicSurface::new([1.0; 2], waves).expect("a surface of pressures");
+    let closing = closing.heights([1024; 2]).expect("pressures");
+    let closing = closing.into_iter().fold(0.0, f64::max);
+    let area = |mean_pressure: f64| {
+        let load = PeriodicLoad::new(mean_pressure, 0.0).expect("a load");
+        let state = steady(&surface, &elastic(modulus), &load, 0.1).expect("a state");
+        assert_eq!(state.finest.pressure.grid.shape(), [256; 2]);
+        state.area_fraction
+    };
+    let full = area(1.02 * closing);
+    assert!(full.error < 1e-9, "{full:?}");
+    let open = area((1.0 - 1e-5) * closing);
+    assert!(
+        open.value - open.error < 1.0 && open.error < 1e-3,
+        "{open:?}"
+    );
+}
+
 /// A compressible layer is pressed as deep by its mean pressure as it says, and carries as much there; deeper than touch.
 #[cfg(feature = "rough")]
 #[test]

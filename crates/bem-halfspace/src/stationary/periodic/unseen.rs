@@ -4,11 +4,15 @@ use std::f64::consts::PI;
 
 use indenters::rough::PeriodicSurface;
 
-use crate::PressureField;
+use crate::stationary::periodic::waves::Waves;
+use crate::{Base, PressureField};
 
 /// What opens is larger than the elements that may be under tension: (3/2)^(1/2) times as wide at a round gap, 2^(1/2) times as
 /// wide at a long one, with safety.
 const SHARE: f64 = 2.0;
+/// Places in an element along either axis at which the pressure is looked at where its centre does not tell that no gaps hide: with
+/// four elements per shortest wave it only does where no pressure is less than three quarters of the mean.
+const PLACES: usize = 4;
 
 /// What they change at most.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,7 +26,7 @@ pub(super) struct Unseen {
 }
 
 impl Unseen {
-    /// Where a pressure of waves is lowest it is at most so much lower than at the nearest element:
+    /// Where a pressure of waves is lowest it is at most so much lower than at the nearest of N places along either edge:
     ///
     /// ```text
     /// ½ (π n_x/N_x + π n_y/N_y)² max |p − p̄|
@@ -36,19 +40,39 @@ impl Unseen {
         if pressure.iter().any(|pressure| *pressure <= 0.0) {
             return Self::default();
         }
-        let (shape, numbers) = (field.grid.shape(), surface.largest_numbers());
-        let [x, y] = [0, 1].map(|axis| PI * numbers[axis] as f64 / shape[axis] as f64);
         let n = pressure.len() as f64;
         let mean = pressure.iter().sum::<f64>() / n;
         let away = pressure.iter().map(|pressure| (pressure - mean).abs());
-        let amplitude = away.fold(0.0, f64::max) / (x.cos() * y.cos());
-        let lower = 0.5 * (x + y).powi(2) * amplitude;
-        let tensions = pressure.iter().map(|pressure| (lower - pressure).max(0.0));
-        let mean_pressure = SHARE * tensions.sum::<f64>() / n;
+        let numbers = surface.largest_numbers().into_iter();
+        let angles = numbers
+            .zip(field.grid.shape())
+            .map(|(number, n)| PI * number as f64 / n as f64);
+        let amplitude = away.fold(0.0, f64::max) / angles.clone().map(f64::cos).product::<f64>();
+        let lower =
+            |places: usize| 0.5 * (angles.clone().sum::<f64>() / places as f64).powi(2) * amplitude;
+        if pressure.iter().all(|pressure| *pressure >= lower(1)) {
+            return Self::default();
+        }
+        let mut waves = Waves::new(&field.grid, &Base::default());
+        let mut between = vec![0.0; pressure.len()];
+        let [mut tension, mut part_in_tension] = [0.0; 2];
+        for place in 0..PLACES * PLACES {
+            let parts = [place / PLACES, place % PLACES];
+            let parts = parts.map(|part| part as f64 / PLACES as f64);
+            waves.beside(pressure, &mut between, parts);
+            let tensions = between.iter().map(|pressure| lower(PLACES) - pressure);
+            for tension_there in tensions.filter(|tension| *tension > 0.0) {
+                tension += tension_there;
+                part_in_tension += 1.0;
+            }
+        }
+        let [tension, part_in_tension] =
+            [tension, part_in_tension].map(|sum| sum / (n * (PLACES * PLACES) as f64));
+        let mean_pressure = SHARE * tension;
         let part = mean_pressure / mean;
         Self {
             friction: part * surface.rms_slope(),
-            area_fraction: SHARE * pressure.iter().filter(|p| **p < lower).count() as f64 / n,
+            area_fraction: SHARE * part_in_tension,
             mean_pressure,
             mean_depth: part * surface.rms_height(),
         }

@@ -68,6 +68,25 @@ impl Waves {
         });
     }
 
+    /// The values of a field by parts of an element beside its centres, along both axes. The shortest wave that elements tell must not
+    /// be among them.
+    #[cfg(feature = "rough")]
+    pub(super) fn beside(&mut self, field: &[f64], result: &mut [f64], parts: [f64; 2]) {
+        let turns = [0, 1].map(|axis| 2.0 * PI * parts[axis] / self.shape[axis] as f64);
+        let rows = self.shape[0];
+        let number = |row: usize| row as f64 - if 2 * row > rows { rows as f64 } else { 0.0 };
+        let along = (0..rows).map(|row| Complex::cis(turns[0] * number(row)));
+        let along: Vec<Complex<f64>> = along.collect();
+        let transforms = Transforms::of(&mut self.accurate, self.shape);
+        let normalisation = transforms.plans.normalisation();
+        transforms.pass((field, result), |column, values| {
+            let across = Complex::cis(turns[1] * column as f64) * normalisation;
+            for (value, along) in values.iter_mut().zip(&along) {
+                *value *= along * across;
+            }
+        });
+    }
+
     /// Symbols of all waves for [`apply_roughly`](Self::apply_roughly).
     pub(super) fn symbols(
         &self,
