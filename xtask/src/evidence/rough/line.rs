@@ -1,18 +1,17 @@
 //! The one-dimensional model of a rough surface that slides: a line over viscoelastic elements that do not know of each other.
 //!
 //! Every wave of the surface is turned into the direction of motion. Its spectrum C becomes the spectrum π q C of the line
-//! (Geike & Popov 2007), and heights and slopes stay as they are. A length of the line as long as the longest wave carries
-//! the force on the square of that wave.
+//! (Geike & Popov 2007), and heights and slopes stay as they are. A length of the line carries the force on the square of that
+//! length.
 //!
 //! Elements of stiffness 4 G under a length are the limit of a thin layer whose Poisson ratio is 0, so that the half-space
 //! solver for periodic surfaces answers, bars included.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use bem_halfspace::{BemError, Layer, PeriodicLoad, periodic};
 use indenters::rough::{PeriodicSurface, Wave};
 use numerics::{AtMost, Request};
-use rheology::Compressible;
-use viscofriction::solve::{Body, Motion, Problem};
+use rheology::{Compressible, Material};
 
 /// How many periods of the surface the line is long, so that its waves are rounded to whole numbers by a thirtieth at most.
 const PERIODS: f64 = 16.0;
@@ -23,12 +22,19 @@ const RELATIVE_ERROR: f64 = 0.05;
 /// Along the line.
 const MOST_ELEMENTS: AtMost = AtMost(1 << 17);
 
-/// The friction coefficient, to 5 %; none where it is not known as well.
-pub(super) fn friction(problem: &Problem) -> Result<Option<f64>> {
-    let (Body::Periodic(surface), Motion::Sliding(load)) = (problem.body(), problem.motion())
-    else {
-        anyhow::bail!("a periodic surface that slides");
-    };
+/// The length of the line that carries the force on its square.
+#[derive(Clone, Copy)]
+pub(super) enum Carrying {
+    LongestWave,
+    Period,
+}
+
+/// The friction coefficient under a mean pressure, to 5 %; none where it is not known as well.
+pub(super) fn friction(
+    (surface, material): (&PeriodicSurface, &dyn Material),
+    (mean_pressure, velocity): (f64, f64),
+    carrying: Carrying,
+) -> Result<Option<f64>> {
     let period = surface.period();
     let length = PERIODS * period[0];
     let mut waves: Vec<Wave> = surface.waves().to_vec();
@@ -45,13 +51,15 @@ pub(super) fn friction(problem: &Problem) -> Result<Option<f64>> {
     let [fewest, most] = [ends.clone().min(), ends.max()].map(Option::unwrap_or_default);
     let [longest, shortest] = [fewest, most].map(|number| length / f64::from(number));
     let line = PeriodicSurface::new([length, shortest], waves)?;
-    let material = Compressible::new(problem.material(), 0.0)?;
+    let material = Compressible::new(material, 0.0)?;
     let thickness = THIN * shortest;
     let layer = Layer::new(&material, thickness)?;
-    let force = load.normal_force().context("a line under a force")?;
+    let carrying = match carrying {
+        Carrying::LongestWave => longest,
+        Carrying::Period => period[0],
+    };
     // The layer has the stiffness 2 G/t.
-    let pressure = force / (period[0] * period[1]) * longest / (2.0 * thickness);
-    let load = PeriodicLoad::new(pressure, load.velocity())?;
+    let load = PeriodicLoad::new(mean_pressure * carrying / (2.0 * thickness), velocity)?;
     let request = Request {
         accuracy: RELATIVE_ERROR.into(),
         watch: &MOST_ELEMENTS,

@@ -2,6 +2,7 @@
 
 mod line;
 mod pages;
+mod theories;
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -19,10 +20,8 @@ use crate::picture::chart;
 
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "rough.csv";
-/// Column of the one-dimensional model.
-const LINE: &str = "line_friction_coefficient";
 /// What the quantities that are solved for are compared with: how it is called, and the columns of both.
-const THEORIES: [(&str, [&str; 2]); 4] = [
+const THEORIES: [(&str, [&str; 2]); 7] = [
     (
         "friction / Persson (2001)",
         ["friction_coefficient", "persson_friction_coefficient"],
@@ -31,9 +30,26 @@ const THEORIES: [(&str, [&str; 2]); 4] = [
         "friction / Persson (2006)",
         ["friction_coefficient", "persson_friction_coefficient_2006"],
     ),
-    ("friction / line", ["friction_coefficient", LINE]),
-    ("area / Persson", ["area_fraction", "persson_area_fraction"]),
+    (
+        "friction / Wang and Müser (2017)",
+        ["friction_coefficient", theories::COLUMNS[0]],
+    ),
+    (
+        "friction / line, longest wave",
+        ["friction_coefficient", theories::COLUMNS[1]],
+    ),
+    (
+        "friction / line, period",
+        ["friction_coefficient", theories::COLUMNS[2]],
+    ),
+    (
+        "area / Persson (2001)",
+        ["area_fraction", "persson_area_fraction"],
+    ),
+    ("area / Xu (2024)", ["area_fraction", theories::COLUMNS[3]]),
 ];
+/// Those of which there is a picture.
+const DRAWN_THEORIES: [usize; 6] = [0, 1, 3, 4, 5, 6];
 /// Names and scenes of the solids; about the geometric means of their moduli of rest and glass, and speeds around the
 /// transition; how they are drawn.
 const SOLIDS: [(&str, &str); 3] = [
@@ -47,13 +63,18 @@ const STYLES: [(Shape, Colour); 3] = [
     (Shape::Square, Colour::Red),
     (Shape::Diamond, Colour::Green),
 ];
-/// Lengths of the longest and of the shortest wave, in periods.
-const SPECTRA: [[f64; 2]; 5] = [
-    [0.5, 0.125],
-    [0.25, 0.0625],
-    [0.125, 0.03125],
-    [0.0625, 0.015625],
-    [0.25, 0.03125],
+/// Hurst exponents, and how often the longest and the shortest wave fit into the period.
+const SPECTRA: [[f64; 3]; 10] = [
+    [0.6, 2.0, 8.0],
+    [0.6, 4.0, 16.0],
+    [0.6, 8.0, 32.0],
+    [0.6, 16.0, 64.0],
+    [0.6, 4.0, 32.0],
+    [0.6, 4.0, 64.0],
+    [0.3, 4.0, 64.0],
+    [0.9, 4.0, 64.0],
+    [0.6, 32.0, 128.0],
+    [0.6, 4.0, 256.0],
 ];
 /// Surfaces of each spectrum, and speeds.
 const SURFACES: usize = 10;
@@ -96,9 +117,9 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
     resume((&file, &mut rows), &missing, |(solid, plan, point)| {
         let mut row = vec![(*solid).to_owned()];
         row.extend(plan.solve(*point)?.fields);
-        let of_line = line::friction(&plan.problem(*point)?)?;
-        let of_line = of_line.map(|friction| friction.to_string());
-        row.push(of_line.unwrap_or_default());
+        let theories = theories::solve(&plan.problem(*point)?)?;
+        let theories = theories.map(|value| value.map(|value| value.to_string()));
+        row.extend(theories.map(Option::unwrap_or_default));
         Ok(vec![row])
     })?;
     let points = points(&rows, surfaces);
@@ -114,17 +135,19 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
 fn plan(
     scene: &str,
     (stiffness, speeds): (f64, &str),
-    (surfaces, [longest, shortest]): (usize, [f64; 2]),
+    (surfaces, [hurst_exponent, longest, shortest]): (usize, [f64; 3]),
     quick: bool,
 ) -> Result<Plan> {
     let source = Source::new(Path::new("rough.toml"), scene.into())?;
     let loads = [0.02, 0.1, 0.5].map(|load| (load * stiffness).to_string());
     let count = if quick { 3 } else { SPEEDS };
     let seeds: Vec<String> = (1..=surfaces).map(|seed| seed.to_string()).collect();
+    let one = |key, value| format!("indenter.self-affine.{key}={value}:{value}:1");
     let vary = [
         format!("indenter.self-affine.seed={}", seeds.join(",")),
-        format!("indenter.self-affine.longest_wavelength={longest}:{longest}:1"),
-        format!("indenter.self-affine.shortest_wavelength={shortest}:{shortest}:1"),
+        one("hurst_exponent", hurst_exponent),
+        one("longest_wavelength", longest.recip()),
+        one("shortest_wavelength", shortest.recip()),
         format!("load.mean_pressure={}", loads.join(",")),
         format!("load.velocity={speeds}:{count}:log"),
     ];
@@ -139,7 +162,7 @@ type Rows = Vec<Vec<String>>;
 /// What is in the file, if it is there.
 fn read(file: &Path, plan: &Plan) -> Result<Rows> {
     let header = std::iter::once("solid".to_owned()).chain(header(plan));
-    let header: Vec<String> = header.chain([LINE.to_owned()]).collect();
+    let header: Vec<String> = header.chain(theories::COLUMNS.map(str::to_owned)).collect();
     if !file.exists() {
         return Ok(vec![header]);
     }
@@ -154,12 +177,13 @@ fn read(file: &Path, plan: &Plan) -> Result<Rows> {
 /// All surfaces of a spectrum under one pressure at one speed.
 struct Point<'a> {
     solid: &'a str,
+    hurst_exponent: f64,
     /// Longest waves in the period, and shortest ones in the longest.
     waves: [f64; 2],
     /// Mean pressure \[Pa] and velocity \[m/s].
     load: [f64; 2],
-    /// Mean over the surfaces.
-    area: f64,
+    /// Mean over the surfaces, and the mean of its error bars.
+    area: [f64; 2],
     /// What was solved over what each theory says, in the mean over the surfaces.
     ratios: [Option<Ratio>; THEORIES.len()],
     /// Friction and what it is by both forms of Persson's theory, surface by surface.
@@ -179,6 +203,7 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
         |row: &[String], name: &str| -> Option<f64> { row.get(place(name)?)?.parse().ok() };
     let mut groups: BTreeMap<Vec<&str>, Vec<&[String]>> = BTreeMap::new();
     let given = [
+        "indenter.self-affine.hurst_exponent",
         "indenter.self-affine.longest_wavelength",
         "indenter.self-affine.shortest_wavelength",
         "load.mean_pressure",
@@ -196,19 +221,20 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
             let numbers: Option<Vec<f64>> = numbers.collect();
             numbers.filter(|numbers| numbers.len() == surfaces)
         };
-        let area = all("area_fraction")?;
+        let mean = |name: &str| Some(all(name)?.iter().sum::<f64>() / surfaces as f64);
         let over =
             |(_, [solved, theory]): (_, [&str; 2])| Some(ratio(&all(solved)?, &all(theory)?));
         let given = |index: usize| key[index].parse::<f64>().ok();
-        let (longest, shortest) = (given(1)?, given(2)?);
+        let (longest, shortest) = (given(2)?, given(3)?);
         let [friction, of_2001, of_2006] =
             [THEORIES[0].1[0], THEORIES[0].1[1], THEORIES[1].1[1]].map(all);
         let pairs = friction?.into_iter().zip(of_2001?).zip(of_2006?);
         Some(Point {
             solid: key[0],
+            hurst_exponent: given(1)?,
             waves: [longest.recip(), longest / shortest],
-            load: [given(3)?, given(4)?],
-            area: area.iter().sum::<f64>() / surfaces as f64,
+            load: [given(4)?, given(5)?],
+            area: [mean("area_fraction")?, mean("area_fraction_error")?],
             ratios: THEORIES.map(over),
             frictions: pairs.map(|((one, two), three)| [one, two, three]).collect(),
         })
@@ -233,19 +259,18 @@ fn ratio(solved: &[f64], theory: &[f64]) -> Ratio {
 
 /// What was solved over what each theory says, over the area.
 fn figure(points: &[Point]) -> Figure {
-    let charts = THEORIES.into_iter().enumerate();
-    let charts = charts.map(|(theory, (name, _))| {
+    let charts = DRAWN_THEORIES.map(|theory| {
         let series = SOLIDS.iter().zip(STYLES);
         let series = series.map(|((solid, _), (shape, colour))| {
             let of_solid = points.iter().filter(|point| point.solid == *solid);
             let points =
-                of_solid.filter_map(|point| Some([point.area, point.ratios[theory]?.value]));
+                of_solid.filter_map(|point| Some([point.area[0], point.ratios[theory]?.value]));
             let points = points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN.contains(ratio));
             Series::markers(points.collect(), Marker::open(shape), colour).labelled(*solid)
         });
         chart(
             Axis::log10("area fraction", [AREAS[0], 1.0]),
-            Axis::log10(name, [*DRAWN.start(), *DRAWN.end()]),
+            Axis::log10(THEORIES[theory].0, [*DRAWN.start(), *DRAWN.end()]),
             series.collect(),
         )
     });

@@ -1,117 +1,123 @@
 //! The tables of the comparison.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use comfy_table::Table;
 use serde::Serialize;
 
-use super::{AREAS, Point, SOLIDS, THEORIES, WITHIN};
+use super::{AREAS, Point, Ratio, SOLIDS, THEORIES, WITHIN};
 use crate::meter::median;
 use crate::output::markdown_table;
 
+/// Theories of the friction, and the others, which stand in two tables.
+const FRICTIONS: Range<usize> = 0..3;
+const OTHERS: Range<usize> = 3..THEORIES.len();
 /// Longest waves in the period from which a surface is more than a few summits.
 const FEWEST_WAVES: f64 = 4.0;
 /// Area fraction from which γ is sought: below it no γ helps.
 const FROM_AREA: f64 = 0.03;
 
-/// Tables by solid and area, and by spectrum and area, and what weight the theory would take.
+/// Tables by area, by solid and area, and by spectrum and area, and what weight the theory would take.
 pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     let answered: usize = points.iter().map(|point| point.frictions.len()).sum();
     let large = points.iter().filter(|point| point.waves[0] >= FEWEST_WAVES);
-    let by_solid = large.map(|point| (vec![point.solid.to_owned()], point));
+    let all: Vec<_> = large.map(|point| (Vec::new(), point)).collect();
+    let by_solid = all
+        .iter()
+        .map(|(_, point)| (vec![point.solid.to_owned()], *point));
+    let by_solid: Vec<_> = by_solid.collect();
     let by_spectrum = points.iter().map(|point| {
-        let waves = point.waves.map(|count| format!("{count:2}"));
-        (waves.to_vec(), point)
+        let [longest, shortest] = point.waves.map(|count| format!("{count:2}"));
+        let label = vec![point.hurst_exponent.to_string(), longest, shortest];
+        (label, point)
     });
-    let tables = [
-        table(&["solid"], by_solid.collect()),
-        table(
-            &["period/longest wave", "longest/shortest"],
-            by_spectrum.collect(),
-        ),
-    ];
+    let by_spectrum: Vec<_> = by_spectrum.collect();
+    let spectrum = ["Hurst exponent", "period/longest wave", "longest/shortest"];
+    let both = |labels: &[&str], points: &[_]| {
+        let tables = [FRICTIONS, OTHERS].map(|theories| table(labels, points, theories));
+        tables.map(|table| format!("{table}\n\n")).concat()
+    };
     let weights = SOLIDS.iter().filter_map(|(solid, _)| weight(solid, points));
     let weights: String = weights.collect();
     format!(
-        "Surfaces with at least {FEWEST_WAVES} longest waves along the period:\n\n{}\n\nAll solids:\n\n{}\n\n{weights}\n\
+        "Surfaces with at least {FEWEST_WAVES} longest waves along the period:\n\n{}{}All solids:\n\n{}{weights}\n\
          {answered} of {n_scenes} scenes are of points at which all surfaces have an answer.",
-        tables[0], tables[1]
+        both(&[], &all),
+        both(&["solid"], &by_solid),
+        both(&spectrum, &by_spectrum),
     )
 }
 
-/// A point in the file.
+/// What was solved over what one theory says, at a point, in the file.
 #[derive(Serialize)]
 pub(super) struct Row<'a> {
     solid: &'a str,
+    hurst_exponent: f64,
     longest_waves_in_period: f64,
     shortest_waves_in_longest: f64,
     mean_pressure: f64,
     velocity: f64,
-    area_fraction: f64,
-    friction_over_persson_2001: Option<f64>,
-    friction_over_persson_2001_standard_error: Option<f64>,
-    friction_over_persson_2006: Option<f64>,
-    friction_over_persson_2006_standard_error: Option<f64>,
-    friction_over_line: Option<f64>,
-    friction_over_line_standard_error: Option<f64>,
-    area_over_persson: Option<f64>,
-    area_over_persson_standard_error: Option<f64>,
+    area_fraction: String,
+    area_fraction_error: String,
+    quantity: &'static str,
+    ratio: String,
+    standard_error: String,
 }
 
 pub(super) fn rows<'a>(points: &[Point<'a>]) -> Vec<Row<'a>> {
-    let row = |point: &Point<'a>| {
-        let values = point.ratios.map(|ratio| ratio.map(|ratio| ratio.value));
-        let errors = point
-            .ratios
-            .map(|ratio| ratio.map(|ratio| ratio.standard_error));
-        Row {
-            solid: point.solid,
-            longest_waves_in_period: point.waves[0],
-            shortest_waves_in_longest: point.waves[1],
-            mean_pressure: point.load[0],
-            velocity: point.load[1],
-            area_fraction: point.area,
-            friction_over_persson_2001: values[0],
-            friction_over_persson_2001_standard_error: errors[0],
-            friction_over_persson_2006: values[1],
-            friction_over_persson_2006_standard_error: errors[1],
-            friction_over_line: values[2],
-            friction_over_line_standard_error: errors[2],
-            area_over_persson: values[3],
-            area_over_persson_standard_error: errors[3],
-        }
+    let pairs = points.iter().flat_map(|point| {
+        let ratios = point.ratios.into_iter().zip(THEORIES);
+        ratios.filter_map(move |(ratio, (quantity, _))| Some((point, quantity, ratio?)))
+    });
+    let digits = |value: f64| format!("{value:.4e}");
+    let row = |(point, quantity, ratio): (&Point<'a>, _, Ratio)| Row {
+        solid: point.solid,
+        hurst_exponent: point.hurst_exponent,
+        longest_waves_in_period: point.waves[0],
+        shortest_waves_in_longest: point.waves[1],
+        mean_pressure: point.load[0],
+        velocity: point.load[1],
+        area_fraction: digits(point.area[0]),
+        area_fraction_error: digits(point.area[1]),
+        quantity,
+        ratio: digits(ratio.value),
+        standard_error: digits(ratio.standard_error),
     };
-    points.iter().map(row).collect()
+    pairs.map(row).collect()
 }
 
-/// By label and class of area: points, their typical standard error, and for each theory the median ratio, between what nine of
-/// ten are, and how many are within a tenth.
-fn table(labels: &[&str], points: Vec<(Vec<String>, &Point)>) -> Table {
-    let mut classes: BTreeMap<(Vec<String>, usize), Vec<&Point>> = BTreeMap::new();
+/// By label and class of area: points, their typical standard error and error bar of the area, and for each theory the median
+/// ratio, between what nine of ten are, and how many are within a tenth.
+fn table(labels: &[&str], points: &[(Vec<String>, &Point)], theories: Range<usize>) -> Table {
+    let mut classes: BTreeMap<(&[String], usize), Vec<&Point>> = BTreeMap::new();
     for (label, point) in points {
-        let class = AREAS.partition_point(|end| point.area >= *end);
+        let class = AREAS.partition_point(|end| point.area[0] >= *end);
         classes.entry((label, class)).or_default().push(point);
     }
     let lines = classes.into_iter().map(|((label, class), points)| {
         let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
         let errors = points.iter().filter_map(|point| point.ratios[0]);
-        let errors: Vec<f64> = errors
-            .map(|ratio| ratio.standard_error / ratio.value)
-            .collect();
-        let mut line = label;
+        let errors = errors.map(|ratio| ratio.standard_error / ratio.value);
+        let bars = points.iter().map(|point| point.area[1] / point.area[0]);
+        let percent = |parts: Vec<f64>| format!("{:.0} %", 100.0 * median(parts));
+        let mut line = label.to_vec();
         line.extend([from.to_string(), points.len().to_string()]);
-        line.push(format!("{:.0} %", 100.0 * median(errors)));
-        for theory in 0..THEORIES.len() {
+        line.extend([percent(errors.collect()), percent(bars.collect())]);
+        for theory in theories.clone() {
             let values = points.iter().filter_map(|point| point.ratios[theory]);
             line.push(spread(values.map(|ratio| ratio.value).collect()));
         }
         line
     });
-    let header = labels
-        .iter()
-        .copied()
-        .chain(["area fraction from", "points", "standard error"]);
-    markdown_table(header.chain(THEORIES.map(|(name, _)| name)), lines)
+    let header = labels.iter().copied().chain([
+        "area fraction from",
+        "points",
+        "standard error",
+        "area bar",
+    ]);
+    let names = THEORIES[theories.clone()].iter().map(|(name, _)| *name);
+    markdown_table(header.chain(names), lines)
 }
 
 fn spread(mut values: Vec<f64>) -> String {
@@ -129,7 +135,7 @@ fn spread(mut values: Vec<f64>) -> String {
 /// The γ of S = γ + (1 − γ) P² that suits every second surface best, and how well it suits the others.
 fn weight(solid: &str, points: &[Point]) -> Option<String> {
     let points = points.iter().filter(|point| {
-        point.solid == solid && point.area >= FROM_AREA && point.waves[0] >= FEWEST_WAVES
+        point.solid == solid && point.area[0] >= FROM_AREA && point.waves[0] >= FEWEST_WAVES
     });
     // Means of the friction, of what S = 1 adds to S = P², and of the friction with that.
     let halves = points.map(|point| {
