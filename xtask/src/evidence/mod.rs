@@ -68,7 +68,7 @@ enum Experiment {
     Ensembles(sample::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
     SpeedRange,
-    /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
+    /// Compare friction and area of random rough surfaces with theories; goes on where it was interrupted.
     Rough,
     /// Fit materials that are known to made-up measurements, and compare their friction with its material error.
     Material,

@@ -206,3 +206,80 @@ fn areas_without_their_excess_hardly_depend_on_the_elements() {
     assert!(few[0] > 1.025 * many[0], "{few:?} {many:?}");
     assert_close("area", few[1], many[1], 0.004);
 }
+
+/// Gaps that are smaller than an element may hide between any; the area of a wave is (2/π) asin √(p̄/p*) (Westergaard 1939).
+#[cfg(feature = "rough")]
+#[test]
+fn bars_hold_gaps_between_elements_that_are_all_in_contact() {
+    use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
+    use bem_halfspace::periodic::steady;
+
+    use crate::support::elastic;
+    let (modulus, amplitude, finest) = (3.0, 0.01, 128.0);
+    // E* = 4G.
+    let closing = 4.0 * modulus * PI * amplitude;
+    for in_element in [0.0, 0.3, 0.5] {
+        let wave = Wave {
+            numbers: [1, 0],
+            amplitude,
+            phase: -2.0 * PI * in_element / finest,
+        };
+        let surface = PeriodicSurface::new([1.0; 2], vec![wave]).expect("a surface");
+        let area = |missing: f64| {
+            let load = PeriodicLoad::new(closing * (1.0 - missing), 0.0).expect("a load");
+            let state = steady(&surface, &elastic(modulus), &load, 0.1).expect("a state");
+            state.area_fraction
+        };
+        for missing in [3e-3_f64, 3e-4, 1e-4, 1e-6] {
+            let exact = 2.0 / PI * f64::asin((1.0 - missing).sqrt());
+            let found = area(missing);
+            assert_near(missing, found.value, exact, found.error);
+        }
+        let closed = area(-0.01);
+        assert!(closed.error < 1e-11, "{closed:?}");
+        assert_near(in_element, closed.value, 1.0, closed.error);
+    }
+}
+
+/// Four elements per shortest wave tell whether a contact is full, as what is between them follows from the waves.
+#[cfg(feature = "rough")]
+#[test]
+fn a_contact_that_is_hardly_full_has_no_gaps_in_its_bars() {
+    use bem_halfspace::indenters::rough::PeriodicSurface;
+    use bem_halfspace::periodic::steady;
+
+    use crate::support::elastic;
+    let modulus = 3.0;
+    let surface = SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.5,
+        rms_slope: 0.1,
+        longest_wavelength: 0.5,
+        shortest_wavelength: 1.0 / 16.0,
+        roll_off_wavelength: 0.5,
+        seed: 8,
+    };
+    let surface = surface.surface().expect("a surface");
+    // The pressure E* |q|/2 that closes each wave, E* = 4 G.
+    let mut waves = surface.waves().to_vec();
+    for wave in &mut waves {
+        let [q_x, q_y] = surface.wave_vector(wave);
+        wave.amplitude *= 2.0 * modulus * q_x.hypot(q_y);
+    }
+    let closing = PeriodicSurface::new([1.0; 2], waves).expect("a surface of pressures");
+    let closing = closing.heights([1024; 2]).expect("pressures");
+    let closing = closing.into_iter().fold(0.0, f64::max);
+    let area = |mean_pressure: f64| {
+        let load = PeriodicLoad::new(mean_pressure, 0.0).expect("a load");
+        let state = steady(&surface, &elastic(modulus), &load, 0.1).expect("a state");
+        assert_eq!(state.finest.pressure.grid.shape(), [256; 2]);
+        state.area_fraction
+    };
+    let full = area(1.02 * closing);
+    assert!(full.error < 1e-9, "{full:?}");
+    let open = area((1.0 - 1e-5) * closing);
+    assert!(
+        open.value - open.error < 1.0 && open.error < 1e-3,
+        "{open:?}"
+    );
+}
