@@ -11,7 +11,7 @@ use crate::{Base, PressureField};
 /// wide at a long one, with safety.
 const SHARE: f64 = 2.0;
 /// Places in an element along either axis at which the pressure is looked at where its centre does not tell that no gaps hide: with
-/// four elements per shortest wave it only does where no pressure is less than three quarters of the mean.
+/// four elements per shortest wave it only does where no pressure is less than seven tenths of the mean.
 const PLACES: usize = 4;
 
 /// What they change at most.
