@@ -7,9 +7,9 @@ use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
     PeriodicTransient, Reached, indent, move_along, periodic, steady, steady_line,
 };
-use friction_analytic::{EnergyFactor, RoughLoad, SurfaceWave, persson_of_waves};
+use friction_analytic::{EnergyFactor, PerssonSliding, RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
-use indenters::{Cylinder, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface};
+use indenters::{Control, Cylinder, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer, StationaryGrid};
@@ -115,7 +115,7 @@ fn of_periodic(
 ) -> Result<Answer> {
     let mut answer = of_rough(problem, rough, Method::BemSteady, &estimate);
     answer.iterations = estimate.finest.products;
-    let theory = persson(problem, rough)?;
+    let theory = Persson::of(problem)?;
     if let Some(rough) = &mut answer.rough {
         rough.persson = theory;
     }
@@ -168,7 +168,7 @@ pub(crate) fn on_coarse_grid(
     let elastomer = problem.elastomer()?;
     let Motion::Pressing(load) = problem.motion() else {
         let found = periodic::steady_on_coarse_grid(rough.surface, &elastomer, &rough.load, finer)?;
-        return Ok((found, persson(problem, rough)?));
+        return Ok((found, Persson::of(problem)?));
     };
     let pressure = rough.mean_pressure;
     let time = load.duration();
@@ -229,28 +229,47 @@ fn of_rough<S>(
     }
 }
 
-/// The theory, which is that of the half space; its numbers have no bar for a series that stands for another material.
-fn persson(problem: &Problem, rough: Rough) -> Result<Option<Persson>> {
+/// What Persson's theory, which is that of the half space, says of a periodic surface under a mean pressure: exact sums over its
+/// waves. None of other scenes, and of a series that stands for another material, for whose error the numbers have no bar.
+///
+/// # Errors
+/// [`SolveError::Analytic`](super::SolveError) where a frequency or a result overflows.
+pub fn persson(problem: &Problem) -> Result<Option<PerssonSliding>> {
+    let (Body::Periodic(surface), Control::NormalForce(force)) =
+        (problem.body(), problem.motion().control())
+    else {
+        return Ok(None);
+    };
     if problem.thickness().is_finite() || problem.expansion().is_some() {
         return Ok(None);
     }
-    let surface = rough.surface;
     let wave = |wave: &Wave| SurfaceWave {
         amplitude: wave.amplitude,
         wave_vector: surface.wave_vector(wave),
     };
     let waves: Vec<SurfaceWave> = surface.waves().iter().map(wave).collect();
     let load = RoughLoad {
-        mean_pressure: rough.mean_pressure,
-        velocity: rough.load.velocity(),
+        mean_pressure: force / surface.period().iter().product::<f64>(),
+        velocity: match problem.motion() {
+            Motion::Sliding(load) => load.velocity(),
+            _ => 0.0,
+        },
     };
-    let theory = persson_of_waves(&waves, problem.material(), load)?;
-    let friction = |factor| theory.friction_coefficient(factor).value;
-    Ok(Some(Persson {
-        area_fraction: theory.area_fraction.value,
-        friction_coefficient: friction(EnergyFactor::PERSSON_2001),
-        friction_coefficient_2006: friction(EnergyFactor::PERSSON_2006),
-    }))
+    Ok(Some(persson_of_waves(&waves, problem.material(), load)?))
+}
+
+impl Persson {
+    fn of(problem: &Problem) -> Result<Option<Self>> {
+        let theory = persson(problem)?;
+        Ok(theory.map(|theory| {
+            let friction = |factor| theory.friction_coefficient(factor).value;
+            Self {
+                area_fraction: theory.area_fraction.value,
+                friction_coefficient: friction(EnergyFactor::PERSSON_2001),
+                friction_coefficient_2006: friction(EnergyFactor::PERSSON_2006),
+            }
+        }))
+    }
 }
 
 impl Answer {

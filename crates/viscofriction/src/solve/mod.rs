@@ -32,6 +32,7 @@ pub use body::{Body, BodyOfScene, Revolution, body};
 pub use curve::{Curve, CurveColumn};
 pub use cut_off::WithoutShortestOctave;
 pub use dissipation::Dissipation;
+pub use elements::persson;
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;
 pub use half_space::{HalfSpace, half_space};

@@ -1,8 +1,8 @@
 //! What theories that the program does not compute say of a scene.
 
 use anyhow::{Context, Result};
-use friction_analytic::{EnergyFactor, RoughLoad, SurfaceWave, persson_of_waves};
-use viscofriction::solve::{Body, Motion, Problem};
+use friction_analytic::EnergyFactor;
+use viscofriction::solve::{Body, Motion, Problem, persson};
 
 use super::line::{Carrying, friction};
 
@@ -22,23 +22,13 @@ pub(super) fn solve(problem: &Problem) -> Result<[Option<f64>; COLUMNS.len()]> {
     else {
         anyhow::bail!("a periodic surface that slides");
     };
-    let waves = surface.waves().iter().map(|wave| SurfaceWave {
-        amplitude: wave.amplitude,
-        wave_vector: surface.wave_vector(wave),
-    });
-    let waves: Vec<SurfaceWave> = waves.collect();
     let force = load.normal_force().context("a surface under a force")?;
-    let [length, width] = surface.period();
-    let (mean_pressure, velocity) = (force / (length * width), load.velocity());
-    let rough = RoughLoad {
-        mean_pressure,
-        velocity,
-    };
-    let theory = persson_of_waves(&waves, problem.material(), rough)?;
+    let mean_pressure = force / surface.period().iter().product::<f64>();
+    let theory = persson(problem)?.context("a surface on a half space")?;
     let line = |carrying| {
         friction(
             (surface, problem.material()),
-            (mean_pressure, velocity),
+            (mean_pressure, load.velocity()),
             carrying,
         )
     };

@@ -43,36 +43,32 @@ impl Unseen {
         let n = pressure.len() as f64;
         let mean = pressure.iter().sum::<f64>() / n;
         let away = pressure.iter().map(|pressure| (pressure - mean).abs());
-        let numbers = surface.largest_numbers().into_iter();
-        let angles = numbers
-            .zip(field.grid.shape())
-            .map(|(number, n)| PI * number as f64 / n as f64);
-        let amplitude = away.fold(0.0, f64::max) / angles.clone().map(f64::cos).product::<f64>();
-        let lower =
-            |places: usize| 0.5 * (angles.clone().sum::<f64>() / places as f64).powi(2) * amplitude;
+        let (numbers, shape) = (surface.largest_numbers(), field.grid.shape());
+        let [x, y] = [0, 1].map(|axis| PI * numbers[axis] as f64 / shape[axis] as f64);
+        let amplitude = away.fold(0.0, f64::max) / (x.cos() * y.cos());
+        let lower = |places: usize| 0.5 * ((x + y) / places as f64).powi(2) * amplitude;
         if pressure.iter().all(|pressure| *pressure >= lower(1)) {
             return Self::default();
         }
         let mut waves = Waves::new(&field.grid, &Base::default());
         let mut between = vec![0.0; pressure.len()];
-        let [mut tension, mut part_in_tension] = [0.0; 2];
+        let [mut sum, mut count] = [0.0; 2];
         for place in 0..PLACES * PLACES {
             let parts = [place / PLACES, place % PLACES];
             let parts = parts.map(|part| part as f64 / PLACES as f64);
             waves.beside(pressure, &mut between, parts);
             let tensions = between.iter().map(|pressure| lower(PLACES) - pressure);
-            for tension_there in tensions.filter(|tension| *tension > 0.0) {
-                tension += tension_there;
-                part_in_tension += 1.0;
+            for tension in tensions.filter(|tension| *tension > 0.0) {
+                sum += tension;
+                count += 1.0;
             }
         }
-        let [tension, part_in_tension] =
-            [tension, part_in_tension].map(|sum| sum / (n * (PLACES * PLACES) as f64));
-        let mean_pressure = SHARE * tension;
+        let [mean_pressure, area_fraction] =
+            [sum, count].map(|total| SHARE * total / (n * (PLACES * PLACES) as f64));
         let part = mean_pressure / mean;
         Self {
             friction: part * surface.rms_slope(),
-            area_fraction: SHARE * part_in_tension,
+            area_fraction,
             mean_pressure,
             mean_depth: part * surface.rms_height(),
         }
