@@ -1,10 +1,11 @@
 //! Which of the elements on the wrong side of a contact change it, when the contact is searched by block principal pivoting: those
 //! in tension leave it, and those that penetrate come into it.
 //!
-//! All of them change at once. A contact is in vain if no fewer elements are on the wrong side than with one before it. After some in
-//! vain, only the largest violation of those near to each other changes sides, so that neighbours do not flip to and fro together, and
-//! near means the farther the more contacts are in vain. In the end it is the last violation of all: where the operator has a positive
-//! symmetric part, this ends (Murty 1974).
+//! All of them change at once. A contact is in vain if no fewer elements are on the wrong side than with one before it, or if the
+//! residual that it began with is larger than that of the one before it. After some in vain, only the largest violation of those
+//! near to each other changes sides, so that neighbours do not flip to and fro together, and near means the farther the more
+//! contacts are in vain. In the end it is the last violation of all: where the operator has a positive symmetric part, this ends
+//! (Murty 1974).
 
 /// Contacts in vain up to which all violating elements change sides, and up to which one of those near to each other does. What
 /// counts as near begins with two elements and doubles whenever `AS_NEAR` more contacts are in vain. Of 160 light contacts of
@@ -50,19 +51,22 @@ impl Pivots {
         self.vain > APART
     }
 
-    /// The elements that change sides, of the violations of the next contact, which come in the order of their elements.
-    pub(crate) fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
+    /// The elements that change sides, of the violations of the next contact, which come in the order of their elements; `grows` says
+    /// that this contact began with a larger residual than the one before it.
+    pub(crate) fn choose(&mut self, violations: &[Violation], grows: bool) -> Vec<usize> {
         let mut elements = violations.iter().map(|violation| violation.element);
         let chosen = match self.vain {
             0..=ALL => elements.collect(),
             ..=APART => self.largest_apart(violations, 2 << ((self.vain - ALL - 1) / AS_NEAR)),
             _ => elements.next_back().into_iter().collect(),
         };
-        if violations.len() < self.fewest {
-            (self.fewest, self.vain) = (violations.len(), 0);
+        let are_fewer = violations.len() < self.fewest;
+        self.fewest = self.fewest.min(violations.len());
+        self.vain = if are_fewer && !grows {
+            0
         } else {
-            self.vain += 1;
-        }
+            self.vain + 1
+        };
         chosen
     }
 
@@ -107,7 +111,7 @@ mod tests {
         };
         let violations: Vec<Violation> = (0..16).map(violation).collect();
         let mut pivots = Pivots::new([3, 32]);
-        let mut chosen = (0..APART + 2).map(|_| pivots.choose(&violations));
+        let mut chosen = (0..APART + 2).map(|_| pivots.choose(&violations, false));
         let mut next = |count: i32| chosen.by_ref().take(count as usize).last();
         // The first contact is not in vain.
         assert_eq!(next(2 + ALL), Some((0..16).collect()));
@@ -120,9 +124,15 @@ mod tests {
         let mut single = violations;
         single[0].size = 100.0;
         assert!(pivots.are_single());
-        assert_eq!(pivots.choose(&single), [15]);
+        assert_eq!(pivots.choose(&single, false), [15]);
         single.pop();
-        pivots.choose(&single);
-        assert_eq!((pivots.in_vain(), pivots.choose(&single).len()), (0, 15));
+        pivots.choose(&single, true);
+        assert!(pivots.are_single());
+        single.pop();
+        pivots.choose(&single, false);
+        assert_eq!(
+            (pivots.in_vain(), pivots.choose(&single, false).len()),
+            (0, 14)
+        );
     }
 }

@@ -146,14 +146,16 @@ impl Equations {
         self.near.scatter(&self.pressure, pressure);
     }
 
-    /// Solves until the largest residual is small enough, or the root mean square a part of what it was and no more than a
-    /// `mean`; it is returned.
-    pub(super) fn iterate(&mut self, part: f64, mean: f64, largest: f64) -> f64 {
+    /// Root mean square of the gap in the contact, \[m].
+    pub(super) fn size(&self) -> f64 {
+        self.residual(&self.gap) * self.unit
+    }
+
+    /// Solves until the largest residual, or the root mean square, is small enough.
+    pub(super) fn iterate(&mut self, mean: f64, largest: f64) {
         let [mean, largest] = [mean, largest].map(|length| length / self.unit);
-        let size = |equations: &Self| equations.residual(&equations.gap);
-        let target = mean.min(part * size(self));
         let is_small = |equations: &Self, size: f64, gap: &[f32]| {
-            size <= target || size <= largest && equations.largest(gap) <= largest
+            size <= mean || size <= largest && equations.largest(gap) <= largest
         };
         let are_few = self.n_contact <= FEW;
         let elimination = ELIMINATION * self.n_contact.powi(3) / self.spread.len() as f64;
@@ -161,11 +163,10 @@ impl Equations {
         if !(are_few && self.is_slow) {
             self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
         }
-        if are_few && !is_small(self, size(self), &self.gap) {
+        if are_few && !is_small(self, self.residual(&self.gap), &self.gap) {
             self.is_slow = true;
             self.eliminate();
         }
-        size(self) * self.unit
     }
 
     fn minimise(&mut self, most: f64, is_small: impl Fn(&Self, f64, &[f32]) -> bool) {
@@ -253,7 +254,7 @@ impl Equations {
         self.subtract_mean(gaps);
     }
 
-    /// Root mean square of the gap in the contact.
+    /// Root mean square of a gap in the contact, in its unit.
     fn residual(&self, gap: &[f32]) -> f64 {
         let square = self.near.sum(|places| {
             let lists = [&self.inside[places.clone()], &gap[places]];

@@ -74,7 +74,7 @@ pub(super) fn solve(
             search.tolerance *= TOLERANCE_RATIO.max(0.5 * target / residual);
         } else {
             search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(PART_OF_TOLERANCE * target);
-            let chosen = pivots.choose(&state.violations);
+            let chosen = pivots.choose(&state.violations, false);
             if pivots.in_vain() > NEIGHBOURHOODS || !search.solve_neighbourhood(&state) {
                 search.pivot(chosen);
             }

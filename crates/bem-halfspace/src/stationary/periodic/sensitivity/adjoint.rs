@@ -242,7 +242,8 @@ impl Adjoint<'_> {
             }
             before = residual;
             self.equations.take(&self.contact, &loads, &gap);
-            self.equations.iterate(ROUND, f64::INFINITY, 0.0);
+            let size = self.equations.size();
+            self.equations.iterate(ROUND * size, 0.0);
             self.equations.give(&mut loads);
         }
         Err(BemError::ContactNotConverged {
