@@ -6,19 +6,20 @@
 //!
 //! Directions are those of generalised conjugate residuals (Eisenstat, Elman & Schultz 1983), so that pressure and gap are
 //! known after every step. The preconditioner is the inverse of K restricted to the contact, less what other patches make
-//! unnecessary. Contacts of few elements are solved by elimination, which no ratio of moduli slows down, once the steps have taken
-//! as long for one of them, or some times as long for all. Lists hold the elements in contact and their neighbours, of which the
+//! unnecessary. Contacts of few elements, or that leave few open, are solved by elimination, once the steps have taken as long for
+//! one of them, or some times as long for all. Lists hold the elements in contact and their neighbours, of which the
 //! gap shows whether they penetrate.
 //!
 //! In one contact all numbers have seven digits, in units of its gaps; the search renews the gaps with all digits between contacts.
 
+mod elimination;
+
 use std::sync::Arc;
 
-use nalgebra::DMatrix;
 use numerics::transforms::Real as _;
 use rustfft::num_complex::Complex;
 
-use crate::contact::active_set::{ActiveSet, Run};
+use crate::contact::active_set::ActiveSet;
 use crate::parallel::bands::copies;
 use crate::parallel::reductions::{add, larger, sum};
 use crate::stationary::conjugate_residuals::minimise;
@@ -37,8 +38,8 @@ pub(super) const NUMBERS_PER_ELEMENT_OF_FEW: usize = 256;
 pub(super) const NUMBERS_OF_FEW: usize = 1 << 24;
 /// A step that leaves more than this part of the residual took little off.
 const LITTLE: f64 = 0.9;
-/// Elements in contact up to which elimination is tried, for the sake of memory, and the time that it takes for n of them on a grid
-/// of N elements, in steps: about n³/N times this on one thread, from 16² to 64² elements.
+/// Elements in contact, or open ones, up to which elimination is tried, for the sake of memory, and the time that it takes for n of
+/// them on a grid of N elements, in steps: about n³/N times this on one thread, from 16² to 64² elements.
 const FEW: f64 = 1000.0;
 const ELIMINATION: f64 = 0.005;
 /// Eliminations whose time all contacts of one grid may take by minimal residuals before the others are eliminated. Of 5000 contacts
@@ -157,8 +158,8 @@ impl Equations {
         let is_small = |equations: &Self, size: f64, gap: &[f32]| {
             size <= mean || size <= largest && equations.largest(gap) <= largest
         };
-        let are_few = self.n_contact <= FEW;
-        let elimination = ELIMINATION * self.n_contact.powi(3) / self.spread.len() as f64;
+        let are_few = self.n_unknowns() <= FEW;
+        let elimination = ELIMINATION * self.n_unknowns().powi(3) / self.spread.len() as f64;
         self.is_slow |= self.products as f64 > ELIMINATIONS * elimination;
         if !(are_few && self.is_slow) {
             self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
@@ -207,41 +208,6 @@ impl Equations {
         for (pressure, added) in self.pressure.iter_mut().zip(added) {
             *pressure += unit * f64::from(added);
         }
-    }
-
-    /// Adds the pressures without mean that close the gaps, by the dense influence of the elements in contact on each other.
-    fn eliminate(&mut self) {
-        let runs = (0..self.near.bands.n_bands()).flat_map(|band| self.near.runs(band));
-        let listed = runs.flat_map(Run::elements).enumerate();
-        let (places, elements): (Vec<usize>, Vec<usize>) = listed
-            .filter(|(place, _)| self.inside[*place] > 0.0)
-            .unzip();
-        let image = displaced_by_first(&mut self.kernel, self.spread.len());
-        let columns = self.near.columns;
-        let rows = self.spread.len() / columns;
-        let influence = |to: usize, from: usize| {
-            let row = (to / columns + rows - from / columns) % rows;
-            let column = (to % columns + columns - from % columns) % columns;
-            image[row * columns + column] / self.own_displacement
-        };
-        let n = elements.len();
-        let matrix = DMatrix::from_fn(n, n, |to, from| influence(elements[to], elements[from]));
-        let sides = [&self.gap, &*self.inside];
-        let sides = DMatrix::from_fn(n, 2, |place, side| f64::from(sides[side][places[place]]));
-        let Some(solved) = matrix.lu().solve(&sides) else {
-            return;
-        };
-        let depth = solved.column(0).sum() / solved.column(1).sum();
-        let mut added = copies(0.0, self.inside.len());
-        let unit = self.unit / self.own_displacement;
-        for (row, place) in places.into_iter().enumerate() {
-            let pressure = depth * solved[(row, 1)] - solved[(row, 0)];
-            self.pressure[place] += unit * pressure;
-            added[place] = f32::of(pressure);
-        }
-        let mut image = copies(0.0, added.len());
-        self.displaced(&added, &mut image);
-        add(&mut self.gap, 1.0, &image);
     }
 
     /// The gaps that a list of pressures causes.

@@ -168,6 +168,14 @@ impl Kernel {
         ]
     }
 
+    /// The pressure without mean that displaces all points where the gaps are evaluated by a field, but for its mean.
+    pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row].inv() * q;
+        self.waves.apply(field, result, symbol);
+        let mean = result.iter().sum::<f64>() / result.len() as f64;
+        result.iter_mut().for_each(|pressure| *pressure -= mean);
+    }
+
     /// The pressure that displaces the centres of all elements.
     pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row].inv() * q;
