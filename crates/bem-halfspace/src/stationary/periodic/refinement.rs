@@ -48,7 +48,7 @@ const MOST_STEPS: f64 = 2e9;
 
 /// Elements of the largest grid at all, and memory that one of them takes at most, \[bytes].
 const LARGEST_GRID: f64 = 268_435_456.0;
-const BYTES_PER_ELEMENT: f64 = 170.0;
+const BYTES_PER_ELEMENT: f64 = 186.0;
 /// What directions take besides, so much for each element; no less than elimination may take, and no more than is kept on a small
 /// grid, \[bytes].
 const BYTES_OF_FEW: f64 = (size_of::<f32>() * NUMBERS_PER_ELEMENT_OF_FEW) as f64;
