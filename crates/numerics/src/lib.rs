@@ -55,7 +55,7 @@ pub use invalid_parameter::{
     InWords, InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
 };
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
-pub use progress::{AtMost, Progress, Share, Unwatched, Watch};
+pub use progress::{AtMost, NoFiner, Progress, Share, Unwatched, Watch};
 pub use quadrature::{integrate, integrate_from_ends};
 pub use refinement::{
     Accuracy, FIRST_ELEMENTS, Goal, NotReached, Quantity, Refined, Request, refine,

@@ -35,6 +35,25 @@ impl Watch for AtMost {
     fn done(&self, _: f64) {}
 }
 
+/// Follows as another does, and resolutions with more elements than so many are not begun.
+#[derive(Debug, Clone, Copy)]
+pub struct NoFiner<'a> {
+    /// Is told what this one is told, and may end it earlier.
+    pub watch: &'a dyn Watch,
+    /// Most elements of a resolution that may be begun.
+    pub than: usize,
+}
+
+impl Watch for NoFiner<'_> {
+    fn allows(&self, elements: usize) -> bool {
+        elements <= self.than && self.watch.allows(elements)
+    }
+
+    fn done(&self, part: f64) {
+        self.watch.done(part);
+    }
+}
+
 /// Tells of a piece of work as a part of all.
 #[derive(Debug)]
 pub struct Share<'a> {

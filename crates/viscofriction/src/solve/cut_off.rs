@@ -2,7 +2,7 @@
 
 use bem_halfspace::{BemError, PeriodicEstimate, PeriodicSliding, Reached};
 use indenters::rough::PeriodicSurface;
-use numerics::{Accuracy, Estimate, Request};
+use numerics::{Accuracy, Estimate, NoFiner, Request};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
@@ -25,11 +25,16 @@ pub struct WithoutShortestOctave {
 }
 
 impl WithoutShortestOctave {
-    /// Solves to the relative error asked for, or a larger one, whatever the elements; none where no wave or no answer is left.
+    /// Solves to the relative error asked for, or a larger one, on no more elements along an edge than the `finest` grid of the
+    /// answer itself has; none where no wave or no answer is left.
     pub(super) fn of(
         surface: &PeriodicSurface,
         request: Request,
-        solve: impl Fn(&PeriodicSurface, Request) -> Result<PeriodicEstimate<PeriodicSliding>, BemError>,
+        finest: [usize; 2],
+        solve: impl FnOnce(
+            &PeriodicSurface,
+            Request,
+        ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError>,
     ) -> Option<Self> {
         let left = surface.without_shortest_octave()?;
         let relative_error = match request.accuracy {
@@ -38,7 +43,10 @@ impl WithoutShortestOctave {
         };
         let request = Request {
             accuracy: relative_error.into(),
-            ..request
+            watch: &NoFiner {
+                watch: request.watch,
+                than: finest[0].max(finest[1]),
+            },
         };
         let found = match solve(&left, request) {
             Ok(found) => found,
@@ -120,5 +128,30 @@ impl Serialize for WithoutShortestOctave {
         }
         map.serialize_entry("rms_slope", &self.rms_slope)?;
         map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::rough::Wave;
+
+    use super::*;
+
+    #[test]
+    fn no_finer_grid_is_begun_than_the_answer_has() {
+        let wave = |number| Wave {
+            numbers: [number, 0],
+            amplitude: 1e-3,
+            phase: 0.0,
+        };
+        let surface = PeriodicSurface::new([1.0; 2], vec![wave(1), wave(4)]).expect("a surface");
+        let mut asked = Vec::new();
+        let request = Accuracy::Elements(128).into();
+        let without = WithoutShortestOctave::of(&surface, request, [128, 64], |left, request| {
+            assert_eq!(left.waves().len(), 1);
+            asked.extend([64, 128, 129].map(|elements| request.watch.allows(elements)));
+            Err(BemError::FlowsUnderWaves)
+        });
+        assert_eq!((without, asked), (None, vec![true, true, false]));
     }
 }

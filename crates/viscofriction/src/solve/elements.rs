@@ -103,8 +103,14 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Res
     let solve =
         |surface: &_, request: Request| periodic::steady(surface, &elastomer, &rough.load, request);
     let estimate = solve(rough.surface, request)?;
+    let finest = estimate.finest.pressure.grid.shape();
     let mut answer = of_periodic(problem, rough, estimate)?;
-    answer.cut_off(WithoutShortestOctave::of(rough.surface, request, solve));
+    answer.cut_off(WithoutShortestOctave::of(
+        rough.surface,
+        request,
+        finest,
+        solve,
+    ));
     Ok(answer)
 }
 
@@ -134,8 +140,14 @@ pub(crate) fn periodic_pressed(
         periodic::indent(surface, &elastomer, rough.mean_pressure, time, request)
     };
     let estimate = solve(rough.surface, request)?;
+    let finest = estimate.finest.pressure.grid.shape();
     let mut answer = of_pressed(problem, rough, estimate);
-    answer.cut_off(WithoutShortestOctave::of(rough.surface, request, solve));
+    answer.cut_off(WithoutShortestOctave::of(
+        rough.surface,
+        request,
+        finest,
+        solve,
+    ));
     Ok(answer)
 }
 
