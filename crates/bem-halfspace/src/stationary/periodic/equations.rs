@@ -72,8 +72,8 @@ pub(super) struct Equations {
     image: Vec<f32>,
     /// Displacement of an element under its own unit pressure, [m/Pa].
     pub(super) own_displacement: f64,
-    /// Whether minimal residuals took longer for contacts of few elements than elimination.
-    is_slow: bool,
+    /// Most steps that took as long as an elimination, and for which there was one.
+    replaced: f64,
     /// Products with the kernel on this grid.
     pub(super) products: usize,
 }
@@ -99,7 +99,7 @@ impl Equations {
             spread: field(),
             image: field(),
             own_displacement,
-            is_slow: false,
+            replaced: 0.0,
             products: 0,
         })
     }
@@ -161,12 +161,12 @@ impl Equations {
         };
         let are_few = self.n_unknowns() <= FEW;
         let elimination = ELIMINATION * self.n_unknowns().powi(3) / self.spread.len() as f64;
-        self.is_slow |= self.products as f64 > ELIMINATIONS * elimination;
-        if !(are_few && self.is_slow) {
+        let are_slow = self.replaced.max(self.products as f64 / ELIMINATIONS) > elimination;
+        if !(are_few && are_slow) {
             self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
         }
         if are_few && !is_small(self, self.residual(&self.gap), &self.gap) {
-            self.is_slow = true;
+            self.replaced = self.replaced.max(elimination);
             self.eliminate();
         }
     }
