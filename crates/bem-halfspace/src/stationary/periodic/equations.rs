@@ -72,8 +72,8 @@ pub(super) struct Equations {
     image: Vec<f32>,
     /// Displacement of an element under its own unit pressure, [m/Pa].
     pub(super) own_displacement: f64,
-    /// Most steps that took as long as an elimination, and for which there was one.
-    replaced: f64,
+    /// The longest elimination so far, in steps: contacts that take no longer are eliminated at once.
+    longest_elimination: f64,
     /// Products with the kernel on this grid.
     pub(super) products: usize,
 }
@@ -81,7 +81,7 @@ pub(super) struct Equations {
 impl Equations {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
         let mut kernel = Kernel::new(sliding, grid)?;
-        let own_displacement = displaced_by_first(&mut kernel, grid.n_elements())[0];
+        let own_displacement = of_first(&mut kernel, Kernel::displace, grid.n_elements())[0];
         let field = || copies(0.0, grid.n_elements());
         Ok(Self {
             symbols: kernel.symbols(own_displacement),
@@ -99,7 +99,7 @@ impl Equations {
             spread: field(),
             image: field(),
             own_displacement,
-            replaced: 0.0,
+            longest_elimination: 0.0,
             products: 0,
         })
     }
@@ -161,12 +161,12 @@ impl Equations {
         };
         let are_few = self.n_unknowns() <= FEW;
         let elimination = ELIMINATION * self.n_unknowns().powi(3) / self.spread.len() as f64;
-        let are_slow = self.replaced.max(self.products as f64 / ELIMINATIONS) > elimination;
-        if !(are_few && are_slow) {
+        let worthwhile = (self.products as f64 / ELIMINATIONS).max(self.longest_elimination);
+        if !(are_few && elimination < worthwhile) {
             self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
         }
         if are_few && !is_small(self, self.residual(&self.gap), &self.gap) {
-            self.replaced = self.replaced.max(elimination);
+            self.longest_elimination = self.longest_elimination.max(elimination);
             self.eliminate();
         }
     }
@@ -302,11 +302,15 @@ impl Equations {
     }
 }
 
-/// Displacements under a unit pressure on the first element of so many, [m/Pa].
-fn displaced_by_first(kernel: &mut Kernel, n_elements: usize) -> Vec<f64> {
+/// What a map makes of 1 on the first element of so many.
+fn of_first(
+    kernel: &mut Kernel,
+    map: fn(&mut Kernel, &[f64], &mut [f64]),
+    n_elements: usize,
+) -> Vec<f64> {
     let [mut first, mut image] = [(); 2].map(|()| copies(0.0, n_elements));
     first[0] = 1.0;
-    kernel.displace(&first, &mut image);
+    map(kernel, &first, &mut image);
     image
 }
 

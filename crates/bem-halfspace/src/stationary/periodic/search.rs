@@ -136,10 +136,12 @@ impl<'a> Search<'a> {
             let grows = size > before;
             before = size;
             // What cycles with rough solutions may end with better ones.
-            let part = match pivots.are_single() {
-                true => 0.0,
-                false if grows => PART_OF_GROWING_RESIDUAL,
-                false => PART_OF_RESIDUAL,
+            let part = if pivots.are_single() {
+                0.0
+            } else if grows {
+                PART_OF_GROWING_RESIDUAL
+            } else {
+                PART_OF_RESIDUAL
             };
             let rough = ROUGH * FINER.powi(pivots.in_vain().min(FINEST)) * self.roughness;
             let largest = PART_OF_TOLERANCE * tolerance * self.scale;

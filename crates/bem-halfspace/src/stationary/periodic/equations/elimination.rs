@@ -8,7 +8,7 @@
 use nalgebra::DMatrix;
 use numerics::transforms::Real as _;
 
-use super::Equations;
+use super::{Equations, of_first};
 use crate::contact::active_set::Run;
 use crate::parallel::bands::copies;
 use crate::parallel::reductions::add;
@@ -51,7 +51,10 @@ impl Equations {
         let (places, elements): (Vec<usize>, Vec<usize>) = listed
             .filter(|(place, _)| self.inside[*place] > 0.0)
             .unzip();
-        let image = self.of_first(Kernel::displace, self.own_displacement.recip());
+        let mut image = of_first(&mut self.kernel, Kernel::displace, self.spread.len());
+        image
+            .iter_mut()
+            .for_each(|gap| *gap /= self.own_displacement);
         let sides = [&self.gap, &*self.inside];
         let sides = DMatrix::from_fn(elements.len(), 2, |place, side| {
             f64::from(sides[side][places[place]])
@@ -78,7 +81,10 @@ impl Equations {
         self.near.scatter(&gaps, &mut field);
         self.invert_exactly(&field, &mut loads);
         if !open.is_empty() {
-            let image = self.of_first(Kernel::invert, self.own_displacement);
+            let mut image = of_first(&mut self.kernel, Kernel::invert, n);
+            image
+                .iter_mut()
+                .for_each(|load| *load *= self.own_displacement);
             let side = DMatrix::from_fn(open.len(), 1, |place, _| loads[open[place]]);
             let matrix = influence(&image, self.near.columns, &open);
             let opened = matrix.lu().solve(&side)?;
@@ -101,14 +107,6 @@ impl Equations {
         self.kernel.invert(field, loads);
         let own = self.own_displacement;
         loads.iter_mut().for_each(|load| *load *= own);
-    }
-
-    /// What a map makes of 1 on the first element of the grid, times a factor.
-    fn of_first(&mut self, map: fn(&mut Kernel, &[f64], &mut [f64]), factor: f64) -> Vec<f64> {
-        let [mut first, mut image] = [(); 2].map(|()| vec![0.0; self.spread.len()]);
-        first[0] = factor;
-        map(&mut self.kernel, &first, &mut image);
-        image
     }
 }
 
