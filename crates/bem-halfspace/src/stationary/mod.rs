@@ -3,6 +3,7 @@
 mod conjugate_residuals;
 pub mod periodic;
 mod pivots;
+mod search;
 pub mod steady;
 
 pub use steady::steady;

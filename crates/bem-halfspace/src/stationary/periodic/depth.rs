@@ -4,8 +4,8 @@ use std::cell::RefCell;
 
 use numerics::{in_range, try_bracketed_root};
 
+use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::periodic::search::PeriodicContact;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions, PeriodicSliding};
 use crate::{BemError, Grid};
 

@@ -5,13 +5,13 @@ use std::cell::RefCell;
 use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, Request, positive};
 
+use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::march::{Steps, slide_along};
 use crate::stationary::periodic::refinement::{
     FRICTION, Found, Goal, OTHERS, OnGrid, TOLERANCE, first_shape, refine,
 };
-use crate::stationary::periodic::search::PeriodicContact;
 use crate::stationary::periodic::unseen::Unseen;
 use crate::stationary::periodic::{
     PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, solve_from,

@@ -14,9 +14,10 @@
 //! μ ⟨p⟩ = ⟨p ∂h/∂x⟩ = Σ_q 2 |p̂|² (|q_x|/|q|) Im E*(|q_x| v)/|E*|².
 //! ```
 //!
-//! The search of the active set is in `search.rs`, the
-//! equations of a given contact in `equations.rs`.
+//! The search of the active set, which bodies share, is in `stationary/search.rs`, the equations of a given contact in
+//! `equations.rs`.
 
+mod contact;
 mod depth;
 mod equations;
 #[cfg(feature = "rough")]
@@ -30,7 +31,7 @@ mod moving;
 mod nested;
 #[cfg(feature = "rough")]
 mod refinement;
-mod search;
+
 #[cfg(feature = "rough")]
 pub mod sensitivity;
 #[cfg(feature = "rough")]
@@ -132,21 +133,21 @@ pub fn steady_on_grid(
         options: *options,
     };
     let guess = RefCell::new(Vec::new());
-    let solve = |problem: search::PeriodicContact| solve_from(&mut guess.borrow_mut(), problem);
+    let solve = |problem: contact::PeriodicContact| solve_from(&mut guess.borrow_mut(), problem);
     Ok(hold(load.require_stationary()?, &surface, None, solve)?.state)
 }
 
 /// From a guess of the pressure on this grid or on elements of twice the edges, or from none; it becomes the pressure of this grid.
 fn solve_from(
     guess: &mut Vec<f64>,
-    problem: search::PeriodicContact,
+    problem: contact::PeriodicContact,
 ) -> Result<PeriodicSliding, BemError> {
     in_pool(problem.grid.n_elements(), || solve_here(guess, problem))
 }
 
 fn solve_here(
     guess: &mut Vec<f64>,
-    problem: search::PeriodicContact,
+    problem: contact::PeriodicContact,
 ) -> Result<PeriodicSliding, BemError> {
     let mut equations = Equations::new(problem.sliding, problem.grid)?;
     let solved = nested::solve(problem, &mut equations, guess)?;

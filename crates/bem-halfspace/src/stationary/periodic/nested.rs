@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::stationary::periodic::contact::{self, PeriodicContact, Solved};
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::search::{self, PeriodicContact, Solved};
 use crate::stationary::periodic::waves::Waves;
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
@@ -32,7 +32,7 @@ pub(super) fn solve(
         guess.clear();
         start(&problem, guess)?;
     }
-    search::solve(problem, equations, guess)
+    contact::solve(problem, equations, guess)
 }
 
 /// Starts from the solution on elements of twice the edges, if they can be so long.
@@ -53,7 +53,7 @@ fn start(problem: &PeriodicContact, pressure: &mut Vec<f64>) -> Result<(), BemEr
     let mut guess = Vec::new();
     start(&coarse, &mut guess)?;
     let mut equations = Equations::new(problem.sliding, &grid)?;
-    match search::solve(coarse, &mut equations, &mut guess) {
+    match contact::solve(coarse, &mut equations, &mut guess) {
         // Whatever was reached is a guess.
         Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
         Err(error) => return Err(error),

@@ -8,8 +8,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::parallel::reductions::add;
-use crate::stationary::conjugate_residuals::minimise;
+use crate::parallel::reductions::{add, dot, larger};
+use crate::stationary::conjugate_residuals::{minimise, norm};
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
@@ -25,52 +25,98 @@ const LARGEST_MATRIX: usize = 4000;
 /// Directions tried before the iteration gives up; a preconditioned contact needs some tens.
 pub(super) const MOST_DIRECTIONS: usize = 150;
 
-/// Loads of the elements of a contact and the depth, in the units of the mesh.
-pub(super) struct EquationSolution {
+/// The equations of one contact.
+pub(super) struct ContactEquations<'mesh> {
+    mesh: &'mesh Mesh,
+    plans: &'mesh mut Plans,
+    /// The elements in contact, and their loads and gaps.
+    pub(super) contact: Vec<usize>,
     pub(super) loads: Vec<f64>,
-    pub(super) depth: f64,
-    /// Whether the equations were factorised; if not, they were solved by iteration.
-    pub(super) factorised: bool,
+    gaps: Vec<f64>,
+    /// Whether the last contact was factorised; if not, it was solved by iteration.
+    pub(super) is_factorised: bool,
 }
 
-/// Solves the equations of `contact` up to `tolerance`, the root mean square of the residual in units of the depth scale;
-/// `start` is a guess of the loads.
-pub(super) fn solve_equations(
-    mesh: &Mesh,
-    plans: &mut Plans,
-    contact: &[usize],
-    start: Vec<f64>,
-    tolerance: f64,
-) -> EquationSolution {
-    let region = mesh.region(contact.iter().copied());
-    if is_factorised(contact.len(), region.n_places()) {
-        return factorise(mesh, contact);
+impl<'mesh> ContactEquations<'mesh> {
+    pub(super) const fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans) -> Self {
+        Self {
+            mesh,
+            plans,
+            contact: Vec::new(),
+            loads: Vec::new(),
+            gaps: Vec::new(),
+            is_factorised: false,
+        }
     }
-    ContactEquations::new(mesh, plans, contact, region).iterate(start, tolerance)
+
+    /// Takes the elements of another contact, with the loads and gaps of all.
+    pub(super) fn take(&mut self, contact: &[bool], loads: &[f64], gaps: &[f64]) {
+        let elements = (0..contact.len()).filter(|element| contact[*element]);
+        self.contact = elements.collect();
+        let listed = |field: &[f64]| self.contact.iter().map(|element| field[*element]).collect();
+        (self.loads, self.gaps) = (listed(loads), listed(gaps));
+    }
+
+    /// Root mean square of the gaps.
+    pub(super) fn residual(&self) -> f64 {
+        norm(&self.gaps) / (self.contact.len() as f64).sqrt()
+    }
+
+    /// Solves until the root mean square, or the largest gap, is small enough.
+    pub(super) fn solve(&mut self, mean: f64, largest: f64) {
+        let region = self.mesh.region(self.contact.iter().copied());
+        self.is_factorised = is_factorised(self.contact.len(), region.n_places());
+        if self.is_factorised {
+            self.factorise();
+        } else {
+            self.iterate(&region, mean, largest);
+        }
+    }
+
+    fn factorise(&mut self) {
+        let (mesh, contact) = (self.mesh, &self.contact);
+        let n = contact.len();
+        let control = mesh.loading.control;
+        let matrix = |row, column| match (row < n, column < n) {
+            (true, true) => mesh.influence(contact[row], contact[column]),
+            (true, false) => -1.0,
+            (false, true) => control.load * mesh.weight(contact[column]),
+            (false, false) => control.depth,
+        };
+        let heights = contact.iter().map(|&element| -mesh.height(element));
+        let mut loads = solve_dense(matrix, heights.chain([control.right]).collect());
+        loads.truncate(n);
+        self.loads = loads;
+        self.gaps.fill(0.0);
+    }
+
+    fn iterate(&mut self, region: &Region, mean: f64, largest: f64) {
+        let mut directions = Directions::new(self, region);
+        let mut added = vec![0.0; self.contact.len() + 1];
+        let unknowns = [&mut added[..], &mut self.gaps];
+        let n = self.contact.len() as f64;
+        minimise(
+            unknowns,
+            None,
+            [MOST_DIRECTIONS; 2],
+            |size, [gaps, from], found| {
+                let top = || gaps.iter().fold(0.0, |top, gap| larger(top, gap.abs()));
+                let size = (size / n).sqrt();
+                let goes_on = size > mean && (size > largest || top() > largest);
+                if goes_on {
+                    directions.find(from, found);
+                }
+                goes_on
+            },
+        );
+        add(&mut self.loads, 1.0, &added[..self.contact.len()]);
+    }
 }
 
 /// Whether so many unknowns in a box of so many elements are factorised.
 pub(super) fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
     let work = (n_unknowns as f64).powi(3);
     n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
-}
-
-fn factorise(mesh: &Mesh, contact: &[usize]) -> EquationSolution {
-    let n = contact.len();
-    let control = mesh.loading.control;
-    let matrix = |row, column| match (row < n, column < n) {
-        (true, true) => mesh.influence(contact[row], contact[column]),
-        (true, false) => -1.0,
-        (false, true) => control.load * mesh.weight(contact[column]),
-        (false, false) => control.depth,
-    };
-    let heights = contact.iter().map(|&element| -mesh.height(element));
-    let mut loads = solve_dense(matrix, heights.chain([control.right]).collect());
-    EquationSolution {
-        depth: loads.remove(n),
-        loads,
-        factorised: true,
-    }
 }
 
 /// The solution of linear equations with the entries of a matrix and the right sides, by factorisation; not a number where
@@ -82,102 +128,50 @@ pub(super) fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64
     solution.map_or_else(|| vec![f64::NAN; n], |solution| solution.data.into())
 }
 
-/// The equations of one contact, for iteration.
-struct ContactEquations<'mesh> {
-    mesh: &'mesh Mesh,
-    contact: &'mesh [usize],
-    region: Region,
+/// Directions for the iteration of one contact.
+struct Directions<'a> {
+    mesh: &'a Mesh,
+    region: &'a Region,
+    /// 1, or 2 for an element with a mirror image.
+    weights: Vec<f64>,
     product: Product,
     preconditioner: WienerHopf,
     /// The preconditioner applied to a unit depth.
     lowered: Vec<f64>,
 }
 
-impl<'mesh> ContactEquations<'mesh> {
-    fn new(mesh: &'mesh Mesh, plans: &mut Plans, contact: &'mesh [usize], region: Region) -> Self {
-        let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
+impl<'a> Directions<'a> {
+    fn new<'mesh: 'a>(equations: &mut ContactEquations<'mesh>, region: &'a Region) -> Self {
+        let (mesh, plans) = (equations.mesh, &mut *equations.plans);
+        let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), region);
+        let contact = equations.contact.iter();
         Self {
-            lowered: preconditioner.loads(&vec![1.0; contact.len()], &region),
-            product: Product::new(plans.kernel(region.shape), &region),
+            lowered: preconditioner.loads(&vec![1.0; equations.contact.len()], region),
+            product: Product::new(plans.kernel(region.shape), region),
+            weights: contact.map(|element| mesh.weight(*element)).collect(),
             preconditioner,
             region,
-            contact,
             mesh,
         }
     }
 
-    fn iterate(mut self, start: Vec<f64>, tolerance: f64) -> EquationSolution {
-        let (mut loads, depth) = self.start(start);
-        let mut gaps = self.displacements_below(&loads, depth);
-        for (gap, &element) in gaps.iter_mut().zip(self.contact) {
-            *gap += self.mesh.height(element);
-        }
-        let n = self.contact.len();
-        let allowed = tolerance * (n as f64).sqrt();
-        loads.push(depth);
-        let unknowns = [&mut loads[..], &mut gaps[..]];
-        let most = [MOST_DIRECTIONS; 2];
-        minimise(
-            unknowns,
-            None,
-            most,
-            |size, [_, from], [direction, image]| {
-                if size.sqrt() <= allowed {
-                    return false;
-                }
-                let (mut loads, depth) = self.correct(from);
-                image.copy_from_slice(&self.displacements_below(&loads, depth));
-                loads.push(depth);
-                direction.copy_from_slice(&loads);
-                true
-            },
-        );
-        EquationSolution {
-            depth: loads.remove(n),
-            loads,
-            factorised: false,
-        }
-    }
-
-    /// Loads and depth that satisfy the control, near the guess.
-    fn start(&mut self, mut loads: Vec<f64>) -> (Vec<f64>, f64) {
+    /// Loads and depth that about close the gaps and leave the control as it is, and the gaps K x − δ that they add.
+    fn find(&mut self, gaps: &[f64], [direction, image]: [&mut [f64]; 2]) {
         let control = self.mesh.loading.control;
-        if control.depth != 0.0 {
-            let depth = (control.right - control.load * self.total(&loads)) / control.depth;
-            return (loads, depth);
-        }
-        // A change of depth changes the force with hardly any residual.
-        let missing = control.right / control.load - self.total(&loads);
-        let change = missing / self.total(&self.lowered);
-        add(&mut loads, change, &self.lowered);
-        let moved = self.product.apply(0, &loads, &self.region);
-        let moved = self.contact.iter().zip(moved);
-        let depth = moved.map(|(&element, moved)| moved + self.mesh.height(element));
-        let mean = depth.sum::<f64>() / self.contact.len() as f64;
-        (loads, mean)
-    }
-
-    /// K x − δ.
-    fn displacements_below(&mut self, loads: &[f64], depth: f64) -> Vec<f64> {
-        let mut moved = self.product.apply(0, loads, &self.region);
-        moved.iter_mut().for_each(|value| *value -= depth);
-        moved
-    }
-
-    /// The preconditioner with the control: loads and depth that cause about the given residual and leave the control as
-    /// it is.
-    fn correct(&mut self, residual: &[f64]) -> (Vec<f64>, f64) {
-        let control = self.mesh.loading.control;
-        let mut loads = self.preconditioner.loads(residual, &self.region);
+        let mut loads = self.preconditioner.loads(gaps, self.region);
         let stiffness = control.depth + control.load * self.total(&self.lowered);
         let depth = -control.load * self.total(&loads) / stiffness;
         add(&mut loads, depth, &self.lowered);
-        (loads, depth)
+        let moved = self.product.apply(0, &loads, self.region);
+        for (place, moved) in image.iter_mut().zip(moved) {
+            *place = moved - depth;
+        }
+        loads.push(depth);
+        direction.copy_from_slice(&loads);
     }
 
     /// Sum of the loads of the whole.
     fn total(&self, loads: &[f64]) -> f64 {
-        let elements = self.contact.iter().copied();
-        self.mesh.total_load(elements.zip(loads.iter().copied()))
+        dot(loads, &self.weights)
     }
 }

@@ -1,9 +1,9 @@
 //! How deep a body lies that slides without end.
 
 use crate::BemError;
+use crate::stationary::steady::contact::Solution;
 use crate::stationary::steady::loading::sunken;
 use crate::stationary::steady::mesh::Mesh;
-use crate::stationary::steady::pivoting::Solution;
 use numerics::{in_range, positive};
 
 /// Depth of the lowest point below the undeformed surface, which never stops to grow where the material flows.

@@ -240,19 +240,15 @@ impl Mesh {
         [[row, column], [row, image.unwrap_or(column)]]
     }
 
-    /// The elements at most `reach` rows and columns away from one of `centres`, unless they are more than `most`.
-    pub(super) fn near(&self, centres: &[usize], reach: usize, most: usize) -> Option<Vec<usize>> {
-        let mut near = BTreeSet::new();
-        for &centre in centres {
-            let Element { row, column, .. } = self.elements[centre];
-            for row in row.saturating_sub(reach)..=row + reach {
-                near.extend(self.in_row(row, column.saturating_sub(reach)..=column + reach));
-            }
-            if near.len() > most {
-                return None;
-            }
-        }
-        Some(near.into_iter().collect())
+    /// Some elements and those that have an edge or a corner in common with one of them.
+    pub(super) fn with_neighbours(&self, elements: &[usize]) -> Vec<usize> {
+        let around = elements.iter().flat_map(|element| {
+            let Element { row, column, .. } = self.elements[*element];
+            let columns = column.saturating_sub(1)..=column + 1;
+            (row.saturating_sub(1)..=row + 1).flat_map(move |row| self.in_row(row, columns.clone()))
+        });
+        let found: BTreeSet<usize> = around.collect();
+        found.into_iter().collect()
     }
 
     /// The elements of a row within a range of columns; they are numbered row by row.
@@ -290,11 +286,11 @@ impl Mesh {
         !self.elements.iter().any(passes)
     }
 
-    /// The low elements, without loads.
+    /// The low elements, with hardly any load.
     pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
         let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
         let low = (0..self.n_elements()).filter(is_low);
-        low.map(|element| (element, 0.0)).collect()
+        low.map(|element| (element, f64::EPSILON)).collect()
     }
 
     /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.

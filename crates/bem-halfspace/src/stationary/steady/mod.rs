@@ -15,6 +15,7 @@
 //! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
 //! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
 
+mod contact;
 mod contact_equations;
 mod contact_scale;
 mod depth;
@@ -26,8 +27,7 @@ mod kernel;
 mod line;
 mod loading;
 mod mesh;
-mod neighbourhood;
-mod pivoting;
+
 mod plans;
 mod refinement;
 mod region;
@@ -44,6 +44,7 @@ use numerics::{between_zero_and_one, positive};
 pub use crate::estimate::averages::{Average, Refinement};
 use crate::parallel::chunks::in_pool;
 use crate::{BemError, Elastomer, Footprint};
+use contact::Solution;
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
 pub use estimate::{steady, steady_grid, steady_memory, steady_refined};
@@ -53,7 +54,6 @@ pub use line::{
 };
 use loading::Loading;
 use mesh::Mesh;
-use pivoting::Solution;
 use plans::Plans;
 pub use refinement::RefinementOptions;
 pub use solution::{SteadyEstimate, SteadySliding};
@@ -170,7 +170,7 @@ fn solve_on_mesh(
         None => mesh.first_guess(),
     };
     let plans = &mut reuse.plans;
-    let solution = in_pool(mesh.n_elements(), || pivoting::solve(&mesh, plans, guess))?;
+    let solution = in_pool(mesh.n_elements(), || contact::solve(&mesh, plans, guess))?;
     Ok((mesh, solution))
 }
 

@@ -9,9 +9,9 @@ use crate::error::check_contact_elements;
 use crate::estimate::bars::{ContactEstimate, OnGrid};
 use crate::estimate::quantities::Quantities;
 use crate::stationary::steady::SteadyOptions;
+use crate::stationary::steady::contact::Solution;
 use crate::stationary::steady::depth::SinkingDepth;
 use crate::stationary::steady::mesh::Mesh;
-use crate::stationary::steady::pivoting::Solution;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 
 /// Elements between an edge of the body and the end of the contact with which the two are told apart.

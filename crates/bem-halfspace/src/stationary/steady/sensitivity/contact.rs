@@ -2,9 +2,9 @@
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
+use crate::stationary::steady::contact::Solution;
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
-use crate::stationary::steady::pivoting::Solution;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::sensitivity::adjoint::{Motion, solve};

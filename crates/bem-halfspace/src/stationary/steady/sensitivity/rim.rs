@@ -97,7 +97,7 @@ impl<'a> Surroundings<'a> {
         for &element in contact {
             is_inside[element] = true;
         }
-        let mut beside = mesh.near(contact, 1, usize::MAX).unwrap_or_default();
+        let mut beside = mesh.with_neighbours(contact);
         beside.retain(|element| !is_inside[*element]);
         let region = mesh.region(contact.iter().chain(&beside).copied());
         Self {

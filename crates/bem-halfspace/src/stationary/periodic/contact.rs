@@ -1,0 +1,142 @@
+//! One contact of a periodic surface.
+
+use crate::parallel::reductions::larger;
+use crate::stationary::periodic::equations::Equations;
+use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::search::{MovingContact, Search};
+use crate::{BemError, Grid};
+
+/// Root mean square of the residual to which the first contact is solved, as a part of that of the heights.
+const ROUGH: f64 = 0.01;
+
+/// A contact problem on one grid.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PeriodicContact<'a> {
+    pub(super) sliding: &'a Sliding,
+    pub(super) grid: &'a Grid,
+    /// At the centres of the elements, \[m].
+    pub(super) heights: &'a [f64],
+    /// \[Pa].
+    pub(super) mean_pressure: f64,
+    /// Largest residual, relative to the largest displacement.
+    pub(super) tolerance: f64,
+    /// Products with the kernel.
+    pub(super) max_products: usize,
+}
+
+/// A solved contact; the pressure is a field of its own.
+pub(super) struct Solved {
+    /// Mean of h + u over the contact, \[m].
+    pub(super) depth: f64,
+    pub(super) products: usize,
+    pub(super) residual: f64,
+}
+
+/// Solves the problem from a first guess of the pressure, which is the solution afterwards: outside the contact it is the
+/// gap, as a negative multiple of the displacement of an element under its own pressure. Without a positive pressure half
+/// of the elements are taken for the contact.
+pub(super) fn solve(
+    problem: PeriodicContact,
+    equations: &mut Equations,
+    pressure: &mut Vec<f64>,
+) -> Result<Solved, BemError> {
+    let n = problem.grid.n_elements() as f64;
+    let mut heights = vec![0.0; problem.grid.n_elements()];
+    equations.kernel.shifted(problem.heights, &mut heights);
+    let mean = heights.iter().sum::<f64>() / n;
+    let variance = heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / n;
+    let mut guess = std::mem::take(pressure);
+    if guess.iter().all(|pressure| *pressure <= 0.0) {
+        guess = heights.iter().map(|h| f64::from(*h <= mean)).collect();
+    }
+    let own = equations.own_displacement;
+    let mut contact = OnGrid { problem, equations };
+    let surface = (heights, ROUGH * variance.sqrt());
+    let mut search = Search::new(&mut contact, surface, problem.tolerance, guess);
+    let found = search.run();
+    let [residual, depth] = [search.residual, search.depth];
+    *pressure = search.pressure;
+    for ((pressure, gap), inside) in pressure.iter_mut().zip(search.gap).zip(search.contact) {
+        *pressure = if inside {
+            pressure.max(0.0)
+        } else {
+            -gap.max(0.0) / own
+        };
+    }
+    found.map(|()| Solved {
+        depth,
+        products: equations.products,
+        residual,
+    })
+}
+
+struct OnGrid<'a> {
+    problem: PeriodicContact<'a>,
+    equations: &'a mut Equations,
+}
+
+impl MovingContact for OnGrid<'_> {
+    const REPEATS: bool = true;
+    /// With 0.1 as a rule there are up to a quarter more products in light contact. With a tenth of the area of 4096² elements in
+    /// contact and moduli that differ by 1000 there are 156 products where they do not differ and 115 as they are; where the second
+    /// holds for residuals that fall by less than a half too, contacts of dashpots take a fifth more.
+    const PARTS_OF_RESIDUAL: [f64; 2] = [0.2, 0.06];
+
+    fn shape(&self) -> [usize; 2] {
+        self.problem.grid.shape()
+    }
+
+    fn place(&self, element: usize) -> [usize; 2] {
+        let columns = self.shape()[1];
+        [element / columns, element % columns]
+    }
+
+    fn own_displacement(&self) -> f64 {
+        self.equations.own_displacement
+    }
+
+    /// Displacements without mean, and the largest one.
+    fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64 {
+        self.equations.displace(pressure, moved);
+        let mean = moved.iter().sum::<f64>() / moved.len() as f64;
+        moved.iter_mut().for_each(|moved| *moved -= mean);
+        moved
+            .iter()
+            .fold(0.0, |top, moved| larger(top, moved.abs()))
+    }
+
+    fn depth(&self, _: &[f64]) -> Option<f64> {
+        None
+    }
+
+    fn take(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
+        self.equations.take(contact, pressure, gap);
+    }
+
+    fn residual(&self) -> f64 {
+        self.equations.size()
+    }
+
+    fn solve(&mut self, mean: f64, largest: f64) {
+        self.equations.iterate(mean, largest);
+    }
+
+    fn give(&self, pressure: &mut [f64]) {
+        self.equations.give(pressure);
+    }
+
+    fn is_near(&self, element: usize) -> bool {
+        self.equations.near.contains(element)
+    }
+
+    fn balance(&self, pressure: &mut [f64]) {
+        let total = self.problem.mean_pressure * pressure.len() as f64;
+        let factor = total / pressure.iter().sum::<f64>();
+        pressure.iter_mut().for_each(|p| *p *= factor);
+    }
+
+    fn tried(&self) -> (usize, bool) {
+        let products = self.equations.products;
+        (products, products >= self.problem.max_products)
+    }
+}
