@@ -7,7 +7,7 @@ use crate::elements::mirror::Mirror;
 
 /// Part of an element by which counted areas are too large for each edge between an element in contact and one that is not,
 /// in the mean over the directions of the outline (Yastrebov, Anciaux & Molinari 2017).
-const EXCESS_PER_EDGE: f64 = (PI - 1.0 + LN_2) / 24.0;
+pub(crate) const EXCESS_PER_EDGE: f64 = (PI - 1.0 + LN_2) / 24.0;
 
 /// So many elements in contact with so many edges to others, less the excess at these edges, in elements; above half of
 /// their number.
@@ -15,7 +15,38 @@ pub(crate) fn less_excess(count: usize, edges: usize) -> f64 {
     count as f64 - EXCESS_PER_EDGE * edges as f64
 }
 
-/// The same of the elements with load in a box, and of their images; the field begins at its mirrors.
+/// The area of a contact that repeats itself.
+pub(crate) struct OfPeriod {
+    /// As a part of the period.
+    pub(crate) area: f64,
+    /// What was taken from that of the elements in contact, likewise.
+    #[cfg_attr(
+        not(feature = "rough"),
+        expect(dead_code, reason = "it is for the bars of rough surfaces")
+    )]
+    pub(crate) excess: f64,
+}
+
+/// Of pressures in rows of so many elements.
+pub(crate) fn of_period(columns: usize, pressure: &[f64]) -> OfPeriod {
+    let n = pressure.len();
+    let inside = |element: usize| pressure[element] > 0.0;
+    let [mut count, mut edges] = [0; 2];
+    for element in 0..n {
+        let row = element / columns * columns;
+        let neighbours = [(element + columns) % n, row + (element + 1 - row) % columns];
+        count += usize::from(inside(element));
+        let differs = |other: &usize| inside(*other) != inside(element);
+        edges += neighbours.into_iter().filter(differs).count();
+    }
+    let area = less_excess(count, edges) / n as f64;
+    OfPeriod {
+        area,
+        excess: count as f64 / n as f64 - area,
+    }
+}
+
+/// The area of the elements with load in a box, and of their images, in elements; the field begins at its mirrors.
 pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let has_load = |row: usize, column: usize| {

@@ -241,6 +241,70 @@ fn bars_hold_gaps_between_elements_that_are_all_in_contact() {
     }
 }
 
+/// The edges of grooves err the same way everywhere; their area is that of a wave along the motion.
+#[cfg(feature = "rough")]
+#[test]
+fn bars_hold_areas_of_grooves_in_any_direction() {
+    use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
+    use bem_halfspace::periodic::steady;
+
+    use crate::support::elastic;
+    let (modulus, amplitude) = (3.0, 0.01);
+    for numbers in [[1, 0], [0, 3], [1, 1], [-2, 1], [1, 3]] {
+        for case in 1..=8 {
+            let part = 0.11 * f64::from(case);
+            let wave = Wave {
+                numbers,
+                amplitude,
+                phase: f64::from(case),
+            };
+            let surface = PeriodicSurface::new([1.0; 2], vec![wave]).expect("a surface");
+            let [m, n] = numbers.map(f64::from);
+            let closing = 4.0 * modulus * PI * m.hypot(n) * amplitude;
+            let load = PeriodicLoad::new(closing * part, 0.0).expect("a load");
+            let state = steady(&surface, &elastic(modulus), &load, 0.1).expect("a state");
+            let exact = 2.0 / PI * part.sqrt().asin();
+            let area = state.area_fraction;
+            assert_near((numbers, part), area.value, exact, area.error);
+            assert!(
+                area.error < 0.1 * area.value,
+                "{numbers:?}, {part}: {area:?}"
+            );
+        }
+    }
+}
+
+/// Of surfaces whose areas change little from grid to grid by chance, on the fourth and the sixteenth part of the elements of an
+/// edge.
+#[cfg(feature = "rough")]
+#[test]
+fn bars_hold_what_the_outline_leaves_unknown_of_an_area() {
+    use bem_halfspace::numerics::Accuracy;
+    use bem_halfspace::periodic::steady;
+
+    use crate::support::prony;
+    for seed in [1, 18, 37] {
+        let surface = SelfAffine {
+            period: [1.0; 2],
+            hurst_exponent: 0.3,
+            rms_slope: 0.1,
+            longest_wavelength: 0.5,
+            shortest_wavelength: 1.0 / 12.0,
+            roll_off_wavelength: 0.25,
+            seed,
+        };
+        let surface = surface.surface().expect("a surface");
+        let material = prony([1.0, 0.0], &[(5.0, 1.0)]);
+        let load = PeriodicLoad::new(0.016, 2.0).expect("a load");
+        let [coarse, fine] = [256, 1024].map(|elements| {
+            let found = steady(&surface, &material, &load, Accuracy::Elements(elements));
+            found.expect("a state").area_fraction
+        });
+        assert_near(seed, coarse.value, fine.value, coarse.error);
+        assert!(fine.error < 0.02 * fine.value, "{seed}: {fine:?}");
+    }
+}
+
 /// Four elements per shortest wave tell whether a contact is full, as what is between them follows from the waves.
 #[cfg(feature = "rough")]
 #[test]

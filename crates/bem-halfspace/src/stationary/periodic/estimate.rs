@@ -9,8 +9,9 @@ use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::march::{Steps, slide_along};
+use crate::stationary::periodic::outline::area_fraction;
 use crate::stationary::periodic::refinement::{
-    FRICTION, Found, Goal, OTHERS, OnGrid, TOLERANCE, first_shape, refine,
+    AREA, FRICTION, Found, Goal, OTHERS, OnGrid, TOLERANCE, first_shape, refine,
 };
 use crate::stationary::periodic::unseen::Unseen;
 use crate::stationary::periodic::{
@@ -181,6 +182,7 @@ pub fn slide<'w>(
         request,
         control: load.control(),
         friction: OTHERS,
+        area: OTHERS,
         steps_per_row: Some(distance / period * per_element),
     };
     refine(surface, &goal, |grid, heights, tolerance, tell| {
@@ -198,7 +200,7 @@ pub fn slide<'w>(
         let found = Found {
             friction: last.friction_coefficient,
             from_dissipation: None,
-            area_fraction: last.area_fraction,
+            area_fraction: area_fraction(&state.pressure, surface),
             in_contact: in_contact(&state.pressure),
             has_all_waves: true,
             unseen: Unseen::of(&state.pressure, surface),
@@ -220,6 +222,7 @@ fn solve(
         request,
         control,
         friction: FRICTION,
+        area: AREA,
         steps_per_row: None,
     };
     let guess = RefCell::new(Vec::new());
@@ -242,7 +245,7 @@ fn solve(
         let found = Found {
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
-            area_fraction: state.area_fraction,
+            area_fraction: area_fraction(&state.pressure, surface),
             in_contact: in_contact(&state.pressure),
             has_all_waves: true,
             unseen: Unseen::of(&state.pressure, surface),

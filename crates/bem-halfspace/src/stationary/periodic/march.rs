@@ -17,11 +17,12 @@ use std::f64::consts::PI;
 use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 use rustfft::num_complex::Complex;
 
+use crate::elements::area;
 use crate::elements::grid::elements_along;
 use crate::parallel::reductions::{add, dot};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::waves::Waves;
-use crate::stationary::periodic::{PeriodicLoad, area_fraction, check_surface};
+use crate::stationary::periodic::{PeriodicLoad, check_surface};
 use crate::transform::plane_transform::ZERO;
 use crate::{
     Base, BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
@@ -264,7 +265,7 @@ impl<'a> PeriodicMarch<'a> {
             sliding_distance: 0.0,
             time: 0.0,
             friction_coefficient: dot(pressure, &self.slopes) / pressure.iter().sum::<f64>(),
-            area_fraction: area_fraction(columns, pressure),
+            area_fraction: area::of_period(columns, pressure).area,
             mean_depth: contact.indentation_depth - self.mean_height,
         })
     }

@@ -30,6 +30,8 @@ mod march;
 mod moving;
 mod nested;
 #[cfg(feature = "rough")]
+mod outline;
+#[cfg(feature = "rough")]
 mod refinement;
 
 #[cfg(feature = "rough")]
@@ -163,7 +165,7 @@ fn solve_here(
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,
         friction_from_dissipation: from_dissipation,
-        area_fraction: area_fraction(problem.grid.shape()[1], &pressure),
+        area_fraction: area::of_period(problem.grid.shape()[1], &pressure).area,
         mean_depth: solved.depth - mean_height + squeezed,
         products: solved.products,
         residual: solved.residual,
@@ -173,21 +175,6 @@ fn solve_here(
             pressure,
         },
     })
-}
-
-/// The part of the elements in contact, less the excess at its edges.
-fn area_fraction(columns: usize, pressure: &[f64]) -> f64 {
-    let n = pressure.len();
-    let inside = |element: usize| pressure[element] > 0.0;
-    let [mut count, mut edges] = [0; 2];
-    for element in 0..n {
-        let row = element / columns * columns;
-        let neighbours = [(element + columns) % n, row + (element + 1 - row) % columns];
-        count += usize::from(inside(element));
-        let differs = |other: &usize| inside(*other) != inside(element);
-        edges += neighbours.into_iter().filter(differs).count();
-    }
-    area::less_excess(count, edges) / n as f64
 }
 
 impl PeriodicOptions {

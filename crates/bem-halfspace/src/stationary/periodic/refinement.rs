@@ -18,13 +18,17 @@ const FEWEST: usize = 32;
 /// this many, and only the waves that it tells; docs/rough-surfaces.md says how well the bars hold on four elements per wave.
 const USUAL_GRID: f64 = 4_194_304.0;
 const MULTIPLE: usize = 8;
-/// The error of each stationary friction is at most what the last refinement changed, or a part of what the one before did, which
-/// counts where the last one changed little by chance; that of all others twice as much, at the first order. The factor is for which
-/// elements touch, which jumps from grid to grid: docs/rough-surfaces.md says how often bars hold.
+/// The error of each stationary friction, and of the area, is at most what the last refinement changed, or a part of what the one
+/// before did, which counts where the last one changed little by chance; that of all others twice as much, at the first order. The
+/// factor is for which elements touch, which jumps from grid to grid: docs/rough-surfaces.md says how often bars hold.
 pub(super) const FRICTION: Fall = Fall {
     safety: 1.0,
     left: 0.15,
     as_a_rule: 0.25,
+};
+pub(super) const AREA: Fall = Fall {
+    left: 0.3,
+    ..FRICTION
 };
 pub(super) const OTHERS: Fall = Fall {
     safety: 2.0,
@@ -71,6 +75,7 @@ pub(super) struct Goal<'w> {
     pub(super) request: Request<'w>,
     pub(super) control: PeriodicControl,
     pub(super) friction: Fall,
+    pub(super) area: Fall,
     /// Steps of a march for each row of the grid.
     pub(super) steps_per_row: Option<f64>,
 }
@@ -79,7 +84,8 @@ pub(super) struct Goal<'w> {
 pub(super) struct Found {
     pub(super) friction: f64,
     pub(super) from_dissipation: Option<f64>,
-    pub(super) area_fraction: f64,
+    /// With what its outline leaves unknown.
+    pub(super) area_fraction: Estimate,
     /// Number of elements.
     pub(super) in_contact: usize,
     /// Whether the grid tells all waves of the surface.
@@ -362,15 +368,18 @@ impl Goal<'_> {
         }
         // Shorter waves make a contact smaller by more than finer elements do.
         let left = if coarse.has_all_waves {
-            OTHERS.left
+            self.area.left
         } else {
             0.0
         };
-        let area = Fall { left, ..OTHERS };
+        let area = of(
+            &|found| found.area_fraction.value,
+            Fall { left, ..self.area },
+        );
         let bars = PeriodicEstimate {
             friction_coefficient: dissipation.map_or(slopes, |other| mean_of(slopes, other)),
             friction_from_dissipation: dissipation,
-            area_fraction: of(&|found| found.area_fraction, area),
+            area_fraction: area.widened(fine.area_fraction.error),
             mean_pressure: match self.control {
                 PeriodicControl::MeanPressure(pressure) => Estimate::exact(pressure),
                 PeriodicControl::MeanDepth(_) => of(&|found| found.mean_pressure, OTHERS),
@@ -461,7 +470,7 @@ mod tests {
         Found {
             friction,
             from_dissipation: Some(dissipated),
-            area_fraction: 0.05,
+            area_fraction: Estimate::exact(0.05),
             in_contact: 100,
             has_all_waves: true,
             unseen: Unseen::default(),
@@ -476,6 +485,7 @@ mod tests {
             request: Accuracy::RelativeError(0.01).into(),
             control: PeriodicControl::MeanPressure(1.0),
             friction: FRICTION,
+            area: AREA,
             steps_per_row: None,
         }
     }

@@ -3,9 +3,9 @@
 use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
+use crate::elements::area;
 use crate::elements::rim::{Measure, RATIO, Rim, RimField};
 use crate::parallel::reductions::dot;
-use crate::stationary::periodic::area_fraction;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::waves::Waves;
@@ -118,7 +118,8 @@ impl Adjoint<'_> {
         kernel.displace(&first_of(self.pressure.len()), &mut moved);
         let bend = [0, 1].map(|axis| dot(&moved, &self.bend(axis)));
         let mut measure = Rim::new(&field, |side| RATIO / bend[side.axis]).area;
-        let area = area_fraction(field.shape[1], &self.pressure) * self.pressure.len() as f64;
+        let area =
+            area::of_period(field.shape[1], &self.pressure).area * self.pressure.len() as f64;
         measure
             .by_values
             .iter_mut()
