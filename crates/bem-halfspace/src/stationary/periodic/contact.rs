@@ -6,7 +6,8 @@ use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::search::{MovingContact, Search};
 use crate::{BemError, Grid};
 
-/// Root mean square of the residual to which the first contact is solved, as a part of that of the heights.
+/// Root mean square of the residual, as a part of that of the heights, to which every contact is solved at least. Without it that
+/// of a solid whose moduli differ by 1000 takes up to twice as many products on 1024² elements.
 const ROUGH: f64 = 0.01;
 
 /// A contact problem on one grid.
