@@ -7,6 +7,7 @@ use bem_halfspace::{
     BemError, Control, Convolution, Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding,
 };
 use casebook::{RoughCase, rough_cases};
+use indenters::rough::SelfAffine;
 use rheology::Material;
 use rustfft::num_complex::Complex;
 
@@ -218,7 +219,7 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
         (&many, 128, [1000.0, 100.0], 80),
         (&one, 256, [3.0, 2.154e-4], 130),
     ] {
-        let surface = indenters::rough::SelfAffine {
+        let surface = SelfAffine {
             period: [1.0; 2],
             hurst_exponent: *hurst_exponent,
             rms_slope: 0.1,
@@ -234,13 +235,40 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
     }
 }
 
+/// The waves across the motion are up to a million times as soft as all others, so that what comes in beside much tension does not
+/// belong there.
+#[test]
+fn light_contacts_of_fast_dashpots_are_found() {
+    for seed in [0, 3, 4] {
+        let surface = SelfAffine {
+            period: [1.0; 2],
+            hurst_exponent: 0.5,
+            rms_slope: 0.1,
+            longest_wavelength: 0.5,
+            shortest_wavelength: 1.0 / 16.0,
+            roll_off_wavelength: 0.5,
+            seed,
+        };
+        let surface = surface.surface().expect("a surface");
+        let heights = surface.heights([128; 2]).expect("heights");
+        let solved = slide(
+            &unit_square(128),
+            &heights,
+            &prony([1.0, 1.0], &[]),
+            [1e3, 1e4],
+        );
+        let products = solved.expect("a contact").products;
+        assert!(products < 400, "{seed}: {products} products");
+    }
+}
+
 /// Five elements of 128² carry the load; those of the coarser grids are beside gaps so wide that all of them would be lost between
 /// them, and half of the elements be taken for the contact.
 #[cfg(feature = "rough")]
 #[test]
 fn a_light_contact_goes_on_from_the_coarser_grid() {
     let n = 128;
-    let surface = indenters::rough::SelfAffine {
+    let surface = SelfAffine {
         period: [1.0; 2],
         hurst_exponent: 0.8,
         rms_slope: 0.1,
@@ -267,7 +295,7 @@ fn every_contact_on_a_small_grid_is_found() {
         // Evenly spread over all parameters.
         let part = |root: f64| (f64::from(case + 1) * root.sqrt()).fract();
         let shape = [21, 27 + 2 * (case as usize % 5)];
-        let surface = indenters::rough::SelfAffine {
+        let surface = SelfAffine {
             period: [1.0, 0.5 + part(2.0)],
             hurst_exponent: 0.1 + 0.8 * part(3.0),
             rms_slope: 0.1,
@@ -301,7 +329,7 @@ fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
     use numerics::AtMost;
 
     use crate::support::within;
-    let surface = indenters::rough::SelfAffine {
+    let surface = SelfAffine {
         period: [1e-2; 2],
         hurst_exponent: 0.8,
         rms_slope: 0.1,
@@ -429,7 +457,7 @@ fn bars_on_four_elements_per_shortest_wave_hold() {
         .into_iter()
         .enumerate()
     {
-        let surface = indenters::rough::SelfAffine {
+        let surface = SelfAffine {
             period: [1.0; 2],
             hurst_exponent: 0.8,
             rms_slope: 0.1,

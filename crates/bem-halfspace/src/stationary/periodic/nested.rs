@@ -15,6 +15,10 @@ const SMALLEST_EDGE: usize = 32;
 /// Tolerance of a solution that is only a start.
 const COARSE_TOLERANCE: f64 = 1e-4;
 const COARSE_PRODUCTS: usize = 300;
+/// Elements in contact for each one of twice the edges that a guess has at most. Of 300 contacts of a hundred-thousandth to all of the
+/// area one takes 154 products without it and none more than 103 with it, and all of them 5 per cent less; where it holds for four
+/// already, those of a tenth of the area take as much more.
+const MOST_FOR_ONE: usize = 6;
 
 /// Solves the problem with the equations of its grid from a guess on them, or on elements of twice the edges, or from none. The guess
 /// becomes the pressure, and outside the contact the gap, as a negative pressure.
@@ -86,19 +90,25 @@ fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A guess from elements of twice the edges, bilinear between their centres; or the same on all four parts of each, where else
-/// half of what is in contact would be lost because it is a few elements beside wide gaps.
+/// A guess from elements of twice the edges, bilinear between their centres. Only what is in contact there stays so where else too much
+/// would come in around few elements, whose pressures are far larger than the gaps of others; and it is the same on all four parts
+/// of each element where else half of what is in contact would be lost, because it is a few elements beside wide gaps.
 fn doubled(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
     let in_contact = |field: &[f64]| field.iter().filter(|pressure| **pressure > 0.0).count();
-    let fine = interpolated(field, shape, shape.map(|n| 2 * n));
+    let columns = shape[1];
+    let parent = |element: usize| field[element / (4 * columns) * columns + element / 2 % columns];
+    let mut fine = interpolated(field, shape, shape.map(|n| 2 * n));
+    if in_contact(&fine) > MOST_FOR_ONE * in_contact(field) {
+        for (element, pressure) in fine.iter_mut().enumerate() {
+            if parent(element) <= 0.0 {
+                *pressure = pressure.min(0.0);
+            }
+        }
+    }
     if in_contact(&fine) >= 2 * in_contact(field) {
         return fine;
     }
-    let columns = shape[1];
-    let parent = |element: usize| element / (4 * columns) * columns + element / 2 % columns;
-    (0..fine.len())
-        .map(|element| field[parent(element)])
-        .collect()
+    (0..fine.len()).map(parent).collect()
 }
 
 /// A field that repeats itself on another number of elements, bilinear between the centres of its own.
