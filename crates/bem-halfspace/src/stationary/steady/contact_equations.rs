@@ -1,4 +1,4 @@
-//! Loads of either sign that satisfy the contact equations on a given active set, and the depth that goes with them.
+//! Loads of either sign that satisfy the contact equations on a given active set.
 //!
 //! ```text
 //! h + K x − δ = 0  on the contact,      α δ + β Σ x = γ
@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::parallel::reductions::{add, dot, larger};
 use crate::stationary::conjugate_residuals::{minimise, norm};
+use crate::stationary::search::MovingContact;
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
@@ -25,51 +26,107 @@ const LARGEST_MATRIX: usize = 4000;
 /// Directions tried before the iteration gives up; a preconditioned contact needs some tens.
 pub(super) const MOST_DIRECTIONS: usize = 150;
 
-/// The equations of one contact.
+/// The contact of a body, and its equations.
 pub(super) struct ContactEquations<'mesh> {
     mesh: &'mesh Mesh,
     plans: &'mesh mut Plans,
+    /// For the displacements of all elements that may touch.
+    all: Region,
+    product: Product,
     /// The elements in contact, and their loads and gaps.
-    pub(super) contact: Vec<usize>,
-    pub(super) loads: Vec<f64>,
+    contact: Vec<usize>,
+    loads: Vec<f64>,
     gaps: Vec<f64>,
+    /// Contacts so far.
+    pub(super) contacts: usize,
     /// Whether the last contact was factorised; if not, it was solved by iteration.
     pub(super) is_factorised: bool,
 }
 
-impl<'mesh> ContactEquations<'mesh> {
-    pub(super) const fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans) -> Self {
-        Self {
-            mesh,
-            plans,
-            contact: Vec::new(),
-            loads: Vec::new(),
-            gaps: Vec::new(),
-            is_factorised: false,
-        }
+impl MovingContact for ContactEquations<'_> {
+    const REPEATS: bool = false;
+    /// Ten times as much leads to half as many contacts more again, and a tenth longer to the last; a third as much hardly matters.
+    const PARTS_OF_RESIDUAL: [f64; 2] = [0.02, 0.006];
+
+    fn shape(&self) -> [usize; 2] {
+        self.mesh.shape()
     }
 
-    /// Takes the elements of another contact, with the loads and gaps of all.
-    pub(super) fn take(&mut self, contact: &[bool], loads: &[f64], gaps: &[f64]) {
+    fn place(&self, element: usize) -> [usize; 2] {
+        self.mesh.places(element)[0]
+    }
+
+    fn own_displacement(&self) -> f64 {
+        self.mesh.influence(0, 0)
+    }
+
+    /// Residuals are relative to the depth scale.
+    fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64 {
+        moved.copy_from_slice(&self.product.apply(0, pressure, &self.all));
+        1.0
+    }
+
+    fn depth(&self, pressure: &[f64]) -> Option<f64> {
+        let control = self.mesh.loading.control;
+        let total = self.mesh.total_load(pressure.iter().copied().enumerate());
+        (control.depth != 0.0).then(|| (control.right - control.load * total) / control.depth)
+    }
+
+    fn take(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
         let elements = (0..contact.len()).filter(|element| contact[*element]);
         self.contact = elements.collect();
         let listed = |field: &[f64]| self.contact.iter().map(|element| field[*element]).collect();
-        (self.loads, self.gaps) = (listed(loads), listed(gaps));
+        (self.loads, self.gaps) = (listed(pressure), listed(gap));
+        self.contacts += 1;
     }
 
-    /// Root mean square of the gaps.
-    pub(super) fn residual(&self) -> f64 {
+    fn residual(&self) -> f64 {
         norm(&self.gaps) / (self.contact.len() as f64).sqrt()
     }
 
-    /// Solves until the root mean square, or the largest gap, is small enough.
-    pub(super) fn solve(&mut self, mean: f64, largest: f64) {
+    fn solve(&mut self, mean: f64, largest: f64) {
         let region = self.mesh.region(self.contact.iter().copied());
         self.is_factorised = is_factorised(self.contact.len(), region.n_places());
         if self.is_factorised {
             self.factorise();
         } else {
             self.iterate(&region, mean, largest);
+        }
+    }
+
+    fn give(&self, pressure: &mut [f64]) {
+        for (element, load) in self.contact.iter().zip(&self.loads) {
+            pressure[*element] = *load;
+        }
+    }
+
+    fn is_near(&self, _: usize) -> bool {
+        false
+    }
+
+    fn balance(&self, pressure: &mut [f64]) {
+        self.mesh.balance(pressure);
+    }
+
+    fn tried(&self) -> (usize, bool) {
+        let is_too_often = self.contacts >= self.mesh.options.max_iterations;
+        (self.contacts, is_too_often)
+    }
+}
+
+impl<'mesh> ContactEquations<'mesh> {
+    pub(super) fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans) -> Self {
+        let all = mesh.region(0..mesh.n_elements());
+        Self {
+            mesh,
+            product: Product::new(plans.kernel(all.shape), &all),
+            plans,
+            all,
+            contact: Vec::new(),
+            loads: Vec::new(),
+            gaps: Vec::new(),
+            contacts: 0,
+            is_factorised: false,
         }
     }
 
@@ -92,9 +149,8 @@ impl<'mesh> ContactEquations<'mesh> {
 
     fn iterate(&mut self, region: &Region, mean: f64, largest: f64) {
         let mut directions = Directions::new(self, region);
-        let mut added = vec![0.0; self.contact.len() + 1];
-        let unknowns = [&mut added[..], &mut self.gaps];
         let n = self.contact.len() as f64;
+        let unknowns = [&mut self.loads[..], &mut self.gaps];
         minimise(
             unknowns,
             None,
@@ -109,7 +165,6 @@ impl<'mesh> ContactEquations<'mesh> {
                 goes_on
             },
         );
-        add(&mut self.loads, 1.0, &added[..self.contact.len()]);
     }
 }
 
@@ -155,7 +210,7 @@ impl<'a> Directions<'a> {
         }
     }
 
-    /// Loads and depth that about close the gaps and leave the control as it is, and the gaps K x − δ that they add.
+    /// Loads that about close the gaps, with the depth that leaves the control as it is, and the gaps K x − δ that they add.
     fn find(&mut self, gaps: &[f64], [direction, image]: [&mut [f64]; 2]) {
         let control = self.mesh.loading.control;
         let mut loads = self.preconditioner.loads(gaps, self.region);
@@ -166,7 +221,6 @@ impl<'a> Directions<'a> {
         for (place, moved) in image.iter_mut().zip(moved) {
             *place = moved - depth;
         }
-        loads.push(depth);
         direction.copy_from_slice(&loads);
     }
 
