@@ -10,7 +10,7 @@ use crate::BemError;
 use crate::parallel::reductions::larger;
 use crate::stationary::pivots::{Pivots, Violation};
 
-/// Factor by which the least residual is smaller after a contact in vain, up to so many of them.
+/// Factor by which the residual that any contact may have is smaller after one in vain, up to so many of them.
 const FINER: f64 = 0.3;
 const FINEST: i32 = 4;
 /// Penetrations beside the contact below so many root mean squares of the residual in it are not told from it; with 2 or 5 there
@@ -20,7 +20,7 @@ const NOISE: f64 = 3.0;
 const HIDING_RESIDUAL: f64 = 0.3;
 /// Part of the force above which tension is taken away before anything comes into the contact: the gaps beside it say little then. Of
 /// light contacts of dashpots on 128² elements, whose moduli grow up to a million times with the frequency, one in seven is not
-/// found in 3000 products without it, and others take three times as many; with half and twice as much there are as many products.
+/// found in 3000 products without it, and others take three times as many; with a quarter of it there are as many products.
 const TENSE: f64 = 0.2;
 /// Part of the tolerance to which the equations are solved.
 const PART_OF_TOLERANCE: f64 = 0.5;
@@ -71,8 +71,8 @@ pub(crate) struct Search<'a, P> {
     problem: &'a mut P,
     /// Where the gaps are evaluated.
     heights: Vec<f64>,
-    /// Root mean square of the residual to which the equations of a contact are solved at least, unless it is in vain.
-    first_residual: f64,
+    /// Root mean square of the residual that the solution of any contact may have; less after contacts in vain.
+    rough_residual: f64,
     /// Largest residual, relative to [`scale`](Self::scale).
     tolerance: f64,
     pub(crate) contact: Vec<bool>,
@@ -91,7 +91,7 @@ impl<'a, P: MovingContact> Search<'a, P> {
     /// From a guess of the pressure, of which some is positive.
     pub(crate) fn new(
         problem: &'a mut P,
-        (heights, first_residual): (Vec<f64>, f64),
+        (heights, rough_residual): (Vec<f64>, f64),
         tolerance: f64,
         mut pressure: Vec<f64>,
     ) -> Self {
@@ -102,7 +102,7 @@ impl<'a, P: MovingContact> Search<'a, P> {
             gap: vec![0.0; pressure.len()],
             problem,
             heights,
-            first_residual,
+            rough_residual,
             tolerance,
             pressure,
             depth: 0.0,
@@ -132,7 +132,7 @@ impl<'a, P: MovingContact> Search<'a, P> {
             } else {
                 P::PARTS_OF_RESIDUAL[usize::from(grows)]
             };
-            let rough = FINER.powi(pivots.in_vain().min(FINEST)) * self.first_residual;
+            let rough = FINER.powi(pivots.in_vain().min(FINEST)) * self.rough_residual;
             self.problem
                 .solve(rough.min(part * size), PART_OF_TOLERANCE * self.allowed());
             if self.change(grows, &mut pivots) {

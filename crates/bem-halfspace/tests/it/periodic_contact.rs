@@ -12,6 +12,8 @@ use bem_halfspace::{
 };
 use casebook::group;
 
+#[cfg(feature = "rough")]
+use crate::support::random_surface;
 use crate::support::{Pressing, assert_close, assert_near, assert_refused};
 
 const OPTIONS: ContactOptions = ContactOptions {
@@ -284,16 +286,7 @@ fn bars_hold_what_the_outline_leaves_unknown_of_an_area() {
 
     use crate::support::prony;
     for seed in [1, 18, 37] {
-        let surface = SelfAffine {
-            period: [1.0; 2],
-            hurst_exponent: 0.3,
-            rms_slope: 0.1,
-            longest_wavelength: 0.5,
-            shortest_wavelength: 1.0 / 12.0,
-            roll_off_wavelength: 0.25,
-            seed,
-        };
-        let surface = surface.surface().expect("a surface");
+        let surface = random_surface([0.3, 0.25, 1.0 / 12.0], seed);
         let material = prony([1.0, 0.0], &[(5.0, 1.0)]);
         let load = PeriodicLoad::new(0.016, 2.0).expect("a load");
         let [coarse, fine] = [256, 1024].map(|elements| {
@@ -314,16 +307,7 @@ fn a_contact_that_is_hardly_full_has_no_gaps_in_its_bars() {
 
     use crate::support::elastic;
     let modulus = 3.0;
-    let surface = SelfAffine {
-        period: [1.0; 2],
-        hurst_exponent: 0.5,
-        rms_slope: 0.1,
-        longest_wavelength: 0.5,
-        shortest_wavelength: 1.0 / 16.0,
-        roll_off_wavelength: 0.5,
-        seed: 8,
-    };
-    let surface = surface.surface().expect("a surface");
+    let surface = random_surface([0.5, 0.5, 1.0 / 16.0], 8);
     // The pressure E* |q|/2 that closes each wave, E* = 4 G.
     let mut waves = surface.waves().to_vec();
     for wave in &mut waves {

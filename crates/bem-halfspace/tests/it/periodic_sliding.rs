@@ -12,7 +12,8 @@ use rheology::Material;
 use rustfft::num_complex::Complex;
 
 use crate::support::{
-    Pressing, assert_all_close, assert_close, assert_near, assert_refused, elastic, prony, viscous,
+    Pressing, assert_all_close, assert_close, assert_near, assert_refused, elastic, prony,
+    random_surface, viscous,
 };
 
 /// Heights of waves [m, n, a, φ] over a unit square, `copies` of it along x, from `origin` on.
@@ -240,16 +241,7 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
 #[test]
 fn light_contacts_of_fast_dashpots_are_found() {
     for seed in [0, 3, 4] {
-        let surface = SelfAffine {
-            period: [1.0; 2],
-            hurst_exponent: 0.5,
-            rms_slope: 0.1,
-            longest_wavelength: 0.5,
-            shortest_wavelength: 1.0 / 16.0,
-            roll_off_wavelength: 0.5,
-            seed,
-        };
-        let surface = surface.surface().expect("a surface");
+        let surface = random_surface([0.5, 0.5, 1.0 / 16.0], seed);
         let heights = surface.heights([128; 2]).expect("heights");
         let solved = slide(
             &unit_square(128),
@@ -268,16 +260,8 @@ fn light_contacts_of_fast_dashpots_are_found() {
 #[test]
 fn a_light_contact_goes_on_from_the_coarser_grid() {
     let n = 128;
-    let surface = SelfAffine {
-        period: [1.0; 2],
-        hurst_exponent: 0.8,
-        rms_slope: 0.1,
-        longest_wavelength: 0.5,
-        shortest_wavelength: 6.0 / 128.0,
-        roll_off_wavelength: 0.5,
-        seed: 5,
-    };
-    let heights = surface.surface().expect("a surface").heights([n; 2]);
+    let surface = random_surface([0.8, 0.5, 6.0 / 128.0], 5);
+    let heights = surface.heights([n; 2]);
     let material = prony([1.0, 0.0], &[(5e3, 1.0)]);
     let heights = heights.expect("heights");
     let solved = slide(&unit_square(n), &heights, &material, [2e-4, 1e-4]).expect("a contact");
@@ -457,16 +441,7 @@ fn bars_on_four_elements_per_shortest_wave_hold() {
         .into_iter()
         .enumerate()
     {
-        let surface = SelfAffine {
-            period: [1.0; 2],
-            hurst_exponent: 0.8,
-            rms_slope: 0.1,
-            longest_wavelength: 0.5,
-            shortest_wavelength: 1.0 / 31.0,
-            roll_off_wavelength: 0.25,
-            seed: case as u64,
-        };
-        let surface = surface.surface().expect("a surface");
+        let surface = random_surface([0.8, 0.25, 1.0 / 31.0], case as u64);
         let material = prony([1.0, 0.0], &[(ratio - 1.0, 1.0)]);
         let load = PeriodicLoad::new(pressure, 0.01).expect("a load");
         let [coarse, fine] = [128, 512].map(|elements| {

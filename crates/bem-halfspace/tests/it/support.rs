@@ -11,6 +11,7 @@ use bem_halfspace::{
     Footprint, Grid, GridOptions, HistoryPoint, solve_contact,
 };
 pub(crate) use casebook::{Formula, prony};
+use indenters::rough::{PeriodicSurface, SelfAffine};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 #[cfg(feature = "rough")]
 use numerics::AtMost;
@@ -198,6 +199,24 @@ pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
 
 pub(crate) fn cone(slope: f64) -> PowerProfile {
     power(slope, 1.0)
+}
+
+/// A random self-affine surface of unit period and an rms slope of 0.1, with waves from half the period on: Hurst exponent, roll-off
+/// and shortest wave length, and seed.
+pub(crate) fn random_surface(
+    [hurst_exponent, roll_off_wavelength, shortest_wavelength]: [f64; 3],
+    seed: u64,
+) -> PeriodicSurface {
+    let surface = SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent,
+        rms_slope: 0.1,
+        longest_wavelength: 0.5,
+        shortest_wavelength,
+        roll_off_wavelength,
+        seed,
+    };
+    surface.surface().expect("a surface")
 }
 
 pub(crate) fn paraboloid(coefficient: f64) -> PowerProfile {

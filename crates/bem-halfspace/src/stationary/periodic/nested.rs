@@ -16,8 +16,8 @@ const SMALLEST_EDGE: usize = 32;
 const COARSE_TOLERANCE: f64 = 1e-4;
 const COARSE_PRODUCTS: usize = 300;
 /// Elements in contact for each one of twice the edges that a guess has at most. Of 300 contacts of a hundred-thousandth to all of the
-/// area one takes 154 products without it and none more than 103 with it, and all of them 5 per cent less; where it holds for four
-/// already, those of a tenth of the area take as much more.
+/// area one takes 154 products without it and none more than 103 with it, and all of them 5 per cent less; where it always
+/// holds, those of a tenth of the area take as much more.
 const MOST_FOR_ONE: usize = 6;
 
 /// Solves the problem with the equations of its grid from a guess on them, or on elements of twice the edges, or from none. The guess

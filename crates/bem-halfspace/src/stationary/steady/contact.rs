@@ -6,10 +6,10 @@ use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 
-/// Root mean square of the residual of the first contact, as a part of how much the gap opens over an element at the front, and at
-/// most, in units of the depth scale.
+/// Root mean square of the residual that the solution of any contact may have: as a part of how much the gap opens over an element
+/// at the front, and at most, in units of the depth scale.
 const PART_OF_OPENING: f64 = 1e-3;
-const FIRST_RESIDUAL: f64 = 1e-5;
+const MOST_RESIDUAL: f64 = 1e-5;
 
 /// Loads of all elements in contact, all greater than zero, in the units of the mesh.
 pub(super) struct Solution {
@@ -31,7 +31,7 @@ pub(super) fn solve(
     guess: Vec<(usize, f64)>,
 ) -> Result<Solution, BemError> {
     let heights = (0..mesh.n_elements()).map(|element| mesh.height(element));
-    let surface = (heights.collect(), first_residual(guess.len()));
+    let surface = (heights.collect(), rough_residual(guess.len()));
     let mut loads = vec![0.0; mesh.n_elements()];
     for (element, load) in guess {
         loads[element] = load;
@@ -52,8 +52,8 @@ pub(super) fn solve(
     })
 }
 
-/// That of the first contact, of about so many elements: the gap opens with the power 3/2 of the distance from the front.
-fn first_residual(n_elements: usize) -> f64 {
+/// That of contacts of about so many elements: the gap opens with the power 3/2 of the distance from the front.
+fn rough_residual(n_elements: usize) -> f64 {
     let along = (n_elements as f64).sqrt().max(1.0);
-    FIRST_RESIDUAL.min(PART_OF_OPENING * along.powf(-1.5))
+    MOST_RESIDUAL.min(PART_OF_OPENING * along.powf(-1.5))
 }
