@@ -26,7 +26,7 @@ use std::f64::consts::PI;
 
 use indenters::Cylinder;
 use numerics::{in_range, integrate, positive};
-use rheology::Material;
+use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
@@ -78,6 +78,7 @@ pub fn cylinder_sliding(
     material: &dyn Material,
     contact: LineContact,
 ) -> Result<CylinderSliding, FrictionError> {
+    check_spectra(material)?;
     let half_length = positive("half_length", contact.half_length)?;
     let velocity = positive("velocity", contact.velocity)?;
     let spectrum = material.relaxation();

@@ -12,7 +12,7 @@
 
 use indenters::{Axisymmetric, contact_radius};
 use numerics::positive;
-use rheology::Material;
+use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::axisymmetric::{refuse_divergence, slope_energy};
@@ -54,6 +54,7 @@ pub fn low_speed_friction(
     solid: &dyn Material,
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
+    check_spectra(solid)?;
     let depth = checked_depth(body, contact)?;
     let radius = contact.contact_radius;
     refuse_divergence(body, [-radius, radius], depth)?;
@@ -80,6 +81,7 @@ pub fn high_speed_friction(
     solid: &dyn Material,
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
+    check_spectra(solid)?;
     let depth = checked_depth(body, contact)?;
     let moment = known_moment(body, contact.contact_radius)?;
     let relaxation = solid.relaxation();

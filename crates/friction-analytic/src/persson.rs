@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use numerics::{
     Estimate, between_zero_and_one, in_range, integrate_from_ends, not_negative, positive,
 };
-use rheology::{Material, RelaxationSpectrum};
+use rheology::{Material, RelaxationSpectrum, check_spectra};
 
 use crate::error::representable;
 use crate::{FrictionError, SurfaceWave};
@@ -265,6 +265,7 @@ struct Sliding {
 
 impl Sliding {
     fn new(material: &dyn Material, load: RoughLoad) -> Result<Self, FrictionError> {
+        check_spectra(material)?;
         let mean_pressure = positive("mean_pressure", load.mean_pressure)?;
         Ok(Self {
             relaxation: material.relaxation(),

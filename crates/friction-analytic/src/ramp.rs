@@ -9,7 +9,7 @@
 
 use indenters::PowerProfile;
 use numerics::positive;
-use rheology::Material;
+use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
@@ -38,6 +38,7 @@ pub fn ramp_force(
     material: &dyn Material,
     ramp: DepthRamp,
 ) -> Result<f64, FrictionError> {
+    check_spectra(material)?;
     let depth = positive("indentation_depth", ramp.indentation_depth)?;
     let time = positive("time", ramp.time)?;
     let p = profile.exponent();

@@ -14,7 +14,7 @@
 //! disturb each other; see Persson (2001), J. Chem. Phys. 115, 3840.
 
 use numerics::{in_range, positive};
-use rheology::{ComplexModulus, Material};
+use rheology::{ComplexModulus, Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
@@ -50,6 +50,7 @@ pub struct FullContact {
 /// [`FrictionError::InvalidParameter`] when a number of the line is not finite and greater than zero,
 /// [`FrictionError::OutOfRange`] when the friction overflows or underflows, as on an elastic material.
 pub fn wavy_sliding(line: WavyLine, material: &dyn Material) -> Result<FullContact, FrictionError> {
+    check_spectra(material)?;
     let amplitude = positive("amplitude", line.amplitude)?;
     let wave_number = std::f64::consts::TAU / positive("wavelength", line.wavelength)?;
     let frequency = positive("angular frequency", wave_number * line.velocity)?;
@@ -110,6 +111,7 @@ pub fn wavy_surface_sliding(
 ) -> Result<WavySliding, FrictionError> {
     positive("number of waves", waves.len() as f64)?;
     positive("velocity", velocity)?;
+    check_spectra(material)?;
     refuse_repeated(waves)?;
     let [mut stress, mut pressure] = [0.0; 2];
     for wave in waves {

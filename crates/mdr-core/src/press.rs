@@ -9,7 +9,7 @@
 
 use indenters::{Control, PressingLoad, RigidLine};
 use numerics::{Estimate, between_zero_and_one};
-use rheology::{Elastic, Material};
+use rheology::{Elastic, Material, check_spectra};
 
 use crate::MdrError;
 use crate::steady::{LineProblem, SteadySliding};
@@ -42,6 +42,7 @@ pub fn press(
     control: Control,
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
+    check_spectra(material)?;
     let modulus = material.relaxation().equilibrium_modulus();
     if modulus == 0.0 {
         return Err(MdrError::NoEquilibrium);
@@ -63,6 +64,7 @@ pub fn indent(
     load: &PressingLoad,
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
+    check_spectra(material)?;
     let (control, time) = (load.control(), load.duration());
     let compliance = material.creep_compliance(time)?;
     let modulus = (material.half_space_factor() * compliance).recip();

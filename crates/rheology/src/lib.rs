@@ -51,7 +51,7 @@ pub use fractional::PronyExpansion;
 pub use fractional::fractional_maxwell::{FractionalMaxwell, FractionalMaxwellParameters};
 pub use fractional::springpot::Springpot;
 pub use layer::{layer_deficit, layer_factor};
-pub use material::Material;
+pub use material::{Material, check_spectra};
 pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
 pub use materials::generalised::{Compressible, Prony};
 pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};

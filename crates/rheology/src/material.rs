@@ -3,12 +3,14 @@
 use std::fmt::Debug;
 
 use auto_impl::auto_impl;
+use numerics::{InvalidParameter, in_range};
 
 use crate::{ComplexCompliance, ComplexModulus, CreepSpectrum, RelaxationSpectrum, RheologyError};
 
 /// A linear viscoelastic material with a constant Poisson ratio.
 ///
-/// Both spectra describe the same shear: s Ĝ(s) · s Ĵ(s) = 1. Ask for the spectrum once if you need many values.
+/// Both spectra describe the same shear: s Ĝ(s) · s Ĵ(s) = 1, which the solvers check by [`check_spectra`]. Ask for the spectrum
+/// once if you need many values.
 #[auto_impl(&, Box, Arc)]
 pub trait Material: Debug + Send + Sync {
     /// How stress relaxes at constant strain.
@@ -69,4 +71,49 @@ pub trait Material: Debug + Send + Sync {
     fn loss_tangent(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
         self.relaxation().loss_tangent(angular_frequency)
     }
+}
+
+/// Largest |G*(ω) J*(ω) − 1| of two spectra that describe the same material. Conversions between them are exact to 1e-9.
+const MAX_CONTRADICTION: f64 = 1e-6;
+
+/// Refuses a material whose [`relaxation`](Material::relaxation) and [`creep`](Material::creep) contradict each other.
+///
+/// The product of complex modulus and complex compliance is 1 at every angular frequency. It is formed at the inverse of each
+/// relaxation and retardation time, and a thousand times below and above all of them; where it leaves the range of f64 nothing is
+/// said.
+///
+/// # Errors
+/// [`InvalidParameter`] with the largest deviation of the product from 1 that was found.
+pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidParameter> {
+    let (relaxation, creep) = (material.relaxation(), material.creep());
+    let branches = relaxation.branches().iter();
+    let elements = creep.elements().iter();
+    let times = branches
+        .map(|branch| branch.relaxation_time)
+        .chain(elements.map(|element| element.retardation_time));
+    let mut frequencies: Vec<f64> = times.map(f64::recip).collect();
+    if frequencies.is_empty() {
+        frequencies.push(1.0);
+    }
+    let lowest = frequencies.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = frequencies.iter().copied().fold(0.0, f64::max);
+    frequencies.extend([1e-3 * lowest, 1e3 * highest]);
+    let mut largest = 0.0_f64;
+    for frequency in frequencies {
+        let modulus = relaxation.complex_modulus(frequency);
+        let compliance = creep.complex_compliance(frequency);
+        let (Ok(modulus), Ok(compliance)) = (modulus, compliance) else {
+            continue;
+        };
+        // (G' + i G'') (J' − i J'').
+        let real = modulus.storage * compliance.storage + modulus.loss * compliance.loss;
+        let imaginary = modulus.loss * compliance.storage - modulus.storage * compliance.loss;
+        let deviation = (real - 1.0).hypot(imaginary);
+        if deviation.is_finite() {
+            largest = largest.max(deviation);
+        }
+    }
+    let parameter = "largest |G*(ω) J*(ω) - 1| of relaxation() and creep()";
+    let allowed = "at most 1e-6: both spectra must describe the same material (to_creep and to_relaxation make one of the other)";
+    in_range(parameter, largest, largest <= MAX_CONTRADICTION, allowed).map(drop)
 }

@@ -22,7 +22,7 @@ use std::ops::Range;
 
 use indenters::{Control, Surface};
 use numerics::positive;
-use rheology::{CreepSpectrum, ExponentialStep, Material as _};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _, check_spectra};
 
 use crate::contact::{ContactBox, check_heights};
 use crate::elements::bounds::Bounds;
@@ -76,6 +76,7 @@ impl<'a> March<'a> {
         let [along_x, along_y] = surface.mirrors();
         let layout = options.layout([along_x && route.rests(), along_y])?;
         let [dx, dy] = options.spacing;
+        check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let time_step = route.legs[0].time_step;
         let step = ExponentialStep::creep(&creep, time_step)?;

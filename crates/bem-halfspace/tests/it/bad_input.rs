@@ -11,7 +11,7 @@ use bem_halfspace::{
 };
 use indenters::{Cylinder, FlatPunch, PressingLoad, Sphere, Surface};
 use numerics::{Accuracy, InWords};
-use rheology::Prony;
+use rheology::{CreepSpectrum, Material, Prony, RelaxationSpectrum};
 
 use crate::support::{
     Formula, Pressing, Scene, after, assert_refused, at_depth, motions, paraboloid, power, prony,
@@ -298,4 +298,40 @@ fn motions_out_of_range_are_refused() {
     let nowhere = Formula::new([false; 2], |_| (f64::INFINITY, [0.0; 2]));
     let march = March::new(&nowhere, &material, &good[..1], &options).map(|_| ());
     assert_refused("no body", march, "height of the surface");
+}
+
+/// A material that relaxes as a solid and creeps as a spring.
+#[derive(Debug)]
+struct Contradictory;
+
+impl Material for Contradictory {
+    fn relaxation(&self) -> RelaxationSpectrum {
+        solid().relaxation()
+    }
+
+    fn creep(&self) -> CreepSpectrum {
+        CreepSpectrum::new(1.0, 0.0, Vec::new()).expect("a spring")
+    }
+}
+
+#[test]
+fn materials_with_contradictory_spectra_are_refused() {
+    let (grid, name) = (
+        Accuracy::Elements(16),
+        "largest |G*(ω) J*(ω) - 1| of relaxation() and creep()",
+    );
+    let (body, force) = (paraboloid(0.5), under_force(1.0, 1.0));
+    let pressed = press(&body, &Contradictory, FORCE, grid);
+    assert_refused("pressing", pressed, name);
+    let load = PressingLoad::new(FORCE, 1.0).expect("a load");
+    assert_refused(
+        "indenting",
+        indent(&body, &Contradictory, &load, grid),
+        name,
+    );
+    assert_refused("marching", slide(&body, &Contradictory, &force, 1e-2), name);
+    assert_refused("sliding", steady(&body, &Contradictory, &force, 1e-2), name);
+    let cylinder = Cylinder::new(1.0).expect("a body");
+    let line = steady_line(&cylinder, &Contradictory, &force, 1e-2);
+    assert_refused("a line", line, name);
 }

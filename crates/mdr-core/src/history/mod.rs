@@ -19,7 +19,7 @@ mod work;
 
 use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{Estimate, between_zero_and_one, finite, in_range, not_negative, positive};
-use rheology::Material;
+use rheology::{Material, check_spectra};
 
 pub use self::derivatives::{ForceDerivatives, force_derivatives};
 pub use self::work::work_along;
@@ -114,6 +114,7 @@ pub fn indent_along(
     }
     // As a pointer to it, a material of any size is one that can be an object.
     let material: &dyn Material = &material;
+    check_spectra(material)?;
     let curve = match history[0].control {
         Control::IndentationDepth(_) => along_depth(body, material, &points, options)?,
         Control::NormalForce(_) => Pressed {

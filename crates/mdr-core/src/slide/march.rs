@@ -9,7 +9,7 @@
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::positive;
-use rheology::{CreepSpectrum, ExponentialStep, Material};
+use rheology::{CreepSpectrum, ExponentialStep, Material, check_spectra};
 
 use super::on_grid::SlideRow;
 use super::unresolved::{Fast, LastStep};
@@ -75,6 +75,7 @@ impl ChainMarch {
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         load.require_fresh_ground()?;
+        check_spectra(material)?;
         let (n_elements, spacing) = (sampled.heights.len(), sampled.spacing);
         let (time_step, creep) = (spacing / load.velocity(), material.creep());
         let step = ExponentialStep::creep(&creep, time_step)?;

@@ -8,7 +8,7 @@
 //! into eigenvectors: with the relaxation times as poles, both directions are sums over 1/(L_k − l_i).
 
 use numerics::positive;
-use rheology::Material;
+use rheology::{Material, check_spectra};
 
 use super::branch::{BranchStress, MAX_TERMS, branch_stress};
 use super::legendre::{derivative, square_integral, start_value, value};
@@ -89,6 +89,7 @@ pub(super) struct Recovery {
 impl Foundation {
     /// The foundation of a line that moves with `velocity` \[m/s].
     pub(crate) fn new(material: &dyn Material, velocity: f64) -> Result<Self, MdrError> {
+        check_spectra(material)?;
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let factor = material.half_space_factor();
         let dashpot = relaxation.viscosity() * velocity / factor;

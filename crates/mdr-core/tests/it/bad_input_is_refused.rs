@@ -3,7 +3,7 @@
 use casebook::{NOT_POSITIVE, assert_close, assert_matches, refuses};
 use indenters::{EquivalentLine, RigidLine, SlidingLoad};
 use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
-use rheology::Maxwell;
+use rheology::{CreepSpectrum, Elastic, Material, Maxwell, RelaxationSpectrum};
 
 use crate::support::{
     ASKED, DEPTH, Line, VISCOSITY, endless, load, load_for_depth, material, power,
@@ -147,4 +147,31 @@ fn loads_of_another_method_are_refused() {
     let short = load(1.0, 1.0).after(1.0).expect("a load");
     let result = steady(&line, &material(VISCOSITY), &short, ASKED);
     assert_matches!(result, Err(MdrError::Indenter(_)));
+}
+
+/// A material that relaxes as a fluid and creeps as a spring.
+#[derive(Debug)]
+struct Contradictory;
+
+impl Material for Contradictory {
+    fn relaxation(&self) -> RelaxationSpectrum {
+        Maxwell::new(1.0, 1.0).expect("a fluid").relaxation()
+    }
+
+    fn creep(&self) -> CreepSpectrum {
+        Elastic::new(1.0).expect("a spring").creep()
+    }
+}
+
+#[test]
+fn materials_with_contradictory_spectra_are_refused() {
+    let (body, load) = (power(2.0), load_for_depth(DEPTH));
+    let line = EquivalentLine(&body);
+    let refused = [
+        steady(&line, &Contradictory, &load, 1e-2).expect_err("stationary"),
+        slide_on_grid(&line, &Contradictory, &load, &GOOD).expect_err("a march"),
+    ];
+    for refused in refused.map(|refused| refused.to_string()) {
+        assert!(refused.contains("relaxation() and creep()"), "{refused}");
+    }
 }

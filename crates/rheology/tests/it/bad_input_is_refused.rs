@@ -2,8 +2,8 @@ use casebook::{NEGATIVE, NOT_POSITIVE, fixed_cases, refused, refuses, standard_s
 use proptest::prelude::*;
 use rheology::{
     ArrheniusShift, Compressible, CreepSpectrum, Elastic, ExponentialStep, KelvinVoigt, Material,
-    Maxwell, RelaxationBranch, RelaxationSpectrum, RetardationElement, RheologyError, Springpot,
-    Viscous, WlfShift,
+    Maxwell, Prony, RelaxationBranch, RelaxationSpectrum, RetardationElement, RheologyError,
+    Springpot, StandardSolid, Viscous, WlfShift, check_spectra,
 };
 
 use crate::support::{assert_same, fractional_maxwell, solid};
@@ -179,5 +179,58 @@ proptest! {
             }
             prop_assert!(answers.iter().all(|x| !x.is_nan()), "{:?}: {:?}", solid, answers);
         }
+    }
+}
+
+/// A material that relaxes as one solid and creeps as another.
+#[derive(Debug)]
+struct Contradictory {
+    relaxing: StandardSolid,
+    creeping: StandardSolid,
+}
+
+impl Material for Contradictory {
+    fn relaxation(&self) -> RelaxationSpectrum {
+        self.relaxing.relaxation()
+    }
+
+    fn creep(&self) -> CreepSpectrum {
+        self.creeping.creep()
+    }
+}
+
+#[test]
+fn spectra_that_contradict_each_other_are_refused() {
+    let one = standard_solid([1.0, 10.0, 1.0]).unwrap();
+    let branches = (0..60).map(|n| {
+        let decades = f64::from(n) / 3.0 - 10.0;
+        RelaxationBranch::new(10_f64.powf(-0.3 * decades), 10_f64.powf(decades))
+    });
+    let broad = RelaxationSpectrum::new(1e-3, 0.0, branches.collect()).unwrap();
+    let right: [Box<dyn Material>; 7] = [
+        Box::new(Elastic::new(1e150).unwrap()),
+        Box::new(Viscous::new(1e-150).unwrap()),
+        Box::new(KelvinVoigt::new(2.0, 3.0).unwrap()),
+        Box::new(Maxwell::new(2.0, 3e9).unwrap()),
+        Box::new(one),
+        Box::new(Compressible::new(&one, 0.3).unwrap()),
+        Box::new(Prony::new(broad).unwrap()),
+    ];
+    for material in right {
+        let found = check_spectra(&material);
+        assert!(found.is_ok(), "{material:?}: {found:?}");
+    }
+    for factor in [1.0 + 1e-5, 10.0] {
+        let wrong = Contradictory {
+            relaxing: one,
+            creeping: standard_solid([factor, 10.0, 1.0]).unwrap(),
+        };
+        let refused = check_spectra(&wrong)
+            .expect_err("two materials")
+            .to_string();
+        assert!(
+            refused.contains("both spectra must describe the same material"),
+            "{refused}"
+        );
     }
 }

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
 use numerics::{ErrorParts, FIRST_ELEMENTS, Goal, Request, positive};
-use rheology::{Compressible, Elastic, Material as _};
+use rheology::{Compressible, Elastic, Material as _, check_spectra};
 
 use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
@@ -201,6 +201,7 @@ pub(super) struct Spring {
 impl Spring {
     fn at_rest(elastomer: &(impl Elastomer + ?Sized)) -> Result<Self, BemError> {
         let material = elastomer.material();
+        check_spectra(&material)?;
         let modulus = material.relaxation().equilibrium_modulus();
         if modulus == 0.0 {
             return Err(BemError::NoEquilibrium);
@@ -241,6 +242,7 @@ impl Spring {
         load: &PressingLoad,
     ) -> Result<Self, BemError> {
         let material = elastomer.material();
+        check_spectra(&material)?;
         let (factor, duration) = (material.half_space_factor(), load.duration());
         let is_elastic = material.creep().is_elastic();
         match load.control() {

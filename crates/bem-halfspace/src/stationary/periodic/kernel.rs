@@ -11,7 +11,7 @@
 use std::f64::consts::PI;
 
 use numerics::positive;
-use rheology::{CreepSpectrum, Material as _};
+use rheology::{CreepSpectrum, Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::stationary::periodic::waves::Waves;
@@ -32,6 +32,7 @@ impl Sliding {
         elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
+        check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         if creep.fluidity() > 0.0 {
             return Err(BemError::FlowsUnderWaves);

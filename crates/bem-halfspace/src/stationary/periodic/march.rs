@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use rheology::{CreepSpectrum, ExponentialStep, Material as _};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::elements::area;
@@ -168,6 +168,7 @@ impl<'a> PeriodicMarch<'a> {
         time_step: f64,
     ) -> Result<Self, BemError> {
         let n = grid.n_elements();
+        check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let step = ExponentialStep::creep(&creep, time_step)?;
         let convolution = Convolution::periodic_on(elastomer, grid);

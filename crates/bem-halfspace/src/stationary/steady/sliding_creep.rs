@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 use indenters::SlidingLoad;
 use numerics::positive;
-use rheology::{ComplexCompliance, CreepSpectrum, Material as _};
+use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
 
 use crate::{Base, BemError, Elastomer};
 
@@ -100,6 +100,7 @@ impl SlidingCreep {
         velocity: f64,
     ) -> Result<Self, BemError> {
         let (material, base) = (elastomer.material(), elastomer.base());
+        check_spectra(&material)?;
         let spectrum = material.creep();
         base.check_flow(spectrum.fluidity())?;
         Ok(Self {

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use indenters::rough::PeriodicSurface;
 use indenters::{Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep};
 use numerics::{Accuracy, ErrorParts, Goal, KEPT_STATES, Request, refine};
-use rheology::Material as _;
+use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::motions::moving::{
@@ -206,6 +206,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
     ) -> Result<Self, BemError> {
         let (relaxation, creep) = {
             let material = elastomer.material();
+            check_spectra(&material)?;
             (material.relaxation(), material.creep())
         };
         if load.is_cycle() && creep.fluidity() > 0.0 {
