@@ -11,8 +11,8 @@ use numerics::{Accuracy, Estimate};
 const SHAPE: [usize; 2] = [64, 48];
 /// Relative step of the differences.
 const STEP: f64 = 1e-6;
-/// Height, a modulus, its time, Poisson ratio, thickness, load, velocity.
-const NAMES: [&str; 7] = [
+/// Height, a modulus, its time, Poisson ratio, thickness, load, velocity, and the periods along both axes.
+const NAMES: [&str; 9] = [
     "height",
     "modulus",
     "time",
@@ -20,8 +20,10 @@ const NAMES: [&str; 7] = [
     "thickness",
     "load",
     "velocity",
+    "period along x",
+    "period along y",
 ];
-type Factors = [f64; 7];
+type Factors = [f64; 9];
 
 #[derive(Clone, Copy)]
 enum Held {
@@ -46,7 +48,11 @@ impl Case {
             roll_off_wavelength: 0.6,
             seed: 3,
         };
-        surface.surface().expect("a surface")
+        let surface = surface.surface().expect("a surface");
+        // The same waves on stretched periods.
+        let [length, width] = surface.period();
+        let period = [length * factors[7], width * factors[8]];
+        PeriodicSurface::new(period, surface.waves().to_vec()).expect("a surface")
     }
 
     fn material(&self, factors: &Factors) -> Compressible {
@@ -93,14 +99,14 @@ impl Case {
 
 fn changed(case: &Case, near: &PeriodicSensitivity, index: usize) -> Change<Estimate> {
     let ends = [-STEP, STEP].map(|step| {
-        let mut factors = [1.0; 7];
+        let mut factors = [1.0; 9];
         factors[index] += step;
         factors
     });
     let materials = ends.each_ref().map(|factors| case.material(factors));
     let velocities = ends.map(|factors| factors[6]);
     let change = match NAMES[index] {
-        "height" => {
+        "height" | "period along x" | "period along y" => {
             let [from, to] = ends.map(|factors| case.surface(&factors));
             near.between_surfaces([&from, &to])
         }
@@ -149,7 +155,7 @@ fn start(shape: [usize; 2]) -> PressureField {
 }
 
 fn near(case: &Case) -> PeriodicSensitivity {
-    let ones = [1.0; 7];
+    let ones = [1.0; 9];
     let (surface, material) = (case.surface(&ones), case.material(&ones));
     let layer = Layer::new(&material, case.thickness).expect("a layer");
     PeriodicSensitivity::new(&surface, &layer, &case.load(&ones), &start(SHAPE))
@@ -193,7 +199,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
             .map(|index| {
                 let got = values(&changed(case, &near, index)).map(|change| change / STEP);
                 let ends = [-STEP, STEP].map(|step| {
-                    let mut factors = [1.0; 7];
+                    let mut factors = [1.0; 9];
                     factors[index] += step;
                     case.solved(&factors)
                 });
@@ -212,7 +218,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
                 .fold(0.0, f64::max);
             for (row, name) in rows.iter().zip(NAMES) {
                 let [expected, got] = row[quantity];
-                let moves = ["modulus", "time", "velocity"].contains(&name);
+                let moves = ["modulus", "time", "velocity", "period along x"].contains(&name);
                 let allowed = if moves { 2e-3 } else { 1e-5 } * largest + 1e-9;
                 assert!(
                     (got - expected).abs() < allowed,
@@ -259,7 +265,7 @@ fn derivatives_by_frequencies_add_up_to_the_unit_of_stress() {
 fn derivatives_of_areas_are_those_of_counted_ones() {
     const WIDE: f64 = 1.3;
     let case = &CASES[0];
-    let ones = [1.0; 7];
+    let ones = [1.0; 9];
     let near = {
         let (surface, material) = (case.surface(&ones), case.material(&ones));
         PeriodicSensitivity::new(&surface, &material, &case.load(&ones), &start([256; 2]))
@@ -273,9 +279,10 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
             &case.load(factors),
             Accuracy::Elements(512),
         );
-        found.expect("an answer").area_fraction
+        let [length, width] = surface.period();
+        found.expect("an answer").area_fraction * (length * width)
     };
-    for index in [0, 1, 2, 5, 6] {
+    for index in [0, 1, 2, 5, 6, 7, 8] {
         let got = changed(case, &near, index).contact_area.expect("an area") * (0.5 / STEP);
         let ends = [WIDE.recip(), WIDE].map(|factor| {
             let mut factors = ones;

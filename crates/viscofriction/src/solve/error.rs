@@ -86,8 +86,8 @@ pub enum SolveError {
     },
     /// An answer whose derivatives are not known.
     #[error(
-        "{} knows no derivatives of this answer; stationary sliding of a single body or a cylinder has some by bem-steady, and \
-         what closed forms and mdr-steady know to {EXACT:e}",
+        "{} knows no derivatives of this answer; stationary sliding has some by bem-steady, and so have slow sliding and \
+         whatever closed forms and mdr-steady know to {EXACT:e}",
         method.name()
     )]
     NoSensitivity {

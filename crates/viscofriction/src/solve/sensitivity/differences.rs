@@ -1,4 +1,4 @@
-//! Differences of answers that are exact to rounding.
+//! Differences of answers of closed forms: exact to rounding, or series that end after a few terms.
 
 use numerics::{Estimate, Unwatched};
 
@@ -33,13 +33,26 @@ const FROM_BELOW: [Point; 7] = [
     (-6, [1.0 / 6.0, 0.0]),
 ];
 
+/// What the errors of the answers are, which decides what they do to a difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Values {
+    /// Rounding, which differs from answer to answer.
+    Exact,
+    /// The terms behind the last one of a series in powers of the speed, which change as smoothly as the answer.
+    TruncatedSeries,
+}
+
+/// Largest power of a number of the scene in the terms that a series of slow sliding leaves out: they go with (v τ/a)³ at most,
+/// in which a is no steeper than the third root of a load, a modulus or a length.
+const LARGEST_OMITTED_POWER: f64 = 4.0;
+
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
-    method: Method,
+    values: Values,
     answer: &Answer,
 ) -> Result<Vec<Sensitivity>> {
     let all = all.iter();
-    all.map(|number| sensitivity(numbers, number, method, answer))
+    all.map(|number| sensitivity(numbers, number, values, answer))
         .collect()
 }
 
@@ -47,14 +60,14 @@ pub(super) fn sensitivities(
 fn sensitivity(
     numbers: &Numbers,
     number: &Number,
-    method: Method,
+    values: Values,
     answer: &Answer,
 ) -> Result<Sensitivity> {
     let at = |points: &[Point], side: f64| -> Result<Vec<(Answer, [f64; 2])>> {
         let solved = |&(steps, weights): &Point| {
             let value = number.value * (side * STEP * f64::from(steps)).exp();
             let weights = weights.map(|weight| side * weight);
-            Ok((solved(numbers, number, method, value)?, weights))
+            Ok((solved(numbers, number, answer.method, value)?, weights))
         };
         points.iter().rev().map(solved).collect()
     };
@@ -62,8 +75,16 @@ fn sensitivity(
         .or_else(|_| at(&FROM_BELOW, 1.0))
         .or_else(|_| at(&FROM_BELOW, -1.0))?;
     let of = |quantity: fn(&Answer) -> Option<Estimate>| {
-        quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
-        difference(&points, quantity)
+        let known = quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
+        match values {
+            Values::Exact => difference(&points, |answer| quantity(answer)),
+            Values::TruncatedSeries => {
+                let truncation = LARGEST_OMITTED_POWER * known.error / known.value.abs();
+                let without_error =
+                    |answer: &Answer| Some(Estimate::exact(quantity(answer)?.value));
+                Some(difference(&points, without_error)?.widened(truncation))
+            }
+        }
     };
     Ok(Sensitivity {
         parameter: number.path(),
@@ -77,7 +98,7 @@ fn sensitivity(
 /// The derivative of the logarithm of a quantity; both orders differ by what the fourth one leaves out.
 fn difference(
     points: &[(Answer, [f64; 2])],
-    quantity: fn(&Answer) -> Option<Estimate>,
+    quantity: impl Fn(&Answer) -> Option<Estimate>,
 ) -> Option<Estimate> {
     let (mut slopes, mut error) = ([0.0; 2], 0.0);
     for (answer, weights) in points {

@@ -9,17 +9,20 @@ mod spectral;
 
 use std::path::Path;
 
-use numerics::Estimate;
+use numerics::{Estimate, Unwatched};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
 use super::modulus_error::PER_MODULUS;
+use super::plan::Plan;
 use super::problem::{Motion, Problem};
+use super::work::work;
 use crate::files::ReadFile;
-use crate::scene::{Method, Scene};
+use crate::scene::{Method, Model, Scene};
 use budget::budget;
 pub use budget::{Budget, Source, Uncertainties};
+use differences::Values;
 use parameters::TEMPERATURE;
 pub(super) use parameters::check_uncertainties;
 pub(crate) use parameters::{Number, Numbers};
@@ -51,8 +54,11 @@ pub struct Sensitivity {
 /// An answer with its derivatives by all numbers of its scene that are moduli, times, ratios, loads, speeds or lengths, and with
 /// what the covariance of its material and the uncertainties of the scene make of it, where there are some.
 ///
+/// Where the scene names no method and the cheapest one has no derivatives, the answer becomes that of boundary elements, which
+/// have them.
+///
 /// # Errors
-/// [`SolveError::NoSensitivity`] for methods and motions without.
+/// [`SolveError::NoSensitivity`] for methods and motions without, and the errors of [`Plan::solve`].
 pub fn with_sensitivity(
     scene: &Scene,
     (folder, read): (&Path, ReadFile),
@@ -60,20 +66,16 @@ pub fn with_sensitivity(
     answer: Answer,
 ) -> Result<Answer> {
     let numbers = Numbers::new(scene, folder, read)?;
-    let asked = answer.requested_quantity();
-    let is_exact = asked.error <= EXACT * asked.value.abs();
     let all = numbers.all().into_iter();
     let all: Vec<Number> = all.chain(numbers.uncertain_temperature()).collect();
-    let mut sensitivity = match (answer.method, problem.motion()) {
-        (Method::BemSteady, Motion::Sliding(load)) => {
-            adjoint::sensitivities((&numbers, &all), problem, &load, &answer)
+    let (answer, mut sensitivity) = match sensitivities((&numbers, &all), problem, &answer) {
+        Err(none @ SolveError::NoSensitivity { .. }) => {
+            let answer = answer_with_derivatives(problem, answer.method).ok_or(none)??;
+            let found = sensitivities((&numbers, &all), problem, &answer)?;
+            (answer, found)
         }
-        (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
-        (Method::Analytic | Method::MdrSteady, _) if is_exact => {
-            differences::sensitivities((&numbers, &all), answer.method, &answer)
-        }
-        (method, _) => Err(SolveError::NoSensitivity { method }),
-    }?;
+        found => (answer, found?),
+    };
     // A series changes with a number as its law does, but for the ripple around the law that is in its error.
     let series = PER_MODULUS * problem.modulus_error();
     sensitivity.iter_mut().for_each(|one| one.widen(series));
@@ -86,6 +88,50 @@ pub fn with_sensitivity(
         budget,
         ..answer
     })
+}
+
+/// The derivatives by all numbers, by the means of the method of the answer.
+fn sensitivities(
+    (numbers, all): (&Numbers, &[Number]),
+    problem: &Problem,
+    answer: &Answer,
+) -> Result<Vec<Sensitivity>> {
+    let method = answer.method;
+    let asked = answer.requested_quantity();
+    let is_exact = asked.error <= EXACT * asked.value.abs();
+    // The friction of a body that slides slowly over a solid half space is the beginning of a series.
+    let is_series =
+        answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;
+    match (method, problem.motion()) {
+        (Method::BemSteady, Motion::Sliding(load)) => {
+            adjoint::sensitivities((numbers, all), problem, &load, answer)
+        }
+        (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
+        (Method::Analytic | Method::MdrSteady, _) if is_exact => {
+            differences::sensitivities((numbers, all), Values::Exact, answer)
+        }
+        (Method::Analytic, Motion::Sliding(_)) if is_series => {
+            differences::sensitivities((numbers, all), Values::TruncatedSeries, answer)
+        }
+        (method, _) => Err(SolveError::NoSensitivity { method }),
+    }
+}
+
+/// The answer of boundary elements to stationary sliding in the place of one of a cheaper method; `None` if the scene names its
+/// method or they do not answer it.
+fn answer_with_derivatives(problem: &Problem, cheaper: Method) -> Option<Result<Answer>> {
+    let method = Method::BemSteady;
+    let is_free = problem.method().is_none() && cheaper != method;
+    if !is_free || method.model() != Some(problem.model()) {
+        return None;
+    }
+    let work = work(problem, method).ok()?;
+    let plan = Plan {
+        problem,
+        method,
+        work,
+    };
+    Some(plan.solve(&Unwatched))
 }
 
 impl Sensitivity {

@@ -127,17 +127,16 @@ impl PeriodicSensitivity {
         })
     }
 
-    /// The change from one surface to another, both near that of the state and with its periods.
+    /// The change from one surface to another, both near that of the state, under the same mean pressure or at the same depth.
+    ///
+    /// Their periods may differ, as those of a height map with another spacing do: the elements are stretched with them.
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for other periods, and for waves that do not fit on the grids.
+    /// [`BemError::InvalidParameter`] for waves that do not fit on the grids, and [`BemError::Material`].
     pub fn between_surfaces(
         &self,
         surfaces: [&PeriodicSurface; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        for surface in surfaces {
-            check_periods(surface, &self.fine.grid)?;
-        }
         self.change(|state| state.between_surfaces(surfaces))
     }
 
@@ -257,7 +256,31 @@ impl State {
         let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &changes));
         // A depth is that of the mean plane.
         quantities[1] -= lifted;
-        Ok(self.of_all(quantities))
+        let [from, to] = surfaces.map(PeriodicSurface::period);
+        if from == to {
+            return Ok(self.of_all(quantities));
+        }
+        // Stretched elements have another kernel; the heights and pressures of the elements stay.
+        let [from, to] = [from, to].map(|period| self.stretched_grid(period));
+        let (from, to) = (from?, to?);
+        let stretched = self.between_kernels([(&self.sliding, &from), (&self.sliding, &to)])?;
+        let quantities = [0, 1, 2].map(|index| quantities[index] + stretched[index]);
+        let [from, to] = [from, to].map(|grid| grid.element_area());
+        let change = self.of_all(quantities);
+        let n_elements = self.pressure.len() as f64;
+        Ok(Change {
+            normal_force: change
+                .normal_force
+                .map(|force| force + self.mean_pressure * n_elements * (to - from)),
+            contact_area: change.contact_area.map(|area| area + (to / from).ln()),
+            ..change
+        })
+    }
+
+    /// The grid of the state with other periods.
+    fn stretched_grid(&self, period: [f64; 2]) -> Result<Grid, BemError> {
+        let shape = self.grid.shape();
+        Grid::new(shape, [0, 1].map(|axis| period[axis] / shape[axis] as f64))
     }
 
     fn between_materials(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
@@ -270,11 +293,18 @@ impl State {
     }
 
     fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
+        let quantities = self.between_kernels(ends.map(|end| (end, &self.grid)))?;
+        Ok(self.of_all(quantities))
+    }
+
+    /// The changes under the same mean pressure from one kernel to another: those of two materials, or of two grids of the shape
+    /// of this one.
+    fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<Quantities, BemError> {
         let n = self.pressure.len();
         let [mut moved, mut dissipated, mut under_one] = [0; 3].map(|_| vec![0.0; n]);
         let mut depth = 0.0;
-        for (end, sign) in ends.into_iter().zip([-1.0, 1.0]) {
-            let mut kernel = Kernel::new(end, &self.grid)?;
+        for ((sliding, grid), sign) in ends.into_iter().zip([-1.0, 1.0]) {
+            let mut kernel = Kernel::new(sliding, grid)?;
             let mut field = vec![0.0; n];
             // At the centres of the elements.
             kernel.displace_centres(&self.pressure, &mut field);
@@ -283,13 +313,13 @@ impl State {
             add(&mut under_one, sign, &field);
             kernel.dissipate(&self.pressure, &mut field);
             add(&mut dissipated, sign, &field);
-            depth += sign * end.mean_compliance()? * self.mean_pressure;
+            depth += sign * sliding.mean_compliance()? * self.mean_pressure;
         }
         let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &moved));
         quantities[0] += dot(&self.pressure, &dissipated) / self.total();
         quantities[1] += depth;
         quantities[2] += dot(&self.gradients.area_by_bend, &under_one);
-        Ok(self.of_all(quantities))
+        Ok(quantities)
     }
 
     fn by_load(&self) -> Change<f64> {
