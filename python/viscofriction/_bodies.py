@@ -25,6 +25,7 @@ __all__ = [
     "Hyperboloid",
     "Paraboloid",
     "Power",
+    "ProfileFile",
     "Pyramid",
     "Roughness",
     "RoundTippedCone",
@@ -257,6 +258,17 @@ class Superposition(Body):
     def _table(self) -> dict[str, Any]:
         terms = [{"coefficient": c, "exponent": p} for c, p in self.terms]
         return {self._kind: {"terms": terms}}
+
+
+@dataclass(frozen=True)
+class ProfileFile(Body):
+    """A body of revolution whose profile is a CSV file with the columns ``radius_m`` and ``height_m``, linear between its points."""
+
+    file: str | os.PathLike[str]
+    _kind = "table"
+
+    def _table(self) -> dict[str, Any]:
+        return {self._kind: {"file": os.path.abspath(self.file)}}
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,8 @@ mod derivatives;
 mod ensembles;
 mod fit;
 mod friction_fit;
+#[cfg(test)]
+mod kinds;
 mod material;
 mod report;
 mod request;

@@ -357,7 +357,7 @@ const COLOURS: [Colour; 5] = [
 const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
 /// Last parts of keys, with the name, symbol and unit of their quantities.
-const NAMES: [(&str, &str); 21] = [
+const NAMES: [(&str, &str); 25] = [
     ("velocity", "speed v [m/s]"),
     ("normal_force", "normal force F [N]"),
     ("mean_pressure", "mean pressure p [Pa]"),
@@ -368,6 +368,10 @@ const NAMES: [(&str, &str); 21] = [
     ("rms_slope", "rms slope"),
     ("hurst_exponent", "Hurst exponent H"),
     ("shortest_wavelength", "shortest wavelength [m]"),
+    ("longest_wavelength", "longest wavelength [m]"),
+    ("roll_off_wavelength", "roll-off wavelength [m]"),
+    ("direction", "direction [°]"),
+    ("exponent", "exponent"),
     ("sliding_distance", "sliding distance s [m]"),
     ("duration", "duration t [s]"),
     ("viscosity", "viscosity η [Pa s]"),
