@@ -1,6 +1,7 @@
 //! The program `viscofriction`: scenes, sweeps, and materials and surfaces from measurements.
 //!
-//! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
+//! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong; 3 what was computed could not be
+//! written.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod check;
@@ -24,6 +25,7 @@ use clap_complete::Shell;
 pub use viscofriction::WrongInput;
 
 pub use check::{InputKind, check_input};
+use output::NotWritten;
 
 /// Friction of rigid bodies that slide over rubber and other viscoelastic materials.
 #[derive(Debug, Parser)]
@@ -79,24 +81,45 @@ enum Command {
 
 /// Does what the command line asks for.
 pub fn execute() -> ExitCode {
-    let result = match CommandLine::parse().command {
-        Command::Run(options) => run::run(&options),
-        Command::Sweep(options) => sweep::sweep(&options),
-        Command::FitMaterial(options) => material::fit(&options),
-        Command::FitIndentation(options) => indentation::fit(&options),
-        Command::FitFriction(options) => friction::fit(&options),
-        Command::Surface(options) => surface::describe(&options),
-        Command::Road(options) => road::road(&options),
-        Command::SceneSchema => scene_schema(),
-        Command::Completions { shell } => completions(shell),
+    let result = match CommandLine::try_parse() {
+        Ok(line) => line.command.execute(),
+        // Help and the version are output as any other.
+        Err(asked) if !asked.use_stderr() => output::printed(|| asked.print()),
+        Err(wrong) => wrong.exit(),
     };
     match result {
         Err(error) if !output::is_closed_pipe(&error) => {
             output::say(&format!("error: {error:#}"));
-            let wrong_input = error.downcast_ref::<WrongInput>().is_some();
-            ExitCode::from(if wrong_input { 2 } else { 1 })
+            ExitCode::from(status(&error))
         }
         _ => ExitCode::SUCCESS,
+    }
+}
+
+/// The exit status of an error.
+fn status(error: &anyhow::Error) -> u8 {
+    if error.is::<WrongInput>() {
+        2
+    } else if error.is::<NotWritten>() {
+        3
+    } else {
+        1
+    }
+}
+
+impl Command {
+    fn execute(self) -> anyhow::Result<()> {
+        match self {
+            Self::Run(options) => run::run(&options),
+            Self::Sweep(options) => sweep::sweep(&options),
+            Self::FitMaterial(options) => material::fit(&options),
+            Self::FitIndentation(options) => indentation::fit(&options),
+            Self::FitFriction(options) => friction::fit(&options),
+            Self::Surface(options) => surface::describe(&options),
+            Self::Road(options) => road::road(&options),
+            Self::SceneSchema => scene_schema(),
+            Self::Completions { shell } => completions(shell),
+        }
     }
 }
 

@@ -48,7 +48,7 @@ pub(crate) struct FitFriction {
     /// Where findings.csv, fit.csv, fit.svg, fit.png and material.toml are written [default: a table on the standard output].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace files that are in the folder already.
+    /// Replace the answer that is in the folder already, all of its files at once.
     #[arg(long, requires = "out")]
     overwrite: bool,
 }
@@ -76,17 +76,17 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
         pool.install(|| fit_friction(&scene, files, &points, &sought))
     });
     let found = found.map_err(|error| options.refused(&source, error))?;
-    match options.format {
-        Format::Table => print_text(&options.table(&found))?,
-        Format::Json => print_line(&serde_json::to_string_pretty(&found)?)?,
+    // Before anything is printed, because a pipe that is closed ends the program.
+    if let Some(out) = &out {
+        options.write(&found, out)?;
     }
-    let Some(out) = &out else {
-        return Ok(());
-    };
-    options.write(&found, out)?;
-    match options.format {
-        Format::Table => print_line(&format!("written into {}", out.path().display())),
-        Format::Json => Ok(()),
+    match (options.format, &out) {
+        (Format::Json, _) => print_line(&serde_json::to_string_pretty(&found)?),
+        (Format::Table, None) => print_text(&options.table(&found)),
+        (Format::Table, Some(out)) => {
+            print_text(&options.table(&found))?;
+            print_line(&format!("written into {}", out.path().display()))
+        }
     }
 }
 
@@ -105,7 +105,8 @@ impl FitFriction {
         }
     }
 
-    fn write(&self, found: &FittedFriction, out: &OutputFolder) -> Result<()> {
+    fn write(&self, found: &FittedFriction, folder: &OutputFolder) -> Result<()> {
+        let out = folder.begin()?;
         let findings = found.fit.findings.iter();
         let findings = findings.map(|one| (&one.name, one.unit, crate::indentation::numbers(one)));
         let header = "quantity unit value standard_error lower upper";
@@ -133,7 +134,8 @@ impl FitFriction {
         let findings = self.table(found).replace('\n', "\n# ");
         let material = found.material_file()?;
         let material = format!("# {}\n#\n# {findings}\n{material}", self.table.display());
-        out.write("material.toml", material.as_bytes())
+        out.write("material.toml", material.as_bytes())?;
+        out.finish()
     }
 
     /// What was found, and what is doubtful.

@@ -69,7 +69,7 @@ pub(crate) struct FitIndentation {
     /// curves.csv [default: a table on the standard output].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace files that are in the folder already.
+    /// Replace the answer that is in the folder already, all of its files at once.
     #[arg(long, requires = "out")]
     overwrite: bool,
 }
@@ -160,10 +160,10 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let fit = progress::during(format!("fitting {}", file.display()), |_| {
         options.fitted(file, &*body, true)
     })?;
-    print_text(&options.table(&fit))?;
-    let Some(out) = &out else {
-        return Ok(());
+    let Some(folder) = &out else {
+        return print_text(&options.table(&fit));
     };
+    let out = folder.begin()?;
     let findings = fit.findings.iter();
     let findings = findings.map(|one| (&one.name, one.unit, numbers(one)));
     let header = "quantity unit value standard_error lower upper";
@@ -181,7 +181,10 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let material = prony(&spectrum, options.poisson_ratio, &measured, None);
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
-    print_line(&format!("written into {}", out.path().display()))
+    out.finish()?;
+    // After the files, because a pipe that is closed ends the program.
+    print_text(&options.table(&fit))?;
+    print_line(&format!("written into {}", folder.path().display()))
 }
 
 impl FitIndentation {
@@ -244,7 +247,9 @@ fn map(
     let Some(out) = out else {
         return print_text(&String::from_utf8(csv)?);
     };
-    out.write("curves.csv", &csv)?;
+    let new = out.begin()?;
+    new.write("curves.csv", &csv)?;
+    new.finish()?;
     let n_fitted = fits.iter().flatten().count();
     print_line(&format!("{n_fitted} of {} curves fitted", fits.len()))?;
     print_line(&format!("written into {}", out.path().display()))

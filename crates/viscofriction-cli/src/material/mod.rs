@@ -37,7 +37,7 @@ pub(crate) struct FitMaterial {
     /// Where material.toml, fit.csv, fit.svg and fit.png are written [default: material.toml on the standard output].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace files that are in the folder already.
+    /// Replace the answer that is in the folder already, all of its files at once.
     #[arg(long, requires = "out")]
     overwrite: bool,
     /// Poisson ratio, by which E becomes G = E/(2 (1 + ν)).

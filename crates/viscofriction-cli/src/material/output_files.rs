@@ -16,7 +16,8 @@ pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv
 const PER_DECADE: f64 = 30.0;
 
 /// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
-pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
+pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
+    let out = folder.begin()?;
     let comparison = compare(fitted)?;
     let rows = to_csv(comparison.names, &comparison.rows)?;
     out.write("fit.csv", &rows)?;
@@ -29,7 +30,8 @@ pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
         }
     }
     // Last: with it the others are there.
-    out.write("material.toml", material(fitted).as_bytes())
+    out.write("material.toml", material(fitted).as_bytes())?;
+    out.finish()
 }
 
 fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {

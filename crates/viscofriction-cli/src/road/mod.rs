@@ -17,6 +17,7 @@ use crate::output::{
     ABOUT_WARNINGS, OutputFile, markdown, picture as drawn, print_line, say, to_csv,
 };
 use crate::progress;
+use crate::sweep::beside;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
@@ -197,16 +198,20 @@ impl Files {
         let file = |path: &Path| OutputFile::new(path, overwrite);
         Ok(Self {
             csv: file(out)?,
-            svg: file(&out.with_extension("svg"))?,
-            png: file(&out.with_extension("png"))?,
+            svg: file(&beside(out, "svg"))?,
+            png: file(&beside(out, "png"))?,
         })
     }
 
-    /// The rows last: with them the picture is there.
+    /// The rows without an older picture, and then their own: a picture never stands beside other rows.
     fn write(&self, rows: &[Row]) -> Result<()> {
         let (svg, png) = drawn(&picture::figure(rows))?;
-        self.svg.write(svg.as_bytes())?;
-        self.png.write(&png)?;
-        self.csv.write(&to_csv("", rows)?)
+        let csv = self.csv.part(&to_csv("", rows)?)?;
+        let [svg_part, png_part] = [self.svg.part(svg.as_bytes())?, self.png.part(&png)?];
+        self.svg.remove()?;
+        self.png.remove()?;
+        self.csv.put(csv)?;
+        self.svg.put(svg_part)?;
+        self.png.put(png_part)
     }
 }

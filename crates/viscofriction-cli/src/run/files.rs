@@ -11,7 +11,7 @@ use viscofriction::solve::{Answer, Curve, HistoryRow, Problem};
 use super::{Timed, pictures, report, spectrum};
 use viscofriction_plot::Figure;
 
-use crate::output::{OutputFolder, to_csv};
+use crate::output::{NewFiles, OutputFolder, to_csv};
 
 /// All files that an answer may have.
 pub(super) const NAMES: &str = "result.json report.html realisations.csv history.csv history.svg history.png history_over_time.svg history_over_time.png \
@@ -28,9 +28,10 @@ pub(super) type Pictures = Vec<(&'static str, Figure)>;
 pub(super) fn write(
     (source, problem): (&Source, &Problem),
     timed: &Timed<'_>,
-    out: &OutputFolder,
+    folder: &OutputFolder,
 ) -> Result<()> {
     let answer = timed.answer;
+    let out = folder.begin()?;
     let mut pictures = Pictures::new();
     if let Some(spectral) = &answer.spectral_sensitivity {
         let (names, columns): (Vec<String>, Vec<Vec<f64>>) = spectral.columns().into_iter().unzip();
@@ -43,19 +44,20 @@ pub(super) fn write(
     if let Some(ensemble) = &answer.ensemble {
         out.write("realisations.csv", &to_csv("", &ensemble.realisations)?)?;
     }
-    write_pressure(answer, (out, &mut pictures))?;
-    write_line(answer, (out, &mut pictures))?;
-    write_history(answer, (out, &mut pictures))?;
+    write_pressure(answer, (&out, &mut pictures))?;
+    write_line(answer, (&out, &mut pictures))?;
+    write_history(answer, (&out, &mut pictures))?;
     for (name, figure) in &pictures {
         out.draw(name, figure)?;
     }
     let page = report::page((source, problem), timed, &pictures)?;
     out.write("report.html", page.as_bytes())?;
     let result = format!("{}\n", serde_json::to_string_pretty(timed)?);
-    out.write("result.json", result.as_bytes())
+    out.write("result.json", result.as_bytes())?;
+    out.finish()
 }
 
-fn write_pressure(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
+fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
     };
@@ -80,7 +82,7 @@ fn write_pressure(answer: &Answer, (out, pictures): (&OutputFolder, &mut Picture
 }
 
 /// What is known along a line: the name of its files, its column in tables, and its label on axes.
-fn write_line(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
+fn write_line(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     let (load, pressure) = (&answer.fields.line_load, &answer.fields.line_pressure);
     let load = ("line_load", "load_n_per_m", "load per length [N/m]", load);
     let pressure = ("line_pressure", "pressure_pa", "pressure [Pa]", pressure);
@@ -99,7 +101,7 @@ fn write_line(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) 
 }
 
 /// The columns of a curve, each with its errors.
-fn write_columns(curve: &Curve, out: &OutputFolder) -> Result<()> {
+fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
     let Curve { times, columns } = curve;
     let rows = times.iter().enumerate().map(|(index, time)| {
         let known = columns.iter().map(|column| column.values[index]);
@@ -113,7 +115,7 @@ fn write_columns(curve: &Curve, out: &OutputFolder) -> Result<()> {
 }
 
 /// A motion: its points with their errors, and of all steps the friction force over the position and over time.
-fn write_motion(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
+fn write_motion(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     write_columns(&answer.fields.curve, out)?;
     let steps = &answer.fields.motion_steps;
     let force = "tangential force F_t [N]";
@@ -132,7 +134,7 @@ fn write_motion(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)
 
 /// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
 /// and the one that was found over time.
-fn write_curve(curve: &Curve, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
+fn write_curve(curve: &Curve, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     write_columns(curve, out)?;
     let times = &curve.times;
     let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
@@ -162,7 +164,7 @@ fn write_curve(curve: &Curve, (out, pictures): (&OutputFolder, &mut Pictures)) -
     Ok(())
 }
 
-fn write_history(answer: &Answer, (out, pictures): (&OutputFolder, &mut Pictures)) -> Result<()> {
+fn write_history(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     if !answer.fields.motion_steps.is_empty() {
         return write_motion(answer, (out, pictures));
     }

@@ -52,7 +52,7 @@ pub(crate) struct Run {
     /// Also write result.json, fields (NPY and CSV) and pictures (SVG and PNG) into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace files that are in the folder already.
+    /// Replace the answer that is in the folder already, all of its files at once.
     #[arg(long, requires = "out")]
     overwrite: bool,
 }

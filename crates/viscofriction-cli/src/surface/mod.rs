@@ -50,7 +50,7 @@ pub(crate) struct Surface {
     /// table on the standard output].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace files that are in the folder already.
+    /// Replace the answer that is in the folder already, all of its files at once.
     #[arg(long, requires = "out")]
     overwrite: bool,
 }
@@ -78,10 +78,11 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
         notes += &format!("{ABOUT_WARNINGS}\n");
     }
     let rows = rows(&roughness);
-    print_text(&format!("{notes}\n{}\n", table(&rows)))?;
-    let Some(out) = &out else {
-        return Ok(());
+    let text = format!("{notes}\n{}\n", table(&rows));
+    let Some(folder) = &out else {
+        return print_text(&text);
     };
+    let out = folder.begin()?;
     let spectrum = PowerSpectrum::of(&map, options.periodic).map_err(wrong)?;
     let roughness = to_csv("quantity symbol value unit", rows)?;
     out.write("roughness.csv", &roughness)?;
@@ -93,7 +94,10 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
     out.draw("surface", &picture::figure(&map, &spectrum))?;
     // Last: with it the others are there.
     out.write("tidied.xyz", xyz(&surface)?.as_bytes())?;
-    print_line(&format!("written into {}", out.path().display()))
+    out.finish()?;
+    // After the files, because a pipe that is closed ends the program.
+    print_text(&text)?;
+    print_line(&format!("written into {}", folder.path().display()))
 }
 
 impl Surface {

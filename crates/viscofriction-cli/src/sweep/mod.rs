@@ -24,7 +24,7 @@ use crate::progress;
 pub(crate) use file::RowTable;
 use file::{Existing, SweepFile, checked, line};
 use picture::PictureFiles;
-pub(crate) use picture::labelled;
+pub(crate) use picture::{beside, labelled};
 use samples::Samples;
 
 /// Arguments of the command.

@@ -60,7 +60,9 @@ impl PictureFiles {
             return Ok(());
         }
         let empty = format!("{EMPTY}{}", signature(fingerprint));
-        self.svg.write(empty.as_bytes())
+        self.svg.write(empty.as_bytes())?;
+        self.png.remove()?;
+        self.html.remove()
     }
 
     const fn all(&self) -> [&OutputFile; 3] {
@@ -95,7 +97,7 @@ impl PictureFiles {
 }
 
 /// The name of a picture: that of the rows with another extension, or one more.
-fn beside(rows: &Path, extension: &str) -> PathBuf {
+pub(crate) fn beside(rows: &Path, extension: &str) -> PathBuf {
     if rows.extension().is_some_and(|own| own == "csv") {
         return rows.with_extension(extension);
     }

@@ -285,6 +285,152 @@ fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
     }
 }
 
+/// The files of an answer by their names, without those that have the time that it took.
+fn answer(folder: &Folder, out: &str) -> Vec<(String, Vec<u8>)> {
+    let names = folder.names(out).into_iter();
+    let names = names.filter(|name| !["result.json", "report.html"].contains(&&**name));
+    let read = |name: String| {
+        let contents = fs::read(folder.path(out).join(&name));
+        (name, contents.expect("a file"))
+    };
+    names.map(read).collect()
+}
+
+/// Two answers with other files each; what a person has put beside the first stays.
+#[test]
+fn a_folder_is_of_one_answer_when_a_run_that_replaces_it_is_killed() {
+    let folder = Folder::new("exchanged");
+    let [old, new] = ["run IN/hertz.toml", "run IN/cone-viscous.toml"];
+    for (line, out) in [(old, "old"), (new, "new"), (old, "out")] {
+        folder.done(format!("{line} --out {out}"));
+        folder.write(&format!("{out}/notes.txt"), "mine");
+    }
+    let answers = ["old", "new"].map(|name| answer(&folder, name));
+    let is_part = |name: &String| name.starts_with(".out.viscofriction-");
+    let is_begun = || folder.names(".").iter().any(is_part);
+    for delay in [0, 1, 2, 3, 5, 8] {
+        let line = format!("{new} --out out --overwrite");
+        let wait = || {
+            std::thread::sleep(Duration::from_millis(delay));
+            true
+        };
+        folder.kill_when(&line, || is_begun() && wait());
+        let left = answer(&folder, "out");
+        assert!(
+            answers.contains(&left),
+            "{delay} ms: {:?}",
+            folder.names("out")
+        );
+        let json = fs::read_to_string(folder.path("out/result.json")).expect("a result");
+        let slides = json.contains("tangential_force");
+        assert_eq!(slides, left == answers[1], "{delay} ms: {json}");
+        folder.done(format!("{old} --out out --overwrite"));
+        assert_eq!(answer(&folder, "out"), answers[0], "{delay} ms");
+        assert!(!is_begun(), "{delay} ms: {:?}", folder.names("."));
+    }
+}
+
+#[test]
+fn what_a_person_has_in_the_folder_of_an_answer_stays() {
+    let folder = Folder::new("notes");
+    let written = [".hidden", "notes.txt", "link", "more/data.csv"];
+    for line in [
+        "run IN/hertz.toml --out out",
+        "run IN/cone-half-space.toml --out out --overwrite",
+    ] {
+        fs::create_dir_all(folder.path("out/more")).expect("a folder");
+        for name in [".hidden", "notes.txt", "more/data.csv"] {
+            folder.write(&format!("out/{name}"), "mine");
+        }
+        symlink("nowhere", folder.path("out/link")).ok();
+        folder.done(line);
+        for name in written {
+            let stays = folder.path("out").join(name).symlink_metadata();
+            assert!(stays.is_ok(), "{line}: no {name}");
+        }
+        assert_eq!(folder.names("."), ["out"], "{line}");
+    }
+    let names = folder.names("out").join(" ");
+    assert!(
+        !names.contains("line_pressure"),
+        "of the old answer: {names}"
+    );
+    // A shell would be left in a folder that is gone.
+    let mut here = folder.command("run IN/hertz.toml --out . --overwrite");
+    let here = said(here.current_dir(folder.path("out")));
+    assert_eq!(here.status, Some(2), "{here:?}");
+    assert!(
+        here.stderr.contains("the one that the command runs in"),
+        "{here:?}"
+    );
+    let mut fresh = folder.command("run IN/hertz.toml --out .");
+    let fresh = said(fresh.current_dir(folder.path("out/more")));
+    assert_eq!(fresh.status, Some(0), "{fresh:?}");
+    assert!(folder.path("out/more/result.json").exists(), "an answer");
+}
+
+#[test]
+fn an_output_that_nobody_can_read_is_status_3() {
+    let folder = Folder::new("no-output");
+    for line in [
+        "run IN/hertz.toml",
+        "sweep IN/hertz.toml --vary load.normal_force=1,2",
+        "--help",
+    ] {
+        let program = env!("CARGO_BIN_EXE_viscofriction");
+        for (output, needed) in [(">&-", "it is closed"), (">/dev/full", "No space left")] {
+            if output == ">/dev/full" && !cfg!(target_os = "linux") {
+                continue;
+            }
+            let mut shell = Command::new("sh");
+            let script = format!("exec \"$0\" \"$@\" {output}");
+            let shell = shell.args(["-c", &script, program]);
+            let said = said(
+                shell
+                    .current_dir(&folder.0)
+                    .args(line.split(' ').map(argument)),
+            );
+            assert_eq!(said.status, Some(3), "{line} {output}: {said:?}");
+            let needed = format!("error: the standard output was not written: {needed}");
+            assert!(said.stderr.contains(&needed), "{line} {output}: {said:?}");
+        }
+        let mut command = folder.command(line);
+        let null = command.stdout(Stdio::null()).status().expect("an end");
+        assert!(null.success(), "{line} for nobody: {null}");
+    }
+}
+
+#[test]
+fn links_that_name_nothing_or_each_other_are_followed_or_refused() {
+    let folder = Folder::new("dangling");
+    for (link, target) in [("out", "real"), ("s.csv", "rows"), ("a", "b"), ("b", "a")] {
+        symlink(target, folder.path(link)).expect("a link");
+    }
+    let sweep = "sweep IN/hertz.toml --vary load.normal_force=1,2 --out";
+    folder.done("run IN/hertz.toml --out out");
+    folder.done(format!("{sweep} s.csv"));
+    for (link, written) in [("out", "real/result.json"), ("s.csv", "rows")] {
+        assert!(folder.path(link).is_symlink(), "{link}");
+        assert!(folder.path(written).is_file(), "{written}");
+    }
+    for line in ["run IN/hertz.toml --out a", &format!("{sweep} a")] {
+        folder.ends(line, 2, "--out a: Too many levels of symbolic links");
+    }
+}
+
+/// Whatever its name, and with no older picture beside other rows.
+#[test]
+fn the_table_of_a_road_is_no_picture_of_it() {
+    let folder = Folder::new("road-picture");
+    let line = "road IN/rough-road.toml --cut-offs 1 --out r.svg";
+    for more in ["", " --overwrite"] {
+        folder.done(format!("{line}{more}"));
+        assert_eq!(folder.names("."), ["r.svg", "r.svg.png", "r.svg.svg"]);
+        let rows = folder.text("r.svg");
+        assert!(rows.starts_with("shortest_wavelength,"), "{rows}");
+    }
+}
+
 /// A limit of the size of files stands for a disk without room.
 #[test]
 fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
@@ -300,8 +446,8 @@ fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
         let shell = &mut Command::new("sh");
         let shell = shell.current_dir(&folder.0).args(["-c", script, program]);
         let said = said(shell.args(line.split(' ').map(argument)));
-        assert_eq!(said.status, Some(1), "{line}: {said:?}");
-        for needed in ["writing ", "File too large"] {
+        assert_eq!(said.status, Some(3), "{line}: {said:?}");
+        for needed in [" was not written: ", "File too large"] {
             assert!(said.stderr.contains(needed), "{line}: {said:?}");
         }
         // An empty folder does not stay either.
@@ -309,6 +455,8 @@ fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
         let clean = left.iter().all(|name| !name.ends_with(".part"));
         assert!(clean, "{line}: {left:?} are left");
     }
+    let beside = folder.names(".").join(" ");
+    assert!(!beside.contains(".part"), "{beside}");
     let rows = folder.text("out/s.csv");
     let whole = rows.lines().count() > 2 && rows.ends_with('\n');
     assert!(whole, "a half row in {rows}");

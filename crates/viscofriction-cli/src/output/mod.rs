@@ -1,17 +1,37 @@
 //! What the program prints and writes; nothing that a person has is replaced unless they say so.
 
+mod closed;
+mod folder;
+
 use std::fs::{self, File, TryLockError};
-use std::io::{ErrorKind, Write as _};
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::ValueEnum;
 use comfy_table::Table;
 use serde::Serialize;
+use tempfile::NamedTempFile;
 use viscofriction::WrongInput;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
 use crate::input::is_input;
+pub(crate) use folder::{NewFiles, OutputFolder};
+
+/// What was computed and could not be written.
+#[derive(Debug)]
+pub(crate) struct NotWritten(String);
+
+impl std::fmt::Display for NotWritten {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{} was not written", self.0)
+    }
+}
+
+/// The error of a file, or of the standard output, that was not written.
+pub(crate) fn not_written(what: impl std::fmt::Display, error: io::Error) -> anyhow::Error {
+    anyhow::Error::new(error).context(NotWritten(what.to_string()))
+}
 
 /// How a result is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -26,15 +46,27 @@ pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
 
 /// Prints a text; a pipe that is closed is an error, by which the program ends quietly.
 pub(crate) fn print_text(text: &str) -> Result<()> {
-    let mut output = std::io::stdout();
-    output.write_all(text.as_bytes())?;
-    Ok(output.flush()?)
+    printed(|| {
+        let mut output = io::stdout();
+        output.write_all(text.as_bytes())?;
+        output.flush()
+    })
+}
+
+/// Prints, and says where that cannot be done.
+pub(crate) fn printed(print: impl FnOnce() -> io::Result<()>) -> Result<()> {
+    let written = if closed::was_closed() {
+        Err(io::Error::other("it is closed"))
+    } else {
+        print()
+    };
+    written.map_err(|error| not_written("the standard output", error))
 }
 
 /// Whether somebody who reads the output has seen enough.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let cause = error.chain().find_map(|cause| cause.downcast_ref());
-    cause.is_some_and(|cause: &std::io::Error| cause.kind() == ErrorKind::BrokenPipe)
+    cause.is_some_and(|cause: &io::Error| cause.kind() == ErrorKind::BrokenPipe)
 }
 
 /// What stands below the warnings of a command.
@@ -42,7 +74,7 @@ pub(crate) const ABOUT_WARNINGS: &str = "about warnings: docs/numbers.md";
 
 /// Says a line beside the output; where nobody reads it, nothing is lost.
 pub(crate) fn say(text: &str) {
-    writeln!(std::io::stderr(), "{text}").ok();
+    writeln!(io::stderr(), "{text}").ok();
 }
 
 /// CSV with a line of names between blanks, which rows with fields have already; numbers read back to the same f64.
@@ -109,7 +141,12 @@ impl OutputFile {
     /// Writes the file under another name and then gives it its own, so that an interruption leaves the old one or the
     /// new one. A file that is replaced keeps its permissions.
     pub(crate) fn write(&self, contents: &[u8]) -> Result<()> {
-        let write = || -> std::io::Result<()> {
+        self.put(self.part(contents)?)
+    }
+
+    /// The contents under another name, in the same folder.
+    pub(crate) fn part(&self, contents: &[u8]) -> Result<NamedTempFile> {
+        let write = || -> io::Result<NamedTempFile> {
             let folder = folder_of(&self.path);
             fs::create_dir_all(folder)?;
             remove_parts(folder, &[&name_of(&self.path)]);
@@ -118,16 +155,34 @@ impl OutputFile {
             if let Ok(replaced) = fs::metadata(&self.path) {
                 part.as_file().set_permissions(replaced.permissions())?;
             }
-            // Somebody else may have written it meanwhile.
-            let persisted = if self.overwrite {
-                part.persist(&self.path)
-            } else {
-                part.persist_noclobber(&self.path)
-            };
-            persisted?;
-            Ok(())
+            Ok(part)
         };
-        write().with_context(|| format!("writing {}", self.path.display()))
+        write().map_err(|error| not_written(self.path.display(), error))
+    }
+
+    /// Gives a part the name of the file.
+    pub(crate) fn put(&self, part: NamedTempFile) -> Result<()> {
+        // Somebody else may have written it meanwhile.
+        let persisted = if self.overwrite {
+            part.persist(&self.path)
+        } else {
+            part.persist_noclobber(&self.path)
+        };
+        let persisted = persisted.map(drop).map_err(io::Error::from);
+        persisted.map_err(|error| not_written(self.path.display(), error))
+    }
+
+    /// Removes the file that is to be replaced, if there is one.
+    pub(crate) fn remove(&self) -> Result<()> {
+        if !self.overwrite {
+            return Ok(());
+        }
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(not_written(self.path.display(), error))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -154,7 +209,7 @@ fn part_start(name: &str) -> String {
 const PART_END: &str = ".part";
 
 /// A file that is removed unless it is finished, with the permissions of any new file.
-fn new_part(start: &str, folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+fn new_part(start: &str, folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(start).suffix(PART_END);
     #[cfg(unix)]
@@ -199,64 +254,5 @@ pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
         ))),
         // Some file systems have no locks.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
-    }
-}
-
-/// A folder for the files of one result; nobody else writes into it as long as this value lives.
-pub(crate) struct OutputFolder {
-    path: PathBuf,
-    overwrite: bool,
-    _lock: Option<File>,
-}
-
-impl OutputFolder {
-    /// A folder that was made, or is there without any of the files that may be written, named between spaces; refused as
-    /// by [`OutputFile::new`] and [`lock`].
-    pub(crate) fn new(path: &Path, overwrite: bool, names: &str) -> Result<Self, WrongInput> {
-        let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
-        if path.exists() && !path.is_dir() {
-            return Err(wrong("a folder is needed"));
-        }
-        let names: Vec<&str> = names.split(' ').collect();
-        for name in &names {
-            OutputFile::new(&path.join(name), overwrite)?;
-        }
-        fs::create_dir_all(path).map_err(|error| wrong(&error.to_string()))?;
-        // Not every system opens folders.
-        let folder = File::open(path).ok();
-        if let Some(folder) = &folder {
-            lock(folder, path)?;
-            remove_parts(path, &names);
-        }
-        // Nothing is computed that cannot be written.
-        new_part(&part_start("probe"), path).map_err(|error| wrong(&error.to_string()))?;
-        Ok(Self {
-            path: path.to_owned(),
-            overwrite,
-            _lock: folder,
-        })
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Writes one of the files.
-    pub(crate) fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
-        OutputFile::new(&self.path.join(name), self.overwrite)?.write(contents)
-    }
-
-    /// Draws a picture as SVG and as PNG.
-    pub(crate) fn draw(&self, name: &str, figure: &Figure) -> Result<()> {
-        let (svg, png) = picture(figure).with_context(|| format!("drawing {name}"))?;
-        self.write(&format!("{name}.svg"), svg.as_bytes())?;
-        self.write(&format!("{name}.png"), &png)
-    }
-}
-
-impl Drop for OutputFolder {
-    /// A folder without files says nothing; one that has some is not removed by the system.
-    fn drop(&mut self) {
-        fs::remove_dir(&self.path).ok();
     }
 }
