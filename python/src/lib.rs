@@ -30,5 +30,5 @@ mod native {
     #[pymodule_export]
     use super::roughness::{check_height_map, surface_numbers};
     #[pymodule_export]
-    use super::solving::{shared_warnings, solve_loads, sweep_plan, sweep_points};
+    use super::solving::{shared_warnings, solve_loads, sweep_plan, sweep_points, sweep_problem};
 }

@@ -10,7 +10,7 @@ use viscofriction::solve::{
     BodyOfScene, Budget, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
     with_sensitivity,
 };
-use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
+use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
 use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
 
 use crate::background;
@@ -397,13 +397,32 @@ impl Sweep<'_> {
     }
 }
 
-/// The names of the columns of a sweep, and what begins the row of each point, after all points were checked.
+/// The names of the columns of a sweep and the number of its points, after all of them were checked.
 #[pyfunction]
-pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, Vec<Vec<String>>)> {
+pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, usize)> {
     let plan = sweep.plan()?;
     plan.validate().map_err(wrong)?;
-    let identities = (0..plan.n_points()).map(|point| identity(&plan, point));
-    Ok((header(&plan), identities.collect()))
+    Ok((header(&plan), plan.n_points()))
+}
+
+/// The first of rows of points that is not what was computed, by its place, and why; None where all are of the sweep.
+#[pyfunction]
+pub(crate) fn sweep_problem(
+    sweep: Sweep<'_>,
+    rows: Vec<(usize, Vec<String>)>,
+) -> PyResult<Option<(usize, String)>> {
+    let plan = sweep.plan()?;
+    let header = header(&plan);
+    let rows = rows.into_iter().enumerate();
+    let mut problems = rows.filter_map(|(place, (point, fields))| {
+        let row = SweepRow { point, fields };
+        let other = || "it holds other points".to_owned();
+        match row.check(&header) {
+            Ok(()) => (!plan.has(&row)).then(|| (place, other())),
+            Err(problem) => Some((place, problem.to_string())),
+        }
+    });
+    Ok(problems.next())
 }
 
 /// Calls `take` with lists of points and their rows, as the texts that the program writes, soon after they are computed and

@@ -129,6 +129,10 @@ def test_a_table_goes_on_where_it_ended(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="other points"):
         vf.sweep(SCENE, {"load.velocity": 2 * SPEEDS}, out=part, resume=True)
     assert part.read_text() == text
+    friction = whole["friction_coefficient"][0]
+    part.write_text(text.replace(f",{friction},", ",nan,", 1))
+    with pytest.raises(ValueError, match="line 2, .*friction_coefficient, is \"nan\", and not what was computed"):
+        vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=part, resume=True)
 
 
 SWEEPING = """

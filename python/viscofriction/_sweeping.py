@@ -22,7 +22,7 @@ from ._solving import Progress, Scene, read, shown
 __all__ = ["Sweep", "sweep"]
 
 # Columns that hold no numbers, and those that hold whole ones; keys may hold either.
-TEXTS = {"sweep", "check", "method", "model", "warnings", "failure"}
+TEXTS = {"sweep", "check", "program", "method", "model", "warnings", "failure"}
 WHOLE = {"point", "points", "unknowns"}
 
 Row = list[str]
@@ -132,9 +132,9 @@ def sweep(
         raise ValueError(f"vary must be a dictionary of keys and their values, such as {{'load.velocity': v}}, but is {text_of(vary)}")
     values = {key: _values(key, wanted) for key, wanted in vary.items()}
     request = {"scene": table, "folder": os.path.abspath(folder), "vary": list(values.items())}
-    header, identities = _native.sweep_plan(request)
-    rows: list[Row | None] = [None] * len(identities)
-    with shown(progress) as show, _opened(out, header, identities, rows, resume) as file:
+    header, n_points = _native.sweep_plan(request)
+    rows: list[Row | None] = [None] * n_points
+    with shown(progress) as show, _opened(out, header, request, rows, resume) as file:
         missing = [point for point, row in enumerate(rows) if row is None]
         done = len(rows) - len(missing)
 
@@ -198,7 +198,7 @@ def _row(point: int, request: dict[str, Any]) -> tuple[int, Row]:
 def _opened(
     out: str | os.PathLike[str] | None,
     header: Row,
-    identities: list[Row],
+    request: dict[str, Any],
     rows: list[Row | None],
     resume: bool,
 ) -> Iterator[IO[str] | None]:
@@ -214,7 +214,7 @@ def _opened(
         file.seek(0)
         text = file.read()
         whole = text[: text.rfind("\n") + 1]
-        for row in _old_rows(path, whole, header, identities):
+        for row in _old_rows(path, whole, header, request):
             rows[int(row[1]) - 1] = row
         # The last line need not be finished.
         file.truncate(len(whole.encode("utf-8")))
@@ -223,15 +223,17 @@ def _opened(
         yield file
 
 
-def _old_rows(path: Path, text: str, header: Row, identities: list[Row]) -> list[Row]:
-    """The rows of an older file, which are refused if they are of another sweep."""
+def _old_rows(path: Path, text: str, header: Row, request: dict[str, Any]) -> list[Row]:
+    """The rows of an older file, which are refused if they are of another sweep, or not what was computed."""
     first, *old = list(csv.reader(io.StringIO(text))) or [header]
     if first != header:
         raise ValueError(f"{path} is not the table of this sweep: its columns differ")
-    for row in old:
-        point = int(row[1]) - 1 if len(row) == len(header) and row[1].isdecimal() else -1
-        if not 0 <= point < len(identities) or row[: len(identities[point])] != identities[point]:
-            raise ValueError(f"{path} is not the table of this sweep: it holds other points")
+    points = [int(row[1]) - 1 if len(row) == len(header) and row[1].isdecimal() else -1 for row in old]
+    if any(point < 0 for point in points):
+        raise ValueError(f"{path}, line {points.index(-1) + 2}: there is no point")
+    problem = _native.sweep_problem(request, list(zip(points, old, strict=True)))
+    if problem is not None:
+        raise ValueError(f"{path}, line {problem[0] + 2}, is not of this sweep: {problem[1]}")
     return old
 
 

@@ -9,7 +9,7 @@ use viscofriction::solve::{plan_of, problem_of};
 
 use crate::input::read_input;
 use crate::material::check_table;
-use crate::sweep::RowTable;
+use crate::sweep::TableFile;
 
 /// A kind of file that the commands read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +50,6 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
             surface.body().map(drop).map_err(wrong)
         }
         InputKind::Moduli => check_table(file, contents),
-        InputKind::SweepRows => RowTable::new(file, contents).map(drop),
+        InputKind::SweepRows => TableFile::new(file, contents)?.check(file),
     }
 }

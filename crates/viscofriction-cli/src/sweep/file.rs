@@ -1,17 +1,18 @@
 //! The file of a sweep, which grows row by row.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fs::{self, File, OpenOptions};
 use std::io::{Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use viscofriction::WrongInput;
-use viscofriction::sweep::{Plan, SweepRow, header, identity};
+use viscofriction::sweep::{Plan, RowError, SweepRow, header};
 
 use super::wrong_row;
 use crate::input::read_rows;
-use crate::output::{OutputFile, folder_of, lock, name_of, remove_parts, to_csv};
+use crate::output::{OutputFile, folder_of, lock, name_of, not_written, remove_parts, to_csv};
 
 /// What happens to a file that is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,7 +28,8 @@ pub(super) enum Existing {
 /// An open file and what it has; nobody else writes it as long as it is open.
 pub(super) struct SweepFile {
     path: PathBuf,
-    table: RowTable,
+    header: Vec<String>,
+    rows: BTreeMap<usize, SweepRow>,
     file: File,
     /// Length of what stays, \[bytes].
     kept: u64,
@@ -47,14 +49,19 @@ impl SweepFile {
             Existing::GoOn => read_rows(&path)?,
             Existing::Refuse | Existing::Replace => Vec::new(),
         };
-        let table = RowTable::new(&path, &contents)?;
+        let table = TableFile::new(&path, &contents)?;
         if !table.header.is_empty() {
             check(&path, plan, &table)?;
         }
         let kept = whole(&contents).len() as u64;
+        let mut rows = BTreeMap::new();
+        for (_, row) in table.rows {
+            insert(&mut rows, row);
+        }
         Ok(Self {
             path,
-            table,
+            header: table.header,
+            rows,
             file,
             kept,
         })
@@ -65,44 +72,61 @@ impl SweepFile {
         self.file
             .set_len(self.kept)
             .and_then(|()| self.file.seek(SeekFrom::End(0)))
-            .with_context(|| format!("writing {}", self.path.display()))?;
-        if self.table.header.is_empty() {
-            self.table.header = header(plan);
+            .map_err(|error| not_written(self.path.display(), error))?;
+        if self.header.is_empty() {
+            self.header = header(plan);
             self.write(&line(&header(plan))?)?;
         }
         Ok(())
     }
 
-    /// The points that the file has.
-    pub(super) fn points(&self) -> BTreeSet<usize> {
-        self.table.rows.iter().map(|row| row.point).collect()
+    /// The points that the file has, and whether they have an answer.
+    pub(super) fn points(&self) -> impl Iterator<Item = (usize, bool)> {
+        self.rows.values().map(|row| (row.point, !row.failed()))
     }
 
     /// Writes a row, or nothing of it.
     pub(super) fn append(&mut self, row: &SweepRow) -> Result<()> {
         self.write(&line(&row.fields)?)?;
-        self.table.rows.push(row.clone());
+        insert(&mut self.rows, row.clone());
         Ok(())
     }
 
     fn write(&mut self, text: &str) -> Result<()> {
-        let end = self.file.stream_position()?;
+        let wrong = |error| not_written(self.path.display(), error);
+        let end = self.file.stream_position().map_err(wrong)?;
         let written = self.file.write_all(text.as_bytes());
         if written.is_err() {
             self.file.set_len(end).ok();
         }
-        written.with_context(|| format!("writing {}", self.path.display()))
+        written.map_err(wrong)
     }
 
-    /// Puts the rows in order.
-    pub(super) fn finish(mut self) -> Result<RowTable> {
-        if !self.table.rows.is_sorted_by_key(|row| row.point) {
-            self.table.rows.sort_by_key(|row| row.point);
-            self.table.rows.dedup_by_key(|row| row.point);
-            let text = self.table.text()?;
+    /// Puts the rows in order, one for each point.
+    pub(super) fn finish(self) -> Result<RowTable> {
+        let rows = self.rows.into_values().collect();
+        let table = RowTable {
+            header: self.header,
+            rows,
+        };
+        let text = table.text()?;
+        if read_rows(&self.path)? != text.as_bytes() {
             OutputFile::new(&self.path, true)?.write(text.as_bytes())?;
         }
-        Ok(self.table)
+        Ok(table)
+    }
+}
+
+/// Adds a row; of two of the same point the answer stays, and of two without one the later.
+pub(super) fn insert(rows: &mut BTreeMap<usize, SweepRow>, row: SweepRow) {
+    match rows.entry(row.point) {
+        Entry::Occupied(known) if !known.get().failed() => {}
+        Entry::Occupied(mut known) => {
+            known.insert(row);
+        }
+        Entry::Vacant(place) => {
+            place.insert(row);
+        }
     }
 }
 
@@ -124,34 +148,13 @@ fn whole(contents: &[u8]) -> &[u8] {
     &contents[..end.map_or(0, |end| end + 1)]
 }
 
-/// The whole lines of a file of rows.
+/// The names and rows of a sweep, in the order of its points.
 pub(crate) struct RowTable {
     pub(super) header: Vec<String>,
     pub(super) rows: Vec<SweepRow>,
 }
 
 impl RowTable {
-    /// The rows of a file of the given contents, up to its last whole line.
-    pub(crate) fn new(path: &Path, contents: &[u8]) -> Result<Self, WrongInput> {
-        let mut reader = csv::Reader::from_reader(whole(contents));
-        let wrong = |line: usize, problem: &dyn std::fmt::Display| {
-            wrong_row(path, line, &format!("no row of a sweep: {problem}"))
-        };
-        let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-        let header = texts(reader.headers().map_err(|error| wrong(1, &error))?);
-        let mut rows = Vec::new();
-        for (index, record) in reader.records().enumerate() {
-            let line = index + 2;
-            let record = record.map_err(|error| wrong(line, &error))?;
-            let number = record.get(1).and_then(|number| number.parse().ok());
-            let point = number.and_then(|number: usize| number.checked_sub(1));
-            let point = point.ok_or_else(|| wrong(line, &"the number of its point is missing"))?;
-            let fields = texts(&record);
-            rows.push(SweepRow { point, fields });
-        }
-        Ok(Self { header, rows })
-    }
-
     /// The text of the file.
     pub(super) fn text(&self) -> Result<String> {
         let rows = self.rows.iter().map(|row| &row.fields);
@@ -160,21 +163,80 @@ impl RowTable {
     }
 }
 
-/// Rows of another sweep are refused.
-fn check(path: &Path, plan: &Plan, table: &RowTable) -> Result<(), WrongInput> {
-    let other = "the file is of another scene, of other values of --vary, or from before a file that the scene \
-                 names was changed; give another --out";
-    if table.header != header(plan) {
-        return Err(wrong_row(path, 1, other));
-    }
-    for (index, row) in table.rows.iter().enumerate() {
-        let is_point = row.point < plan.n_points();
-        if !is_point || !row.fields.starts_with(&identity(plan, row.point)) {
-            return Err(wrong_row(path, index + 2, other));
-        }
-    }
-    Ok(())
+/// The whole lines of a file of rows.
+pub(crate) struct TableFile {
+    pub(super) header: Vec<String>,
+    /// Each with its line, counted from 1.
+    pub(super) rows: Vec<(usize, SweepRow)>,
 }
+
+impl TableFile {
+    /// The rows of a file of the given contents, up to its last whole line.
+    pub(crate) fn new(path: &Path, contents: &[u8]) -> Result<Self, WrongInput> {
+        let mut reader = csv::Reader::from_reader(whole(contents));
+        let wrong = |line: usize, problem: &dyn std::fmt::Display| {
+            wrong_row(path, line, &format!("no row of a sweep: {problem}"))
+        };
+        let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let header: Vec<String> = texts(reader.headers().map_err(|error| wrong(1, &error))?);
+        if let [names] = &header[..]
+            && names.contains([';', '\t'])
+        {
+            return Err(wrong(1, &BETWEEN_COLUMNS));
+        }
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let line = |position: Option<&csv::Position>| {
+                let line = position.map_or(1, csv::Position::line);
+                usize::try_from(line).unwrap_or(usize::MAX)
+            };
+            let record = record.map_err(|error| wrong(line(error.position()), &error))?;
+            let line = line(record.position());
+            let number = record.get(1).and_then(|number| number.parse().ok());
+            let point = number.and_then(|number: usize| number.checked_sub(1));
+            let point = point.ok_or_else(|| wrong(line, &"the number of its point is missing"))?;
+            let fields = texts(&record);
+            rows.push((line, SweepRow { point, fields }));
+        }
+        Ok(Self { header, rows })
+    }
+
+    /// Refuses rows that are not what was computed.
+    pub(crate) fn check(&self, path: &Path) -> Result<(), WrongInput> {
+        self.rows.iter().try_for_each(|(line, row)| {
+            let checked = row.check(&self.header);
+            checked.map_err(|error| {
+                let advice = match error {
+                    RowError::Cell { .. } | RowError::Cells => {
+                        "; remove the line, and the sweep computes its point again with --resume"
+                    }
+                    _ => "",
+                };
+                wrong_row(path, *line, &format!("{error}{advice}"))
+            })
+        })
+    }
+}
+
+/// What a spreadsheet of another language makes of the file.
+const BETWEEN_COLUMNS: &str = "commas are needed between the columns and points in numbers, as the sweep has written them, and there \
+                               are semicolons or tabs";
+
+/// Refuses rows of another sweep, and those that are not what was computed.
+fn check(path: &Path, plan: &Plan, table: &TableFile) -> Result<(), WrongInput> {
+    table.check(path)?;
+    let other = |line| Err(wrong_row(path, line, OTHER_SWEEP));
+    if table.header != header(plan) {
+        return other(1);
+    }
+    let mut rows = table.rows.iter();
+    rows.find(|(_, row)| !plan.has(row))
+        .map_or(Ok(()), |(line, _)| other(*line))
+}
+
+/// Why a file is not gone on with.
+const OTHER_SWEEP: &str = "the file is of another scene, of other values of --vary, or from before a file that the scene names was \
+                           changed; give another --out";
 
 /// One record with the end of its line.
 pub(super) fn line(fields: &[String]) -> Result<String> {

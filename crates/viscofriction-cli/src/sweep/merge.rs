@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use viscofriction::WrongInput;
 use viscofriction::sweep::SweepRow;
 
-use super::file::RowTable;
+use super::file::{RowTable, TableFile, insert};
 use super::picture::PictureFiles;
 use super::{say_samples, say_warnings, wrong_row};
 use crate::input::read_table;
@@ -47,34 +47,32 @@ fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
     let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
     let mut header = Vec::new();
     for path in paths {
-        let table = RowTable::new(path, &read_table(path)?)?;
+        let table = TableFile::new(path, &read_table(path)?)?;
+        let wrong = |line, problem: &str| Err(wrong_row(path, line, problem));
         if table.header.is_empty() {
-            return Err(wrong_row(
-                path,
-                1,
-                "no rows of a sweep, and no names of columns",
-            ));
+            return wrong(1, "no rows of a sweep, and no names of columns");
         }
+        table.check(path)?;
         if header.is_empty() {
             header = table.header;
         } else if table.header != header {
-            let problem = "the columns are not those of the first file";
-            return Err(wrong_row(path, 1, problem));
+            return wrong(1, "the columns are not those of the first file");
         }
-        for (index, row) in table.rows.into_iter().enumerate() {
-            if !row.is_unchanged(&header) {
-                let problem =
-                    "the row is not as it was computed: its point or its values were changed";
-                return Err(wrong_row(path, index + 2, problem));
-            }
+        for (line, row) in table.rows {
             let first = rows.values().next();
-            let same = first.is_none_or(|first| first.fields[0] == row.fields[0]);
-            let other = rows.get(&row.point).is_some_and(|known| *known != row);
-            if !same || other {
-                let problem = "the row is of another sweep than the first file";
-                return Err(wrong_row(path, index + 2, problem));
+            if first.is_some_and(|first| first.fields[0] != row.fields[0]) {
+                return wrong(line, "the row is of another sweep than the first file");
             }
-            rows.insert(row.point, row);
+            let known = rows.get(&row.point);
+            let is_other = |known: &SweepRow| *known != row && !known.failed() && !row.failed();
+            if known.is_some_and(is_other) {
+                let problem = format!(
+                    "point {} has another answer in a file before, or in a line before",
+                    row.point + 1
+                );
+                return wrong(line, &problem);
+            }
+            insert(&mut rows, row);
         }
     }
     let rows = rows.into_values().collect();

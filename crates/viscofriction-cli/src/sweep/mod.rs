@@ -9,6 +9,7 @@ mod picture;
 mod report;
 mod samples;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
@@ -21,8 +22,8 @@ use viscofriction::sweep::{Plan, Shard, SweepRow, Vary, each_once, header};
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{ABOUT_WARNINGS, print_text, say};
 use crate::progress;
-pub(crate) use file::RowTable;
-use file::{Existing, SweepFile, checked, line};
+pub(crate) use file::TableFile;
+use file::{Existing, RowTable, SweepFile, checked, line};
 use picture::PictureFiles;
 pub(crate) use picture::{beside, labelled};
 use samples::Samples;
@@ -57,6 +58,13 @@ pub(crate) struct Sweep {
     /// Compute only what the file does not have yet.
     #[arg(long, conflicts_with = "merge", requires = "out")]
     resume: bool,
+    /// Go on with the file, and compute those of its points again that have no answer.
+    #[arg(
+        long,
+        requires = "out",
+        conflicts_with_all = ["merge", "overwrite"]
+    )]
+    retry_failed: bool,
     /// Compute every N-th point only, beginning with the I-th; I counts from 1 to N.
     #[arg(long, value_name = "I/N", conflicts_with = "merge")]
     shard: Option<Shard>,
@@ -86,26 +94,26 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let threads = plan.validate()?.unwrap_or(0);
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
-    let rows = match &options.out {
-        Some(out) => into_file(&plan, points, threads, (out, options.existing()))?,
-        None => {
-            print_text(&line(&header(&plan))?)?;
-            let mut rows = Vec::new();
-            compute(&plan, &points, threads, |row| {
-                print_text(&line(&row.fields)?)?;
-                rows.push(row.clone());
-                Ok(())
-            })?;
-            rows
-        }
+    let Computed {
+        rows,
+        n_failed_before,
+    } = match &options.out {
+        Some(out) => into_file(&plan, points, threads, (out, options))?,
+        None => printed(&plan, &points, threads)?,
     };
     say_warnings(&rows);
     say_samples(&header(&plan), &rows);
     let n_failed = rows.iter().filter(|row| row.failed()).count();
     if n_failed > 0 {
+        let before = match n_failed_before {
+            0 => String::new(),
+            count => format!(
+                "; {count} of them failed in an earlier run, and --retry-failed computes them again"
+            ),
+        };
         let n_points = rows.len();
         bail!(
-            "{n_failed} of {n_points} points could not be computed; the column `failure` says why"
+            "{n_failed} of {n_points} points could not be computed; the column `failure` says why{before}"
         );
     }
     Ok(())
@@ -135,7 +143,7 @@ fn say_warnings(rows: &[SweepRow]) {
 
 impl Sweep {
     const fn existing(&self) -> Existing {
-        match (self.resume, self.overwrite) {
+        match (self.resume || self.retry_failed, self.overwrite) {
             (true, _) => Existing::GoOn,
             (_, true) => Existing::Replace,
             _ => Existing::Refuse,
@@ -143,13 +151,43 @@ impl Sweep {
     }
 }
 
-/// Computes the points that a file does not have, and draws all of it; returns all rows.
+/// What a sweep has.
+struct Computed {
+    /// In the order of the points.
+    rows: Vec<SweepRow>,
+    /// Number of those without an answer that were not computed now.
+    n_failed_before: usize,
+}
+
+/// Prints the rows in the order of the points, each as soon as those before it are finished.
+fn printed(plan: &Plan, points: &[usize], threads: usize) -> Result<Computed> {
+    print_text(&line(&header(plan))?)?;
+    let mut finished = BTreeMap::new();
+    let mut rows: Vec<SweepRow> = Vec::new();
+    compute(plan, points, threads, |row| {
+        finished.insert(row.point, row);
+        while let Some(next) = points.get(rows.len())
+            && let Some(row) = finished.remove(next)
+        {
+            print_text(&line(&row.fields)?)?;
+            rows.push(row);
+        }
+        Ok(())
+    })?;
+    Ok(Computed {
+        rows,
+        n_failed_before: 0,
+    })
+}
+
+/// Computes the points that a file does not have, and draws all of it.
 fn into_file(
     plan: &Plan,
     mut points: Vec<usize>,
     threads: usize,
-    (out, existing): (&Path, Existing),
-) -> Result<Vec<SweepRow>> {
+    (out, options): (&Path, &Sweep),
+) -> Result<Computed> {
+    let existing = options.existing();
     let path = checked(out, existing)?;
     let open = || SweepFile::open(path.clone(), plan, existing);
     let (mut file, pictures) = match existing {
@@ -167,15 +205,19 @@ fn into_file(
         pictures.claim(&plan.fingerprint)?;
     }
     file.begin(plan)?;
-    let there = file.points();
-    points.retain(|point| !there.contains(point));
-    compute(plan, &points, threads, |row| file.append(row))?;
+    let stays = |(_, has_answer): &(usize, bool)| *has_answer || !options.retry_failed;
+    let there: BTreeMap<usize, bool> = file.points().filter(stays).collect();
+    points.retain(|point| !there.contains_key(point));
+    compute(plan, &points, threads, |row| file.append(&row))?;
     let table = file.finish()?;
     pictures.draw(&table, Some(plan.scene_text()))?;
     let n_rows = table.rows.len();
     let (n_computed, path) = (points.len(), path.display());
     say(&format!("{n_computed} points computed, {n_rows} in {path}"));
-    Ok(table.rows)
+    Ok(Computed {
+        rows: table.rows,
+        n_failed_before: there.values().filter(|has_answer| !**has_answer).count(),
+    })
 }
 
 /// Computes points on several threads, and hands over each row in the order in which it is finished.
@@ -183,24 +225,23 @@ fn compute(
     plan: &Plan,
     points: &[usize],
     threads: usize,
-    mut take: impl FnMut(&SweepRow) -> Result<()>,
+    mut take: impl FnMut(SweepRow) -> Result<()>,
 ) -> Result<()> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
     let bar = progress::bar("sweep", points.len());
     let (finished, rows) = mpsc::channel();
-    // One point after the other, so that the file grows nearly in order; where nobody takes rows any more, nothing is
-    // computed any more.
+    // Threads take the points one after the other, so that rows are finished nearly in order; where nobody takes rows any more,
+    // nothing is computed any more.
     let each = |finished: &mut mpsc::Sender<_>, &point: &usize| {
         finished.send(plan.solve(point)).map_err(|_| ())
     };
-    let points = points.par_iter().with_max_len(1);
-    let all = || points.try_for_each_with(finished, each);
+    let all = || points.iter().par_bridge().try_for_each_with(finished, each);
     let taken = std::thread::scope(|scope| {
         scope.spawn(|| pool.install(all).ok());
         rows.into_iter().try_for_each(|row| {
-            take(&row?)?;
+            take(row?)?;
             bar.inc(1);
             Ok(())
         })

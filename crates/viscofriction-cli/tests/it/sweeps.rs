@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{Folder, assert_close, table};
+use crate::support::{Folder, assert_close, said, table};
 
 const VARY: &str = "--vary indenter.cone.slope=0.05:0.2:4 --vary load.velocity=1e-3:1:5:log";
 
@@ -112,8 +112,78 @@ fn a_row_with_other_parameters_than_those_it_was_computed_for_is_not_joined() {
         assert!(rows.contains(was), "no {was} in {rows}");
         folder.write("changed.csv", rows.replacen(was, is, 1));
         let merge = "sweep --out all.csv --merge changed.csv";
-        folder.ends(merge, 2, "the row is not as it was computed");
+        folder.ends(merge, 2, "not what was computed");
     }
+}
+
+/// What a spreadsheet writes is what was computed as long as its numbers are; a number that is another one is named.
+#[test]
+fn an_answer_that_was_changed_is_neither_joined_nor_kept() {
+    let folder = quick("changed-answers");
+    let rows = swept(&folder, "rows.csv", "");
+    let sweep = format!("sweep scene.toml {VARY} --out changed.csv --resume");
+    let place = rows
+        .split(',')
+        .position(|name| name == "friction_coefficient");
+    let place = place.expect("a column");
+    let line = rows.lines().nth(3).expect("a row");
+    let friction = line.split(',').nth(place).expect("a friction");
+    for found in ["nan", "", "0.5", &friction[..friction.len() - 1]] {
+        let changed = line.replacen(&format!(",{friction},"), &format!(",{found},"), 1);
+        folder.write("changed.csv", rows.replace(line, &changed));
+        let needed = format!(
+            "changed.csv:4: column {}, friction_coefficient, is {found:?}",
+            place + 1
+        );
+        folder.ends("sweep --merge changed.csv", 2, &needed);
+        folder.ends(&sweep, 2, &needed);
+    }
+    let scientific = format!("{:E}", friction.parse::<f64>().expect("a number"));
+    let same = rows
+        .replace(friction, &scientific)
+        .replace(",0.0,", ",0,")
+        .replace('\n', "\r\n");
+    folder.write("changed.csv", format!("\u{feff}{same}"));
+    folder.done("sweep --out all.csv --merge changed.csv");
+    folder.done(sweep);
+    folder.write("changed.csv", rows.replace(',', ";"));
+    folder.ends(
+        "sweep --merge changed.csv",
+        2,
+        "changed.csv:1: no row of a sweep: commas are needed",
+    );
+}
+
+#[test]
+fn rows_are_printed_in_the_order_of_their_points() {
+    let folder = slow("ordered");
+    let expected = swept(&folder, "whole.csv", "");
+    for threads in ["1", "3"] {
+        let mut command = folder.command(&format!("sweep scene.toml {VARY}"));
+        let said = said(command.env("RAYON_NUM_THREADS", threads));
+        assert_eq!(said.stdout, expected, "{threads} threads");
+    }
+}
+
+/// The allowed memory is not of the sweep: a point that failed for it may be computed where there is more.
+#[test]
+fn points_that_failed_are_computed_again_when_asked_for() {
+    let limit = ("relative_error = 1e-2", "max_memory = \"8 MiB\"");
+    let folder = Folder::with("retried", "cone-half-space.toml", &[limit]);
+    let vary = "--vary solve.relative_error=0.1,0.05 --out";
+    let line = format!("sweep scene.toml {vary} rows.csv");
+    folder.ends(&line, 1, "2 of 2 points could not be computed");
+    let text = folder.text("scene.toml");
+    folder.write("scene.toml", text.replace("8 MiB", "1 GiB"));
+    let advice = "2 of them failed in an earlier run, and --retry-failed computes them again";
+    folder.ends(&format!("{line} --resume"), 1, advice);
+    let said = folder.done(format!("{line} --retry-failed"));
+    assert!(
+        said.stderr.contains("2 points computed, 2 in rows.csv"),
+        "{said:?}"
+    );
+    folder.done(format!("sweep scene.toml {vary} whole.csv"));
+    assert_eq!(folder.text("rows.csv"), folder.text("whole.csv"));
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! A scene for many values of its keys.
 
 mod plan;
+mod row;
 mod vary;
 mod warnings;
 
-pub use plan::{Plan, SweepRow, header, identity};
+pub use plan::{Plan, header};
+pub use row::{RowError, SweepRow};
 pub use vary::{SAMPLE, Shard, Varied, Vary};
 pub use warnings::{SharedWarning, each_once};

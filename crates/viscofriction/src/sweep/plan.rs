@@ -3,6 +3,7 @@
 use numerics::whole_part;
 use toml::{Table, Value};
 
+use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
 use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::scene::{Scene, SceneError, Source, scene_file, split_index};
@@ -57,7 +58,7 @@ impl Plan {
             hash = hashed(hash, &contents.unwrap_or_default());
         }
         Ok(Self {
-            fingerprint: format!("{hash:016x}"),
+            fingerprint: digits(hash),
             source,
             table,
             vary: vary.to_vec(),
@@ -162,10 +163,27 @@ impl Plan {
             Ok(answer) => Some(answer),
             Err(error) => error.reached(),
         };
-        let mut fields = identity(self, point);
-        fields.extend(self.results(found));
-        fields.push(failure.map_or(String::new(), |why| one_line(&why)));
-        Ok(SweepRow { point, fields })
+        let mut results = self.results(found);
+        results.push(failure.map_or(String::new(), |why| one_line(&why)));
+        Ok(SweepRow::new(self, point, results))
+    }
+
+    /// What tells a row from every other: sweep, point counted from 1, number of points, and values.
+    pub fn identity(&self, point: usize) -> Vec<String> {
+        let numbers = [point + 1, self.n_points()].map(|number| number.to_string());
+        let values = self.values(point).into_iter().map(Varied::to_string);
+        let sweep = std::iter::once(self.fingerprint.clone());
+        sweep.chain(numbers).chain(values).collect()
+    }
+
+    /// Whether a row is of a point of this sweep.
+    pub fn has(&self, row: &SweepRow) -> bool {
+        let is_same =
+            |(computed, found): (String, &String)| canonical(&computed) == canonical(found);
+        row.point < self.n_points() && {
+            let identity = self.identity(row.point);
+            identity.into_iter().zip(&row.fields).all(is_same)
+        }
     }
 
     /// The names of the columns of results.
@@ -181,7 +199,7 @@ impl Plan {
         Answer::columns().into_iter().chain(asked).collect()
     }
 
-    /// What comes behind the [`identity`], but for why there is none.
+    /// What comes behind the [`identity`](Self::identity) and the checks, but for why there is none.
     fn results(&self, found: Option<&Answer>) -> Vec<String> {
         let Some(answer) = found else {
             return vec![String::new(); self.columns().len() + 4];
@@ -253,51 +271,16 @@ fn check(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
     Ok(())
 }
 
-/// The column behind the values of a point, by which a change of one of them is noticed.
-const CHECK: &str = "check";
-
 /// The names of the columns.
 pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
-    let before = before.chain([CHECK, "method", "model"]).map(str::to_owned);
+    let before = before
+        .chain(CHECKS)
+        .chain(["method", "model"])
+        .map(str::to_owned);
     let after = ["unknowns", "warnings", "failure"].map(str::to_owned);
     before.chain(plan.columns()).chain(after).collect()
 }
-
-/// One row of a sweep: which point it is, and what came out; times are not among the fields, because they differ from run to
-/// run.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SweepRow {
-    /// Counted from 0.
-    pub point: usize,
-    /// Texts in the order of the [`header`].
-    pub fields: Vec<String>,
-}
-
-impl SweepRow {
-    /// Whether it says the point and the values that it was computed for, by the names of the columns.
-    pub fn is_unchanged(&self, header: &[String]) -> bool {
-        let end = header.iter().position(|name| name == CHECK);
-        let identity = end.and_then(|end| self.fields.split_at_checked(end));
-        identity.is_some_and(|(identity, rest)| rest.first() == Some(&checksum(identity)))
-    }
-
-    /// Whether the point has no answer.
-    pub fn failed(&self) -> bool {
-        self.fields.last().is_some_and(|why| !why.is_empty())
-    }
-
-    /// The warnings of its answer.
-    pub fn warnings(&self) -> Vec<&str> {
-        let before = self.fields.len().checked_sub(2);
-        let sentences = before.map_or("", |place| &self.fields[place]);
-        let sentences = sentences.split(BETWEEN_WARNINGS);
-        sentences.filter(|sentence| !sentence.is_empty()).collect()
-    }
-}
-
-/// Between the sentences of a cell.
-const BETWEEN_WARNINGS: &str = " | ";
 
 /// Before the reason why a row has no uncertainty.
 const NO_UNCERTAINTY: &str =
@@ -311,20 +294,6 @@ fn one_line(text: &str) -> String {
 /// A number as JSON and Rust read it back.
 fn written(value: f64) -> String {
     format!("{value:?}")
-}
-
-/// What tells a row from every other: sweep, point counted from 1, number of points, values, and a check of all these.
-pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
-    let numbers = [point + 1, plan.n_points()].map(|number| number.to_string());
-    let mut fields = vec![plan.fingerprint.clone()];
-    fields.extend(numbers);
-    fields.extend(plan.values(point).into_iter().map(Varied::to_string));
-    fields.push(checksum(&fields));
-    fields
-}
-
-fn checksum(identity: &[String]) -> String {
-    format!("{:016x}", hashed(EMPTY, identity.join(",").as_bytes()))
 }
 
 /// A number of samples.
@@ -408,14 +377,4 @@ fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
 fn memory(table: &Table) -> Option<u64> {
     let scene = scene_file(table.clone()).ok()?;
     scene.solve.checked_memory().ok()?
-}
-
-/// FNV-1a with 64 bits of nothing.
-const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
-
-/// FNV-1a of more bytes behind those that were hashed before.
-fn hashed(before: u64, more: &[u8]) -> u64 {
-    more.iter().fold(before, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use viscofriction::scene::Source;
-use viscofriction::sweep::{Plan, Vary, header, identity};
+use viscofriction::sweep::{Plan, Vary, header};
 use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
 
 use super::Report;
@@ -109,7 +109,7 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
             let points = surface * each..(surface + 1) * each;
             let points = points.map(|point| (*solid, plan, point));
             missing.extend(points.filter(|(_, plan, point)| {
-                let identity = identity(plan, *point);
+                let identity = plan.identity(*point);
                 !rows.iter().any(|row| row[1..].starts_with(&identity))
             }));
         }

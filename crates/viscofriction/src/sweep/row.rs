@@ -1,0 +1,263 @@
+//! One row of a sweep, and the check by which a change of any of its cells is noticed.
+
+use thiserror::Error;
+
+use super::plan::Plan;
+
+/// The column behind the values of a point.
+const CHECK: &str = "check";
+/// The columns of what a row is checked by: all other cells, and the program that computed it.
+pub(super) const CHECKS: [&str; 2] = [CHECK, "program"];
+/// The program and its version, as rows name it.
+const PROGRAM: &str = concat!("viscofriction ", env!("CARGO_PKG_VERSION"));
+
+/// Why a row is not taken for one that was computed for a point.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum RowError {
+    /// It has no check of its cells.
+    #[error(
+        "the column `check` has no check of the answers, which older versions of this program did not write; compute the sweep \
+         anew"
+    )]
+    NoCheck,
+    /// One cell is another one.
+    #[error("column {number}, {column}, is {found:?}, and not what was computed")]
+    Cell {
+        /// Name of the column.
+        column: String,
+        /// Number of the column, counted from 1.
+        number: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// Several cells are others, or the check itself.
+    #[error(
+        "the row is not what was computed: several cells were changed, as a spreadsheet rounds them, or the check itself"
+    )]
+    Cells,
+    /// It was computed by another version.
+    #[error("the row was computed by {found}, and this is {PROGRAM}")]
+    Program {
+        /// Name and version.
+        found: String,
+    },
+}
+
+/// One row of a sweep: which point it is, and what came out; times are not among the fields, because they differ from run to
+/// run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SweepRow {
+    /// Counted from 0.
+    pub point: usize,
+    /// Texts in the order of the [`header`](super::header).
+    pub fields: Vec<String>,
+}
+
+impl SweepRow {
+    /// The row of a point from its [`identity`](Plan::identity) and what came out, with its check.
+    pub(super) fn new(plan: &Plan, point: usize, results: Vec<String>) -> Self {
+        let mut fields = plan.identity(point);
+        let check = fields.len();
+        fields.extend([String::new(), PROGRAM.to_owned()]);
+        fields.extend(results);
+        fields[check] = written(sums(&super::header(plan), &fields));
+        Self { point, fields }
+    }
+
+    /// Refuses a row with a cell that is not what was computed, and one of another version of the program.
+    ///
+    /// Numbers are compared by their values, so that other ways to write them do no harm.
+    ///
+    /// # Errors
+    /// [`RowError`], with the column if it is one.
+    pub fn check(&self, header: &[String]) -> Result<(), RowError> {
+        let place = header.iter().position(|name| name == CHECK);
+        let cell = place.and_then(|place| self.fields.get(place));
+        let expected = cell.and_then(|cell| read(cell)).ok_or(RowError::NoCheck)?;
+        let found = sums(header, &self.fields);
+        if found != expected {
+            return Err(self.changed(header, expected, found));
+        }
+        let program = place.and_then(|place| self.fields.get(place + 1));
+        match program {
+            Some(program) if program == PROGRAM => Ok(()),
+            program => Err(RowError::Program {
+                found: program.cloned().unwrap_or_default(),
+            }),
+        }
+    }
+
+    /// The one cell whose change explains both sums: n times that of the first is that of the second.
+    fn changed(&self, header: &[String], expected: [u64; 2], found: [u64; 2]) -> RowError {
+        let [plain, weighted] = [0, 1].map(|sum| found[sum].wrapping_sub(expected[sum]));
+        let explains = |number: &usize| plain.wrapping_mul(*number as u64) == weighted;
+        match (1..=header.len()).find(explains) {
+            Some(number) if plain != 0 => RowError::Cell {
+                column: header[number - 1].clone(),
+                number,
+                found: self.fields.get(number - 1).cloned().unwrap_or_default(),
+            },
+            _ => RowError::Cells,
+        }
+    }
+
+    /// Whether the point has no answer.
+    pub fn failed(&self) -> bool {
+        self.fields.last().is_some_and(|why| !why.is_empty())
+    }
+
+    /// The warnings of its answer.
+    pub fn warnings(&self) -> Vec<&str> {
+        let before = self.fields.len().checked_sub(2);
+        let sentences = before.map_or("", |place| &self.fields[place]);
+        let sentences = sentences.split(BETWEEN_WARNINGS);
+        sentences.filter(|sentence| !sentence.is_empty()).collect()
+    }
+}
+
+/// Between the sentences of a cell.
+pub(super) const BETWEEN_WARNINGS: &str = " | ";
+
+/// A cell as it is compared: a number or a truth value by its value, whatever program has written it.
+pub(super) fn canonical(cell: &str) -> String {
+    let number = cell.trim().parse::<f64>().ok();
+    match number.filter(|number| number.is_finite()) {
+        // Without the sign of 0.
+        Some(number) => format!("{:?}", number + 0.0),
+        None if ["true", "false"].contains(&&*cell.to_lowercase()) => cell.to_lowercase(),
+        None => cell.to_owned(),
+    }
+}
+
+/// Sums over the cells of a row but for the check, n = 1, 2, …, modulo 2⁶⁴: of hashes hₙ of a cell with the name of its column, and
+/// of n hₙ. A change of one cell changes them by d and n d, from which n follows.
+fn sums(header: &[String], fields: &[String]) -> [u64; 2] {
+    let mut sums = [0_u64; 2];
+    for (index, cell) in fields.iter().enumerate() {
+        let name = header.get(index).map_or("", String::as_str);
+        if name != CHECK {
+            let hash = hashed(hashed(EMPTY, name.as_bytes()), b"=");
+            let hash = hashed(hash, canonical(cell).as_bytes());
+            let number = index as u64 + 1;
+            sums[0] = sums[0].wrapping_add(hash);
+            sums[1] = sums[1].wrapping_add(hash.wrapping_mul(number));
+        }
+    }
+    sums
+}
+
+/// Before the digits of a hash: without it some are numbers, which spreadsheets write otherwise.
+const NO_NUMBER: char = 'x';
+
+/// A hash in a cell.
+pub(super) fn digits(hash: u64) -> String {
+    format!("{NO_NUMBER}{hash:016x}")
+}
+
+fn written([plain, weighted]: [u64; 2]) -> String {
+    format!("{}{weighted:016x}", digits(plain))
+}
+
+fn read(check: &str) -> Option<[u64; 2]> {
+    let digits = check.strip_prefix(NO_NUMBER)?;
+    let (plain, weighted) = digits.split_at_checked(16)?;
+    let number = |digits| u64::from_str_radix(digits, 16).ok();
+    Some([number(plain)?, number(weighted)?])
+}
+
+/// FNV-1a with 64 bits of nothing.
+pub(super) const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// FNV-1a of more bytes behind those that were hashed before.
+pub(super) fn hashed(before: u64, more: &[u8]) -> u64 {
+    more.iter().fold(before, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header() -> Vec<String> {
+        let names = [
+            "sweep",
+            "point",
+            "points",
+            "load.velocity",
+            CHECK,
+            "program",
+            "friction",
+            "depth",
+        ];
+        names.map(str::to_owned).to_vec()
+    }
+
+    /// A row of a program, with its check.
+    fn row(program: &str) -> SweepRow {
+        let cells = [
+            "x12",
+            "1",
+            "2",
+            "1e-3",
+            "",
+            program,
+            "0.018260853751863163",
+            "true",
+        ];
+        let mut fields = cells.map(str::to_owned).to_vec();
+        fields[4] = written(sums(&header(), &fields));
+        SweepRow { point: 0, fields }
+    }
+
+    #[test]
+    fn the_cell_that_was_changed_is_named() {
+        for index in [0, 1, 2, 3, 5, 6, 7] {
+            for found in ["", "nan", "7.5", "text"] {
+                let mut changed = row(PROGRAM);
+                changed.fields[index] = found.to_owned();
+                let cell = RowError::Cell {
+                    column: header()[index].clone(),
+                    number: index + 1,
+                    found: found.to_owned(),
+                };
+                assert_eq!(changed.check(&header()), Err(cell));
+            }
+        }
+    }
+
+    #[test]
+    fn cells_that_were_exchanged_or_renamed_are_noticed() {
+        let mut exchanged = row(PROGRAM);
+        exchanged.fields.swap(6, 7);
+        assert_eq!(exchanged.check(&header()), Err(RowError::Cells));
+        let mut names = header();
+        names.swap(6, 7);
+        assert_eq!(row(PROGRAM).check(&names), Err(RowError::Cells));
+        let mut unchecked = row(PROGRAM);
+        unchecked.fields[4] = "3fe9e164d0f51dd8".to_owned();
+        assert_eq!(unchecked.check(&header()), Err(RowError::NoCheck));
+    }
+
+    #[test]
+    fn a_number_may_be_written_otherwise() {
+        let mut same = row(PROGRAM);
+        for (index, cell) in [
+            (1, "1.0"),
+            (3, "0.001"),
+            (6, "1.8260853751863163E-02"),
+            (7, "TRUE"),
+        ] {
+            same.fields[index] = cell.to_owned();
+        }
+        assert_eq!(same.check(&header()), Ok(()));
+    }
+
+    #[test]
+    fn a_row_of_another_version_is_refused_by_its_name() {
+        let found = "viscofriction 0.0.1".to_owned();
+        let refused = row(&found).check(&header());
+        assert_eq!(refused, Err(RowError::Program { found }));
+    }
+}
