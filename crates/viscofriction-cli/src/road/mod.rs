@@ -8,6 +8,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use serde::Serialize;
 use viscofriction::WrongInput;
+use viscofriction::numerics::InvalidParameter;
 use viscofriction::scene::{Indenter, SceneError, Source};
 use viscofriction::solve::{CutOff, Problem, cut_offs, plan_of, scene_of};
 use viscofriction::sweep::each_once;
@@ -118,6 +119,20 @@ impl Road {
                 }
             };
             *given = Some(count);
+            scene.indenter.realisations().map_err(|error| match error {
+                SceneError::Value { value, allowed, .. } => {
+                    let parameter = "--realisations";
+                    WrongInput(
+                        InvalidParameter {
+                            parameter,
+                            value,
+                            allowed,
+                        }
+                        .to_string(),
+                    )
+                }
+                other => source.locate(&other),
+            })?;
         }
         let problem = Problem::new(&scene, source.folder(), read_input);
         let problem = problem.map_err(|error| source.locate(&error))?;

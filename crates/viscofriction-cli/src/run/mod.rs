@@ -13,10 +13,10 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 use viscofriction::Watch;
-use viscofriction::scene::{Method, Source};
+use viscofriction::scene::{Method, SceneError, Source};
 use viscofriction::solve::{
-    Answer, Omission, Plan, Problem, SolveError, plan_of, problem_of, scene_of,
-    spectral_sensitivity, with_fields, with_sensitivity,
+    Answer, Omission, Plan, Problem, SolveError, check_sensitivity, check_spectral_sensitivity,
+    plan_of, problem_of, scene_of, spectral_sensitivity, with_fields, with_sensitivity,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -57,6 +57,31 @@ pub(crate) struct Run {
     overwrite: bool,
 }
 
+impl Run {
+    /// Refuses derivatives that the method of the scene has not.
+    fn check_derivatives(&self, problem: &Problem, method: Method) -> Result<(), SceneError> {
+        let checks: [(_, _, fn(&_, _) -> _); 2] = [
+            (self.sensitivity, "--sensitivity", check_sensitivity),
+            (
+                self.spectral_sensitivity,
+                "--spectral-sensitivity",
+                check_spectral_sensitivity,
+            ),
+        ];
+        let asked = checks.into_iter().filter(|(is_asked, ..)| *is_asked);
+        asked
+            .map(|(_, option, check)| (option, check(problem, method)))
+            .try_for_each(|(option, checked): (_, Result<(), SceneError>)| {
+                checked.map_err(|error| match error {
+                    SceneError::At { key, problem } => {
+                        SceneError::at(key, format!("{problem}, or leave {option} out"))
+                    }
+                    other => other,
+                })
+            })
+    }
+}
+
 /// An answer and the time it took.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(crate) struct Timed<'a> {
@@ -71,6 +96,8 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let problem = problem_of(&source, options.method, read_input)?;
     let problem = problem.or_max_memory(half_of_free_memory());
     let plan = plan_of(&source, &problem)?;
+    let offered = options.check_derivatives(&problem, plan.method());
+    offered.map_err(|error| source.locate(&error))?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();

@@ -184,6 +184,9 @@ impl TableFile {
         {
             return Err(wrong(1, &BETWEEN_COLUMNS));
         }
+        if header.first().is_some_and(|name| name != FIRST_COLUMN) {
+            return Err(wrong(1, &"the first column is not `sweep`"));
+        }
         let mut rows = Vec::new();
         for record in reader.records() {
             let line = |position: Option<&csv::Position>| {
@@ -217,6 +220,9 @@ impl TableFile {
         })
     }
 }
+
+/// The name of the first column of every sweep.
+const FIRST_COLUMN: &str = "sweep";
 
 /// What a spreadsheet of another language makes of the file.
 const BETWEEN_COLUMNS: &str = "commas are needed between the columns and points in numbers, as the sweep has written them, and there \

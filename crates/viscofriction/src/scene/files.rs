@@ -6,6 +6,7 @@ use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
+use numerics::{InWords, InvalidParameter, positive};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -52,19 +53,15 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
     let rows = rows::<SpectrumRow>(contents).map_err(wrong)?;
     let mut before = 0.0;
     for (line, row) in &rows {
-        let numbers = [row.wave_number, row.density];
-        let problem = if numbers
-            .iter()
-            .any(|number| !number.is_finite() || *number <= 0.0)
-        {
-            "finite numbers greater than 0 are needed"
-        } else if row.wave_number <= before {
-            "wave_number must be larger than in the row before"
-        } else {
-            before = row.wave_number;
-            continue;
-        };
-        return Err(wrong((*line, problem.to_owned())));
+        let refused = |error: InvalidParameter| wrong((*line, error.to_string()));
+        positive("wave_number", row.wave_number).map_err(refused)?;
+        positive("density", row.density).map_err(refused)?;
+        if row.wave_number <= before {
+            let [found, before] = [row.wave_number, before].map(InWords);
+            let problem = "wave_number must be larger than in the row before, but is";
+            return Err(wrong((*line, format!("{problem} {found} after {before}"))));
+        }
+        before = row.wave_number;
     }
     let wave_numbers = rows.iter().map(|(_, row)| row.wave_number).collect();
     let densities = rows.iter().map(|(_, row)| factor * row.density).collect();
@@ -95,27 +92,24 @@ struct MotionTableRow {
 pub(super) fn motion(file: &Path, contents: &[u8]) -> Result<Vec<MotionPoint>, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<MotionTableRow>(contents).map_err(wrong)?;
-    let mut before = f64::NEG_INFINITY;
+    check_count(rows.len(), rows.first().map(|(line, _)| *line)).map_err(wrong)?;
+    let controls = |row: &MotionTableRow| [row.normal_force_n, row.indentation_depth_m];
+    let first = controls(&rows[0].1).map(|one| one.is_some());
+    let mut before = None;
     let point = |(line, row): (usize, MotionTableRow)| {
-        let controls = [row.normal_force_n, row.indentation_depth_m];
-        let mut numbers = controls
-            .into_iter()
-            .flatten()
-            .chain([row.time_s, row.position_m]);
-        let problem = if numbers.any(|number| !number.is_finite()) {
-            "finite numbers are needed"
-        } else if row.time_s < 0.0 || row.time_s <= before {
-            "time_s must be at least 0, and larger than in the row before"
-        } else {
-            before = row.time_s;
-            return Ok(MotionPoint {
-                time: row.time_s,
-                position: row.position_m,
-                normal_force: row.normal_force_n,
-                indentation_depth: row.indentation_depth_m,
-            });
+        let check = || {
+            check_time(row.time_s, before, |time, before| time > before)?;
+            check_finite("position_m", row.position_m)?;
+            check_control(controls(&row), first)
         };
-        Err(wrong((line, problem.to_owned())))
+        check().map_err(|problem| wrong((line, problem)))?;
+        before = Some(row.time_s);
+        Ok(MotionPoint {
+            time: row.time_s,
+            position: row.position_m,
+            normal_force: row.normal_force_n,
+            indentation_depth: row.indentation_depth_m,
+        })
     };
     rows.into_iter().map(point).collect()
 }
@@ -124,25 +118,103 @@ pub(super) fn motion(file: &Path, contents: &[u8]) -> Result<Vec<MotionPoint>, S
 pub(super) fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<HistoryTableRow>(contents).map_err(wrong)?;
-    let mut before = 0.0;
+    check_count(rows.len(), rows.first().map(|(line, _)| *line)).map_err(wrong)?;
+    let controls = |row: &HistoryTableRow| [row.normal_force_n, row.indentation_depth_m];
+    let first = controls(&rows[0].1).map(|one| one.is_some());
+    let mut before = None;
     let point = |(line, row): (usize, HistoryTableRow)| {
-        let controls = [row.normal_force_n, row.indentation_depth_m];
-        let mut numbers = controls.into_iter().flatten().chain([row.time_s]);
-        let problem = if numbers.any(|number| !number.is_finite()) {
-            "finite numbers are needed"
-        } else if row.time_s < before {
-            "time_s must be at least 0, and not less than in the row before"
-        } else {
-            before = row.time_s;
-            return Ok(LoadPoint {
-                time: row.time_s,
-                normal_force: row.normal_force_n,
-                indentation_depth: row.indentation_depth_m,
-            });
+        let check = || {
+            check_time(row.time_s, before, |time, before| time >= before)?;
+            check_control(controls(&row), first)?;
+            match controls(&row) {
+                [None, None] => Err("normal_force_n or indentation_depth_m is needed".to_owned()),
+                _ => Ok(()),
+            }
         };
-        Err(wrong((line, problem.to_owned())))
+        check().map_err(|problem| wrong((line, problem)))?;
+        before = Some(row.time_s);
+        Ok(LoadPoint {
+            time: row.time_s,
+            normal_force: row.normal_force_n,
+            indentation_depth: row.indentation_depth_m,
+        })
     };
     rows.into_iter().map(point).collect()
+}
+
+/// Refuses a table of so many points, of which the first is in a line, if there is one.
+fn check_count(count: usize, first: Option<usize>) -> Result<(), (usize, String)> {
+    match count {
+        0 | 1 => {
+            let problem = format!(
+                "two rows below the line of names are needed at least, and there are {count}"
+            );
+            Err((first.unwrap_or(1), problem))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_time(time: f64, before: Option<f64>, follows: fn(f64, f64) -> bool) -> Result<(), String> {
+    check_finite("time_s", time)?;
+    if time < 0.0 {
+        return Err(format!(
+            "time_s must be at least 0, but is {}",
+            InWords(time)
+        ));
+    }
+    match before {
+        Some(before) if !follows(time, before) => {
+            let [time, before] = [time, before].map(InWords);
+            Err(format!(
+                "time_s must not go back, but is {time} after {before}"
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_finite(column: &str, number: f64) -> Result<(), String> {
+    match number.is_finite() {
+        true => Ok(()),
+        false => Err(format!(
+            "{column} must be finite, but is {}",
+            InWords(number)
+        )),
+    }
+}
+
+/// Refuses a row that has not the force or the depth that the first one has, or has both.
+fn check_control(controls: [Option<f64>; 2], first: [bool; 2]) -> Result<(), String> {
+    let names = ["normal_force_n", "indentation_depth_m"];
+    for (name, number) in names.into_iter().zip(controls) {
+        number.map_or(Ok(()), |number| check_finite(name, number))?;
+    }
+    if let [Some(force), _] = controls
+        && force < 0.0
+    {
+        let force = InWords(force);
+        return Err(format!("normal_force_n must be at least 0, but is {force}"));
+    }
+    let given = controls.map(|one| one.is_some());
+    match first {
+        [true, true] => {
+            Err("either normal_force_n or indentation_depth_m is given, not both".to_owned())
+        }
+        _ if given != first => {
+            let found = |has: [bool; 2]| match has {
+                [false, false] => "neither",
+                [true, false] => names[0],
+                [false, true] => names[1],
+                [true, true] => "both",
+            };
+            let [found, first] = [found(given), found(first)];
+            Err(format!(
+                "all rows have a normal_force_n, all an indentation_depth_m, or none, but this has {found} and the first {first}"
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn at(file: &Path, line: usize, problem: &str) -> String {
@@ -161,16 +233,12 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
     let names = reader.headers().cloned();
     let names = names.map_err(|error| {
         let line = lines.of(error.position());
-        (line, problem(&error, &StringRecord::new()))
+        (line, problem(&error, [&StringRecord::new(); 2]))
     })?;
     let head = lines.of(names.position());
     let mut rows = Vec::new();
     for record in reader.records() {
-        let row = record.and_then(|record| {
-            let row = record.deserialize(Some(&names))?;
-            Ok((lines.of(record.position()), row))
-        });
-        rows.push(row.map_err(|error| {
+        let wrong = |error: csv::Error, record: &StringRecord, lines: &mut RecordLines<'_>| {
             let is_of_names =
                 matches!(error.kind(), ErrorKind::Deserialize { err, .. } if err.field().is_none());
             let line = if is_of_names {
@@ -178,8 +246,12 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
             } else {
                 lines.of(error.position())
             };
-            (line, problem(&error, &names))
-        })?);
+            (line, problem(&error, [&names, record]))
+        };
+        let record = record.map_err(|error| wrong(error, &StringRecord::new(), &mut lines))?;
+        let row = record.deserialize(Some(&names));
+        let row = row.map_err(|error| wrong(error, &record, &mut lines))?;
+        rows.push((lines.of(record.position()), row));
     }
     Ok(rows)
 }
@@ -218,14 +290,14 @@ fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     Ok((text.replace(',', "."), separator))
 }
 
-/// What is wrong, with the name of the column.
-fn problem(error: &csv::Error, names: &StringRecord) -> String {
+/// What is wrong, with the name of the column and what stands in it.
+fn problem(error: &csv::Error, [names, record]: [&StringRecord; 2]) -> String {
     match error.kind() {
         ErrorKind::Deserialize { err, .. } => {
             let field = err.field().and_then(|field| usize::try_from(field).ok());
-            match field.and_then(|field| names.get(field)) {
-                Some(name) => format!("{name}: {}", err.kind()),
-                None => err.kind().to_string(),
+            match field.and_then(|field| Some((names.get(field)?, record.get(field)?))) {
+                Some((name, found)) => format!("{name}: a number is needed, but it is {found:?}"),
+                None => err.kind().to_string().replace(" field `", " column `"),
             }
         }
         ErrorKind::UnequalLengths {

@@ -191,6 +191,8 @@ impl SpectrumConvention {
 
 /// Most surfaces of one scene.
 const MOST_REALISATIONS: u64 = 1000;
+/// Fewest realisations whose scatter tells the standard error of their mean.
+pub(crate) const FEWEST_REALISATIONS: usize = 10;
 
 /// One term of a sum.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -234,6 +236,9 @@ impl Indenter {
         let count = realisations.unwrap_or(asked.map_or(1, |_| MOST_REALISATIONS));
         let holds = (1..=MOST_REALISATIONS).contains(&count);
         in_range("realisations", count as f64, holds, "from 1 to 1000").map_err(within)?;
+        let holds = asked.is_none() || count >= FEWEST_REALISATIONS as u64;
+        let allowed = "from 10 to 1000 with a standard_error, which fewer do not tell";
+        in_range("realisations", count as f64, holds, allowed).map_err(within)?;
         Ok((count, asked))
     }
 

@@ -116,7 +116,10 @@ impl Load {
 
     /// The sliding speed, \[m/s].
     pub(crate) fn checked_velocity(&self) -> Result<f64, SceneError> {
-        let missing = || SceneError::at("load.velocity", "missing field `velocity`");
+        let missing = || {
+            let problem = "missing field `velocity`: give a velocity [m/s], or a stroke, a motion or a history";
+            SceneError::at("load.velocity", problem)
+        };
         let velocity = self.velocity.ok_or_else(missing)?;
         Ok(not_negative("load.velocity", velocity)?)
     }

@@ -25,6 +25,7 @@ pub use covariance::Covariance;
 pub use error::SceneError;
 pub use files::{profile, spectrum};
 pub use height_map::{HeightMapTable, HeightsAre, LengthUnit, in_file};
+pub(crate) use indenter::FEWEST_REALISATIONS;
 pub use indenter::{
     Edges, Indenter, IndenterKind, SelfAffineSurface, SpectrumConvention, SpectrumSurface, Term,
 };
@@ -35,7 +36,7 @@ pub use numerics::Accuracy;
 pub use rheology::{Shift, ShiftLaw};
 pub use solve::{Method, Model, Solve};
 pub use source::Source;
-pub(crate) use source::{scene_file, split_index};
+pub(crate) use source::{quoted, scene_file, split_index};
 
 use crate::text::WrongInput;
 
@@ -63,7 +64,7 @@ pub struct Scene {
     /// What is asked, and how well.
     #[serde(default)]
     pub solve: Solve,
-    /// Relative standard uncertainties ≥ 0 of numbers of the scene, by their paths in quotes such as "load.normal_force"; that of
+    /// Relative standard uncertainties from 0 to 1 of numbers of the scene, by their paths in quotes such as "load.normal_force"; that of
     /// "material.file.temperature" in K.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub uncertainty: BTreeMap<String, f64>,

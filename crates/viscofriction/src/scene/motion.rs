@@ -197,5 +197,11 @@ impl Place<'_> {
 
 /// A number that follows from those of the scene.
 fn refused(key: &str, error: &IndenterError) -> SceneError {
-    SceneError::at(key, error.to_string())
+    let advice = match error {
+        IndenterError::InvalidParameter(refused) if refused.value == 0.0 => {
+            "; a body that does not slide follows load.history"
+        }
+        _ => "",
+    };
+    SceneError::at(key, format!("{error}{advice}"))
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
+use serde_path_to_error::Segment;
 use toml::de::DeTable;
 use toml::{Table, Value};
 
@@ -56,9 +57,20 @@ impl Source {
             let start = error.span().map_or(0, |span| span.start);
             self.locate(&SceneError::Syntax {
                 line: line_of(self.text.as_bytes(), start),
-                problem: error.message().to_owned(),
+                problem: self.syntax_problem(start, error.message()),
             })
         })
+    }
+
+    /// What is wrong with the text at a place, with what to do about the paths of Windows.
+    fn syntax_problem(&self, place: usize, problem: &str) -> String {
+        let [before, after] = [&self.text[..place], &self.text[place..]];
+        let line = [before.lines().last(), after.lines().next()];
+        if line.iter().flatten().any(|part| part.contains('\\')) {
+            let advice = "between \"…\" a backslash begins a character that is written otherwise; write a path as 'C:\\folder\\file' or with /";
+            return format!("{problem}; {advice}");
+        }
+        problem.to_owned()
     }
 
     /// The error with file and line.
@@ -77,7 +89,7 @@ impl Source {
         };
         let mut offset = 0;
         let mut tables = Some(document.get_ref());
-        for segment in key.split('.') {
+        for segment in segments(key) {
             let (name, index) = split_index(segment);
             let Some((found, mut value)) = tables.and_then(|table| table.get_key_value(name))
             else {
@@ -94,8 +106,60 @@ impl Source {
     }
 }
 
+/// The keys of a path, some of which are quoted, as in `uncertainty."load.velocity"`; the quotes are left out.
+fn segments(path: &str) -> Vec<&str> {
+    let mut is_quoted = false;
+    let parts = path.split(|letter| {
+        is_quoted ^= letter == '"';
+        letter == '.' && !is_quoted
+    });
+    parts.map(|part| part.trim_matches('"')).collect()
+}
+
+/// The path of a key in a table, in quotes where it has a point, as TOML wants it.
+pub(crate) fn quoted(table: &str, key: &str) -> String {
+    let key = if key.contains('.') {
+        format!("{key:?}")
+    } else {
+        key.to_owned()
+    };
+    let between = if table.is_empty() { "" } else { "." };
+    format!("{table}{between}{key}")
+}
+
+/// The path at which serde refuses a value.
+fn path_of(path: &serde_path_to_error::Path) -> String {
+    path.iter()
+        .fold(String::new(), |before, segment| match segment {
+            Segment::Seq { index } => format!("{before}[{index}]"),
+            Segment::Map { key } => quoted(&before, key),
+            Segment::Enum { variant } => quoted(&before, variant),
+            Segment::Unknown => before,
+        })
+}
+
+/// Refuses a path of an uncertain number that is not in quotes, and is tables of its keys.
+fn check_quotes(table: &Table) -> Result<(), SceneError> {
+    let uncertain = table.get("uncertainty").and_then(Value::as_table);
+    let Some((first, mut inner)) = uncertain
+        .into_iter()
+        .flatten()
+        .find(|(_, value)| value.is_table())
+    else {
+        return Ok(());
+    };
+    let mut path = first.clone();
+    while let Some((key, value)) = inner.as_table().and_then(|table| table.iter().next()) {
+        path = format!("{path}.{key}");
+        inner = value;
+    }
+    let problem = format!("the path of an uncertain number is in quotes: \"{path}\" = {inner}");
+    Err(SceneError::at(format!("uncertainty.{path}"), problem))
+}
+
 /// The scene that keys and values describe, without an unknown or missing key or a value of the wrong type.
 pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
+    check_quotes(&table)?;
     checked(table, &["indenter", "material"])
 }
 
@@ -108,7 +172,7 @@ pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Resu
         check_kind(key, &table)?;
     }
     serde_path_to_error::deserialize(table).map_err(|error| {
-        let path = error.path().to_string();
+        let path = path_of(error.path());
         let problem = problem_of(error.inner());
         SceneError::at(full_key(&path, &problem), problem)
     })

@@ -8,7 +8,7 @@ use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
-use numerics::{in_range, positive};
+use numerics::{InWords, in_range, positive};
 
 use super::heights::{STEEPEST, body_of_heights};
 use crate::files::Files;
@@ -141,7 +141,10 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
             let surface = table.read(&files.folder.join(&table.file), &contents, rest)?;
             return body_of_heights(table, surface);
         }
-        Indenter::SelfAffine(surface) => self_affine(surface).surface().map(Body::Periodic),
+        Indenter::SelfAffine(surface) => {
+            check_wavelengths(surface)?;
+            self_affine(surface).surface().map(Body::Periodic)
+        }
         Indenter::Spectrum(surface) => return random(surface, files),
     };
     let body = body.map_err(|error| refused(&indenter.key(), error))?;
@@ -149,6 +152,22 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
         body,
         warnings: Vec::new(),
     })
+}
+
+/// Refuses a shortest wave that is longer than the longest.
+fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
+    let [shortest, longest] = [surface.shortest_wavelength, surface.longest_wavelength];
+    if shortest > longest {
+        let [shortest, longest] = [shortest, longest].map(InWords);
+        let problem = format!(
+            "it must not be longer than longest_wavelength, {longest} m, but is {shortest} m"
+        );
+        return Err(SceneError::at(
+            "indenter.self-affine.shortest_wavelength",
+            problem,
+        ));
+    }
+    Ok(())
 }
 
 fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {

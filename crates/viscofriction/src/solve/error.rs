@@ -56,8 +56,9 @@ pub enum SolveError {
     NotOffered(#[from] NotOffered),
     /// The error of the series that stands for the material is too large for the error asked for.
     #[error(
-        "the relative error {asked:e} was not reached, because the series of the material is off by {series:.1e}: the value is \
+        "the relative error {} was not reached, because the series of the material is off by {series:.1e}: the value is \
          {} with an error of {:.1e}; give a larger solve.relative_error, or a material with a smaller relative_error",
+        InWords(*asked),
         InWords(*value),
         InWords(*error)
     )]
@@ -73,15 +74,17 @@ pub enum SolveError {
     },
     /// The mean of all surfaces that may be drawn is not known as well as asked for.
     #[error(
-        "the relative standard error {asked:e} of the mean was not reached: it is {reached:.1e} after {surfaces} surfaces, and ten are \
-         the fewest that tell it; give a larger standard_error, more realisations, or a larger period"
+        "the relative standard error {} of the mean was not reached: it is {:.1e} after {surfaces} surfaces; give a larger \
+         standard_error, more realisations, or a larger period",
+        InWords(*asked),
+        InWords(*reached)
     )]
     TooFewSurfaces {
         /// Relative standard error asked for.
         asked: f64,
         /// How many were drawn.
         surfaces: usize,
-        /// Relative standard error that was reached; infinite where they are too few to tell.
+        /// Relative standard error that was reached; infinite where the mean is 0.
         reached: f64,
     },
     /// An answer whose derivatives are not known.

@@ -43,9 +43,10 @@ pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
 pub use realisations::{Ensemble, Realisation, Scatter};
 pub use road::{CutOff, cut_offs};
+pub(crate) use sensitivity::check_uncertainties;
 pub use sensitivity::{
-    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties, sampled,
-    spectral_sensitivity, with_sensitivity,
+    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties,
+    check_sensitivity, check_spectral_sensitivity, sampled, spectral_sensitivity, with_sensitivity,
 };
 pub use with_fields::with_fields;
 

@@ -155,6 +155,8 @@ impl Problem {
             shortest_wavelength: None,
         };
         problem.check_control()?;
+        problem.check_track()?;
+        problem.check_layer()?;
         check_uncertainties(scene, folder, read)?;
         Ok(problem)
     }
@@ -352,6 +354,25 @@ impl Problem {
         }
         Ok(())
     }
+
+    /// Refuses a layer on the one-dimensional model.
+    fn check_layer(&self) -> Result<(), SceneError> {
+        if self.thickness.is_finite() && self.model == Model::Line {
+            let problem = "the scene asks for the one-dimensional model, and it knows no layer; boundary elements do";
+            return Err(SceneError::at("layer", problem));
+        }
+        Ok(())
+    }
+
+    /// Refuses a track that no method knows.
+    fn check_track(&self) -> Result<(), SceneError> {
+        let problem = match self.track() {
+            Some(_) if matches!(self.body, Body::Periodic(_)) => OWN_PERIOD,
+            Some(_) if self.material.creep().fluidity() > 0.0 => NO_PASS,
+            _ => return Ok(()),
+        };
+        Err(SceneError::at("load.track", problem))
+    }
 }
 
 /// A scene that names no file.
@@ -387,6 +408,9 @@ fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
 
 const NO_TRACK: &str =
     "a track is passed with a speed again and again, and nothing slides so; leave this out";
+const OWN_PERIOD: &str = "a periodic surface meets each place again after its own period, which is its track; leave this out";
+const NO_PASS: &str = "a material that flows gives way further in every pass, and none is like the one before; give it an equilibrium \
+                       modulus, or leave the track out";
 const ENDLESS: &str =
     "on a track the stationary state is answered, which has no duration and no sliding_distance";
 

@@ -38,12 +38,11 @@ const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: i
 const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
 const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
-const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle or pass, and none is like the one before; give it an equilibrium modulus";
+const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle, and none is like the one before; give it an equilibrium modulus";
 const ONE_SURFACE: Refusal =
     "realisations are for sliding and pressing; a motion has one surface, with a seed of its own";
 const NO_TRACK: Refusal =
     "it knows no track on which the body comes back; mdr-steady and bem-steady do";
-const OWN_PERIOD: Refusal = "a periodic surface meets each place again after its own period, which is its track; leave load.track out";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
@@ -89,12 +88,8 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
 
 /// Whether a method answers the problem on its track.
 fn require_track(problem: &Problem, method: Method) -> Result<(), Refusal> {
-    let is_periodic = matches!(problem.body(), Body::Periodic(_));
-    require(!is_periodic, OWN_PERIOD)?;
     require(matches!(method, MdrSteady | BemSteady), NO_TRACK)?;
-    require(problem.expansion().is_none(), NO_BAR)?;
-    let flows = problem.material().creep().fluidity() > 0.0;
-    require(!flows, NO_CYCLE)
+    require(problem.expansion().is_none(), NO_BAR)
 }
 
 /// Whether a body rises where it ends; a flat punch does not.

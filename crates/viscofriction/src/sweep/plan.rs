@@ -7,7 +7,9 @@ use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, h
 use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::scene::{Scene, SceneError, Source, scene_file, split_index};
-use crate::solve::{Answer, Problem, Uncertainties, plan_of, sampled, solve, with_sensitivity};
+use crate::solve::{
+    Answer, Problem, Uncertainties, check_uncertainties, plan_of, sampled, solve, with_sensitivity,
+};
 use crate::text::WrongInput;
 
 /// Keys of a scene whose values are names of files.
@@ -119,10 +121,11 @@ impl Plan {
         let check = || {
             let scene = scene_file(self.table.clone())?;
             let files = (self.source.folder(), self.read);
+            check_uncertainties(&scene, files.0, files.1)?;
             let [one, other] = [1, 2].map(|sample| sampled(&scene, files, sample));
             if one? == other? {
-                let problem =
-                    "samples need a number that is uncertain, or a material with a covariance";
+                let problem = "samples need a number that is uncertain, as \"load.normal_force\" = 0.05 in [uncertainty], or a material \
+                               with a covariance";
                 return Err(SceneError::at("uncertainty", problem));
             }
             Ok(())

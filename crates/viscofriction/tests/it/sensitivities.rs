@@ -350,24 +350,33 @@ fn uncertainties_of_what_is_no_number_are_refused() {
         (
             elastic,
             "\"load.normal_force\" = -0.01",
-            "uncertainty.load.normal_force must be finite and at least 0, but is -0.01",
+            "uncertainty.\"load.normal_force\" must be from 0 to 1, a part of the number, as 0.05 is 5 %, but is -0.01",
         ),
         (
             elastic,
             "\"load.normal_force\" = nan",
-            "uncertainty.load.normal_force must be",
+            "uncertainty.\"load.normal_force\" must be",
         ),
         (
             elastic,
             "\"load.force\" = 0.01",
-            "uncertainty.load.force: no number of the scene, which has indenter.",
+            "uncertainty.\"load.force\": this is no number of the scene that may be uncertain; these are: \"indenter.",
         ),
         (
             elastic,
             "\"material.file.temperature\" = 0.5",
             "only a material of a file",
         ),
-        (elastic, "load.normal_force = 0.5", "expected a number"),
+        (
+            elastic,
+            "load.normal_force = 0.5",
+            "uncertainty.load.normal_force: the path of an uncertain number is in quotes: \"load.normal_force\" = 0.5",
+        ),
+        (
+            elastic,
+            "\"load.normal_force\" = 1000",
+            "a part of the number, as 0.05 is 5 %, but is 1000",
+        ),
         (
             prony,
             "\"material.prony.equilibrium_modulus\" = 0.1",

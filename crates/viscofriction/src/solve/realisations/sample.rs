@@ -9,8 +9,7 @@
 //! without an error of the coarse grid, which the difference takes away; that scatters the less the better the grid tells surfaces
 //! apart (multilevel Monte Carlo with two levels: Giles 2008). Without a coarse grid c = f and N = n.
 
-/// Surfaces from which a standard error is taken for one.
-pub(super) const FEWEST: usize = 10;
+pub(super) use crate::scene::FEWEST_REALISATIONS as FEWEST;
 
 /// How far the surfaces differ.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -39,6 +39,15 @@ pub(super) fn sensitivities(
     all.iter().map(of).collect()
 }
 
+/// Refuses several random surfaces.
+pub(super) fn check_surfaces(problem: &Problem) -> Result<(), SceneError> {
+    if problem.realisations() > 1 {
+        let why = "derivatives are those of one surface; leave out its realisations";
+        return Err(SceneError::at("indenter", why));
+    }
+    Ok(())
+}
+
 /// The contact of an answer with its adjoint loads.
 pub(super) enum Contact {
     Single(SteadySensitivity),
@@ -47,10 +56,7 @@ pub(super) enum Contact {
 
 impl Contact {
     pub(super) fn new(problem: &Problem, load: &SlidingLoad, answer: &Answer) -> Result<Self> {
-        if problem.realisations() > 1 {
-            let why = "derivatives are those of one surface; leave out its realisations";
-            return Err(SceneError::at("indenter", why).into());
-        }
+        check_surfaces(problem)?;
         let elastomer = problem.elastomer()?;
         Ok(match (problem.body(), answer.stationary) {
             (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {

@@ -19,15 +19,17 @@ use super::plan::Plan;
 use super::problem::{Motion, Problem};
 use super::work::work;
 use crate::files::ReadFile;
-use crate::scene::{Method, Model, Scene};
+use crate::scene::{Method, Model, Scene, SceneError};
 use budget::budget;
 pub use budget::{Budget, Source, Uncertainties};
 use differences::Values;
 use parameters::TEMPERATURE;
-pub(super) use parameters::check_uncertainties;
+pub(crate) use parameters::check_uncertainties;
 pub(crate) use parameters::{Number, Numbers};
 pub use sampling::sampled;
-pub use spectral::{ByFrequency, SpectralSensitivity, spectral_sensitivity};
+pub use spectral::{
+    ByFrequency, SpectralSensitivity, check_spectral_sensitivity, spectral_sensitivity,
+};
 
 /// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
 /// one-dimensional model.
@@ -132,6 +134,26 @@ fn answer_with_derivatives(problem: &Problem, cheaper: Method) -> Option<Result<
         work,
     };
     Some(plan.solve(&Unwatched))
+}
+
+/// Refuses a problem whose answer by a method has no derivatives, before it is solved.
+///
+/// # Errors
+/// [`SceneError`] at the key that is best changed.
+pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Result<(), SceneError> {
+    let none = || {
+        SceneError::at(
+            "solve.method",
+            SolveError::NoSensitivity { method }.to_string(),
+        )
+    };
+    match (method, problem.motion()) {
+        (Method::BemSteady, Motion::Sliding(_)) => adjoint::check_surfaces(problem),
+        (Method::Analytic | Method::MdrSteady, motion) if !matches!(motion, Motion::History(_)) => {
+            Ok(())
+        }
+        _ => Err(none()),
+    }
 }
 
 impl Sensitivity {

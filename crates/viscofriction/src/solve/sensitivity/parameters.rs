@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use numerics::not_negative;
+use numerics::in_range;
 use rheology::KELVIN_AT_ZERO_CELSIUS;
 use toml::{Table, Value};
 
 use crate::files::{Files, ReadFile};
-use crate::scene::{MaterialTable, Scene, SceneError};
+use crate::scene::{MaterialTable, Scene, SceneError, quoted};
 use crate::solve::half_space::of_file;
 use crate::solve::problem::Problem;
 
@@ -105,15 +105,25 @@ impl<'a> Numbers<'a> {
         let known: Vec<String> = self.all().iter().map(Number::path).collect();
         let has_covariance = self.scene()?.material.covariance().is_some();
         for (path, value) in &self.uncertainty {
-            let key = format!("uncertainty.{path}");
-            not_negative("", *value).map_err(|refused| SceneError::value(key.clone(), refused))?;
+            let key = quoted("uncertainty", path);
+            let (most, allowed) = match &path[..] {
+                TEMPERATURE => (f64::MAX, "at least 0, in K"),
+                _ => (1.0, "from 0 to 1, a part of the number, as 0.05 is 5 %"),
+            };
+            let holds = (0.0..=most).contains(value);
+            in_range("", *value, holds, allowed)
+                .map_err(|refused| SceneError::value(key.clone(), refused))?;
             let problem = match &path[..] {
                 TEMPERATURE if self.of_file.is_some() => continue,
                 TEMPERATURE => {
                     "only a material of a file with a shift law has another temperature".to_owned()
                 }
                 _ if !known.contains(path) => {
-                    format!("no number of the scene, which has {}", known.join(", "))
+                    let known: Vec<String> = known.iter().map(|path| format!("{path:?}")).collect();
+                    let known = known.join(", ");
+                    format!(
+                        "this is no number of the scene that may be uncertain; these are: {known}"
+                    )
                 }
                 _ if has_covariance
                     && path.starts_with("material.")

@@ -7,8 +7,8 @@ use numerics::Estimate;
 use serde::Serialize;
 
 use super::Sensitivity;
-use super::adjoint::{self, Contact};
-use crate::scene::Method;
+use super::adjoint::{self, Contact, check_surfaces};
+use crate::scene::{Method, SceneError};
 use crate::solve::answer::{Answer, StationaryGrid};
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
@@ -65,6 +65,28 @@ pub fn spectral_sensitivity(problem: &Problem, answer: &Answer) -> Result<Spectr
         outside_valid_frequencies: problem.window().map(|window| outside(&bands, window)),
         bands,
     })
+}
+
+/// Refuses a problem whose answer by a method has no derivatives by the modulus at each frequency, before it is solved.
+///
+/// # Errors
+/// [`SceneError`] at the key that is best changed.
+pub fn check_spectral_sensitivity(
+    problem: &Problem,
+    method: Method,
+) -> std::result::Result<(), SceneError> {
+    if !matches!(
+        (method, problem.motion()),
+        (Method::BemSteady, Motion::Sliding(_))
+    ) {
+        let none = SolveError::NoSpectralSensitivity { method };
+        return Err(SceneError::at("solve.method", none.to_string()));
+    }
+    if problem.track().is_some() {
+        let why = "derivatives by the modulus at each frequency are known on fresh ground only; leave this out";
+        return Err(SceneError::at("load.track", why));
+    }
+    check_surfaces(problem)
 }
 
 impl SpectralSensitivity {
