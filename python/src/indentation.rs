@@ -74,11 +74,12 @@ impl Curve<'_> {
 
     fn options(&self) -> PyResult<FitOptions> {
         let rheology = match &self.material[..] {
+            "elastic" => Rheology::Elastic,
             "standard-solid" => Rheology::StandardSolid,
             "prony" => Rheology::Prony,
             "power-law" => Rheology::PowerLaw,
             other => {
-                let allowed = "\"standard-solid\", \"prony\" or \"power-law\"";
+                let allowed = "\"elastic\", \"standard-solid\", \"prony\" or \"power-law\"";
                 return Err(wrong(format!(
                     "material must be {allowed}, but is {other:?}"
                 )));
@@ -128,6 +129,7 @@ fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>>
         column.into_pyarray(py)
     });
     let flags: Vec<String> = fit.flags.iter().map(ToString::to_string).collect();
+    let notes: Vec<String> = fit.notes.iter().map(ToString::to_string).collect();
     let dictionary = PyDict::new(py);
     dictionary.set_item("findings", findings)?;
     dictionary.set_item("correlation", fit.correlation)?;
@@ -140,5 +142,6 @@ fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>>
     dictionary.set_item("correlated_points", fit.correlated_points)?;
     dictionary.set_item("points", points)?;
     dictionary.set_item("flags", flags)?;
+    dictionary.set_item("notes", notes)?;
     Ok(dictionary)
 }

@@ -108,6 +108,8 @@ class IndentationFit(Compared):
     fitted_force: Numbers
     #: What is doubtful about it.
     flags: tuple[str, ...]
+    #: What was decided or guessed.
+    notes: tuple[str, ...]
 
     def __repr__(self) -> str:
         rows = []
@@ -115,7 +117,8 @@ class IndentationFit(Compared):
             rows.append(f"  {name}: {one}")
             if name.startswith("G"):
                 rows.append(f"  E{name[1:]}: {one.times(2 * (1 + self.material.poisson_ratio))}")
-        return "\n".join(["fit of a curve", *rows, *(f"  flag: {flag}" for flag in self.flags)])
+        sentences = [*(f"  note: {note}" for note in self.notes), *(f"  flag: {flag}" for flag in self.flags)]
+        return "\n".join(["fit of a curve", *rows, *sentences])
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known, under the names of the attributes, as numbers, texts, lists and dictionaries of them."""
@@ -259,7 +262,8 @@ def fit_indentation(
     ``thickness`` [m] is that of a sample bonded to a rigid base, under a body of revolution; "fit" finds it with the material, and
     says where the curve does not determine it; without it the sample is a half space.
 
-    ``material`` is "standard-solid", "prony" with ``branches`` (or as many as the curve tells apart) or "power-law".
+    ``material`` is "elastic", "standard-solid", "prony" with ``branches`` (or as many as the curve tells apart) or "power-law".
+    Where the curve does not determine how a material relaxes, the elastic one is given, and ``notes`` say so.
     ``before_retraction`` leaves the way back out, on which most bodies stick. ``profile`` takes all intervals from the profile
     likelihood; without it only those that a covariance cannot give, which is faster for maps of many curves. The
     interpreter's lock is released, so that threads fit several curves at a time.
@@ -323,4 +327,5 @@ def fit_indentation(
         measured,
         fitted,
         tuple(found["flags"]),
+        tuple(found["notes"]),
     )

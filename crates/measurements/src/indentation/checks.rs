@@ -1,5 +1,7 @@
 //! Whether a curve is what its columns say.
 
+use indenters::{Axisymmetric, contact_radius};
+
 use super::IndentationCurve;
 use super::depth::{self, ends};
 use super::flag::Flag;
@@ -13,6 +15,8 @@ const RUN: usize = 5;
 const GOES_ON: f64 = 0.3;
 /// Standard deviations that are more than noise.
 pub(super) const SIGNIFICANT: f64 = 6.0;
+/// Ratio of the width of a contact to its depth, or the reverse, beyond which no experiment is.
+const SCALE: f64 = 1e9;
 /// Part of the depth range by which a body must be pulled back, and pressed again, to be more than noise.
 const AGAIN: f64 = 0.05;
 /// The curve in means with a smooth depth, and without the retraction where that is asked for.
@@ -65,6 +69,20 @@ fn saturation(IndentationCurve { time, depth, force }: &IndentationCurve) -> Res
         return Err(Flag::Saturated(largest));
     }
     Ok(())
+}
+
+/// Whether the body would have a contact of any sensible shape at the depths of the curve.
+pub(super) fn scale(body: &dyn Axisymmetric, curve: &IndentationCurve) -> Result<(), Flag> {
+    let [low, high] = ends(&curve.depth);
+    // A body that ends above the whole range is refused later, where the contact point is known.
+    let radius = contact_radius(body, high - low).unwrap_or(body.max_radius());
+    let ratio = radius / (high - low);
+    let holds = ratio > SCALE.recip() && ratio < SCALE;
+    if holds {
+        Ok(())
+    } else {
+        Err(Flag::OutOfScale(ratio.clamp(f64::MIN_POSITIVE, f64::MAX)))
+    }
 }
 
 /// What makes a fit useless, by the elastic start.

@@ -30,9 +30,23 @@ pub enum Flag {
     /// The force falls while the body goes down.
     #[error("the force falls while the body goes down: is the sign of one of them wrong?")]
     WrongSign,
-    /// On the way in the body is drawn to the surface before it touches.
-    #[error("the body jumps into contact: the force falls {0:.1e} N below the baseline")]
-    JumpToContact(f64),
+    /// On the way in the body is drawn to the surface before it touches, or held by it.
+    #[error(
+        "the body jumps into contact: on the way in the force falls {fall:.1e} N below the baseline, {:.1} % of the largest force, \
+         but the fit knows no adhesion",
+        100.0 * part
+    )]
+    JumpToContact {
+        /// Fall of the force below the baseline, \[N].
+        fall: f64,
+        /// The same as a part of the largest force.
+        part: f64,
+    },
+    /// The body and the depths are of sizes that do not belong together.
+    #[error(
+        "the contact would be {0:.0e} times as wide as deep: are the size of the body, in metres or degrees, and the depths right?"
+    )]
+    OutOfScale(f64),
     /// On the way back the body sticks.
     #[error(
         "on the way back the body sticks or the force drifts, by {0:.1e} N: leave out the retraction"

@@ -21,6 +21,9 @@ use crate::{Finding, MeasurementError};
 const NORMAL: f64 = 1.959_963_984_540_054;
 /// A logarithm with a larger standard error wants a profile.
 const WIDE: f64 = 0.4;
+/// Largest ratio of the ends of an interval within which a modulus, a time or a thickness is determined: beyond it the standard error of
+/// the logarithm is above 0.6, and a value would be an arbitrary one of the interval. Chosen.
+const UNDETERMINED: f64 = 10.0;
 /// How close the distance of an end of a profile has to be.
 const CLOSE: f64 = 0.01;
 /// Part of the range of depths by which a knot is moved to see what it does.
@@ -86,7 +89,11 @@ impl Statistics {
 
     pub(super) fn findings(&self, found: &Found, profile: bool) -> Vec<Finding> {
         let finding = |parameter: usize| self.finding(found, parameter, profile);
-        (0..self.n).map(finding).collect()
+        let mut findings: Vec<Finding> = (0..self.n).map(finding).collect();
+        if let Kind::Branches(n) = found.model.kind {
+            (0..n).for_each(|branch| open_split(&mut findings, branch));
+        }
+        findings
     }
 
     fn finding(&self, found: &Found, parameter: usize, profile: bool) -> Finding {
@@ -109,7 +116,11 @@ impl Statistics {
             _ => slope * deviation,
         };
         let value = shown(value);
-        let is_determined = bounds.iter().all(Option::is_some) && error.is_finite();
+        let is_narrow = match bounds {
+            [Some(lower), Some(upper)] => !is_logarithm || upper <= UNDETERMINED * lower,
+            _ => false,
+        };
+        let is_determined = is_narrow && error.is_finite();
         let (name, unit) = name(&found.model, parameter);
         Finding {
             name,
@@ -134,6 +145,24 @@ impl Statistics {
         };
         let sum = |parameters: &[f64]| found.linearised(parameters);
         profile_end(sum, &best, &found.ranges, profile)
+    }
+}
+
+/// Opens the intervals of the moduli between which a relaxation time divides the stiffness, where that time has no bound: a branch that
+/// relaxes after the curve has any modulus above what it has lost within it, at the cost of the spring, and one that relaxes before its
+/// first step any modulus that G τ leaves.
+fn open_split(findings: &mut [Finding], branch: usize) {
+    let [modulus, time] = [2 * branch + 1, 2 * branch + 2];
+    let [is_fast, is_slow] = findings[time].interval.map(|end| end.is_none());
+    let mut open = |parameter: usize, side: usize| {
+        findings[parameter].interval[side] = None;
+        findings[parameter].estimate = None;
+    };
+    if is_fast || is_slow {
+        open(modulus, 1);
+    }
+    if is_slow {
+        open(0, 0);
     }
 }
 
@@ -246,6 +275,7 @@ fn name(model: &Model, parameter: usize) -> (String, &'static str) {
         return named("thickness", "m");
     }
     match (kind, parameter) {
+        (Kind::Branches(0), 0) => named("G", "Pa"),
         (Kind::PowerLaw, 0) => named("G_1s", "Pa"),
         (Kind::PowerLaw, 1) => named("beta", ""),
         (Kind::Branches(_), 0) => named("G_inf", "Pa"),

@@ -17,8 +17,8 @@ use super::search::Found;
 use super::start::{FEWEST, Start, free_points};
 
 /// Adhesion and drift above these parts of the peak make a fit useless, or doubtful.
-const SPOILT: f64 = 0.05;
-const DOUBTFUL: f64 = 0.01;
+pub(super) const SPOILT: f64 = 0.05;
+pub(super) const DOUBTFUL: f64 = 0.01;
 /// Points without contact that say what noise is.
 const BASELINE: usize = 10;
 /// Rise of minus twice the logarithm of the likelihood when the points before the contact and all others have to have one
@@ -126,10 +126,12 @@ impl<'a> Judgement<'a> {
             .map_or(self.found.squares.scale, |(_, variance)| variance.sqrt());
         // A dip is the difference of two forces.
         let least = (SQRT_2 * SIGNIFICANT * noise).max(DOUBTFUL * self.begin.peak);
-        match dip(self.found.model.curve, self.begin).filter(|(dip, _)| *dip > least) {
-            Some((dip, flag)) if dip > SPOILT * self.begin.peak => return Err(flag),
-            Some((_, flag)) => flags.push(flag),
-            None => {}
+        let dip = dip_on_the_way_back(self.found.model.curve, self.begin);
+        if dip > SPOILT * self.begin.peak && dip > least {
+            return Err(Flag::Sticks(dip));
+        }
+        if dip > least {
+            flags.push(Flag::Sticks(dip));
         }
         if self.noise.is_none() {
             flags.push(Flag::NoBaseline);
@@ -200,22 +202,11 @@ fn out_of_scale(found: &Found) -> Option<Flag> {
     sharp.or((radius > BLUNT * depth).then_some(Flag::Blunt(radius / depth)))
 }
 
-/// How far the force falls below what it is before the contact: on the way in, or else on the way back, where that is more.
-pub(super) fn dip(curve: &IndentationCurve, begin: &Start) -> Option<(f64, Flag)> {
-    let n = curve.force.len();
-    let first = median(curve.force[..=n / 20].to_vec());
+/// How far the force falls on the way back below what it is before the contact, \[N].
+fn dip_on_the_way_back(curve: &IndentationCurve, begin: &Start) -> f64 {
+    let first = median(curve.force[..=curve.force.len() / 20].to_vec());
     let reference = begin.baseline.min(first);
-    let mean = |three: &[f64]| (three[0] + three[1] + three[2]) / 3.0;
-    let dip = |forces: &[f64]| {
-        let means = forces.windows(3).map(mean);
-        reference - means.fold(f64::INFINITY, f64::min)
-    };
-    let (way_in, way_back) = curve.force.split_at(begin.turn);
-    let [jump, sticks] = [way_in, way_back].map(dip);
-    let worse = if jump >= sticks {
-        (jump, Flag::JumpToContact(jump))
-    } else {
-        (sticks, Flag::Sticks(sticks))
-    };
-    Some(worse).filter(|(dip, _)| *dip > DOUBTFUL * begin.peak)
+    let means = curve.force[begin.turn..].windows(3);
+    let means = means.map(|three| (three[0] + three[1] + three[2]) / 3.0);
+    reference - means.fold(f64::INFINITY, f64::min)
 }

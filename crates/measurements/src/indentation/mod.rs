@@ -15,6 +15,8 @@ mod judgement;
 mod means;
 mod model;
 mod noise;
+mod note;
+mod pull_in;
 mod read;
 mod sample;
 mod search;
@@ -26,6 +28,7 @@ use rheology::Prony;
 
 use crate::{Finding, MeasurementError};
 pub use flag::Flag;
+pub use note::Note;
 pub use read::{CurveOptions, indentation_curve};
 
 /// What was measured, one value per point, in SI.
@@ -65,6 +68,8 @@ impl IndentationCurve {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Rheology {
+    /// G(t) = G.
+    Elastic,
     /// G(t) = G_∞ + G₁ e^(−t/τ).
     StandardSolid,
     /// G(t) = G_∞ + Σ G_k e^(−t/τ_k).
@@ -124,7 +129,7 @@ impl Default for FitOptions {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct IndentationFit {
-    /// Material, contact point, baseline and tilt.
+    /// Material, contact point, baseline and tilt; the material is elastic where the curve does not determine how it relaxes.
     pub findings: Vec<Finding>,
     /// Correlation of the errors of the findings (of the logarithms of moduli and times).
     pub correlation: Vec<Vec<f64>>,
@@ -145,6 +150,8 @@ pub struct IndentationFit {
     pub points: Vec<[f64; 4]>,
     /// What is doubtful about it.
     pub flags: Vec<Flag>,
+    /// What was decided for the caller.
+    pub notes: Vec<Note>,
 }
 
 /// Finds the material behind a curve.
@@ -172,13 +179,22 @@ pub fn fit_indentation(
     let measured =
         checks::usable(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
     let curve = &measured.curve;
+    checks::scale(body, curve).map_err(MeasurementError::Damaged)?;
+    let pull_in = pull_in::find(&measured);
+    let jump = pull_in.as_ref().and_then(pull_in::PullIn::flag);
+    if let (Some(pull_in), Some(flag)) = (&pull_in, &jump)
+        && pull_in.is_useless()
+    {
+        return Err(MeasurementError::Damaged(flag.clone()));
+    }
     let sample = sample::Sample::new(body, curve, options)?;
     let begin = start::start(&sample, curve, options)?;
     checks::before(&measured, &begin).map_err(MeasurementError::Damaged)?;
     let found = search::search(&sample, &measured, options, &begin)?;
     let statistics = intervals::Statistics::of(&found)?;
     let judgement = judgement::Judgement::new(&found, &begin, &statistics);
-    let mut flags = judgement.flags().map_err(MeasurementError::Damaged)?;
+    let mut flags: Vec<Flag> = jump.into_iter().collect();
+    flags.extend(judgement.flags().map_err(MeasurementError::Damaged)?);
     flags.extend(sample.too_deep(&found));
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
@@ -204,5 +220,6 @@ pub fn fit_indentation(
         correlated_points: statistics.correlated_points,
         points: points.collect(),
         flags,
+        notes: note::of_material(options, &found).into_iter().collect(),
     })
 }

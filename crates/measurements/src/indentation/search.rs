@@ -15,6 +15,9 @@ use crate::MeasurementError;
 pub(super) const MAX_BRANCHES: usize = 6;
 /// Points of the first search.
 const FEW: usize = 200;
+/// Difference of two criteria from which on there is strong evidence for the lower one (Kass and Raftery 1995,
+/// DOI 10.1080/01621459.1995.10476572).
+const STRONG_EVIDENCE: f64 = 6.0;
 /// Relaxation times are sought from a third of the shortest time step to thirty times the length of the curve.
 const SHORTEST: f64 = 1.0 / 3.0;
 const LONGEST: f64 = 30.0;
@@ -48,24 +51,22 @@ pub(super) fn search<'a>(
             begin,
         )
     };
-    let found = match (options.rheology, options.branches) {
+    let elastic = of_kind(Kind::Branches(0));
+    let relaxing = match (options.rheology, options.branches) {
+        (Rheology::Elastic, _) => None,
         (Rheology::PowerLaw, _) => of_kind(Kind::PowerLaw),
-        (Rheology::StandardSolid, _) => of_kind(Kind::Branches(1)),
-        (Rheology::Prony, Some(n)) => of_kind(Kind::Branches(n)),
-        (Rheology::Prony, None) => {
-            let mut best = of_kind(Kind::Branches(1));
-            for n in 2..=MAX_BRANCHES {
-                let next = of_kind(Kind::Branches(n));
-                let criterion = |found: &Option<Found>| found.as_ref().map(Found::criterion);
-                // None is less than any number.
-                if criterion(&next).is_none() || criterion(&next) >= criterion(&best) {
-                    break;
-                }
-                best = next;
-            }
-            best
-        }
+        (Rheology::StandardSolid | Rheology::Prony, _) => of_kind(Kind::Branches(1)),
     };
+    // A material that relaxes must explain the curve better than the elastic one, else its moduli are an arbitrary split.
+    let mut found = better(elastic, relaxing, STRONG_EVIDENCE);
+    let relaxes = |found: &Found| found.model.kind != Kind::Branches(0);
+    if options.rheology == Rheology::Prony && found.as_ref().is_some_and(relaxes) {
+        found = match options.branches {
+            Some(1) => found,
+            Some(n) => of_kind(Kind::Branches(n)),
+            None => with_branches(found, of_kind),
+        };
+    }
     found.ok_or_else(|| {
         // Nearly always the whole depth is too large for the body.
         let elastic = Model::new(sample, curve, Kind::Branches(0), options);
@@ -74,6 +75,36 @@ pub(super) fn search<'a>(
         let refused = elastic.forces(&parameters).err();
         refused.unwrap_or(MeasurementError::NotConverged)
     })
+}
+
+/// The second where its criterion is lower by more than a margin.
+fn better<'a>(
+    first: Option<Found<'a>>,
+    second: Option<Found<'a>>,
+    margin: f64,
+) -> Option<Found<'a>> {
+    let is_better = match (&first, &second) {
+        (Some(first), Some(second)) => second.criterion() < first.criterion() - margin,
+        (first, _) => first.is_none(),
+    };
+    if is_better { second } else { first }
+}
+
+/// Branches are added to one as long as they lower the criterion.
+fn with_branches<'a>(
+    mut best: Option<Found<'a>>,
+    of_kind: impl Fn(Kind) -> Option<Found<'a>>,
+) -> Option<Found<'a>> {
+    for n in 2..=MAX_BRANCHES {
+        best = better(best, of_kind(Kind::Branches(n)), 0.0);
+        if best
+            .as_ref()
+            .is_none_or(|best| best.model.kind != Kind::Branches(n))
+        {
+            break;
+        }
+    }
+    best
 }
 
 /// The best of several starts on few points, and from there with all points: and then without wild points.
@@ -190,6 +221,7 @@ fn starts(model: &Model, begin: &Start) -> Vec<Vec<f64>> {
             let start = |beta| vec![modulus.ln() + beta * (0.5 * begin.approach_time).ln(), beta];
             [0.05, 0.3].map(start).into()
         }
+        Kind::Branches(0) => vec![vec![modulus.ln()]],
         Kind::Branches(1) => {
             let start = |time: f64| vec![(0.5 * modulus).ln(), modulus.ln(), time.ln()];
             [0.3 * begin.approach_time, 0.3 * length].map(start).into()

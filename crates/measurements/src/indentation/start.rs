@@ -53,6 +53,13 @@ pub(super) fn start(
     found.ok_or_else(|| refused.unwrap_or(MeasurementError::NotConverged))
 }
 
+/// The first point near the largest depth.
+pub(super) fn approach_end(depth: &[f64]) -> usize {
+    let deep = depth[0] + APPROACH * (ends(depth)[1] - depth[0]);
+    let end = depth.iter().position(|one| *one >= deep);
+    end.unwrap_or(depth.len() - 1)
+}
+
 fn start_at(
     thickness: Option<f64>,
     sample: &Sample,
@@ -61,8 +68,7 @@ fn start_at(
 ) -> Result<Start, MeasurementError> {
     let IndentationCurve { time, depth, .. } = curve;
     let range = ends(depth)[1] - depth[0];
-    let is_deep = |one: &f64| *one >= depth[0] + APPROACH * range;
-    let turn = depth.iter().position(is_deep).unwrap_or(depth.len() - 1);
+    let turn = approach_end(depth);
     let few = curve.first((turn + 1).max(FEWEST)).decimated(POINTS);
     let model = Model::new(sample, &few, Kind::Branches(0), options);
     if turn == 0 {

@@ -113,6 +113,16 @@ impl Case {
     }
 }
 
+/// Number of curves of a test: `VISCOFRICTION_CURVES`, if it is set, for the tables of docs/fit-indentation.md.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the table is for whoever asks for it"
+)]
+pub(crate) fn n_curves(few: usize) -> usize {
+    let given = std::env::var("VISCOFRICTION_CURVES");
+    given.map_or(few, |n| n.parse().expect("a number"))
+}
+
 fn on_layer(body: &dyn Axisymmetric, thickness: f64) -> LayerProfile {
     let layer = BondedLayer::new(thickness, 0.5).expect("a layer");
     LayerProfile::new(body, &layer, 1.5e-6).expect("a profile")

@@ -36,7 +36,7 @@ pub(crate) struct FitIndentation {
     curves: Vec<PathBuf>,
     #[command(flatten)]
     body: Body,
-    /// The material.
+    /// The material. Where the curve does not determine how it relaxes, the elastic one is given instead.
     #[arg(long, value_enum, default_value = "standard-solid")]
     material: Rheology,
     /// Branches of a Prony series [default: as many as the curve tells apart].
@@ -230,20 +230,22 @@ fn map(
     });
     let fits: Vec<Result<IndentationFit, WrongInput>> = fits.collect();
     bar.finish_and_clear();
-    let longest = fits.iter().flatten().max_by_key(|fit| fit.findings.len());
-    let Some(longest) = longest else {
+    if fits.iter().all(Result::is_err) {
         // One reason for all, as a wrong option is.
         let reason = fits.into_iter().find_map(Result::err);
         return Err(reason.map_or(anyhow!("no curves"), Into::into));
-    };
-    let names = names(longest);
+    }
+    let names = all_names(&fits);
     let ends = ["", "_error", "_lower", "_upper"];
     let columns = names.iter();
     let columns = columns.flat_map(|name| ends.map(|end| format!("{name}{end}")));
     let columns: Vec<String> = columns.collect();
     let rows = options.curves.iter().zip(&fits);
-    let rows = rows.map(|(file, fit)| (file.display().to_string(), flags(fit), cells(fit, &names)));
-    let csv = to_csv(&format!("file flags {}", columns.join(" ")), rows)?;
+    let rows = rows.map(|(file, fit)| {
+        let file = file.display().to_string();
+        (file, flags(fit), cells(fit, &names), notes(fit))
+    });
+    let csv = to_csv(&format!("file flags {} notes", columns.join(" ")), rows)?;
     let Some(out) = out else {
         return print_text(&String::from_utf8(csv)?);
     };
@@ -257,6 +259,27 @@ fn map(
 
 fn names(fit: &IndentationFit) -> Vec<&str> {
     fit.findings.iter().map(|one| &one.name[..]).collect()
+}
+
+/// Those of the longest fit, and before them what only others have, as the one modulus of elastic curves.
+fn all_names(fits: &[Result<IndentationFit, WrongInput>]) -> Vec<&str> {
+    let fits = || fits.iter().flatten();
+    let longest = fits().max_by_key(|fit| fit.findings.len());
+    let longest = longest.map_or(Vec::new(), names);
+    let mut others: Vec<&str> = fits().flat_map(names).collect();
+    others.retain(|name| !longest.contains(name));
+    others.sort_unstable();
+    others.dedup();
+    [others, longest].concat()
+}
+
+/// What was decided, and guessed.
+fn notes(fit: &Result<IndentationFit, WrongInput>) -> String {
+    let notes = fit.iter().flat_map(|fit| &fit.notes);
+    notes
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// What is doubtful, or why there is nothing.
@@ -305,9 +328,10 @@ impl FitIndentation {
         let noise = noise.unwrap_or_default();
         let [residual, correlated] = [fit.residual, fit.correlated_points];
         let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
+        let notes = fit.notes.iter().map(|note| format!("note: {note}\n"));
+        let sentences: String = notes.chain(flags).collect();
         format!(
-            "{table}\nresidual {residual:.3e} N{noise}; one independent point in {correlated:.1}\n{}",
-            flags.collect::<String>()
+            "{table}\nresidual {residual:.3e} N{noise}; one independent point in {correlated:.1}\n{sentences}"
         )
     }
 }
