@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use measurements::Finding;
 use measurements::indentation::{
-    CurveOptions, FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness,
+    CurveFile, CurveOptions, FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness,
     fit_indentation, indentation_curve,
 };
+use measurements::{Finding, MeasurementError};
 use numpy::{IntoPyArray as _, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -57,10 +57,14 @@ impl Curve<'_> {
         }
     }
 
-    fn measured(&self) -> PyResult<IndentationCurve> {
+    fn measured(&self) -> PyResult<CurveFile> {
         if let Some([time, depth, force]) = &self.columns {
             let [time, depth, force] = [time, depth, force].map(|one| one.as_array().to_vec());
-            return Ok(IndentationCurve { time, depth, force });
+            let curve = IndentationCurve { time, depth, force };
+            return Ok(CurveFile {
+                curve,
+                notes: Vec::new(),
+            });
         }
         let options = CurveOptions {
             spring_constant: self.spring_constant,
@@ -70,6 +74,16 @@ impl Curve<'_> {
         let file = self.file.clone().unwrap_or_default();
         let contents = read_table(&file).map_err(wrong)?;
         indentation_curve(&file, &contents, &options).map_err(wrong)
+    }
+
+    /// As the program says it: with the file, if there is one, of which something is wrong.
+    fn refused(&self, error: &MeasurementError) -> PyErr {
+        match (&self.file, error) {
+            (Some(file), other) if !matches!(other, MeasurementError::InvalidParameter(_)) => {
+                wrong(format!("{}: {other}", file.display()))
+            }
+            (_, error) => wrong(error),
+        }
     }
 
     fn options(&self) -> PyResult<FitOptions> {
@@ -85,6 +99,11 @@ impl Curve<'_> {
                 )));
             }
         };
+        if self.branches.is_some() && rheology != Rheology::Prony {
+            return Err(wrong(
+                "branches is for material \"prony\"; the other materials have no branches to choose",
+            ));
+        }
         Ok(FitOptions {
             rheology,
             branches: self.branches,
@@ -109,9 +128,12 @@ pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bou
     let Body::Revolution(body) = body(&indenter, &files).map_err(wrong)?.body else {
         return Err(wrong("body must be a body of revolution"));
     };
-    let (measured, options) = (curve.measured()?, curve.options()?);
+    let options = curve.options()?;
+    let CurveFile { curve: measured, notes } = curve.measured()?;
     let fit = py.detach(|| fit_indentation(&*body, &measured, &options));
-    to_python(py, fit.map_err(wrong)?)
+    let mut fit = fit.map_err(|error| curve.refused(&error))?;
+    fit.notes.splice(0..0, notes);
+    to_python(py, fit)
 }
 
 fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>> {

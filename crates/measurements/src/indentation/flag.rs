@@ -28,7 +28,10 @@ pub enum Flag {
     #[error("there is no contact: the force does not rise above its noise of {:.1e} N", InWords(*_0))]
     NoContact(f64),
     /// The force falls while the body goes down.
-    #[error("the force falls while the body goes down: is the sign of one of them wrong?")]
+    #[error(
+        "the force falls while the body goes down: is the sign of one of them wrong, or of both? A depth grows towards the \
+         sample, and a force that presses is positive"
+    )]
     WrongSign,
     /// On the way in the body is drawn to the surface before it touches, or held by it.
     #[error(

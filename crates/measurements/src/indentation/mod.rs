@@ -6,11 +6,13 @@
 //! with the force of the one-dimensional model, which is exact for bodies of revolution: contact point z₀, baseline b and
 //! tilt c are fitted with the material. A curve that is damaged is refused with a reason, or flagged.
 
+mod afmformats;
 mod checks;
 mod depth;
 mod flag;
 mod igor;
 mod intervals;
+mod join;
 mod judgement;
 mod means;
 mod model;
@@ -29,7 +31,7 @@ use rheology::Prony;
 use crate::{Finding, MeasurementError};
 pub use flag::Flag;
 pub use note::Note;
-pub use read::{CurveOptions, indentation_curve};
+pub use read::{CurveFile, CurveOptions, indentation_curve};
 
 /// What was measured, one value per point, in SI.
 #[derive(Debug, Clone, Default, PartialEq)]

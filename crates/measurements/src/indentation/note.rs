@@ -4,7 +4,7 @@ use super::model::Kind;
 use super::search::Found;
 use super::{FitOptions, Rheology};
 
-/// A decision of a fit.
+/// What a fit or the reader of a file decided.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Note {
@@ -14,6 +14,9 @@ pub enum Note {
          rates of this curve, is given"
     )]
     ElasticInstead,
+    /// What was guessed about a file.
+    #[error("{0}")]
+    File(String),
 }
 
 /// As its sentence.

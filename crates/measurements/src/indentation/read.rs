@@ -4,14 +4,17 @@ use std::path::Path;
 
 use numerics::{InvalidParameter, in_range, positive};
 
-use super::{IndentationCurve, igor};
+use super::join::{Joined, Point};
+use super::{IndentationCurve, Note, afmformats, igor};
 use crate::MeasurementError;
 use crate::moduli::Deformation;
-use crate::table::Quantity::{self, Deflection, Depth, Force, Height, Other, Piezo, Time, Tip};
-use crate::table::{Column, Line, Meaning, Source, Table, Vocabulary, text_of};
+use crate::table::Quantity::{
+    self, Deflection, Depth, Displacement, Force, Height, Other, Piezo, Time, Tip,
+};
+use crate::table::{Column, Half, Line, Meaning, Source, Table, Vocabulary, text_of};
 
 static CURVES: Vocabulary = Vocabulary {
-    names: "t, force (or deflection) and depth (or tip position, piezo or height)",
+    names: "t, force (or deflection) and depth (or tip position, displacement, piezo or height)",
     known: &KNOWN,
     is_head: |columns| {
         columns.iter().any(|one| [Force, Deflection].contains(one)) && columns.len() > 1
@@ -22,17 +25,35 @@ static CURVES: Vocabulary = Vocabulary {
 };
 
 /// The first name of a quantity counts: what was measured, and not what was smoothed or asked of a piezo.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 18] = [
+const KNOWN: [(Quantity, Option<Deformation>, &str); 24] = [
     (Time, None, "seriestime"),
-    (Time, None, "t time zeit"),
-    (Force, None, "F force load kraft normalforce"),
+    (Time, None, "timeonsample testtime elapsedtime"),
+    (Time, None, "t time zeit temps prüfzeit"),
+    (
+        Force,
+        None,
+        "loadonsample normalforce normalload normalkraft",
+    ),
+    (Force, None, "F Fn force load kraft prüfkraft standardkraft"),
+    (Force, None, "compressiveload compressiveforce rawload"),
     (Force, None, "vdeflection(force)"),
+    (Depth, None, "displacementintosurface penetrationdepth Pd"),
     (Depth, None, "d depth indentation indentationdepth"),
-    (Depth, None, "eindringtiefe δ delta"),
+    (Depth, None, "eindringtiefe profondeur δ delta h"),
     (Tip, None, "tipposition verticaltipposition separation"),
-    (Piezo, None, "zsensor zsnsr heightsensor"),
-    (Piezo, None, "z piezo piezoposition zpiezo"),
-    (Piezo, None, "displacement calcramp raw"),
+    (
+        Displacement,
+        None,
+        "displacement deplacement weg standardweg",
+    ),
+    (
+        Displacement,
+        None,
+        "extension compressiveextension rawdisplacement",
+    ),
+    (Piezo, None, "zsensor zsnsr zsense heightsensor"),
+    (Piezo, None, "z Z piezo piezoposition zpiezo"),
+    (Piezo, None, "piezodisplacement zdisplacement calcramp raw"),
     (Height, None, "measuredheight height(measured)"),
     (Height, None, "straingaugeheight capacitivesensorheight"),
     (
@@ -42,7 +63,11 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 18] = [
     ),
     (Height, None, "smoothedcapacitivesensorheight"),
     (Height, None, "height"),
-    (Deflection, None, "deflection vdeflection auslenkung defl"),
+    (
+        Deflection,
+        None,
+        "deflection vdeflection auslenkung defl tb",
+    ),
     (Other, None, "height(piezo)"),
     (Other, None, "segment index"),
 ];
@@ -51,7 +76,8 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 18] = [
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     let has = |quantity: &Quantity| columns.contains(quantity);
     let load = [Force, Deflection].into_iter().find(has);
-    let place = [Depth, Tip, Piezo, Height].into_iter().find(has);
+    let places = [Depth, Tip, Displacement, Piezo, Height];
+    let place = places.into_iter().find(has);
     let time = has(&Time).then_some(Time);
     let others = [load.unwrap_or(Force), place.unwrap_or(Depth)];
     time.into_iter().chain(others).collect()
@@ -69,11 +95,21 @@ pub struct CurveOptions {
     pub ramp_rate: Option<f64>,
 }
 
+/// A curve of a file, and what was guessed about it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CurveFile {
+    /// What was measured.
+    pub curve: IndentationCurve,
+    /// About columns of which one was taken, quantities that the file says or does not say, and times that begin again.
+    pub notes: Vec<Note>,
+}
+
 /// Reads the contents of a file, which need not be there: tables with a line of names each, among other text, or Igor text.
 /// Cells without a number are NaN, of which [`fit_indentation`](super::fit_indentation) says where they are.
 ///
 /// A piezo and a depth grow towards the sample, a height and the position of the tip fall; piezo and height less the
-/// deflection are the depth.
+/// deflection are the depth. A displacement beside a force is a depth, and with a spring constant or beside a deflection the
+/// travel of a piezo.
 ///
 /// # Errors
 /// [`MeasurementError`] with file, line and column, or with the option that is missing, out of range or without effect.
@@ -81,19 +117,16 @@ pub fn indentation_curve(
     file: &Path,
     contents: &[u8],
     options: &CurveOptions,
-) -> Result<IndentationCurve, MeasurementError> {
+) -> Result<CurveFile, MeasurementError> {
     options.check_ranges()?;
     let given = options;
     let text = text_of(contents, &CURVES);
-    let stiffness = options.spring_constant.or_else(|| stated_stiffness(&text));
-    let options = &CurveOptions {
-        spring_constant: stiffness,
-        ..*options
-    };
+    let known = Stated::of(&text);
+    let options = &known.beside(given);
     // Igor may end its lines with a carriage return alone.
     let unix = (!text.contains('\n')).then(|| text.replace('\r', "\n"));
     let text = unix.as_deref().unwrap_or(&text);
-    let table = igor::table(text);
+    let table = igor::table(text).or_else(|| afmformats::table(text));
     let text = table.as_deref().unwrap_or(text);
     let scale = |column: &Column| match options.sensitivity {
         Some(sensitivity) if is_volts(column) => sensitivity,
@@ -104,19 +137,108 @@ pub fn indentation_curve(
         scale: &scale,
     };
     let source = Source::new(file, text, &CURVES, meaning);
-    let mut curve = IndentationCurve::default();
+    let mut joined = Joined::default();
     let tables = source.tables()?;
     let several = tables.len() > 1;
     for (table, rows) in tables {
         given.check_needed(&table)?;
-        let segment = Segment::of(&source, &table, options)?;
+        let segment = Segment::of(&source, &table, options, several)?;
+        joined.notes.extend(left_out(&table));
+        joined.notes.extend(known.notes(given, &table, &segment));
+        joined.notes.extend(segment.displacement(&table));
         let points = segment.points(&table, &rows)?;
         // JPK may end with two points of a pause, seconds apart.
-        if !(several && points.len() < 3) {
-            segment.append(&mut curve, points);
+        if several && points.len() < 3 {
+            continue;
+        }
+        let points = segment.timed(&mut joined, points);
+        joined.append(&source, &points)?;
+    }
+    Ok(joined.finish())
+}
+
+/// Which columns are read, where there are others of their kind.
+fn left_out(table: &Table) -> Option<String> {
+    let quoted = |names: &[&str]| {
+        let names = names.iter().map(|name| format!("'{name}'"));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let read = table.needed.iter().filter_map(|one| table.find(*one));
+    let read: Vec<&str> = read.map(|column| column.name).collect();
+    let [read, others] = [&read, &table.left_out].map(|names| quoted(names));
+    (!others.is_empty()).then(|| format!("read from the columns {read}, and not from {others}"))
+}
+
+/// What a file says beside its numbers.
+#[derive(Clone, Copy)]
+struct Stated {
+    /// \[N/m].
+    spring_constant: Option<f64>,
+    /// \[m/V].
+    sensitivity: Option<f64>,
+}
+
+impl Stated {
+    fn of(text: &str) -> Self {
+        // JPK and Asylum, afmformats, AFM Workshop (whose default of 1 says nothing), and Optics11.
+        let workshop = |name| number_behind(text, name).filter(|number| *number != 1.0);
+        let stiffness = ["pringConstant:", "\"spring constant\":", "k (N/m)"];
+        let stiffness = stiffness.iter().find_map(|name| number_behind(text, name));
+        let gain = workshop("Light Lever Gain, mV/nm:");
+        Self {
+            spring_constant: stiffness.or_else(|| workshop("Force Constant, nN/nm:")),
+            sensitivity: gain.map(|gain| 1e-6 / gain),
         }
     }
-    Ok(curve)
+
+    /// The options, and where they are not given, what the file says.
+    fn beside(self, options: &CurveOptions) -> CurveOptions {
+        CurveOptions {
+            spring_constant: options.spring_constant.or(self.spring_constant),
+            sensitivity: options.sensitivity.or(self.sensitivity),
+            ..*options
+        }
+    }
+
+    /// What was taken from the file, or is otherwise there.
+    fn notes(self, given: &CurveOptions, table: &Table, segment: &Segment) -> Vec<String> {
+        let uses_stiffness = segment.of_force != 0.0 || segment.is_length;
+        let is_in_volts = table.find(Deflection).is_some_and(is_volts);
+        let all = [
+            (
+                "spring_constant",
+                "N/m",
+                given.spring_constant,
+                self.spring_constant.filter(|_| uses_stiffness),
+            ),
+            (
+                "sensitivity",
+                "m/V",
+                given.sensitivity,
+                self.sensitivity.filter(|_| is_in_volts),
+            ),
+        ];
+        let note = |(option, unit, given, stated): (&str, &str, Option<f64>, Option<f64>)| {
+            let stated = stated?;
+            match given {
+                None => Some(format!("{option} = {stated:?} {unit} is that of the file")),
+                Some(given) if given != stated => Some(format!(
+                    "{option} = {given:?} {unit} is taken, but the file says {stated:?} {unit}"
+                )),
+                Some(_) => None,
+            }
+        };
+        all.into_iter().filter_map(note).collect()
+    }
+}
+
+/// The number greater than 0 that stands behind a name.
+fn number_behind(text: &str, name: &str) -> Option<f64> {
+    let (_, behind) = text.split_once(name)?;
+    let behind = behind.trim_start_matches([' ', '\t', ':', '"']);
+    let end = behind.find(|one: char| !one.is_ascii_alphanumeric() && !".+-".contains(one));
+    let number: f64 = behind[..end.unwrap_or(behind.len())].parse().ok()?;
+    (number > 0.0 && number.is_finite()).then_some(number)
 }
 
 impl CurveOptions {
@@ -166,15 +288,6 @@ impl CurveOptions {
     }
 }
 
-/// The stiffness that JPK and Asylum write beside their numbers, \[N/m].
-fn stated_stiffness(text: &str) -> Option<f64> {
-    let (_, stated) = text.split_once("pringConstant:")?;
-    let stated = stated.trim_start();
-    let end = stated.find(|one: char| !one.is_ascii_alphanumeric() && !".+-".contains(one));
-    let stiffness = stated[..end.unwrap_or(stated.len())].parse().ok()?;
-    (stiffness > 0.0).then_some(stiffness)
-}
-
 fn is_volts(column: &Column) -> bool {
     column.quantity == Deflection && column.unit.ends_with('V')
 }
@@ -183,6 +296,8 @@ fn is_volts(column: &Column) -> bool {
 struct Segment {
     /// Force of a load of 1, \[N] or \[N/m].
     of_load: f64,
+    /// Whether the load is a length.
+    is_length: bool,
     /// Depth of a place of 1, and of a force, \[m/N].
     of_place: f64,
     of_force: f64,
@@ -195,74 +310,120 @@ impl Segment {
         source: &Source,
         table: &Table,
         options: &CurveOptions,
+        several: bool,
     ) -> Result<Self, MeasurementError> {
-        let missing = |what: &str| source.wrong_line(table.line, &format!("{what} is needed"));
-        let stiffness = || {
-            let needed = missing("the stiffness of the cantilever (spring_constant)");
-            options.spring_constant.ok_or(needed)
-        };
-        let duration = options.ramp_rate.filter(|_| table.is_half);
+        let wrong = |problem: &str| source.wrong_line(table.line, &problem);
+        let missing = |what: &str| wrong(&format!("{what} is needed"));
+        if table.half == Some(Half::Retract) && !several {
+            return Err(wrong(
+                "only the way back is there, but a fit begins with the way in",
+            ));
+        }
+        let duration = options.ramp_rate.filter(|_| table.half.is_some());
         if table.find(Time).is_none() && duration.is_none() {
-            let of_halves = "or for columns _Ex and _Rt the ramps per second (ramp_rate)";
+            let of_halves = "or for columns of the two halves of a ramp (_Ex and _Rt, Extend and Retract) the ramps per \
+                             second (ramp_rate)";
             return Err(missing(&format!("a column t, {of_halves},")));
         }
         let load = table.find(Deflection);
         if load.is_some_and(is_volts) && options.sensitivity.is_none() {
             return Err(missing("the deflection per volt (sensitivity)"));
         }
-        let of_load = match load {
-            Some(load) if !load.unit.ends_with('N') => stiffness()?,
-            _ => 1.0,
+        let stiffness = |what: &str, other: &str| {
+            let needed = format!(
+                "the stiffness of the cantilever (spring_constant) is needed, because {what}{other}"
+            );
+            options.spring_constant.ok_or_else(|| wrong(&needed))
         };
-        let is_there = |quantity| table.find(quantity).is_some();
-        let [of_place, of_force] = match () {
-            () if is_there(Depth) => [1.0, 0.0],
-            () if is_there(Tip) => [-1.0, 0.0],
-            () if is_there(Piezo) => [1.0, -stiffness()?.recip()],
-            () => [-1.0, -stiffness()?.recip()],
+        let length = load.filter(|load| !load.unit.ends_with('N'));
+        let of_load = match length {
+            Some(load) => stiffness(&format!("'{}' is a length", load.name), "")?,
+            None => 1.0,
         };
+        let bending = |column: &Column| {
+            let what = format!("'{}' is the place of a piezo", column.name);
+            let other =
+                "; a column without the bending of the cantilever is named depth or tip position";
+            Ok::<f64, MeasurementError>(-stiffness(&what, other)?.recip())
+        };
+        let [of_place, of_force] =
+            match [Depth, Tip, Displacement, Piezo, Height].map(|one| table.find(one)) {
+                [Some(_), ..] => [1.0, 0.0],
+                [_, Some(_), ..] => [-1.0, 0.0],
+                [_, _, Some(_), ..] if load.is_none() && options.spring_constant.is_none() => {
+                    [1.0, 0.0]
+                }
+                [_, _, Some(piezo), ..] | [_, _, _, Some(piezo), _] => [1.0, bending(piezo)?],
+                [.., Some(height)] => [-1.0, bending(height)?],
+                _ => return Err(missing("a depth")),
+            };
         Ok(Self {
             of_load,
+            is_length: length.is_some(),
             of_place,
             of_force,
             duration: duration.map(|rate| 0.5 / rate),
         })
     }
 
-    /// Time, depth and force of every row.
-    fn points(&self, table: &Table, rows: &[&Line]) -> Result<Vec<[f64; 3]>, MeasurementError> {
+    /// What a displacement was taken for.
+    fn displacement(&self, table: &Table) -> Option<String> {
+        let name = table.find(Displacement)?.name;
+        Some(if self.of_force == 0.0 {
+            format!(
+                "'{name}' is taken for the depth of the body; with spring_constant it is the travel of a piezo"
+            )
+        } else {
+            format!(
+                "'{name}' is taken for the travel of a piezo, because there is a spring constant"
+            )
+        })
+    }
+
+    /// Time, depth, force and line of every row.
+    fn points(&self, table: &Table, rows: &[&Line]) -> Result<Vec<Point>, MeasurementError> {
         let point = |line: &&Line| {
             let numbers = table.numbers(line)?;
             let [.., load, place] = numbers[..] else {
                 return Ok(None);
             };
             // The shorter half of a ramp ends with empty cells.
-            let is_nothing = table.is_half && load.is_nan() && place.is_nan();
+            let is_nothing = table.half.is_some() && load.is_nan() && place.is_nan();
             let force = self.of_load * load;
             let depth = self.of_place * place + self.of_force * force;
-            Ok((!is_nothing).then_some([numbers[0], depth, force]))
+            Ok((!is_nothing).then_some(Point {
+                time: numbers[0],
+                depth,
+                force,
+                line: line.number,
+            }))
         };
         let points: Result<Vec<_>, MeasurementError> = rows.iter().map(point).collect();
         Ok(points?.into_iter().flatten().collect())
     }
 
-    /// Half a ramp may have begun at either end; it goes on from where the other half ended.
-    fn append(&self, curve: &mut IndentationCurve, mut points: Vec<[f64; 3]>) {
-        if let Some(duration) = self.duration {
-            let step = duration / points.len() as f64;
-            if let (Some(last), [first, .., end]) = (curve.depth.last(), &points[..])
-                && (end[1] - last).abs() < (first[1] - last).abs()
-            {
-                points.reverse();
-            }
-            let begin = curve.time.last().map_or(0.0, |last| last + step);
-            let timed = points.iter_mut().enumerate();
-            timed.for_each(|(i, point)| point[0] = begin + i as f64 * step);
+    /// Half a ramp without times may have begun at either end: the way in goes down, and the way back goes on where that has ended.
+    fn timed(&self, joined: &mut Joined, mut points: Vec<Point>) -> Vec<Point> {
+        let (Some(duration), [first, .., end]) = (self.duration, &points[..]) else {
+            return points;
+        };
+        let step = duration / points.len() as f64;
+        let last = joined.curve.depth.last();
+        let is_reversed = match last {
+            Some(last) => (end.depth - last).abs() < (first.depth - last).abs(),
+            None => end.depth < first.depth,
+        };
+        if is_reversed {
+            let half = if last.is_some() { "back" } else { "in" };
+            let from = first.line;
+            joined.notes.push(format!(
+                "the rows of the way {half}, from line {from} on, are taken from the last to the first"
+            ));
+            points.reverse();
         }
-        for [time, depth, force] in points {
-            curve.time.push(time);
-            curve.depth.push(depth);
-            curve.force.push(force);
-        }
+        let begin = joined.curve.time.last().map_or(0.0, |last| last + step);
+        let timed = points.iter_mut().enumerate();
+        timed.for_each(|(i, point)| point.time = begin + i as f64 * step);
+        points
     }
 }

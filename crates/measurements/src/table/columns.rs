@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use super::Deformation;
 use Quantity::{
-    Deflection, Depth, Force, Frequency, Friction, FrictionError, FrictionForce, Height, Loss,
-    LossFactor, Other, Piezo, Relaxation, Set, Storage, Temperature, Time, Tip, Velocity,
+    Deflection, Depth, Displacement, Force, Frequency, Friction, FrictionError, FrictionForce,
+    Height, Loss, LossFactor, Other, Piezo, Relaxation, Set, Storage, Temperature, Time, Tip,
+    Velocity,
 };
 
 /// What a column holds.
@@ -23,6 +24,8 @@ pub(crate) enum Quantity {
     Force,
     /// Into the sample.
     Depth,
+    /// Of the body or of a piezo, towards the sample.
+    Displacement,
     /// Extension of the piezo, towards the sample.
     Piezo,
     /// Position of the piezo, away from the sample.
@@ -121,24 +124,62 @@ fn folded(name: &str) -> String {
     name.to_lowercase().chars().map(plain).collect()
 }
 
-/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]`, `E' / MPa` or `Defl_pN_Ex` may be divided; without a unit that is empty.
+/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]`, `E' / MPa`, `"E', MPa"` or `Defl_pN_Ex` may be divided; without a unit that
+/// is empty.
 pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
+    let prefix = PREFIXES.iter().find(|(prefix, _)| cell.starts_with(prefix));
+    let cell = prefix.map_or(cell, |(prefix, _)| &cell[prefix.len()..]);
     let bracket = cell.strip_suffix([')', ']', '）']);
     let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[', '（']));
     // The name and the half of a ramp may have the unit between them or behind them.
-    let half = |name| HALVES.iter().find_map(|half| str::strip_suffix(name, half));
+    let half = |name| {
+        SUFFIXES
+            .iter()
+            .find_map(|(half, _)| str::strip_suffix(name, half))
+    };
     let name = half(cell).unwrap_or(cell);
     let ramp = name.rsplit_once('_');
     let ramp = ramp.and_then(|(name, unit)| match half(name) {
         None if name.len() + unit.len() + 1 == cell.len() => None,
         before => Some((before.unwrap_or(name), unit)),
     });
-    let parts = [Some((cell, "")), bracket, cell.split_once('/'), ramp];
+    let comma = cell.split_once(", ");
+    let parts = [Some((cell, "")), bracket, cell.split_once('/'), comma, ramp];
     parts.into_iter().flatten()
 }
 
-/// How NanoScope marks the columns of the way there and back, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
-pub(super) const HALVES: [&str; 2] = ["_Ex", "_Rt"];
+/// Half of a ramp, whose columns may stand beside those of the other half.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Half {
+    /// Towards the sample.
+    Approach,
+    /// Away from it.
+    Retract,
+}
+
+/// How NanoScope marks the columns of the halves, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
+const SUFFIXES: [(&str, Half); 2] = [("_Ex", Half::Approach), ("_Rt", Half::Retract)];
+/// How others do, as AFM Workshop in `Extend Z-Sense(nm)`.
+const PREFIXES: [(&str, Half); 8] = [
+    ("Extend ", Half::Approach),
+    ("Approach ", Half::Approach),
+    ("Loading ", Half::Approach),
+    ("Trace ", Half::Approach),
+    ("Retract ", Half::Retract),
+    ("Withdraw ", Half::Retract),
+    ("Unloading ", Half::Retract),
+    ("Retrace ", Half::Retract),
+];
+
+/// The half of a ramp that a name of a column is marked with.
+pub(super) fn half_of(name: &str) -> Option<Half> {
+    let mut suffixes = SUFFIXES.iter();
+    let mut prefixes = PREFIXES.iter();
+    let found = suffixes
+        .find(|(mark, _)| name.contains(mark))
+        .or_else(|| prefixes.find(|(mark, _)| name.starts_with(mark)));
+    found.map(|(_, half)| *half)
+}
 
 impl Quantity {
     /// The usual names, for messages, and the units between blanks, of which one may be empty.
@@ -154,6 +195,7 @@ impl Quantity {
             Set => ("Set", "-  1"),
             Force => ("force", "N mN uN nN pN kN"),
             Depth => ("depth", "m mm um nm pm A"),
+            Displacement => ("displacement", "m mm um nm pm A"),
             Piezo => ("piezo", "m mm um nm pm A"),
             Height => ("height", "m mm um nm pm A"),
             Tip => ("tip position", "m mm um nm pm A"),

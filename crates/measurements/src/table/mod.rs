@@ -12,8 +12,8 @@ use rheology::KELVIN_AT_ZERO_CELSIUS;
 
 use crate::MeasurementError;
 use Quantity::{Frequency, Loss, Storage};
-use columns::{HALVES, divided};
-pub(crate) use columns::{Quantity, Vocabulary};
+pub(crate) use columns::{Half, Quantity, Vocabulary};
+use columns::{divided, half_of};
 use layout::{Layout, is_comment, tagged};
 
 type Result<T, E = MeasurementError> = std::result::Result<T, E>;
@@ -60,7 +60,7 @@ pub(crate) struct Line<'a> {
 pub(crate) struct Column<'a> {
     pub(crate) quantity: Quantity,
     pub(crate) deformation: Option<Deformation>,
-    name: &'a str,
+    pub(crate) name: &'a str,
     place: usize,
     /// Place of its name in the vocabulary.
     order: usize,
@@ -80,8 +80,10 @@ pub(crate) struct Table<'a> {
     columns: Vec<Column<'a>>,
     /// Lines of names and units.
     n_heads: usize,
-    /// Whether it is the way there or back of a ramp, which stand side by side.
-    pub(crate) is_half: bool,
+    /// The half of a ramp, where the columns of its halves are marked.
+    pub(crate) half: Option<Half>,
+    /// Names of columns that are known, but not read.
+    pub(crate) left_out: Vec<&'a str>,
 }
 
 impl<'a> Source<'a> {
@@ -119,10 +121,16 @@ impl<'a> Source<'a> {
         let ends = heads.iter().skip(1).copied().chain([lines.len()]);
         let blocks = heads.iter().zip(ends).map(|(&head, end)| &lines[head..end]);
         let blocks = blocks.flat_map(|block| {
-            let is_back = |column: &Column| column.name.contains(HALVES[1]);
-            let has_halves = self.columns(&block[0]).iter().any(is_back);
-            let halves = if has_halves { &HALVES[..] } else { &[""] };
-            halves.iter().map(move |half| (block, *half))
+            let columns = self.columns(&block[0]);
+            let is_there = |half: &Half| columns.iter().any(|one| half_of(one.name) == Some(*half));
+            let halves = [Half::Approach, Half::Retract].into_iter().filter(is_there);
+            let halves: Vec<Option<Half>> = halves.map(Some).collect();
+            let halves = if halves.is_empty() {
+                vec![None]
+            } else {
+                halves
+            };
+            halves.into_iter().map(move |half| (block, half))
         });
         let tables = blocks.map(|(block, half)| {
             let table = Table::new(self, block, half)?;
@@ -228,11 +236,22 @@ fn shown(cell: &str, most: usize) -> String {
 
 impl<'a> Table<'a> {
     /// The table of a block of lines that begins with the names, of which those with a part count.
-    fn new(source: &'a Source<'a>, block: &[Line<'a>], half: &str) -> Result<Self> {
+    fn new(source: &'a Source<'a>, block: &[Line<'a>], half: Option<Half>) -> Result<Self> {
         let head = &block[0];
         let vocabulary = source.vocabulary;
         let mut columns = source.columns(head);
-        columns.retain(|column| column.name.contains(half));
+        if half.is_some() {
+            // Columns without a mark belong to both halves.
+            let is_marked = |column: &Column| half_of(column.name) == half;
+            let marked = columns.iter().filter(|one| is_marked(one));
+            let marked: Vec<Quantity> = marked.map(|one| one.quantity).collect();
+            columns.retain(|one| {
+                let is_shared = half_of(one.name).is_none() && !marked.contains(&one.quantity);
+                is_marked(one) || is_shared
+            });
+        }
+        let known: Vec<(Quantity, &str)> =
+            columns.iter().map(|one| (one.quantity, one.name)).collect();
         let quantities = quantities(&columns);
         let needed = (vocabulary.needed)(&quantities);
         if let Some(missing) = needed.iter().find(|one| !quantities.contains(one)) {
@@ -247,7 +266,11 @@ impl<'a> Table<'a> {
         if vocabulary.has_order {
             let rank = |column: &Column| {
                 let mut units = column.quantity.units().split(' ');
-                (column.order, units.position(|unit| unit == column.unit))
+                let known = column.quantity.unit(column.unit);
+                let place = known.and_then(|(known, _)| units.position(|unit| unit == known));
+                // Before those of another quantity, as volts are for a force.
+                let is_other = place.is_none() && !column.unit.is_empty();
+                (column.order, is_other, place)
             };
             let ranks: Vec<_> = columns
                 .iter()
@@ -265,8 +288,14 @@ impl<'a> Table<'a> {
             needed,
             columns,
             n_heads: 1,
-            is_half: !half.is_empty(),
+            half,
+            left_out: Vec::new(),
         };
+        let is_left_out = |name: &str| table.columns.iter().all(|one| one.name != name);
+        let left_out = known
+            .into_iter()
+            .filter(|(quantity, name)| *quantity != Quantity::Other && is_left_out(name));
+        table.left_out = left_out.map(|(_, name)| name).collect();
         table.check_names(head.number)?;
         table.read_units(block)?;
         Ok(table)
@@ -353,8 +382,15 @@ impl<'a> Table<'a> {
             }
             let Some((unit, factor)) = column.quantity.unit(column.unit) else {
                 let known = column.quantity.units().replace(' ', ", ");
-                let expected = format!("the unit of {}: {known}", column.shown());
-                let source = self.source;
+                let (name, source) = (column.shown(), self.source);
+                if layout.number(column.unit).is_some() {
+                    let place = column.place + 1;
+                    let problem = format!(
+                        "column {place} ({name}) has no unit, in brackets behind its name or in the line below: {known}"
+                    );
+                    return Err(source.wrong_line(block[0].number, &problem));
+                }
+                let expected = format!("the unit of {name}: {known}");
                 return Err(source.wrong(line.number, column, &expected, column.unit));
             };
             column.unit = unit;

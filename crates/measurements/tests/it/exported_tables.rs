@@ -89,7 +89,9 @@ fn curves_of_three_makers_and_in_any_unit_have_the_same_points() {
         let (title, text) = export.split_once('\n').expect("a title");
         let read = |options: &CurveOptions| {
             let curve = indentation_curve(Path::new("curve.txt"), text.as_bytes(), options);
-            curve.map_err(|error| error.to_string())
+            curve
+                .map(|file| file.curve)
+                .map_err(|error| error.to_string())
         };
         // All options that change something.
         let mut options = CurveOptions::default();

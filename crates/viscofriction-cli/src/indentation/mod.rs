@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow};
 use clap::Args;
 use measurements::indentation::{
-    CurveOptions, FitOptions, IndentationFit, Rheology, Thickness, fit_indentation,
+    CurveFile, CurveOptions, FitOptions, IndentationFit, Rheology, Thickness, fit_indentation,
     indentation_curve,
 };
 use measurements::{Finding, MeasurementError};
@@ -31,7 +31,8 @@ use crate::progress;
 pub(crate) struct FitIndentation {
     /// Tables with a line of names: t, force and depth, in any order; or piezo (towards the sample) or height (away from
     /// it), and deflection, with --spring-constant. Units are in the names or in the line below. Text exports of JPK,
-    /// NanoScope and Asylum are such tables. Several are a map: one row each, in curves.csv.
+    /// NanoScope, Asylum, AFM Workshop, afmformats and nanoindenters are such tables; what was guessed about them is
+    /// printed. Several are a map: one row each, in curves.csv.
     #[arg(required = true)]
     curves: Vec<PathBuf>,
     #[command(flatten)]
@@ -56,7 +57,7 @@ pub(crate) struct FitIndentation {
     #[arg(long, value_name = "m/V")]
     sensitivity: Option<f64>,
     /// Ramps per second, there and back, where a table has the two halves of a ramp and no times (NanoScope: the columns
-    /// that end in _Ex and _Rt).
+    /// that end in _Ex and _Rt; AFM Workshop: Extend and Retract).
     #[arg(long, value_name = "1/s")]
     ramp_rate: Option<f64>,
     /// Fit up to the deepest point only: most bodies stick on the way back.
@@ -199,7 +200,8 @@ impl FitIndentation {
             sensitivity: self.sensitivity,
             ramp_rate: self.ramp_rate,
         };
-        let curve = indentation_curve(file, &read_table(file)?, &read).map_err(wrong_table)?;
+        let file_contents = indentation_curve(file, &read_table(file)?, &read);
+        let CurveFile { curve, notes } = file_contents.map_err(wrong_table)?;
         let options = FitOptions {
             rheology: self.material,
             branches: self.branches,
@@ -209,10 +211,12 @@ impl FitIndentation {
             before_retraction: self.before_retraction,
             profile,
         };
-        fit_indentation(body, &curve, &options).map_err(|error| match error {
+        let mut fit = fit_indentation(body, &curve, &options).map_err(|error| match error {
             MeasurementError::InvalidParameter(refused) => wrong_option(refused),
             other => WrongInput(format!("{}: {other}", file.display())),
-        })
+        })?;
+        fit.notes.splice(0..0, notes);
+        Ok(fit)
     }
 }
 

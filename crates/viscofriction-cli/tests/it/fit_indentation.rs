@@ -38,7 +38,10 @@ fn a_map_has_a_row_for_each_curve() {
         (&*upside_down, "2.csv: the force falls"),
         ("0.csv --sphere 5e-9 --spring-constant 0.061", "equator"),
         ("0.csv --sphere 18.6e-6", "spring_constant"),
-        ("0.csv --sphere 1e308 --spring-constant 0.061", "times as wide as deep"),
+        (
+            "0.csv --sphere 1e308 --spring-constant 0.061",
+            "times as wide as deep",
+        ),
         ("0.csv --cone 90", "--cone must be greater than 0"),
     ] {
         folder.ends(&format!("fit-indentation {options}"), 2, wrong);

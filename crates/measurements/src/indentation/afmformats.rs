@@ -1,0 +1,30 @@
+//! Tables that the Python package afmformats exports (`.tab`): names in the last comment, quantities in SI.
+
+/// Names of columns and their units.
+const UNITS: [(&str, &str); 5] = [
+    ("time", "s"),
+    ("force", "N"),
+    ("height (measured)", "m"),
+    ("height (piezo)", "m"),
+    ("tip position", "m"),
+];
+
+/// The same text with units in the line of names; none of another text.
+pub(super) fn table(text: &str) -> Option<String> {
+    if !(text.starts_with("# afmformats") || text.starts_with("# BEGIN METADATA")) {
+        return None;
+    }
+    let is_comment = |line: &&str| line.starts_with('#') || line.trim().is_empty();
+    let above = text.lines().take_while(is_comment).enumerate();
+    let (head, names) = above.filter(|(_, line)| line.starts_with('#')).last()?;
+    let with_unit = |name: &str| {
+        let unit = UNITS.iter().find(|(known, _)| *known == name);
+        unit.map_or_else(|| name.to_owned(), |(_, unit)| format!("{name} [{unit}]"))
+    };
+    let names = names.trim_start_matches('#').trim().split('\t');
+    let names: Vec<String> = names.map(|name| with_unit(name.trim())).collect();
+    let names = format!("# {}", names.join("\t"));
+    let lines = text.lines().enumerate();
+    let lines = lines.map(|(at, line)| if at == head { &*names } else { line });
+    Some(lines.collect::<Vec<_>>().join("\n"))
+}

@@ -1,0 +1,107 @@
+//! The parts of a curve, one after the other, also where the time of a part begins again.
+
+use super::depth::ends;
+use super::read::CurveFile;
+use super::{IndentationCurve, Note};
+use crate::MeasurementError;
+use crate::table::Source;
+
+/// Part of the length of a part, and of the range of its depths, within which another part begins where it began, or where it ended.
+const NEAR: f64 = 0.1;
+
+/// A point of a curve, and its line in the file.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    pub(super) time: f64,
+    pub(super) depth: f64,
+    pub(super) force: f64,
+    pub(super) line: usize,
+}
+
+/// The parts up to now.
+#[derive(Default)]
+pub(super) struct Joined {
+    pub(super) curve: IndentationCurve,
+    pub(super) notes: Vec<String>,
+    /// Place of the first point of the last part, and what was added to its times.
+    begin: usize,
+    shift: f64,
+}
+
+impl Joined {
+    /// Adds points, of which the time may begin again, once or several times.
+    pub(super) fn append(
+        &mut self,
+        source: &Source,
+        points: &[Point],
+    ) -> Result<(), MeasurementError> {
+        for point in points {
+            if self.begins_again(point.time) {
+                self.begin_part(source, point, points)?;
+            }
+            self.curve.time.push(point.time + self.shift);
+            self.curve.depth.push(point.depth);
+            self.curve.force.push(point.force);
+        }
+        Ok(())
+    }
+
+    /// Each note once.
+    pub(super) fn finish(self) -> CurveFile {
+        let mut notes: Vec<Note> = Vec::new();
+        for note in self.notes.into_iter().map(Note::File) {
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+        CurveFile {
+            curve: self.curve,
+            notes,
+        }
+    }
+
+    /// Whether a time is not after the last one, but about that of the first point of the last part.
+    fn begins_again(&self, time: f64) -> bool {
+        let part = &self.curve.time[self.begin..];
+        let [Some(first), Some(last)] = [part.first(), part.last()] else {
+            return false;
+        };
+        let time = time + self.shift;
+        part.len() > 1 && time <= *last && (time - first).abs() <= NEAR * (last - first)
+    }
+
+    /// The part goes on a step after the last one, if its depth does.
+    fn begin_part(
+        &mut self,
+        source: &Source,
+        point: &Point,
+        points: &[Point],
+    ) -> Result<(), MeasurementError> {
+        let IndentationCurve { time, depth, .. } = &self.curve;
+        let n = time.len();
+        let [low, high] = ends(&depth[self.begin..]);
+        let near = NEAR * (high - low);
+        let [first, last] = [depth[self.begin], depth[n - 1]];
+        let ahead = points.iter().filter(|one| one.line >= point.line);
+        let deepest = ahead.map(|one| one.depth).fold(f64::NEG_INFINITY, f64::max);
+        // A curve that has come back is complete.
+        let is_complete =
+            (last - first).abs() <= near && high - near > last && deepest > high - near;
+        if is_complete || (point.depth - last).abs() > near {
+            let problem = format!(
+                "the time begins again at {:?} s, and it is another curve that begins: give each curve a file of its own",
+                point.time
+            );
+            return Err(source.wrong_line(point.line, &problem));
+        }
+        let step = time[n - 1] - time[n - 2];
+        let begin = time[n - 1] + step;
+        self.shift = begin - point.time;
+        self.begin = n;
+        self.notes.push(format!(
+            "the time begins again in line {}: it goes on at {begin:.6} s, one step after the line before",
+            point.line
+        ));
+        Ok(())
+    }
+}
