@@ -251,7 +251,7 @@ def test_a_periodic_map_is_the_sum_of_its_waves() -> None:
     assert one.mu == pytest.approx(other.mu, rel=1e-9) and one.area_fraction < 0.1
     full = answer(16, 8, 100.0)
     assert full.area_fraction == 1.0 and full.mu == pytest.approx(full.persson["friction_coefficient"], rel=1e-10)
-    with pytest.raises(ValueError, match="shortest_wavelength: only of edges"):
+    with pytest.raises(ValueError, match="shortest_wavelength: needs edges"):
         vf.HeightMap(np.eye(4), 1.0, shortest_wavelength=1.0)
     with pytest.raises(ValueError, match="short enough for a wave"):
         vf.slide(vf.HeightMap(np.eye(4), 1.0, edges="periodic", shortest_wavelength=9.0), solid, mean_pressure=1.0, velocity=1.0)

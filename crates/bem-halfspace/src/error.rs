@@ -1,7 +1,7 @@
 //! Wrong input, and what was reached when a solution was not.
 
 use indenters::IndenterError;
-use numerics::{InWords, InvalidParameter};
+use numerics::{Estimate, InWords, InvalidParameter, Rounded};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -37,7 +37,7 @@ pub enum BemError {
         value: f64,
     },
     /// The grid would have more elements than can be handled.
-    #[error("the grid would have {elements:e} elements, but at most {limit:e} are allowed")]
+    #[error("the grid would have {elements:.1e} elements, but at most {limit:e} are allowed")]
     GridTooLarge {
         /// Number of elements asked for.
         elements: f64,
@@ -65,8 +65,9 @@ pub enum BemError {
     },
     /// The contact reaches the boundary of the footprint in which it was allowed.
     #[error(
-        "after sliding {sliding_distance} m the contact reaches the boundary of the footprint x {}..{}, y {}..{} m",
-        .footprint.x[0], .footprint.x[1], .footprint.y[0], .footprint.y[1]
+        "after sliding {} m the contact reaches the boundary of the footprint x {}..{}, y {}..{} m",
+        Rounded(*sliding_distance), Rounded(.footprint.x[0]), Rounded(.footprint.x[1]), Rounded(.footprint.y[0]),
+        Rounded(.footprint.y[1])
     )]
     ContactReachesBoundary {
         /// Sliding distance at which it happened, \[m]; 0 without sliding.
@@ -77,7 +78,7 @@ pub enum BemError {
     /// A vertical wall of the indenter is in contact: its slope, and with it the friction, is infinite.
     #[error(
         "at x = {} m, y = {} m from its lowest point a vertical wall of the indenter is in contact",
-        InWords(*x), InWords(*y)
+        Rounded(*x), Rounded(*y)
     )]
     VerticalWall {
         /// Position of the wall ahead of the lowest point, \[m].
@@ -87,7 +88,8 @@ pub enum BemError {
     },
     /// The body rises too much over one element in contact for its mean slope to mean anything.
     #[error(
-        "the body rises by {rise} m over one element in contact, more than the depth scale {depth_scale} m"
+        "the body rises by {} m over one element in contact, more than the depth scale {} m",
+        Rounded(*rise), Rounded(*depth_scale)
     )]
     SlopeNotResolved {
         /// Rise over the element, \[m].
@@ -97,8 +99,8 @@ pub enum BemError {
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
     #[error(
-        "the contact was not solved: after {iterations} iterations the residual is {:e}, \
-         the tolerance {tolerance:e}",
+        "the contact was not solved: after {iterations} iterations the residual is {:.1e}, \
+         the tolerance {tolerance:.1e}",
         InWords(*residual)
     )]
     ContactNotConverged {
@@ -111,7 +113,8 @@ pub enum BemError {
     },
     /// The elements do not bear the force below their largest pressure.
     #[error(
-        "the grid bears less than {limit} N below the largest pressure, but the normal force is {normal_force} N"
+        "the grid bears less than {} N below the largest pressure, but the normal force is {} N",
+        Rounded(*limit), InWords(*normal_force)
     )]
     ForceNotBorne {
         /// Force asked for, \[N].
@@ -121,8 +124,9 @@ pub enum BemError {
     },
     /// The friction coefficient still changes at the end of the sliding distance.
     #[error(
-        "no stationary state after sliding {sliding_distance} m: the friction coefficient still changes by {drift:e} of \
-         its value {friction_coefficient}, the tolerance is {tolerance:e}"
+        "no stationary state after sliding {} m: the friction coefficient still changes by {drift:.1e} of its value {}, and the \
+         tolerance is {tolerance:.1e}",
+        Rounded(*sliding_distance), Rounded(*friction_coefficient)
     )]
     NotStationary {
         /// Sliding distance reached, \[m].
@@ -136,7 +140,7 @@ pub enum BemError {
     },
     /// The steps in time are too long for the error asked for.
     #[error(
-        "with {steps} steps between two rows the error of force and depth by the steps in time is {error:e}, \
+        "with {steps} steps between two rows the error of force and depth by the steps in time is {error:.1e}, \
          not {relative_error:e}"
     )]
     TimeNotResolved {
@@ -149,9 +153,8 @@ pub enum BemError {
     },
     /// A quantity was not reached to the error asked for.
     #[error(
-        "the {quantity} was not reached to the relative error {relative_error:e}: it is {} with an error of {:e}",
-        InWords(*value),
-        InWords(*error)
+        "the {quantity} was not reached to the relative error {relative_error:e}: it is {}",
+        Estimate::new(*value, *error)
     )]
     NotReached {
         /// Name of the quantity, and its unit.
@@ -175,7 +178,7 @@ pub enum BemError {
     #[error("from rest a periodic surface slides under a mean pressure, not at a depth")]
     DepthFromRest,
     /// A march would take too long.
-    #[error("the march would have {steps:e} steps, but at most {limit:e} are allowed")]
+    #[error("the march would have {steps:.1e} steps, but at most {limit:e} are allowed")]
     TooManySteps {
         /// Steps of one element.
         steps: f64,
@@ -184,8 +187,8 @@ pub enum BemError {
     },
     /// The slowest retardation of the material outlasts any march to the stationary state.
     #[error(
-        "a march to the stationary state is longer than {limit} contact lengths: the slowest retardation takes {memory:e} m \
-         of sliding, and the contact is about {contact_length:e} m long"
+        "a march to the stationary state is longer than {limit} contact lengths: the slowest retardation takes {memory:.1e} m \
+         of sliding, and the contact is about {contact_length:.1e} m long"
     )]
     MemoryTooLong {
         /// Distance in which the slowest element forgets, \[m].
@@ -204,7 +207,7 @@ pub enum BemError {
     /// Of a track only what is ahead of the body or behind it by less than half its length acts on the contact.
     #[error(
         "the track must be twice as long as the part of it on which contact may occur, {} m, but is {} m",
-        InWords(*needed), InWords(*track)
+        Rounded(*needed), InWords(*track)
     )]
     TrackTooShort {
         /// Length of the track, \[m].
@@ -214,8 +217,8 @@ pub enum BemError {
     },
     /// Cycle after cycle still changes.
     #[error(
-        "after {cycles} cycles of the motion the relative change that may be left is {change:e}, and the tolerance \
-         {tolerance:e}: the material remembers too many cycles"
+        "after {cycles} cycles of the motion the relative change that may be left is {change:.1e}, and the tolerance \
+         {tolerance:.1e}: the material remembers too many cycles"
     )]
     NotPeriodic {
         /// Cycles that were followed.
@@ -226,9 +229,7 @@ pub enum BemError {
         tolerance: f64,
     },
     /// A material that flows has no state long after it was pressed.
-    #[error(
-        "a material that flows never comes to rest under a load: press it for a duration with `indent`"
-    )]
+    #[error("a material that flows never comes to rest under a load: press it for a duration")]
     NoEquilibrium,
     /// A material that flows creeps under a periodic surface without limit.
     #[error(

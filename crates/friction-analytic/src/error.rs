@@ -1,7 +1,7 @@
 //! Why friction, depth or a contact cannot be given.
 
 use indenters::IndenterError;
-use numerics::{InWords, InvalidParameter};
+use numerics::{Estimate, InWords, InvalidParameter, Rounded};
 use thiserror::Error;
 
 /// Why the friction integral has no finite value.
@@ -10,7 +10,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum DivergenceCause {
     /// The profile rises from its apex like `r^exponent` with an exponent of at most 1/2.
-    #[error("the profile rises from its apex with exponent {exponent}, more than 0.5 is needed")]
+    #[error(
+        "the profile rises from its apex with exponent {exponent}, and an exponent above 0.5 is needed"
+    )]
     ApexExponent {
         /// The exponent.
         exponent: f64,
@@ -18,7 +20,8 @@ pub enum DivergenceCause {
     /// The slope of the profile jumps upwards inside the contact; the line behind it is as steep as the inverse root
     /// of the distance, and the integral diverges like a logarithm.
     #[error(
-        "the slope of the profile jumps upwards by {jump} at radius {radius}, inside the contact"
+        "the slope of the profile jumps upwards by {} at radius {} m, inside the contact",
+        Rounded(*jump), Rounded(*radius)
     )]
     SlopeJump {
         /// Where it jumps, \[m].
@@ -27,7 +30,7 @@ pub enum DivergenceCause {
         jump: f64,
     },
     /// The contact reaches a vertical edge.
-    #[error("the contact reaches a vertical edge at radius {radius}")]
+    #[error("the contact reaches a vertical edge at radius {} m", Rounded(*radius))]
     VerticalEdge {
         /// Radius of the edge, \[m].
         radius: f64,
@@ -47,7 +50,8 @@ pub enum FrictionError {
     /// The integral of the squared slope is infinite, though depth and contact exist.
     #[error(
         "the friction of the one-dimensional model is infinite: {cause}; \
-         depth {indentation_depth} and contact length {contact_length} exist"
+         depth {} m and contact length {} m exist",
+        Rounded(*indentation_depth), Rounded(*contact_length)
     )]
     FrictionDiverges {
         /// What makes it diverge.
@@ -59,7 +63,8 @@ pub enum FrictionError {
     },
     /// The leading edge does not reach the stationary depth, Remark 4.
     #[error(
-        "no stationary state: a depth of {needed_depth} is needed, but the leading edge rises only {available_depth}"
+        "no stationary state: a depth of {} m is needed, but the leading edge rises only {} m",
+        Rounded(*needed_depth), Rounded(*available_depth)
     )]
     NoStationaryState {
         /// The depth F/(4 η v), (12), \[m].
@@ -69,15 +74,16 @@ pub enum FrictionError {
     },
     /// The contact would reach the vertical edge with which the body ends, where the line is infinitely high.
     #[error(
-        "the contact would reach the edge of the body at radius {radius} m (of a sphere: its equator): lower normal_force \
-         or indentation_depth, or check the unit of shear_modulus or viscosity"
+        "the contact would reach the edge of the body at radius {} m (of a sphere: its equator): lower normal_force \
+         or indentation_depth, or check the unit of shear_modulus or viscosity",
+        Rounded(*radius)
     )]
     BeyondEdge {
         /// Radius at which the body ends, \[m].
         radius: f64,
     },
     /// A numerical integral or root did not reach the accuracy needed.
-    #[error("{quantity} is {} with an estimated error of {}, which is too large", InWords(*value), InWords(*error))]
+    #[error("{quantity} is {}, and this error is too large", Estimate::new(*value, *error))]
     NotConverged {
         /// What was computed.
         quantity: &'static str,

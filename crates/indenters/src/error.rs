@@ -1,6 +1,6 @@
 //! Why an indenter, its load or a geometric problem is refused.
 
-use numerics::{InWords, InvalidParameter};
+use numerics::{InvalidParameter, Rounded};
 use thiserror::Error;
 
 /// Why an indenter, a load or a geometric problem is refused.
@@ -59,7 +59,7 @@ pub enum IndenterError {
     /// The body does not reach as far as the position asked for.
     #[error(
         "position {} lies outside the body, which reaches from {} to {}",
-        InWords(*position), InWords(*lower), InWords(*upper)
+        Rounded(*position), Rounded(*lower), Rounded(*upper)
     )]
     OutOfDomain {
         /// The position asked for, \[m].
@@ -72,8 +72,8 @@ pub enum IndenterError {
     /// The equivalent line turns downwards before it reaches the depth asked for: there the contact is no longer a
     /// single circle and the method of dimensionality reduction does not hold.
     #[error(
-        "the equivalent line rises only up to radius {}, where its height is {}; a depth of {} was asked for",
-        InWords(*limiting_radius), InWords(*limiting_depth), InWords(*depth)
+        "the equivalent line rises only up to radius {} m, where its height is {} m; a depth of {} m was asked for",
+        Rounded(*limiting_radius), Rounded(*limiting_depth), Rounded(*depth)
     )]
     NonMonotoneLine {
         /// Radius at which the equivalent line stops rising, \[m].
@@ -85,8 +85,8 @@ pub enum IndenterError {
     },
     /// The body or its leading edge ends below the depth asked for.
     #[error(
-        "the line rises only {} above its lowest point, but a depth of {} was asked for",
-        InWords(*available), InWords(*depth)
+        "the line rises only {} m above its lowest point, but a depth of {} m was asked for",
+        Rounded(*available), Rounded(*depth)
     )]
     NotHighEnough {
         /// Height of the leading edge above its lowest point, \[m].
@@ -120,7 +120,8 @@ pub enum IndenterError {
     },
     /// An integral did not reach the accuracy asked for.
     #[error(
-        "the integral {value} is known only to {reached} of itself, but {relative_tolerance} was asked for"
+        "the integral {} is known to {reached:.1e} of itself, and {relative_tolerance:.1e} was asked for",
+        Rounded(*value)
     )]
     NotConverged {
         /// The value reached.

@@ -1,7 +1,8 @@
 //! Why a problem is refused, or has no solution.
 
+use indenters::MotionView;
 use indenters::{IndenterError, Moved};
-use numerics::{InWords, InvalidParameter, NotReached};
+use numerics::{Estimate, InWords, InvalidParameter, NotReached, Rounded};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -45,7 +46,7 @@ pub enum MdrError {
     #[error(
         "the contact would reach the edge at position {} (of a sphere: its equator) under a force, in N, of {}, \
          which is not the normal force {} N: lower the force, or check the unit of the modulus or viscosity",
-        InWords(*position), InWords(*carried_force), InWords(*normal_force)
+        Rounded(*position), Rounded(*carried_force), InWords(*normal_force)
     )]
     ForceBeyondEdge {
         /// Where the line ends, \[m].
@@ -61,7 +62,7 @@ pub enum MdrError {
     #[error(
         "the contact would reach the edge at position {} (of a sphere: its equator), where the line is {} m \
          above its lowest point, at a depth less than {} m",
-        InWords(*position), InWords(*available), InWords(*indentation_depth)
+        Rounded(*position), Rounded(*available), InWords(*indentation_depth)
     )]
     DepthBeyondEdge {
         /// Where the line ends, \[m].
@@ -72,13 +73,13 @@ pub enum MdrError {
         indentation_depth: f64,
     },
     /// An endless line does not rise above its contact.
-    #[error("the line does not rise without limit on one side of position {position}")]
+    #[error("the line does not rise without limit on one side of position {}", Rounded(*position))]
     NotRising {
         /// Position from which the line was followed, \[m].
         position: f64,
     },
     /// The line touches more often, or has more detail, than can be followed.
-    #[error("more than {allowed} {parts} are needed, those at position {position} among them")]
+    #[error("more than {allowed} {parts} are needed, those at position {} among them", Rounded(*position))]
     TooMuchDetail {
         /// Contact intervals, or the polynomials that stand for the line.
         parts: &'static str,
@@ -89,7 +90,8 @@ pub enum MdrError {
     },
     /// The friction of a lone dashpot grows without limit at a cusp or kink (16), or too slowly to be summed.
     #[error(
-        "the friction integral does not converge at position {position}, where the line is too steep for a dashpot"
+        "the friction integral does not converge at position {}, where the line is too steep for a dashpot",
+        Rounded(*position)
     )]
     FrictionDiverges {
         /// Where the line is too steep, \[m].
@@ -98,11 +100,12 @@ pub enum MdrError {
     /// The friction coefficient of a stationary state, or the force or depth of a static one, is known less well than asked
     /// for.
     #[error(
-        "the value is {} with an estimated error of {:e}, and the relative error asked for is {relative_error:e}",
-        InWords(*value),
-        InWords(*error)
+        "the {quantity} was not reached to the relative error {relative_error:e}: it is {}",
+        Estimate::new(*value, *error)
     )]
     NotConverged {
+        /// Name of the quantity, and its unit.
+        quantity: &'static str,
         /// Value reached.
         value: f64,
         /// Its estimated absolute error.
@@ -113,10 +116,16 @@ pub enum MdrError {
         reached: Box<SteadySliding>,
     },
     /// A quantity is known less well than asked for on the finest resolution allowed.
-    #[error(transparent)]
-    NotReached(#[from] NotReached),
+    #[error("the work along the history {0}")]
+    WorkNotReached(NotReached),
     /// The depth along a history is known less well than asked for with the shortest parts of it allowed.
-    #[error("{missed}")]
+    #[error(
+        "the largest indentation depth of the history was not reached to the relative error {:e} with {} parts between two of its \
+         points: it is {}",
+        missed.asked,
+        missed.elements,
+        Estimate::new(missed.value, missed.error)
+    )]
     HistoryNotReached {
         /// What is not known well enough.
         missed: NotReached,
@@ -124,7 +133,7 @@ pub enum MdrError {
         reached: Vec<CurvePoint>,
     },
     /// The same of a march on the finest chain allowed.
-    #[error("{missed}")]
+    #[error("the friction coefficient {missed}")]
     SlidingNotReached {
         /// What is not known well enough.
         missed: NotReached,
@@ -132,7 +141,7 @@ pub enum MdrError {
         reached: Box<Sliding>,
     },
     /// A motion is known less well than asked for on the finest resolution allowed.
-    #[error("{missed}")]
+    #[error("the {} {missed}", MotionView::in_words(missed.quantity))]
     MotionNotReached {
         /// What is not known well enough.
         missed: NotReached,
@@ -147,8 +156,8 @@ pub enum MdrError {
     NoCycle,
     /// Cycle after cycle still changes.
     #[error(
-        "after {cycles} cycles of the motion, or passes of the track, the relative change that may be left is {change:e}, and the tolerance \
-         {tolerance:e}: the material remembers too many cycles"
+        "after {cycles} cycles of the motion, or passes of the track, the relative change that may be left is {change:.1e}, and the tolerance \
+         {tolerance:.1e}: the material remembers too many cycles"
     )]
     NotPeriodic {
         /// Cycles that were followed.
@@ -161,7 +170,7 @@ pub enum MdrError {
     /// On its track the body would be in two passes at once.
     #[error(
         "the track must be longer than the body is where it is below the surface, {} m, but is {} m",
-        InWords(*needed), InWords(*track)
+        Rounded(*needed), InWords(*track)
     )]
     TrackTooShort {
         /// Length of the track, \[m].
@@ -171,13 +180,14 @@ pub enum MdrError {
     },
     /// A material that flows has no contact at rest.
     #[error(
-        "under a constant load a material that flows never comes to rest: press it for a time (`indent`)"
+        "under a constant load a material that flows never comes to rest: press it for a duration"
     )]
     NoEquilibrium,
     /// The contact has reached the last element, beyond which the line is not given.
     #[error(
-        "the contact reached the edge at position {position} (of a sphere: its equator) at depth {indentation_depth} m and \
-         time {time} s: lower the force, or check the unit of the modulus or viscosity"
+        "the contact reached the edge at position {} (of a sphere: its equator) at depth {} m and time {} s: lower the force, or check \
+         the unit of the modulus or viscosity",
+        Rounded(*position), Rounded(*indentation_depth), Rounded(*time)
     )]
     ContactReachesEdge {
         /// Position of the last element on the line, \[m].
@@ -189,8 +199,9 @@ pub enum MdrError {
     },
     /// A contact that was pressed again is not a disc any more, and the one-dimensional model not exact.
     #[error(
-        "at time {time} s the surface has recovered in such a way that a part of the contact opens inside it, or closes \
-         outside: press again later, or less"
+        "at time {} s the surface has recovered in such a way that a part of the contact opens inside it, or closes \
+         outside: press again later, or less",
+        Rounded(*time)
     )]
     NotADisc {
         /// When, \[s].
@@ -198,8 +209,9 @@ pub enum MdrError {
     },
     /// Elements that were left are touched again, and the profile stands for a surface whose elements are not independent.
     #[error(
-        "at time {time} s the contact grows again after it has shrunk, and only on a half space its force is that of springs \
-         side by side: follow it with boundary elements"
+        "at time {} s the contact grows again after it has shrunk, and only on a half space its force is that of springs \
+         side by side: follow it with boundary elements",
+        Rounded(*time)
     )]
     TouchedAgain {
         /// When, \[s].
@@ -207,7 +219,8 @@ pub enum MdrError {
     },
     /// Too few elements are in contact at the end for the result to mean anything.
     #[error(
-        "at least {needed} elements must be in contact at spacing {spacing}, but only {n_contact} are"
+        "at least {needed} elements must be in contact at spacing {} m, but only {n_contact} are",
+        Rounded(*spacing)
     )]
     TooCoarse {
         /// Elements in contact.
@@ -219,7 +232,8 @@ pub enum MdrError {
     },
     /// The sliding distance allowed was used up before the drift fell below its tolerance.
     #[error(
-        "after sliding over {sliding_distance} the drift is {drift}, and the tolerance {drift_tolerance}"
+        "after sliding over {} m the relative drift of the friction coefficient is {drift:.1e}, and the tolerance {drift_tolerance:.1e}",
+        Rounded(*sliding_distance)
     )]
     NotStationary {
         /// Relative change over the last contact length; 1 while the body has not slid over one.
@@ -232,7 +246,7 @@ pub enum MdrError {
         rows: Vec<SlideRow>,
     },
     /// A quantity left the range of floating-point numbers.
-    #[error("{quantity} became {} at time {time}", InWords(*value))]
+    #[error("{quantity} became {} at time {} s", InWords(*value), Rounded(*time))]
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,

@@ -88,9 +88,9 @@ fn on_springs(
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let spring = Elastic::new(modulus)?;
     let problem = LineProblem::new(line, &spring, 1.0)?;
-    let sought = match control {
-        Control::NormalForce(_) => |state: &SteadySliding| state.indentation_depth,
-        Control::IndentationDepth(_) => |state: &SteadySliding| state.normal_force,
+    let sought: (_, fn(&SteadySliding) -> Estimate) = match control {
+        Control::NormalForce(_) => ("indentation depth [m]", |state| state.indentation_depth),
+        Control::IndentationDepth(_) => ("normal force [N]", |state| state.normal_force),
     };
     let state = problem.refine(control, relative_error, sought)?;
     Ok(Pressed {

@@ -1,7 +1,10 @@
 //! A value with its error.
 
+use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, Deref, Mul};
+
+use crate::invalid_parameter::{PLAIN, Rounded, power_of_ten};
 
 /// A computed number and what it may be off by; read as `.value` and `.error`.
 ///
@@ -27,6 +30,26 @@ impl Deref for Estimate {
 
     fn deref(&self) -> &ValueWithError {
         &self.0
+    }
+}
+
+/// As in messages, without digits beyond the second of the error: 0.038465 ± 2.0e-6.
+impl fmt::Display for Estimate {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ValueWithError { value, error } = self.0;
+        let has_digits = value.is_finite() && error.is_finite() && error > 0.0;
+        if !has_digits {
+            return write!(formatter, "{} ± {}", Rounded(value), Rounded(error));
+        }
+        let last = power_of_ten(error) - 1;
+        let largest = value.abs().max(error);
+        if PLAIN.contains(&largest) {
+            let digits = usize::try_from(-last).unwrap_or(0);
+            return write!(formatter, "{value:.digits$} ± {error:.1e}");
+        }
+        let first = power_of_ten(value);
+        let digits = usize::try_from(first - last).unwrap_or(0);
+        write!(formatter, "{value:.digits$e} ± {error:.1e}")
     }
 }
 

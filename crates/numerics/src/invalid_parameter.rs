@@ -40,6 +40,9 @@ impl Display for InWords {
             Some(words) => formatter.write_str(words),
             None if self.0 == 0.0 => formatter.write_str("0"),
             // Debug takes a power of ten for these, and a point for all others.
+            None if let Some(short) = without_noise(self.0) => {
+                Display::fmt(&Self(short), formatter)
+            }
             None if !PLAIN.contains(&self.0.abs()) => fmt::Debug::fmt(&self.0, formatter),
             None => Display::fmt(&self.0, formatter),
         }
@@ -47,7 +50,41 @@ impl Display for InWords {
 }
 
 /// Numbers without a power of ten.
-const PLAIN: Range<f64> = 1e-5..1e16;
+pub(crate) const PLAIN: Range<f64> = 1e-5..1e16;
+/// Significant digits that rounding of a decimal number leaves as they are.
+const CERTAIN_DIGITS: usize = 14;
+/// Fewer digits than a number that is a sum or a product of numbers of few digits has by its rounding errors.
+const FEW_DIGITS: usize = 11;
+
+/// The number of few digits of which this one differs by rounding errors only, as 0.3 of 0.1 + 0.2; `None` if there is none, and of
+/// whole numbers, whose neighbours may be out of range.
+fn without_noise(number: f64) -> Option<f64> {
+    let short = format!("{number:.*e}", CERTAIN_DIGITS - 1)
+        .parse::<f64>()
+        .ok()?;
+    let digits = format!("{:e}", short.abs());
+    let n_digits = digits.split('e').next()?.len();
+    let is_noise = short != number && n_digits < FEW_DIGITS && short.fract() != 0.0;
+    is_noise.then_some(short)
+}
+
+/// A computed number as it stands in messages, with five significant digits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rounded(pub f64);
+
+impl Display for Rounded {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let rounded = format!("{:.4e}", self.0).parse();
+        Display::fmt(&InWords(rounded.unwrap_or(self.0)), formatter)
+    }
+}
+
+/// The power of ten of the first digit of a finite number.
+pub(crate) fn power_of_ten(number: f64) -> i32 {
+    let text = format!("{number:e}");
+    let power = text.split('e').nth(1);
+    power.and_then(|power| power.parse().ok()).unwrap_or(0)
+}
 
 impl LowerExp for InWords {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
@@ -130,6 +167,18 @@ mod tests {
         let expected = "1e-300|-1e300|0.25|0|0.0001|300|larger than any number";
         assert_eq!(said.join("|"), expected, "in words");
         assert_eq!(format!("{:.1e}", InWords(-0.0)), "0", "with a power");
+        let noisy = [
+            0.1 + 0.2,
+            31.599_999_999_999_998,
+            -40.239_000_000_000_004,
+            1.0 - 1e-16,
+            1.0 / 3.0,
+        ];
+        let said = noisy.map(|number| InWords(number).to_string());
+        let expected = "0.3|31.6|-40.239|0.9999999999999999|0.3333333333333333";
+        assert_eq!(said.join("|"), expected, "rounding errors");
+        let said = [1.0 / 3.0, 2.0e-7 / 3.0, 20.0].map(|number| Rounded(number).to_string());
+        assert_eq!(said.join("|"), "0.33333|6.6667e-8|20", "computed");
     }
 
     #[test]

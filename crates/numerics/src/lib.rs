@@ -52,7 +52,8 @@ pub use estimate::{Estimate, ValueWithError};
 pub use fixed_point::{KEPT_STATES, Settled, settle};
 pub use fourier::wave_power;
 pub use invalid_parameter::{
-    InWords, InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
+    InWords, InvalidParameter, Rounded, between_zero_and_one, finite, in_range, not_negative,
+    positive,
 };
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
 pub use progress::{AtMost, NoFiner, Progress, Share, Unwatched, Watch};

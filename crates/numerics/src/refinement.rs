@@ -9,7 +9,7 @@
 use thiserror::Error;
 
 use crate::progress::{Progress, Unwatched, Watch};
-use crate::{ErrorParts, InWords};
+use crate::{ErrorParts, Estimate};
 
 /// How well a result is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,13 +117,13 @@ pub struct Refined<T> {
     pub missed: Option<NotReached>,
 }
 
-/// A quantity is not known well enough on the finest resolution allowed.
+/// A quantity is not known well enough on the finest resolution allowed. The message is a predicate, in front of which whoever
+/// knows the quantity puts its name.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "the relative error {asked:e} was not reached with {elements} elements along the contact: the value is {} with an \
-     error of {:.1e}",
-    InWords(*value),
-    InWords(*error)
+    "was not reached to the relative error {asked:e} with {elements} elements along the contact: it is {}{}",
+    Estimate::new(*value, *error),
+    relative_to(*value, *size)
 )]
 pub struct NotReached {
     /// Which of the quantities.
@@ -138,6 +138,15 @@ pub struct NotReached {
     pub error: f64,
     /// Elements of the finest resolution.
     pub elements: usize,
+}
+
+/// What an error is relative to, where that is not the value itself.
+fn relative_to(value: f64, size: f64) -> String {
+    if size > value.abs() {
+        format!(", and the error asked for is relative to {size:.1e}")
+    } else {
+        String::new()
+    }
 }
 
 /// Elements with which a relative error is first sought.

@@ -34,7 +34,7 @@ pub enum RheologyError {
     )]
     NoCompliance,
     /// A temperature at which the WLF law has no meaning.
-    #[error("the temperature must be above {pole}, the pole of the WLF law, but is {temperature}")]
+    #[error("the temperature must be above {}, the pole of the WLF law, but is {}", InWords(*pole), InWords(*temperature))]
     BelowWlfPole {
         /// The temperature.
         temperature: f64,
@@ -43,7 +43,8 @@ pub enum RheologyError {
     },
     /// A temperature at which a law of shifting is not known to hold.
     #[error(
-        "the temperature must be from {lowest} °C to {highest} °C, the range of the shift law, but is {temperature} °C"
+        "the temperature must be from {} °C to {} °C, the range of the shift law, but is {} °C",
+        InWords(*lowest), InWords(*highest), InWords(*temperature)
     )]
     OutsideShiftLaw {
         /// The temperature, \[°C].
@@ -55,8 +56,9 @@ pub enum RheologyError {
     },
     /// Shifts that neither the law of Williams, Landel and Ferry nor that of Arrhenius describes.
     #[error(
-        "no shift law leads from the nearest isotherm, at {nearest}, to the reference temperature {temperature}: a law needs isotherms \
-         of several temperatures, the warmer the faster; ask for the temperature of an isotherm"
+        "no shift law leads from the nearest isotherm, at {}, to the reference temperature {}: a law needs isotherms \
+         of several temperatures, the warmer the faster; ask for the temperature of an isotherm",
+        InWords(*nearest), InWords(*temperature)
     )]
     NoShiftLaw {
         /// The temperature that is wanted.
@@ -75,7 +77,8 @@ pub enum RheologyError {
     /// Two isotherms that cannot be shifted onto each other.
     #[cfg(feature = "fit")]
     #[error(
-        "the isotherms at {first} and {second} have no moduli in common: no shift brings them together"
+        "the isotherms at {} and {} have no moduli in common: no shift brings them together",
+        InWords(*first), InWords(*second)
     )]
     NoOverlap {
         /// Temperature of one.

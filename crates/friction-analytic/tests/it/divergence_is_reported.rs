@@ -107,7 +107,10 @@ fn the_message_says_why() {
     let (material, load) = with_depth(0.1);
     let error = power_sliding(&power(0.4, 0.5), &material, &load).unwrap_err();
     let message = error.to_string();
-    for part in ["exponent 0.5, more than 0.5 is needed", "depth 0.1 "] {
+    for part in [
+        "exponent 0.5, and an exponent above 0.5 is needed",
+        "depth 0.1 ",
+    ] {
         assert!(message.contains(part), "no {part:?} in {message:?}");
     }
 }

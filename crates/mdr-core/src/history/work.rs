@@ -23,7 +23,7 @@ const MOST_PARTS: usize = 1 << 13;
 /// halved until the work changes by [`Follow::relative_error`] of the largest; the change is a part of its error.
 ///
 /// # Errors
-/// As for [`indent_along`], and [`MdrError::NotReached`].
+/// As for [`indent_along`], and [`MdrError::WorkNotReached`].
 pub fn work_along(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
@@ -49,7 +49,7 @@ pub fn work_along(
             return Ok(work.into_iter().map(known).collect());
         }
         if 2 * parts * history.len() > MOST_PARTS {
-            return Err(MdrError::NotReached(NotReached {
+            return Err(MdrError::WorkNotReached(NotReached {
                 quantity: 0,
                 asked: options.relative_error,
                 value: largest,

@@ -107,5 +107,9 @@ pub fn steady(
     let mut problem = LineProblem::new(line, material, load.velocity())?;
     problem.track = load.track();
     problem.check_kinks(control)?;
-    problem.refine(control, relative_error, |state| state.friction_coefficient)
+    problem.refine(
+        control,
+        relative_error,
+        ("friction coefficient", |state| state.friction_coefficient),
+    )
 }

@@ -58,7 +58,7 @@ impl<'a> LineProblem<'a> {
         &self,
         control: Control,
         relative_error: f64,
-        sought: fn(&SteadySliding) -> Estimate,
+        (quantity, sought): (&'static str, fn(&SteadySliding) -> Estimate),
     ) -> Result<SteadySliding, MdrError> {
         let mut tolerance = FIRST_TOLERANCE * relative_error;
         loop {
@@ -70,6 +70,7 @@ impl<'a> LineProblem<'a> {
             }
             if tolerance <= LAST_TOLERANCE {
                 return Err(MdrError::NotConverged {
+                    quantity,
                     value,
                     error,
                     relative_error,

@@ -134,7 +134,7 @@ impl HeightMapTable {
     /// [`SceneError`] for a direction or a spacing out of range, and for heights that are missing.
     pub fn prepared(&self, surface: Topography) -> Result<Topography, SceneError> {
         if self.edges == Edges::Wall && self.shortest_wavelength.is_some() {
-            let problem = "only of edges = \"periodic\" or \"mirrored\" waves are left out";
+            let problem = "needs edges = \"periodic\" or \"mirrored\", because a map with a wall has no waves; leave it out, or give edges";
             let key = "indenter.height-map.shortest_wavelength";
             return Err(SceneError::at(key, problem));
         }

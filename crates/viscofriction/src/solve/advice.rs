@@ -19,6 +19,7 @@ const NO_WALL: &str =
 const LONGER_TRACK: &str = "; give a longer load.track";
 const DISTANCE: &str = "; give solve.sliding_distance";
 const DISTANCE_OR_STEADY: &str = "; give solve.method = \"bem-steady\", or solve.sliding_distance";
+const DURATION: &str = "; give solve.duration";
 const UNITS: &str = "; check the units of indenter, material and load, from which it follows";
 
 /// Of the half space.
@@ -37,6 +38,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         BemError::TrackTooShort { .. } => LONGER_TRACK,
         BemError::SlidingDistanceMissing { .. } => DISTANCE,
         BemError::MemoryTooLong { .. } | BemError::NotStationary { .. } => DISTANCE_OR_STEADY,
+        BemError::NoEquilibrium => DURATION,
         BemError::InvalidParameter(_) => UNITS,
         BemError::Indenter(error) => of_body(error),
         _ => "",
@@ -49,7 +51,7 @@ pub(super) const fn of_line(error: &MdrError) -> &'static str {
         MdrError::TooManyElements { .. } => OTHER_DISTANCE,
         MdrError::TooCoarse { .. } => FINER,
         MdrError::NotConverged { .. }
-        | MdrError::NotReached(_)
+        | MdrError::WorkNotReached(_)
         | MdrError::HistoryNotReached { .. }
         | MdrError::MotionNotReached { .. }
         | MdrError::NotPeriodic { .. }
@@ -58,6 +60,7 @@ pub(super) const fn of_line(error: &MdrError) -> &'static str {
         MdrError::DepthBeyondEdge { .. } => LESS_LOAD,
         MdrError::TrackTooShort { .. } => LONGER_TRACK,
         MdrError::NotStationary { .. } => DISTANCE,
+        MdrError::NoEquilibrium => DURATION,
         MdrError::InvalidParameter(_) | MdrError::NonFinite { .. } => UNITS,
         MdrError::Indenter(error) => of_body(error),
         _ => "",

@@ -53,8 +53,7 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     let [x, y] = numbers.map(|number| 2 * number + 1);
     let problem = format!(
         "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the memory allowed is for {most:.3e}: leave \
-         out waves shorter than shortest_wavelength = {shortest:e} m, or give a larger solve.max_memory; all waves fit of a map of \
-         {x} × {y} heights at most"
+         out waves shorter than shortest_wavelength = {shortest:e} m, or give a larger solve.max_memory; a map of at most {x} × {y} heights may keep all of its waves"
     );
     Err(SceneError::at("indenter", problem))
 }

@@ -223,7 +223,7 @@ impl Problem {
             return Err(SceneError::at("indenter", problem));
         };
         let kept = surface.without_waves_below(shortest).ok_or_else(|| {
-            let problem = format!("it has no wave that is not shorter than {shortest:e} m");
+            let problem = format!("it has no wave of {shortest:e} m or longer");
             SceneError::at("indenter", problem)
         })?;
         self.body = Body::Periodic(kept);
@@ -407,7 +407,7 @@ fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
 }
 
 const NO_TRACK: &str =
-    "a track is passed with a speed again and again, and nothing slides so; leave this out";
+    "a track needs a body that slides at load.velocity, and nothing slides here; leave this out";
 const OWN_PERIOD: &str = "a periodic surface meets each place again after its own period, which is its track; leave this out";
 const NO_PASS: &str = "a material that flows gives way further in every pass, and none is like the one before; give it an equilibrium \
                        modulus, or leave the track out";

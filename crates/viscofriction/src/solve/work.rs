@@ -27,7 +27,11 @@ const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
 const ONCE: Refusal = "on a layer it follows a contact that grows once and shrinks once, up to a hundred thicknesses wide and not to the \
      edge of the body; bem-transient follows any";
-const ENDLESS: Refusal = "its elements end, and a cylinder or a periodic surface does not";
+const HISTORY_WITHOUT_END: Refusal = "it follows a history of a body that ends, and a cylinder or a periodic surface does not; hold a force, or a mean \
+     pressure, for solve.duration";
+const MOTION_OF_CYLINDER: Refusal = "it follows the motion of a body that ends or of a periodic surface, and a cylinder is neither; bem-steady \
+     slides a cylinder at a constant load.velocity";
+const PRESSED_CYLINDER: Refusal = "it takes bodies that end, and a cylinder does not; bem-steady slides it, and analytic presses it";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 const NO_SHARE: Refusal =
     "it does not say which part of the friction comes from outside of valid_frequencies";
@@ -37,7 +41,7 @@ const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: i
      edge, so that its friction would be that of the edge alone; a flat-cone or a truncated-paraboloid has a flat end and a front";
 const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
-const NO_BAR: Refusal = "of a motion and of a track the series that stands for the material has no bar; give a material of finitely many elements";
+const NO_BAR: Refusal = "the series that stands for the material has no error bar in a motion or on a track; give a material with finitely many branches";
 const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle, and none is like the one before; give it an equilibrium modulus";
 const ONE_SURFACE: Refusal =
     "realisations are for sliding and pressing; a motion has one surface, with a seed of its own";
@@ -127,7 +131,7 @@ fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> 
     match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
         (BemTransient, body) => {
-            let surface = body.surface().ok_or(ENDLESS)?;
+            let surface = body.surface().ok_or(HISTORY_WITHOUT_END)?;
             ready(move |watch| elements::followed(problem, surface, Request { accuracy, watch }))
         }
         (_, Body::Revolution(body)) => {
@@ -171,7 +175,7 @@ fn moved<'a>(
             })
         }
         (BemTransient, body) => {
-            let surface = body.surface().ok_or(ENDLESS)?;
+            let surface = body.surface().ok_or(MOTION_OF_CYLINDER)?;
             ready(move |watch| elements::moved(problem, surface, load, Request { accuracy, watch }))
         }
     }
@@ -209,7 +213,7 @@ fn line_contact<'a>(
         (BemSteady, Sliding(load)) => {
             require(
                 !sinks(problem),
-                "under a line contact a half space that flows sinks the faster the longer it is, without limit",
+                "a half space that flows sinks without limit under a line contact; give the material an equilibrium modulus",
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
             ready(move |watch| {
@@ -217,7 +221,7 @@ fn line_contact<'a>(
             })
         }
         (BemSteady, _) => Err(NOTHING_SLIDES),
-        _ => Err(ENDLESS),
+        _ => Err(PRESSED_CYLINDER),
     }
 }
 
@@ -235,12 +239,12 @@ pub(super) fn rough<'a>(
     };
     require(
         velocity == 0.0 || problem.material().creep().fluidity() <= 0.0,
-        "under waves with crests along the motion a half space that flows creeps without limit, and never comes to rest",
+        "a half space that flows creeps without limit under waves with crests along the motion; give the material an equilibrium modulus",
     )?;
     let area: f64 = surface.period().iter().product();
     let mean_pressure = force / area;
     let load = PeriodicLoad::new(mean_pressure, velocity);
-    let wrong = |_| "the mean pressure is no number above 0";
+    let wrong = |_| "the mean pressure must be finite and greater than 0";
     let mut load = load.map_err(wrong)?;
     if let Some(distance) = problem.motion().sliding_distance() {
         load = load.after(distance).map_err(wrong)?;
@@ -304,7 +308,7 @@ fn boundary_elements<'a>(
         )?;
         require(
             !sinks(problem),
-            "a half space that flows sinks without limit, so that a depth belongs to a distance; give solve.sliding_distance, over which bem-transient marches",
+            "a half space that flows sinks without limit, so that a depth needs a distance; give solve.sliding_distance for bem-transient",
         )?;
     }
     let slid = if is_stationary {
@@ -383,7 +387,7 @@ pub(crate) fn closed_line<'a>(
         }
         (Some(Simple::Viscous(material)), Some(distance), profile) => {
             let profile = profile.ok_or(
-                "only of cone and paraboloid the state before the stationary one has a closed form",
+                "the state before the stationary one has a closed form for a cone and a paraboloid only",
             )?;
             require(
                 matches!(load.control(), Control::NormalForce(_)),
@@ -417,8 +421,7 @@ fn closed_half_space<'a>(
         require(load.sliding_distance().is_none(), STATIONARY)?;
         let slow = analytic::slow_half_space(body, problem.material(), &load, asked);
         let slow = slow.ok_or(
-            "on the half space the friction of powers on a viscous material is tabulated, and that of smooth bodies \
-             that slide slowly over a solid is known; this is faster, or neither",
+            "on the half space it knows the friction of powers on a viscous material, and that of smooth bodies that slide slowly over a solid; this scene is neither, or slides faster",
         )?;
         return ready(move |_| Ok(slow));
     };

@@ -116,7 +116,8 @@ impl<'a> Numbers<'a> {
             let problem = match &path[..] {
                 TEMPERATURE if self.of_file.is_some() => continue,
                 TEMPERATURE => {
-                    "only a material of a file with a shift law has another temperature".to_owned()
+                    "a temperature is uncertain only of a material of a file with a shift law"
+                        .to_owned()
                 }
                 _ if !known.contains(path) => {
                     let known: Vec<String> = known.iter().map(|path| format!("{path:?}")).collect();
