@@ -206,9 +206,10 @@ fn to_python(
 ) -> PyResult<Bound<'_, PyDict>> {
     let names = Answer::columns();
     let mut columns = vec![vec![f64::NAN; answers.len()]; names.len()];
-    let [others, failures] = [PyList::empty(py), PyList::empty(py)];
+    let [others, failures, wrong_inputs] = [(); 3].map(|()| PyList::empty(py));
     for (index, answer) in answers.into_iter().enumerate() {
         failures.append(answer.as_ref().err().map(ToString::to_string))?;
+        wrong_inputs.append(answer.as_ref().is_err_and(SolveError::is_wrong_input))?;
         let reached = answer.or_else(|error| error.reached().cloned().ok_or(error));
         match reached {
             Ok(answer) => {
@@ -232,6 +233,7 @@ fn to_python(
     result.set_item("columns", arrays)?;
     result.set_item("answers", others)?;
     result.set_item("failures", failures)?;
+    result.set_item("wrong_inputs", wrong_inputs)?;
     Ok(result)
 }
 

@@ -165,6 +165,16 @@ def test_what_is_not_reached_comes_with_what_was() -> None:
     assert answer.failures[0] is None and "2000" in str(answer.failures[1])
 
 
+def test_wrong_input_that_a_solver_finds_is_a_value_error() -> None:
+    scene = {
+        "indenter": BALL,
+        "material": vf.Prony(1e6, [(1e7, 1e-3)]),
+        "load": {"normal_force": 2.0, "velocity": 0.1, "track": 1e-6},
+    }
+    with pytest.raises(ValueError, match="the track must be twice as long as"):
+        vf.solve(scene)
+
+
 def test_branches_have_names_and_exchanged_pairs_are_refused() -> None:
     moduli, times = [1e7, 3e6, 10.0], [1e-3, 1e-1, 20.0]
     pairs = list(zip(moduli, times, strict=True))

@@ -64,6 +64,7 @@ class Answer(Compared):
         self._answers: list[dict[str, Any] | None] = found["answers"]
         #: Of each load, flat: why there is no answer, or None.
         self.failures: list[str | None] = found["failures"]
+        self._wrong_inputs: list[bool] = found["wrong_inputs"]
         #: The loads, each in the common shape, by their names.
         self.loads: dict[str, Values] = {name: values.reshape(shape)[()] for name, values in loads.items()}
         #: The common shape; () of a single scene.
@@ -434,11 +435,13 @@ def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]],
 
 
 def not_reached(answer: Answer) -> None:
-    """Raises NotReached where a load has no answer."""
+    """Raises ValueError where the input of all loads is wrong, and NotReached where a load has no answer."""
     failed: Sequence[int] = [index for index, failure in enumerate(answer.failures) if failure is not None]
     if not failed:
         return
     first = answer.failures[failed[0]]
+    if all(answer._wrong_inputs):
+        raise ValueError(str(first))
     if answer.shape == ():
         raise NotReached(str(first), answer)
     loads = ", ".join(f"{name} = {np.ravel(values)[failed[0]]:g}" for name, values in answer.loads.items())

@@ -12,12 +12,12 @@ use std::time::Instant;
 use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
-use viscofriction::Watch;
 use viscofriction::scene::{Method, SceneError, Source};
 use viscofriction::solve::{
     Answer, Omission, Plan, Problem, SolveError, check_sensitivity, check_spectral_sensitivity,
     plan_of, problem_of, scene_of, spectral_sensitivity, with_fields, with_sensitivity,
 };
+use viscofriction::{Watch, WrongInput};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{ABOUT_WARNINGS, Format, OutputFolder, print_line, say};
@@ -109,6 +109,9 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         Ok(answer) => (answer, None),
         Err(error) => match error.downcast_ref().and_then(SolveError::reached) {
             Some(reached) => (reached.clone(), Some(error)),
+            None if error.downcast_ref().is_some_and(SolveError::is_wrong_input) => {
+                return Err(WrongInput(format!("{path}: {error}")).into());
+            }
             None => return Err(error.context(path.to_string())),
         },
     };

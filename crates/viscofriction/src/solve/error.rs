@@ -4,7 +4,7 @@ use bem_halfspace::BemError;
 use friction_analytic::FrictionError;
 use indenters::IndenterError;
 use mdr_core::MdrError;
-use numerics::InWords;
+use numerics::{Estimate, InWords};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -56,11 +56,9 @@ pub enum SolveError {
     NotOffered(#[from] NotOffered),
     /// The error of the series that stands for the material is too large for the error asked for.
     #[error(
-        "the relative error {} was not reached, because the series of the material is off by {series:.1e}: the value is \
-         {} with an error of {:.1e}; give a larger solve.relative_error, or a material with a smaller relative_error",
-        InWords(*asked),
-        InWords(*value),
-        InWords(*error)
+        "the friction coefficient was not reached to the relative error {}, because the series of the material is off by \
+         {series:.1e}: it is {}; give a larger solve.relative_error, or a material with a smaller relative_error",
+        Estimate::new(*value, *error)
     )]
     SeriesTooCoarse {
         /// Relative error asked for.
@@ -119,8 +117,9 @@ pub enum SolveError {
     },
     /// A friction by which the material would give back more energy than it takes.
     #[error(
-        "the friction coefficient came out as {value} ± {error:e}, and a material that slides gives no energy back; give \
-         more solve.elements, or a smaller solve.relative_error"
+        "the friction coefficient came out as {}, and a material that slides gives no energy back; give more solve.elements, or a \
+         smaller solve.relative_error",
+        Estimate::new(*value, *error)
     )]
     NegativeFriction {
         /// Its value.
@@ -138,7 +137,7 @@ pub enum SolveError {
     },
     /// At a depth that is held so long the force has relaxed.
     #[error(
-        "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
+        "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:.1e} Pa there; shorten solve.duration, or give load.normal_force"
     )]
     Relaxed {
         /// Time, \[s].
@@ -148,7 +147,7 @@ pub enum SolveError {
     },
     /// What happens is faster or slower than a series stands for its law.
     #[error(
-        "it takes {time:e} s, and time_range of the material is from {shortest:e} to {longest:e} s: widen it"
+        "the contact takes {time:.1e} s, and time_range of the material is from {shortest:e} to {longest:e} s: widen it"
     )]
     OutsideTimeRange {
         /// Time of a contact length, of the pressing, of the sliding, or between points of a history, \[s].
@@ -160,8 +159,8 @@ pub enum SolveError {
     },
     /// Long waves under a line contact strain a material for longer than its series stands for it.
     #[error(
-        "up to {part:.2} of the friction of this line contact is of times after the longest one of time_range of the material, \
-         {longest:e} s, and the error asked for is {asked:e}: widen it"
+        "a part of up to {part:.2} of the friction of this line contact comes from times longer than time_range of the material, \
+         {longest:e} s, and the relative error asked for is {asked:e}: widen time_range"
     )]
     BeyondTimeRange {
         /// The part, relative to the friction.
@@ -188,6 +187,39 @@ impl SolveError {
         }
     }
 
+    /// Whether the scene asks for what has no meaning, so that no computation leads to an answer: a number out of range, a material
+    /// that never comes to rest, a track that is too short.
+    pub fn is_wrong_input(&self) -> bool {
+        match self {
+            Self::HalfSpace(error) => match error {
+                BemError::InvalidParameter(_)
+                | BemError::InvalidHeight { .. }
+                | BemError::DepthFromRest
+                | BemError::FlowsUnderWaves
+                | BemError::NoCycle
+                | BemError::NoEquilibrium
+                | BemError::SlidingDistanceMissing { .. }
+                | BemError::TrackTooShort { .. } => true,
+                BemError::Indenter(error) => is_wrong_body(error),
+                _ => false,
+            },
+            Self::Line(error) => match error {
+                MdrError::InvalidParameter(_)
+                | MdrError::NoCycle
+                | MdrError::NoEquilibrium
+                | MdrError::TrackTooShort { .. } => true,
+                MdrError::Indenter(error) => is_wrong_body(error),
+                _ => false,
+            },
+            Self::Analytic(FrictionError::InvalidParameter(_)) | Self::NotOffered(_) => true,
+            Self::Analytic(FrictionError::Indenter(error)) | Self::Indenter(error) => {
+                is_wrong_body(error)
+            }
+            Self::Refused { .. } => true,
+            _ => false,
+        }
+    }
+
     /// Whether more memory might help.
     pub(super) fn is_of_memory(&self) -> bool {
         match self {
@@ -196,6 +228,16 @@ impl SolveError {
             _ => false,
         }
     }
+}
+
+const fn is_wrong_body(error: &IndenterError) -> bool {
+    matches!(
+        error,
+        IndenterError::InvalidParameter(_)
+            | IndenterError::LengthMismatch { .. }
+            | IndenterError::NotIncreasing { .. }
+            | IndenterError::TooFew { .. }
+    )
 }
 
 // Not by the attribute `from`, which would say the cause a second time.
