@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use measurements::friction::{FrictionNoise, FrictionPoint, friction_points};
+use measurements::friction::{
+    FrictionNoise, FrictionPoint, FrictionTable, FrictionTableOptions, friction_points,
+};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -25,15 +27,21 @@ pub(crate) struct Measured<'py> {
     columns: Option<[Option<PyReadonlyArray1<'py, f64>>; 5]>,
     free: String,
     noise: String,
-    prior: Option<f64>,
+    prior: String,
+    track_radius: Option<f64>,
+    run_in: Option<f64>,
 }
 
 impl Measured<'_> {
-    fn points(&self) -> PyResult<Vec<FrictionPoint>> {
+    fn table(&self) -> PyResult<FrictionTable> {
         let Some(columns) = &self.columns else {
             let file = self.file.clone().unwrap_or_default();
             let contents = read_table(&file).map_err(wrong)?;
-            return friction_points(&file, &contents).map_err(wrong);
+            let options = FrictionTableOptions {
+                track_radius: self.track_radius,
+                run_in: self.run_in,
+            };
+            return friction_points(&file, &contents, &options).map_err(wrong);
         };
         let columns = columns.each_ref();
         let columns = columns.map(|one| one.as_ref().map(|one| one.as_array().to_vec()));
@@ -55,7 +63,10 @@ impl Measured<'_> {
                 temperature: at(&temperature, row),
                 normal_force: at(&normal_force, row),
             });
-        Ok(points.collect())
+        Ok(FrictionTable {
+            points: points.collect(),
+            notes: Vec::new(),
+        })
     }
 
     fn options(&self) -> PyResult<FrictionFitOptions> {
@@ -79,7 +90,7 @@ impl Measured<'_> {
         Ok(FrictionFitOptions {
             free,
             noise,
-            prior: self.prior,
+            prior: self.prior.parse().map_err(wrong::<String>)?,
         })
     }
 }
@@ -88,11 +99,13 @@ impl Measured<'_> {
 #[pyfunction]
 pub(crate) fn fit_points(py: Python<'_>, measured: Measured<'_>) -> PyResult<String> {
     let scene = Scene::try_from(table(&measured.scene, "")?).map_err(wrong)?;
-    let (points, options) = (measured.points()?, measured.options()?);
+    let (FrictionTable { points, notes }, options) = (measured.table()?, measured.options()?);
     let folder = measured.folder.clone();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(scene.solve.threads.unwrap_or(0));
     let pool = pool.build().map_err(wrong)?;
-    let fit = || fit_friction(&scene, (&folder, read_file), &points, &options);
+    let fit = || fit_friction(&scene, (&folder, read_file), &points, &options, &|_| ());
     let found = py.detach(|| pool.install(fit)).map_err(wrong)?;
+    let mut found = serde_json::to_value(&found).map_err(wrong)?;
+    found["notes"] = notes.into();
     serde_json::to_string(&found).map_err(wrong)
 }

@@ -68,6 +68,9 @@ def test_a_table_is_what_the_program_fits(program: Callable[..., str], tmp_path:
         ({"free": "times"}, "free must be"),
         ({"noise": "none"}, "noise must be"),
         ({"prior": 0.0}, "prior must be"),
+        ({"prior": "known"}, "prior must be covariance, none"),
+        ({"mu": 30 * np.ones(8)}, "at most 10"),
+        ({"run_in": 10.0}, "only a file"),
     ],
 )
 def test_wrong_input_is_named(given: dict[str, object], expected: str) -> None:
@@ -76,3 +79,20 @@ def test_wrong_input_is_named(given: dict[str, object], expected: str) -> None:
         vf.fit_friction(SPEEDS, **arguments)
 
 
+
+
+def test_runs_over_time_are_read_as_their_means(tmp_path: Path) -> None:
+    table = tmp_path / "friction.csv"
+    mu = measured()
+    rows = [
+        f"{1000 * run + time};{speed / 0.03 * 60 / (2 * np.pi)!r};{friction * (1.01 if time % 2 else 0.99)!r}\n"
+        for run, (speed, friction) in enumerate(zip(SPEEDS.tolist(), mu.tolist(), strict=True))
+        for time in range(20)
+    ]
+    table.write_text("t (s);rpm;mu\n" + "".join(rows))
+    with pytest.raises(ValueError, match="run_in in Python"):
+        vf.fit_friction(table, scene=scene(3e6, 2e3), track_radius=0.03)
+    fit = vf.fit_friction(table, scene=scene(3e6, 2e3), track_radius=0.03, run_in=10.0)
+    np.testing.assert_allclose(fit.mu, mu, rtol=1e-9)
+    np.testing.assert_allclose(fit.velocity, SPEEDS, rtol=1e-9)
+    assert fit.prior == "none" and "8 runs at constant speed" in fit.notes[0]

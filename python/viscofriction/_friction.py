@@ -44,13 +44,17 @@ class FrictionFit(Compared):
     freedom: int
     #: Largest relative error of the computed friction.
     solver_error: float
+    #: What was taken to be known of the moduli before the fit: "covariance", "none" or {"relative": spread}.
+    prior: str | Mapping[str, float]
+    #: How a table was read where that is not plain: signs, means of runs.
+    notes: tuple[str, ...]
     #: What is doubtful about it.
     flags: tuple[str, ...]
 
     def __repr__(self) -> str:
         rows = [f"  {name}: {one}" for name, one in self.findings.items()]
         head = f"fit of {self.mu.size} points of friction"
-        return "\n".join([head, *rows, *(f"  flag: {flag}" for flag in self.flags)])
+        return "\n".join([head, *self.notes, *rows, *(f"  flag: {flag}" for flag in self.flags)])
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known, under the names of the attributes, as numbers, texts, lists and dictionaries of them."""
@@ -82,7 +86,9 @@ def fit_friction(
     normal_force: ArrayLike | None = None,
     free: str = "moduli",
     noise: str = "relative",
-    prior: float | None = None,
+    prior: float | str = "covariance",
+    track_radius: float | None = None,
+    run_in: float | None = None,
 ) -> FrictionFit:
     """The moduli of a scene's material from friction coefficients ``mu`` over speed [m/s], with 95 % intervals.
 
@@ -91,8 +97,12 @@ def fit_friction(
     there may be its ``standard_error``, the ``temperature`` [°C] and the ``normal_force`` [N] of each point.
 
     ``free`` is what is sought: "moduli", the constants of the material's "shift" law, or "both". Without standard errors ``noise``
-    is "relative" to the friction or "absolute". ``prior`` is the relative spread of the moduli about those of the scene, known
-    beforehand, of elements that relax within the valid frequencies of the material.
+    is "relative" to the friction or "absolute". ``prior`` is what is known of the moduli before the fit: the "covariance" of the
+    material, as ``fit_material`` finds it (nothing where it has none), one relative standard deviation of all moduli that relax
+    within its valid frequencies, or "none".
+
+    ``track_radius`` [m] is that of a table with rotational speeds; ``run_in`` [s] is left out at the beginning of every run at
+    constant speed of a table over time, whose mean is a point.
 
     Raises ValueError for wrong input, and where no material explains the points, with the reason.
     """
@@ -107,7 +117,9 @@ def fit_friction(
         "columns": None,
         "free": free,
         "noise": noise,
-        "prior": prior,
+        "prior": str(prior),
+        "track_radius": track_radius,
+        "run_in": run_in,
     }
     beside = given(standard_error=standard_error, temperature=temperature, normal_force=normal_force)
     if isinstance(velocity, str | os.PathLike):
@@ -117,6 +129,8 @@ def fit_friction(
     else:
         if mu is None:
             raise ValueError("mu is needed beside velocity")
+        if track_radius is not None or run_in is not None:
+            raise ValueError("track_radius and run_in: only a file may have rotational speeds or runs over time")
         names = ["velocity", "mu", *beside]
         found = dict(zip(names, columns(velocity=velocity, mu=mu, **beside), strict=True))
         for name in ("velocity", "mu", "standard_error", "normal_force"):
@@ -145,5 +159,7 @@ def _fit(found: dict[str, Any]) -> FrictionFit:
         fit["residual"],
         fit["freedom"],
         found["solver_error"],
+        found["prior"],
+        tuple(found["notes"]),
         tuple(fit["flags"]),
     )

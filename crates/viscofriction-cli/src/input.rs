@@ -100,7 +100,7 @@ fn unread(path: &Path, error: &io::Error) -> WrongInput {
 }
 
 /// Parameters of the libraries, and the options that give them.
-const OPTIONS: [(&str, &str); 14] = [
+const OPTIONS: [(&str, &str); 16] = [
     ("n_branches", "--branches"),
     ("branches", "--branches"),
     ("tolerance", "--parsimony"),
@@ -115,6 +115,8 @@ const OPTIONS: [(&str, &str); 14] = [
     ("ramp_rate", "--ramp-rate"),
     ("thickness", "--thickness"),
     ("prior", "--prior"),
+    ("track_radius", "--track-radius"),
+    ("run_in", "--run-in"),
 ];
 
 /// The option that gave what a library refuses.

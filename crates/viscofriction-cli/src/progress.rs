@@ -21,6 +21,18 @@ pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Watch) -> T) -> T {
     value
 }
 
+/// Does one task that says what it has reached, and which part of it is done.
+pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -> T) -> T {
+    let bar = ProgressBar::new(WHOLE);
+    let told = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
+    let value = work(&|message, part| {
+        told.0.set_message(message);
+        told.done(part);
+    });
+    told.0.finish_and_clear();
+    value
+}
+
 fn shown(bar: ProgressBar, template: &str) -> ProgressBar {
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
         let left = left(state.elapsed(), state.fraction().into());

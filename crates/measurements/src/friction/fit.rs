@@ -1,17 +1,17 @@
 //! Least squares, and intervals of the profile likelihood.
 //!
 //! ```text
-//! S(θ) = Σ r_i² + s² Σ ((ln θ_k − m_k)/d_k)²,    least S with θ_k held − least S = t² s²
+//! S(θ) = Σ r_i² + s² (ln θ − m)ᵀ P (ln θ − m),    least S with θ_k held − least S = t² s²
 //! ```
 //! with residuals r in units of given standard errors (s = 1, t = 1.96), or else of ln μ or μ (s² the least Σ r² over the degrees
-//! of freedom, t of Student's distribution), and priors of the mean m and the deviation d.
+//! of freedom, t of Student's distribution), and a prior of the mean m and the precision P.
 
 use numerics::Estimate;
 use numerics::least_squares::{
     Linearised, Minimum, Profile, Range, inverse, minimise_by_model, profile_end, student_quantile,
 };
 
-use super::{FreeParameter, FrictionModel, FrictionNoise, FrictionPoint, ModelledPoint};
+use super::{FreeParameter, FrictionModel, FrictionNoise, FrictionPoint, ModelledPoint, Prior};
 use crate::{Finding, MeasurementError};
 
 /// 95 % of a normal distribution are within so many standard deviations.
@@ -27,6 +27,9 @@ const FIRST_NOISE: f64 = 0.05;
 const EXPLAINED: f64 = 3.0;
 /// Rounds in which the size of the noise is found beside priors.
 const ROUNDS: usize = 3;
+/// Computations of the friction of all points with which the end of an interval is sought at most; it needs two to ten where the
+/// parameter is determined.
+const MOST_COMPUTATIONS: usize = 60;
 /// Standard deviations of χ², or of the correlation of neighbours, from which residuals are no noise.
 const SIGNIFICANT: f64 = 4.0;
 
@@ -35,6 +38,7 @@ const SIGNIFICANT: f64 = 4.0;
 pub struct FrictionFitting<'a> {
     points: &'a [FrictionPoint],
     parameters: &'a [FreeParameter],
+    prior: Option<&'a Prior>,
     /// None where standard errors are given.
     noise: Option<FrictionNoise>,
 }
@@ -67,15 +71,18 @@ impl<'a> FrictionFitting<'a> {
     pub fn new(
         points: &'a [FrictionPoint],
         parameters: &'a [FreeParameter],
+        prior: Option<&'a Prior>,
         noise: FrictionNoise,
     ) -> Result<Self, MeasurementError> {
         let is_given = points.iter().all(|point| point.standard_error.is_some());
         let fitting = Self {
             points,
             parameters,
+            prior,
             noise: (!is_given).then_some(noise),
         };
-        let needed = parameters.len() - fitting.n_priors() + usize::from(!is_given);
+        let unknown = parameters.len().saturating_sub(fitting.n_priors());
+        let needed = unknown + usize::from(!is_given);
         if points.len() < needed.max(1) {
             return Err(MeasurementError::TooFewPoints {
                 needed: needed.max(1),
@@ -92,8 +99,7 @@ impl<'a> FrictionFitting<'a> {
     }
 
     fn n_priors(&self) -> usize {
-        let priors = self.parameters.iter().filter(|one| one.prior.is_some());
-        priors.count()
+        self.prior.map_or(0, |prior| prior.rank)
     }
 
     fn freedom(&self) -> usize {
@@ -129,6 +135,12 @@ impl<'a> FrictionFitting<'a> {
     pub fn sum(&self, model: &dyn FrictionModel, parameters: &[f64]) -> Option<f64> {
         let linearised = self.linearised(model, parameters, self.first_variance())?;
         Some(linearised.sum).filter(|sum| sum.is_finite())
+    }
+
+    /// The root mean square residual of a minimum, with what a prior adds; `None` if it is not finite.
+    pub fn mean_residual(&self, found: &FrictionMinimum) -> Option<f64> {
+        let mean = found.minimum.linearised.sum / self.points.len() as f64;
+        Some(mean.max(0.0).sqrt()).filter(|mean| mean.is_finite())
     }
 
     /// Whether a sum is that of noise: of the standard errors that are given, or of a twentieth of the friction.
@@ -180,18 +192,15 @@ impl<'a> FrictionFitting<'a> {
             let row = slopes.into_iter().map(|one| slope * one).collect();
             (residual, row)
         });
-        let scale = variance.sqrt();
-        let priors = self.parameters.iter().enumerate();
-        let priors = priors.filter_map(|(k, one)| {
-            let prior = one.prior?;
-            let mut row = vec![0.0; parameters.len()];
-            row[k] = scale / prior.deviation;
-            Some((row[k] * (prior.mean - parameters[k]), row))
-        });
-        Some(normal(rows.chain(priors), parameters.len()))
+        let mut linearised = normal(rows, parameters.len());
+        if let Some(prior) = self.prior {
+            prior.add_to(&mut linearised, parameters, variance);
+        }
+        Some(linearised)
     }
 
-    /// What the points say, about a minimum of the model.
+    /// What the points say, about a minimum of the model; `watch` is called with the number of parameters whose intervals are
+    /// known.
     ///
     /// # Errors
     /// [`MeasurementError::NotConverged`] where the model has no friction there.
@@ -199,6 +208,7 @@ impl<'a> FrictionFitting<'a> {
         &self,
         model: &dyn FrictionModel,
         found: &FrictionMinimum,
+        watch: &dyn Fn(usize),
     ) -> Result<FrictionFit, MeasurementError> {
         let best = &found.minimum;
         let modelled = model.friction(&best.parameters);
@@ -213,18 +223,37 @@ impl<'a> FrictionFitting<'a> {
             .collect();
         let freedom = self.freedom();
         let square: f64 = residuals.iter().map(|one| one * one).sum();
-        let findings = (0..self.parameters.len()).map(|k| self.finding(model, found, k));
+        let mut n_unfinished = 0;
+        let findings = (0..self.parameters.len()).map(|k| {
+            watch(k);
+            self.finding(model, found, k, &mut n_unfinished)
+        });
+        let findings: Vec<Finding> = findings.collect();
+        let mut flags = self.flags(&residuals, square, &best.parameters);
+        if n_unfinished > 0 {
+            flags.push(format!(
+                "{n_unfinished} ends of intervals were not found in {MOST_COMPUTATIONS} computations of the friction each, and are left \
+                 open: give fewer branches, more points, or a prior"
+            ));
+        }
         Ok(FrictionFit {
-            findings: findings.collect(),
+            findings,
             values: best.parameters.iter().map(|value| value.exp()).collect(),
-            flags: self.flags(&residuals, square),
+            flags,
             residual: (square / freedom.max(1) as f64).sqrt(),
             fitted,
             freedom,
         })
     }
 
-    fn finding(&self, model: &dyn FrictionModel, found: &FrictionMinimum, k: usize) -> Finding {
+    /// The interval of a parameter; ends that take too long are counted, and left open.
+    fn finding(
+        &self,
+        model: &dyn FrictionModel,
+        found: &FrictionMinimum,
+        k: usize,
+        n_unfinished: &mut usize,
+    ) -> Finding {
         let (best, variance) = (&found.minimum, found.variance);
         let n = self.parameters.len();
         let deviations = match self.noise {
@@ -245,8 +274,18 @@ impl<'a> FrictionFitting<'a> {
                 first_step: deviation,
                 close: CLOSE,
             };
-            let sum = |parameters: &[f64]| self.linearised(model, parameters, variance);
-            profile_end(sum, best, &ranges, profile).map(f64::exp)
+            let mut n_computed = 0;
+            let sum = |parameters: &[f64]| {
+                n_computed += 1;
+                let may_go_on = n_computed <= MOST_COMPUTATIONS;
+                may_go_on.then(|| self.linearised(model, parameters, variance))?
+            };
+            let end = profile_end(sum, best, &ranges, profile).map(f64::exp);
+            if n_computed > MOST_COMPUTATIONS {
+                *n_unfinished += 1;
+                return None;
+            }
+            end
         });
         let estimate = match ends {
             [Some(lower), Some(upper)] => Some(Estimate::new(
@@ -264,8 +303,19 @@ impl<'a> FrictionFitting<'a> {
     }
 
     /// Residuals that are no noise.
-    fn flags(&self, residuals: &[f64], square: f64) -> Vec<String> {
+    fn flags(&self, residuals: &[f64], square: f64, parameters: &[f64]) -> Vec<String> {
         let mut flags = Vec::new();
+        if let Some(prior) = self.prior
+            && let n = prior.rank as f64
+            && let distance = prior.squared_distance(parameters)
+            && distance > n + SIGNIFICANT * (2.0 * n).sqrt()
+        {
+            let ratio = (distance / n).sqrt();
+            flags.push(format!(
+                "the parameters are {ratio:.1} times as far from what was known of them as its errors allow: friction and prior \
+                 contradict each other, and the intervals do not hold"
+            ));
+        }
         let freedom = self.freedom() as f64;
         if self.noise.is_none() && square > freedom + SIGNIFICANT * (2.0 * freedom).sqrt() {
             let ratio = (square / freedom).sqrt();
@@ -291,6 +341,40 @@ impl<'a> FrictionFitting<'a> {
             ));
         }
         flags
+    }
+}
+
+impl Prior {
+    /// (ln θ − m)ᵀ P (ln θ − m).
+    fn squared_distance(&self, parameters: &[f64]) -> f64 {
+        let pairs = parameters.iter().zip(self.pull(parameters));
+        let pairs = pairs.zip(&self.mean);
+        pairs
+            .map(|((parameter, pull), mean)| (mean - parameter) * pull)
+            .sum()
+    }
+
+    /// P (m − ln θ).
+    fn pull(&self, parameters: &[f64]) -> Vec<f64> {
+        let rows = self.precision.chunks(self.mean.len());
+        let row = |row: &[f64]| {
+            let pairs = row.iter().zip(&self.mean).zip(parameters);
+            pairs
+                .map(|((entry, mean), parameter)| entry * (mean - parameter))
+                .sum()
+        };
+        rows.map(row).collect()
+    }
+
+    /// Adds the prior to the normal equations of residuals of this variance.
+    fn add_to(&self, linearised: &mut Linearised, parameters: &[f64], variance: f64) {
+        linearised.sum += variance * self.squared_distance(parameters);
+        for (entry, known) in linearised.matrix.iter_mut().zip(&self.precision) {
+            *entry += variance * known;
+        }
+        for (entry, pull) in linearised.descent.iter_mut().zip(self.pull(parameters)) {
+            *entry += variance * pull;
+        }
     }
 }
 

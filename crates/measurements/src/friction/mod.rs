@@ -7,12 +7,13 @@
 
 mod fit;
 mod read;
+mod runs;
 
 use numerics::least_squares::Range;
 use numerics::{InvalidParameter, in_range, positive};
 
 pub use fit::{FrictionFit, FrictionFitting, FrictionMinimum};
-pub use read::friction_points;
+pub use read::{FrictionTable, FrictionTableOptions, friction_points};
 
 /// A measured friction coefficient.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -31,14 +32,21 @@ pub struct FrictionPoint {
 }
 
 impl FrictionPoint {
-    /// Refuses numbers that are not greater than 0, and standard errors of some points only.
+    /// No body on rubber has a larger friction coefficient: it is another quantity, or in another unit.
+    pub const LARGEST_COEFFICIENT: f64 = 10.0;
+
+    /// Refuses numbers that are not greater than 0, friction coefficients that are none, standard errors of some points only, and
+    /// friction that changes more than three times as much as the speed, which that of no linear material does.
     ///
     /// # Errors
     /// [`InvalidParameter`] with the first of them.
     pub fn check_all(points: &[Self]) -> Result<(), InvalidParameter> {
         for point in points {
             positive("velocity", point.velocity)?;
-            positive("friction coefficient", point.friction_coefficient)?;
+            let friction = positive("friction coefficient", point.friction_coefficient)?;
+            let holds = friction <= Self::LARGEST_COEFFICIENT;
+            let allowed = "at most 10, because no body on rubber has a larger one (is it in per cent, or are columns exchanged?)";
+            in_range("friction coefficient", friction, holds, allowed)?;
             let others = [
                 ("standard error", point.standard_error),
                 ("normal force", point.normal_force),
@@ -52,6 +60,36 @@ impl FrictionPoint {
         let holds = known == 0 || known == points.len();
         let allowed = "0 or the number of points";
         in_range("number of standard errors", known as f64, holds, allowed)?;
+        Self::check_spread(points)
+    }
+
+    /// Refuses friction over the speed alone that changes more than that of a linear material can, as exchanged columns do.
+    fn check_spread(points: &[Self]) -> Result<(), InvalidParameter> {
+        let alike =
+            |of: fn(&Self) -> Option<f64>| points.windows(2).all(|two| of(&two[0]) == of(&two[1]));
+        if points.is_empty()
+            || !alike(|point| point.temperature)
+            || !alike(|point| point.normal_force)
+        {
+            return Ok(());
+        }
+        let spread = |of: fn(&Self) -> f64| {
+            let values = points.iter().map(of);
+            values.clone().fold(0.0, f64::max) / values.fold(f64::INFINITY, f64::min)
+        };
+        let [friction, speed] = [
+            spread(|point| point.friction_coefficient),
+            spread(|point| point.velocity),
+        ];
+        let allowed = "at most three times that of the speeds, because the friction of a linear material changes at most in proportion \
+                       to the speed (are the columns of speed and friction exchanged?)";
+        let holds = friction <= 3.0 * speed;
+        in_range(
+            "largest over smallest friction coefficient",
+            friction,
+            holds,
+            allowed,
+        )?;
         Ok(())
     }
 }
@@ -76,17 +114,17 @@ pub struct FreeParameter {
     pub unit: &'static str,
     /// Bounds of its logarithm, and how far that goes in one step.
     pub range: Range,
-    /// What is known of its logarithm beforehand.
-    pub prior: Option<Prior>,
 }
 
-/// A normal distribution.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A normal distribution of the logarithms of the parameters, known before the fit.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Prior {
-    /// Mean.
-    pub mean: f64,
-    /// Standard deviation, greater than 0.
-    pub deviation: f64,
+    /// Means, in the order of the parameters.
+    pub mean: Vec<f64>,
+    /// Inverse of the covariance, row by row; rows and columns of unknown parameters are 0.
+    pub precision: Vec<f64>,
+    /// Rank of the precision: how many parameters are known.
+    pub rank: usize,
 }
 
 /// What a model says of one point.

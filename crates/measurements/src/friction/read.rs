@@ -2,16 +2,40 @@
 
 use std::path::Path;
 
+use numerics::{not_negative, positive};
+
 use super::FrictionPoint;
+use super::runs::{self, Run};
 use crate::MeasurementError;
 use crate::moduli::Deformation;
 use crate::table::Quantity::{
-    self, Force, Friction, FrictionError, FrictionForce, Temperature, Velocity,
+    self, Force, Friction, FrictionError, FrictionForce, Radius, Temperature, Time, Velocity,
 };
 use crate::table::{Line, Meaning, Source, Table, Vocabulary, text_of};
 
+type Result<T> = std::result::Result<T, MeasurementError>;
+
+/// What a table of friction does not say itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FrictionTableOptions {
+    /// Radius of the track > 0, \[m], of a table with rotational speeds and without a column of radii.
+    pub track_radius: Option<f64>,
+    /// Time ≥ 0 at the beginning of every run at constant speed that is left out of its mean, \[s].
+    pub run_in: Option<f64>,
+}
+
+/// A table of friction.
+#[derive(Debug, Clone, PartialEq)]
+#[must_use]
+pub struct FrictionTable {
+    /// One point for each row, or for each run of a time series.
+    pub points: Vec<FrictionPoint>,
+    /// How the table was read where that is not plain: signs, means of runs.
+    pub notes: Vec<String>,
+}
+
 static FRICTION: Vocabulary = Vocabulary {
-    names: "v and mu (or friction force and normal force), and perhaps T, normal force and standard error",
+    names: "v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track radius and standard error",
     known: &KNOWN,
     is_head: |columns| {
         let is_friction = |one: &Quantity| [Friction, FrictionForce].contains(one);
@@ -21,23 +45,36 @@ static FRICTION: Vocabulary = Vocabulary {
                 .any(|one| is_friction(one) || *one == Velocity)
     },
     needed,
-    optional: &[Temperature],
+    optional: &[Temperature, Time, Radius],
     has_order: true,
 };
 
-/// Names without blanks, points, dashes, underlines and accents.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 16] = [
+/// Names without blanks, points, dashes, underlines and accents. Rotational speeds come after speeds along the track.
+const KNOWN: [(Quantity, Option<Deformation>, &str); 21] = [
     (Velocity, None, "v velocity speed geschwindigkeit vitesse"),
-    (Velocity, None, "slidingvelocity slidingspeed"),
+    (
+        Velocity,
+        None,
+        "slidingvelocity slidingspeed linearspeed gleitgeschwindigkeit",
+    ),
     (Velocity, None, "rollingvelocity rollingspeed"),
+    (
+        Velocity,
+        None,
+        "rpm rotationalspeed rotationspeed spindlespeed drehzahl",
+    ),
     (Friction, None, "mu μ µ cof frictioncoefficient"),
-    (Friction, None, "coefficientoffriction friction"),
+    (
+        Friction,
+        None,
+        "coefficientoffriction friction frictionfactor",
+    ),
     (
         Friction,
         None,
         "rollingresistance rollingresistancecoefficient",
     ),
-    (Friction, None, "reibungszahl reibungskoeffizient"),
+    (Friction, None, "reibungszahl reibungskoeffizient reibwert"),
     (FrictionError, None, "standarderror muerror error stderr"),
     (
         FrictionError,
@@ -48,11 +85,27 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 16] = [
     (
         FrictionForce,
         None,
-        "frictionforce tangentialforce Ft reibungskraft",
+        "frictionforce tangentialforce lateralforce Ft Ff",
     ),
-    (Force, None, "normalforce FN Fn load normalkraft force"),
+    (
+        FrictionForce,
+        None,
+        "reibungskraft reibkraft tangentialkraft",
+    ),
+    (
+        Force,
+        None,
+        "normalforce FN Fn load normalload normalkraft force",
+    ),
     (Temperature, None, "T temp temperature temperatur"),
     (Temperature, None, "sampletemperature"),
+    (Time, None, "t time zeit temps testtime"),
+    (
+        Radius,
+        None,
+        "radius trackradius weartrackradius bahnradius",
+    ),
+    (Radius, None, "testradius messradius"),
     (Quantity::Other, None, "index nr"),
     (Quantity::Other, None, "remark"),
 ];
@@ -70,15 +123,21 @@ fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     [vec![Velocity], friction.clone(), others.collect()].concat()
 }
 
-/// Reads the contents of a file, which need not be there: one table with a line of names. Speeds, coefficients, forces and errors
-/// are greater than 0.
+/// Reads the contents of a file, which need not be there: one table with a line of names, of one row for each speed or of runs at
+/// constant speed over time, of which the means count. Speeds, coefficients, forces and errors are greater than 0; a force that is
+/// negative in nearly all rows has the sign of its instrument, which a note says.
 ///
 /// # Errors
 /// [`MeasurementError`] with file, line and column.
 pub fn friction_points(
     file: &Path,
     contents: &[u8],
-) -> Result<Vec<FrictionPoint>, MeasurementError> {
+    options: &FrictionTableOptions,
+) -> Result<FrictionTable> {
+    for (name, radius) in [("track_radius", options.track_radius)] {
+        radius.map_or(Ok(1.0), |radius| positive(name, radius))?;
+    }
+    not_negative("run_in", options.run_in.unwrap_or_default())?;
     let text = text_of(contents, &FRICTION);
     let meaning = Meaning {
         deformation: None,
@@ -90,34 +149,274 @@ pub fn friction_points(
         let problem = "a second table begins here; put all rows below one line of names";
         return Err(source.wrong_line(second.line, &problem));
     }
-    let mut points = Vec::new();
-    for (table, rows) in &tables {
-        let rows = rows.iter().map(|line| point(table, line));
-        points.extend(rows.collect::<Result<Vec<_>, _>>()?);
-    }
-    Ok(points)
+    let (table, lines) = &tables[0];
+    let mut notes = Vec::new();
+    let rows = Rows::new(table, lines, options, &mut notes)?;
+    let points = rows.points(options, &mut notes)?;
+    let wrong = |problem| source.wrong_line(table.line, &problem);
+    FrictionPoint::check_all(&points).map_err(wrong)?;
+    Ok(FrictionTable { points, notes })
 }
 
-fn point(table: &Table, line: &Line) -> Result<FrictionPoint, MeasurementError> {
-    let numbers = table.positives(line)?;
-    let mut of = table.needed.iter().zip(numbers);
-    let find = |quantity: Quantity| {
-        let found = of.clone().find(|(one, _)| **one == quantity);
-        found.map(|(_, number)| number)
-    };
-    let normal_force = find(Force);
-    let friction = match (find(Friction), find(FrictionForce), normal_force) {
-        (Some(friction), ..) => friction,
-        (None, Some(force), Some(normal)) => force / normal,
-        _ => return Err(table.wrong_first(line, "a friction coefficient")),
-    };
-    let standard_error = find(FrictionError);
-    let velocity = of.next().map_or(f64::NAN, |(_, velocity)| velocity);
-    Ok(FrictionPoint {
-        velocity,
-        friction_coefficient: friction,
-        standard_error,
-        temperature: table.celsius(line)?,
-        normal_force,
-    })
+/// One row in SI.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    /// Line in the file, from 1.
+    pub(super) line: usize,
+    pub(super) time: Option<f64>,
+    pub(super) velocity: f64,
+    /// Friction coefficient, or friction force.
+    pub(super) friction: f64,
+    pub(super) normal_force: Option<f64>,
+    pub(super) standard_error: Option<f64>,
+    pub(super) temperature: Option<f64>,
 }
+
+/// All rows of a table.
+struct Rows<'a> {
+    table: &'a Table<'a>,
+    lines: &'a [&'a Line<'a>],
+    rows: Vec<Row>,
+    /// Whether the friction of a row is a force.
+    has_forces: bool,
+}
+
+/// Part of the rows in which a force is negative from which that is the sign of the instrument.
+const SIGNED: f64 = 0.9;
+
+impl<'a> Rows<'a> {
+    fn new(
+        table: &'a Table<'a>,
+        lines: &'a [&'a Line<'a>],
+        options: &FrictionTableOptions,
+        notes: &mut Vec<String>,
+    ) -> Result<Self> {
+        let has_forces = table.needed.contains(&FrictionForce);
+        let friction = if has_forces { FrictionForce } else { Friction };
+        let radius = track_radius(table, options)?;
+        let row = |line: &&Line| {
+            let speed = table.positive_of(line, Velocity)?.unwrap_or(f64::NAN);
+            let radius = match radius {
+                TrackRadius::Column => table.positive_of(line, Radius)?.unwrap_or(f64::NAN),
+                TrackRadius::Given(radius) => radius,
+                TrackRadius::NotNeeded => 1.0,
+            };
+            Ok(Row {
+                line: line.number,
+                time: table.in_si(line, Time)?,
+                velocity: speed * radius,
+                friction: table.in_si(line, friction)?.unwrap_or(f64::NAN),
+                normal_force: table.in_si(line, Force)?,
+                standard_error: table.positive_of(line, FrictionError)?,
+                temperature: table.celsius(line)?,
+            })
+        };
+        let rows = lines.iter().map(row).collect::<Result<Vec<Row>>>()?;
+        let mut rows = Self {
+            table,
+            lines,
+            rows,
+            has_forces,
+        };
+        if has_forces {
+            rows.turn("friction force", |row| Some(&mut row.friction), notes);
+        }
+        rows.turn("normal force", |row| row.normal_force.as_mut(), notes);
+        Ok(rows)
+    }
+
+    /// Turns a force that is negative in nearly all rows.
+    fn turn(
+        &mut self,
+        name: &str,
+        force: impl Fn(&mut Row) -> Option<&mut f64>,
+        notes: &mut Vec<String>,
+    ) {
+        let is_negative = |row: &mut Row| force(row).is_some_and(|force| *force < 0.0);
+        let n_negative = self
+            .rows
+            .iter_mut()
+            .filter_map(|row| is_negative(row).then_some(()));
+        let n_negative = n_negative.count();
+        if n_negative == 0 || (n_negative as f64) < SIGNED * self.rows.len() as f64 {
+            return;
+        }
+        for row in &mut self.rows {
+            if let Some(force) = force(row) {
+                *force = -*force;
+            }
+        }
+        notes.push(format!(
+            "the {name} is negative in {n_negative} of {} rows, which is taken for the sign of the instrument",
+            self.rows.len()
+        ));
+    }
+
+    fn points(
+        &self,
+        options: &FrictionTableOptions,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<FrictionPoint>> {
+        let runs = runs::split(&self.rows);
+        let longest = runs.iter().max_by_key(|run| run.len());
+        let longest = longest.filter(|run| run.len() >= runs::FEWEST_ROWS);
+        match (options.run_in, longest) {
+            (Some(run_in), Some(_)) => self.means(&runs, run_in, notes),
+            (None, Some(run)) => Err(self.table.wrong_row(run[0].line, &without_run_in(run))),
+            (Some(_), None) => {
+                let problem = "a run-in has no effect, because the table has no run of at least ten rows at one speed with a \
+                               column of time: leave it out";
+                Err(self.table.wrong_row(self.table.line, &problem))
+            }
+            (None, None) => {
+                let pairs = self.rows.iter().zip(self.lines);
+                let points = pairs.map(|(row, line)| self.point(row, line));
+                let points: Vec<FrictionPoint> = points.collect::<Result<_>>()?;
+                self.check_forces(&points)?;
+                Ok(points)
+            }
+        }
+    }
+
+    /// The point of one row.
+    fn point(&self, row: &Row, line: &Line) -> Result<FrictionPoint> {
+        if row.normal_force.is_some_and(|force| force <= 0.0) {
+            return Err(self.table.wrong_in(line, Force, "a number greater than 0"));
+        }
+        let friction = if self.has_forces {
+            FrictionForce
+        } else {
+            Friction
+        };
+        let coefficient = match (self.has_forces, row.normal_force) {
+            (true, Some(normal)) => row.friction / normal,
+            _ => row.friction,
+        };
+        if coefficient <= 0.0 {
+            let expected = "a number greater than 0";
+            return Err(self.table.wrong_in(line, friction, expected));
+        }
+        if coefficient > FrictionPoint::LARGEST_COEFFICIENT {
+            return Err(self.table.wrong_in(line, friction, self.too_large()));
+        }
+        Ok(FrictionPoint {
+            velocity: row.velocity,
+            friction_coefficient: coefficient,
+            standard_error: row.standard_error,
+            temperature: row.temperature,
+            normal_force: row.normal_force,
+        })
+    }
+
+    const fn too_large(&self) -> &'static str {
+        if self.has_forces {
+            "at most 10 times the normal force (are the columns of the two forces exchanged, or a unit wrong?)"
+        } else {
+            "a friction coefficient of at most 10 (in per cent the name is \"mu (%)\"; are columns exchanged?)"
+        }
+    }
+
+    /// The means of runs.
+    fn means(
+        &self,
+        runs: &[&[Row]],
+        run_in: f64,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<FrictionPoint>> {
+        let mut points = Vec::new();
+        notes.push(format!(
+            "time series: {} rows are {} runs at constant speed, and the mean of each without its first {run_in} s is a point",
+            self.rows.len(),
+            runs.len()
+        ));
+        for rows in runs {
+            let wrong = |problem: String| self.table.wrong_row(rows[0].line, &problem);
+            let run = Run::new(rows, run_in, self.has_forces).map_err(wrong)?;
+            let coefficient = run.point.friction_coefficient;
+            if coefficient > FrictionPoint::LARGEST_COEFFICIENT {
+                let expected = self.too_large();
+                return Err(wrong(format!(
+                    "expected {expected}, but the mean friction of the run is {coefficient:.4}"
+                )));
+            }
+            notes.push(run.to_string());
+            points.push(run.point);
+        }
+        self.check_forces(&points)?;
+        // Rows that do not scatter tell nothing about their errors.
+        if points.iter().any(|point| point.standard_error.is_none()) {
+            points
+                .iter_mut()
+                .for_each(|point| point.standard_error = None);
+        }
+        Ok(points)
+    }
+
+    /// Refuses forces that are exchanged: a normal force that is smaller than the friction at every point, and varies more.
+    fn check_forces(&self, points: &[FrictionPoint]) -> Result<()> {
+        let is_above = |point: &FrictionPoint| point.friction_coefficient > 1.0;
+        let forces = |of: fn(&FrictionPoint) -> f64| {
+            let forces = points.iter().map(of);
+            forces.clone().fold(0.0, f64::max) / forces.fold(f64::INFINITY, f64::min)
+        };
+        let normal = |point: &FrictionPoint| point.normal_force.unwrap_or(f64::NAN);
+        let friction = |point: &FrictionPoint| {
+            point.friction_coefficient * point.normal_force.unwrap_or(f64::NAN)
+        };
+        let spread = forces(normal) / forces(friction);
+        if !self.has_forces || !points.iter().all(is_above) || spread < EXCHANGED_SPREAD {
+            return Ok(());
+        }
+        let problem = "the friction force is larger than the normal force at every speed, and the normal force is the one that changes: \
+                       the columns of the two forces are exchanged";
+        Err(self.table.wrong_row(self.table.line, &problem))
+    }
+}
+
+/// How many times as much as the friction force, as largest over smallest, an exchanged normal force varies at least.
+const EXCHANGED_SPREAD: f64 = 1.2;
+
+fn without_run_in(run: &[Row]) -> String {
+    let last = run[run.len() - 1].line;
+    format!(
+        "the rows from here to line {last} are one run at {} m/s over time, of which the mean counts: name the run-in that is left \
+         out of it, --run-in SECONDS (run_in in Python; 0 for none)",
+        rounded(run[0].velocity)
+    )
+}
+
+/// Four significant digits.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// Where the radius of a track comes from.
+enum TrackRadius {
+    NotNeeded,
+    Column,
+    Given(f64),
+}
+
+fn track_radius(table: &Table, options: &FrictionTableOptions) -> Result<TrackRadius> {
+    let speed = table.find(Velocity);
+    let is_rotational = speed.is_some_and(|column| ROTATIONAL.contains(&column.unit));
+    let option = "the track radius (--track-radius)";
+    match (is_rotational, table.find(Radius), options.track_radius) {
+        (true, Some(column), Some(_)) => Err(table.without_effect(option, &[column])),
+        (true, Some(_), None) => Ok(TrackRadius::Column),
+        (true, None, Some(radius)) => Ok(TrackRadius::Given(radius)),
+        (true, None, None) => {
+            let problem = "a rotational speed needs the radius of the track: a column track radius, or --track-radius in m \
+                           (track_radius in Python)";
+            Err(table.wrong_row(table.line, &problem))
+        }
+        (false, _, Some(_)) => {
+            let speed: Vec<_> = speed.into_iter().collect();
+            Err(table.without_effect(option, &speed))
+        }
+        (false, _, None) => Ok(TrackRadius::NotNeeded),
+    }
+}
+
+/// Units of rotational speeds, which are rad/s in SI.
+const ROTATIONAL: [&str; 3] = ["rpm", "Hz", "rad/s"];

@@ -30,6 +30,7 @@ use rheology::Prony;
 
 use crate::{Finding, MeasurementError};
 pub use flag::Flag;
+pub(crate) use noise::correlated_points;
 pub use note::Note;
 pub use read::{CurveFile, CurveOptions, indentation_curve};
 

@@ -271,7 +271,7 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
 }
 
 /// How many points one independent point stands for: 1 + 2 Σ of the correlations at the lags up to five times that sum (Sokal 1997, Sect. 3), at least 1.
-pub(super) fn correlated_points(values: &[f64]) -> f64 {
+pub(crate) fn correlated_points(values: &[f64]) -> f64 {
     let product = |lag: usize| {
         let pairs = values.iter().zip(&values[lag..]);
         pairs.map(|(one, other)| one * other).sum::<f64>()

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::Deformation;
 use Quantity::{
     Deflection, Depth, Displacement, Force, Frequency, Friction, FrictionError, FrictionForce,
-    Height, Loss, LossFactor, Other, Piezo, Relaxation, Set, Storage, Temperature, Time, Tip,
-    Velocity,
+    Height, Loss, LossFactor, Other, Piezo, Radius, Relaxation, Set, Storage, Temperature, Time,
+    Tip, Velocity,
 };
 
 /// What a column holds.
@@ -33,8 +33,10 @@ pub(crate) enum Quantity {
     /// Position of the tip, away from the sample.
     Tip,
     Deflection,
-    /// Of sliding or rolling.
+    /// Of sliding or rolling, along the track or as a rotation.
     Velocity,
+    /// Of a circular track.
+    Radius,
     /// Friction coefficient.
     Friction,
     /// Standard error of the friction coefficient.
@@ -199,7 +201,8 @@ impl Quantity {
             Piezo => ("piezo", "m mm um nm pm A"),
             Height => ("height", "m mm um nm pm A"),
             Tip => ("tip position", "m mm um nm pm A"),
-            Velocity => ("v", "m/s mm/s um/s cm/s km/h"),
+            Velocity => ("v", "m/s mm/s um/s cm/s km/h rpm Hz rad/s"),
+            Radius => ("track radius", "m mm cm um"),
             Friction => ("mu", "-  1 %"),
             FrictionError => ("standard error of mu", "-  1 %"),
             FrictionForce => ("friction force", "N mN uN nN pN kN"),
@@ -235,11 +238,12 @@ impl Quantity {
     fn factor(self, unit: &str) -> f64 {
         let of_unit = match unit {
             "Hz" | "mHz" | "kHz" => TAU,
+            "rpm" => return TAU / 60.0,
             "min" => return 60.0,
             "h" => return 3600.0,
             "A" => return 1e-10,
             "m/s" => return 1.0,
-            "cm/s" | "%" => return 0.01,
+            "cm/s" | "cm" | "%" => return 0.01,
             "km/h" => return 1.0 / 3.6,
             _ => 1.0,
         };
@@ -251,7 +255,12 @@ impl Quantity {
 }
 
 /// Other ways to write them.
-const SAME_UNITS: [(&str, &str); 9] = [
+const SAME_UNITS: [(&str, &str); 14] = [
+    ("1/min", "rpm"),
+    ("min-1", "rpm"),
+    ("U/min", "rpm"),
+    ("r/min", "rpm"),
+    ("RPM", "rpm"),
     ("N/mm²", "MPa"),
     ("N/mm^2", "MPa"),
     ("rad/sec", "rad/s"),

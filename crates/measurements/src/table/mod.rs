@@ -1,6 +1,7 @@
 //! Tables of measurements as instruments export them: from bytes to text (the encoding), from text to lines of cells
 //! (separator and decimal mark), from a line of names to columns with units, and from the rows below to numbers in SI.
 
+mod cells;
 mod columns;
 mod layout;
 
@@ -157,6 +158,13 @@ impl<'a> Source<'a> {
             let (found, unit) = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)))?;
             let (order, deformation) = found;
             let quantity = self.vocabulary.known[order].0;
+            // A name may be the unit itself, as rpm.
+            let is_unit = unit.is_empty() && quantity.unit("").is_none();
+            let unit = if is_unit && quantity.unit(name).is_some() {
+                name
+            } else {
+                unit
+            };
             let deformation = deformation.or(self.meaning.deformation);
             Some(Column {
                 quantity,

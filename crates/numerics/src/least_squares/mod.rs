@@ -83,7 +83,28 @@ pub fn minimise_by_model(
     ranges: &[Range],
     enough: f64,
 ) -> Option<Minimum> {
-    descend(linearise, start, ranges, Ending::Model(enough))
+    let ending = Ending::Model {
+        enough,
+        below: f64::NEG_INFINITY,
+        most: usize::MAX,
+    };
+    descend(linearise, start, ranges, ending)
+}
+
+/// The same, which ends at the first place with a sum below `below`, and after `most` places with the sum to which the model of the
+/// last one falls.
+pub(super) fn minimise_below(
+    linearise: impl FnMut(&[f64]) -> Option<Linearised>,
+    start: Vec<f64>,
+    ranges: &[Range],
+    ([enough, below], most): ([f64; 2], usize),
+) -> Option<Minimum> {
+    let ending = Ending::Model {
+        enough,
+        below,
+        most,
+    };
+    descend(linearise, start, ranges, ending)
 }
 
 /// When a search ends.
@@ -91,8 +112,44 @@ pub fn minimise_by_model(
 enum Ending {
     /// When a step lowers the sum by less than this part.
     Fraction(f64),
-    /// When the model lowers it by less, in units of the sum.
-    Model(f64),
+    /// When the model lowers it by less than `enough`, or when it is below `below`, both in units of the sum; or after `most` places.
+    Model {
+        enough: f64,
+        below: f64,
+        most: usize,
+    },
+}
+
+impl Ending {
+    const fn most_places(self) -> usize {
+        match self {
+            Self::Model { most, .. } => most,
+            Self::Fraction(_) => usize::MAX,
+        }
+    }
+
+    const fn is_below(self, sum: f64) -> bool {
+        match self {
+            Self::Model { below, .. } => sum < below,
+            Self::Fraction(_) => false,
+        }
+    }
+
+    /// The step that is taken by the model alone, and by how much that lowers the sum; none while the sum has to be computed again.
+    fn last_step(
+        self,
+        linearised: &Linearised,
+        parameters: &[f64],
+        (ranges, places): (&[Range], usize),
+    ) -> Option<(Vec<f64>, f64)> {
+        let Self::Model { enough, most, .. } = self else {
+            return None;
+        };
+        let moved = step(linearised, parameters, ranges, UNDAMPED)?;
+        let lowered = linearised.lowered(parameters, &moved);
+        let is_enough = is_whole([parameters, &moved], ranges) && lowered < enough;
+        (is_enough || places >= most).then_some((moved, lowered))
+    }
 }
 
 fn descend(
@@ -104,20 +161,20 @@ fn descend(
     let finite = |linearised: &Linearised| linearised.sum.is_finite();
     let mut parameters = start;
     let mut linearised = linearise(&parameters).filter(finite)?;
-    let mut damping = 1e-3;
+    let (mut damping, mut places) = (1e-3, 1);
     for _ in 0..MAX_STEPS {
-        if let Ending::Model(enough) = ending
-            && let Some(moved) = step(&linearised, &parameters, ranges, UNDAMPED)
-            && is_whole([&parameters, &moved], ranges)
-            && let lowered = linearised.lowered(&parameters, &moved)
-            && lowered < enough
+        if ending.is_below(linearised.sum) {
+            break;
+        }
+        if let Some((moved, lowered)) = ending.last_step(&linearised, &parameters, (ranges, places))
         {
             linearised.sum -= lowered.max(0.0);
             parameters = moved;
             break;
         }
         let (mut gained, before) = (None, linearised.sum);
-        while gained.is_none() && damping < 1e9 {
+        while gained.is_none() && damping < 1e9 && places < ending.most_places() {
+            places += 1;
             let moved = step(&linearised, &parameters, ranges, damping);
             let trial = moved.and_then(|moved| Some((linearise(&moved).filter(finite)?, moved)));
             match trial.filter(|(trial, _)| trial.sum < linearised.sum) {
@@ -131,9 +188,11 @@ fn descend(
         }
         let is_last = |fraction: f64| match ending {
             Ending::Fraction(sufficient) => fraction < sufficient,
-            Ending::Model(enough) => fraction * before < STALLED * enough,
+            Ending::Model { enough, .. } => fraction * before < STALLED * enough,
         };
-        if gained.is_none_or(is_last) {
+        // After the last place the model takes one more step.
+        let goes_on = gained.is_none() && places >= ending.most_places();
+        if !goes_on && gained.is_none_or(is_last) {
             break;
         }
     }

@@ -1,6 +1,6 @@
 //! How far one parameter may go while all others follow it: ends of intervals of the profile likelihood.
 
-use super::{Linearised, Minimum, Range, inverse, minimise_by_model};
+use super::{Linearised, Minimum, Range, inverse, minimise_below};
 
 /// A side of one parameter of a minimum.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +19,9 @@ pub struct Profile {
 
 /// Steps of the search.
 const STEPS: usize = 20;
+/// Places at which the sum is computed on one step; where these are not enough, what the model of the last one leaves is the sum,
+/// which is too small rather than too large in a curved valley: the interval becomes wider.
+const MOST_PLACES: usize = 12;
 /// Part of the rise that the model may be trusted with, over the closeness asked for.
 const BY_MODEL: f64 = 0.3;
 
@@ -35,12 +38,30 @@ pub fn profile_end(
     } = profile;
     let place = |step: f64| best.parameters[parameter] + side * step;
     let tangent = tangent(best, parameter);
-    let mut at = |step: f64| held(&mut linearise, (best, &tangent), ranges, (profile, step));
     let range = ranges[parameter];
     let end = range.bounds[usize::from(side > 0.0)];
     let room = side * (end - best.parameters[parameter]);
+    let mut at = |step: f64| {
+        // At the bound it only matters whether the sum has risen enough.
+        let below = if step < room {
+            f64::NEG_INFINITY
+        } else {
+            best.linearised.sum + profile.rise
+        };
+        held(
+            &mut linearise,
+            (best, &tangent),
+            ranges,
+            (profile, step, below),
+        )
+    };
     let [mut inner, mut outer] = [[0.0; 2], [f64::INFINITY; 2]];
-    let mut step = profile.first_step.min(range.largest_step).min(room);
+    // Where no end is expected within the range, its bound comes first.
+    let mut step = if profile.first_step < room {
+        profile.first_step.min(range.largest_step)
+    } else {
+        room
+    };
     for _ in 0..STEPS {
         let found = at(step);
         if found < 1.0 && step >= room {
@@ -73,7 +94,7 @@ fn held(
     linearise: impl FnMut(&[f64]) -> Option<Linearised>,
     (best, tangent): (&Minimum, &[f64]),
     ranges: &[Range],
-    (profile, step): (Profile, f64),
+    (profile, step, below): (Profile, f64, f64),
 ) -> f64 {
     let Profile {
         parameter,
@@ -90,7 +111,8 @@ fn held(
         let [lowest, highest] = range.bounds;
         (value + side * step * slope).clamp(lowest, highest)
     });
-    let held = minimise_by_model(linearise, start.collect(), &ranges, BY_MODEL * close * rise);
+    let ending = ([BY_MODEL * close * rise, below], MOST_PLACES);
+    let held = minimise_below(linearise, start.collect(), &ranges, ending);
     let sum = held.map_or(f64::INFINITY, |held| held.linearised.sum);
     let part = (sum - best.linearised.sum).max(0.0) / rise;
     if part.is_nan() {

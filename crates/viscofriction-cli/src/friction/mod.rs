@@ -7,10 +7,11 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 use measurements::MeasurementError;
-use measurements::friction::{FrictionNoise, friction_points};
+use measurements::friction::{FrictionNoise, FrictionTable, FrictionTableOptions, friction_points};
 use viscofriction::WrongInput;
 use viscofriction::friction_fit::{
-    FittedFriction, Free, FrictionFitError, FrictionFitOptions, fit_friction,
+    FitProgress, FittedFriction, Free, FrictionFitError, FrictionFitOptions, FrictionPrior,
+    fit_friction,
 };
 use viscofriction::scene::Source;
 use viscofriction::solve::scene_of;
@@ -27,8 +28,8 @@ use crate::progress;
     after_help = "Example: viscofriction fit-friction examples/data/friction.csv examples/scenes/ball-on-rubber.toml --out rubber"
 )]
 pub(crate) struct FitFriction {
-    /// Table with a line of names: v and mu (or friction force and normal force), and perhaps T, normal force and standard error,
-    /// in any order, with units in the names or in the line below.
+    /// Table with a line of names: v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track
+    /// radius and standard error, in any order, with units in the names or in the line below.
     table: PathBuf,
     /// The scene: the body, its load, and a material with the moduli to begin with. Speeds are those of the table.
     scene: PathBuf,
@@ -38,10 +39,16 @@ pub(crate) struct FitFriction {
     /// Errors of friction where the table gives no standard errors.
     #[arg(long, value_enum, default_value_t)]
     noise: FrictionNoise,
-    /// Relative spread of the moduli about those of the scene that is known beforehand, of elements that relax within the valid
-    /// frequencies of the material.
-    #[arg(long, value_name = "RELATIVE")]
-    prior: Option<f64>,
+    /// What is known of the moduli before the fit: "covariance" of the material, as fit-material writes it (nothing where it has
+    /// none); a relative standard deviation of all moduli that relax within its valid frequencies; or "none".
+    #[arg(long, default_value = "covariance", allow_negative_numbers = true)]
+    prior: FrictionPrior,
+    /// Radius of the circular track in m, for rotational speeds in a table without a column of radii.
+    #[arg(long, value_name = "RADIUS")]
+    track_radius: Option<f64>,
+    /// Time in s at the beginning of every run at constant speed that is left out of its mean, for a table over time; 0 for none.
+    #[arg(long, value_name = "SECONDS")]
+    run_in: Option<f64>,
     /// How the result is printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -57,8 +64,12 @@ const NAMES: &str = "findings.csv fit.csv fit.svg fit.png material.toml";
 
 /// Reads table and scene, fits, and writes what the friction says.
 pub(crate) fn fit(options: &FitFriction) -> Result<()> {
-    let points = friction_points(&options.table, &read_table(&options.table)?);
-    let points = points.map_err(wrong_table)?;
+    let read = FrictionTableOptions {
+        track_radius: options.track_radius,
+        run_in: options.run_in,
+    };
+    let table = friction_points(&options.table, &read_table(&options.table)?, &read);
+    let FrictionTable { points, notes } = table.map_err(wrong_table)?;
     let source = read_scene(&options.scene)?;
     let scene = scene_of(&source, None)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
@@ -69,24 +80,27 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
         prior: options.prior,
     };
     let files = (source.folder(), read_input as _);
-    let task = format!("fitting {}", options.table.display());
+    let task = format!("fitting {}: ", options.table.display());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(scene.solve.threads.unwrap_or(0));
     let pool = pool.build()?;
-    let found = progress::during(task, |_| {
-        pool.install(|| fit_friction(&scene, files, &points, &sought))
+    let found = progress::with_message(|say| {
+        let watch = |reached: &FitProgress| say(format!("{task}{reached}"), reached.part());
+        pool.install(|| fit_friction(&scene, files, &points, &sought, &watch))
     });
     let found = found.map_err(|error| options.refused(&source, error))?;
     // Before anything is printed, because a pipe that is closed ends the program.
     if let Some(out) = &out {
-        options.write(&found, out)?;
+        options.write(&found, &notes, out)?;
     }
-    match (options.format, &out) {
-        (Format::Json, _) => print_line(&serde_json::to_string_pretty(&found)?),
-        (Format::Table, None) => print_text(&options.table(&found)),
-        (Format::Table, Some(out)) => {
-            print_text(&options.table(&found))?;
-            print_line(&format!("written into {}", out.path().display()))
-        }
+    if options.format == Format::Json {
+        let mut json = serde_json::to_value(&found)?;
+        json["notes"] = notes.into();
+        return print_line(&serde_json::to_string_pretty(&json)?);
+    }
+    print_text(&options.table(&found, &notes))?;
+    match &out {
+        Some(out) => print_line(&format!("written into {}", out.path().display())),
+        None => Ok(()),
     }
 }
 
@@ -105,7 +119,7 @@ impl FitFriction {
         }
     }
 
-    fn write(&self, found: &FittedFriction, folder: &OutputFolder) -> Result<()> {
+    fn write(&self, found: &FittedFriction, notes: &[String], folder: &OutputFolder) -> Result<()> {
         let out = folder.begin()?;
         let findings = found.fit.findings.iter();
         let findings = findings.map(|one| (&one.name, one.unit, crate::indentation::numbers(one)));
@@ -131,15 +145,15 @@ impl FitFriction {
         out.write("fit.csv", &to_csv(header, rows)?)?;
         out.draw("fit", &picture::figure(found))?;
         // Last: with it the others are there. What is not determined is said in front of the numbers.
-        let findings = self.table(found).replace('\n', "\n# ");
+        let findings = self.table(found, notes).replace('\n', "\n# ");
         let material = found.material_file()?;
         let material = format!("# {}\n#\n# {findings}\n{material}", self.table.display());
         out.write("material.toml", material.as_bytes())?;
         out.finish()
     }
 
-    /// What was found, and what is doubtful.
-    fn table(&self, found: &FittedFriction) -> String {
+    /// How the table was read, what was found, and what is doubtful.
+    fn table(&self, found: &FittedFriction, notes: &[String]) -> String {
         let fit = &found.fit;
         let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
         for finding in &fit.findings {
@@ -155,14 +169,29 @@ impl FitFriction {
             (false, FrictionNoise::Absolute) => "in the friction coefficient",
         };
         let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
+        let notes: String = notes.iter().map(|note| format!("{note}\n")).collect();
         format!(
-            "{table}\n{} points, {} degrees of freedom; residual {:.3e} {of}; the computed friction is off by {:.1e} of itself \
-             at most\n{}",
+            "{notes}{table}\n{} points, {} degrees of freedom; residual {:.3e} {of}; the computed friction is off by {:.1e} of itself \
+             at most\n{}\n{}",
             found.points.len(),
             fit.freedom,
             fit.residual,
             found.solver_error,
+            prior_in_words(found.prior),
             flags.collect::<String>()
         )
+    }
+}
+
+/// What was known of the moduli before the fit, as a line of the output.
+fn prior_in_words(prior: FrictionPrior) -> String {
+    match prior {
+        FrictionPrior::Covariance => {
+            "known before: the moduli of the scene, with the covariance of its material (--prior none leaves that out)".to_owned()
+        }
+        FrictionPrior::Relative(spread) => {
+            format!("known before: the moduli of the scene, each to {} %", 100.0 * spread)
+        }
+        FrictionPrior::None => "known before: nothing".to_owned(),
     }
 }

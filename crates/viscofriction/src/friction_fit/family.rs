@@ -3,14 +3,14 @@
 use std::f64::consts::LN_10;
 
 use measurements::friction::{FreeParameter, FrictionPoint, Prior};
-use numerics::least_squares::Range;
+use numerics::least_squares::{Range, inverse};
 use rheology::{
     ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, Material, RheologyError, Shift, ShiftLaw, WlfShift,
 };
 
-use super::{Free, FrictionFitError};
+use super::{Free, FrictionFitError, FrictionPrior};
 use crate::files::{Files, ReadFile};
-use crate::scene::{MaterialTable, Scene, SceneError};
+use crate::scene::{Covariance, MaterialTable, Scene, SceneError};
 use crate::solve::half_space::{half_space, of_table_in};
 use crate::solve::sensitivity::{Number, Numbers};
 
@@ -37,6 +37,9 @@ const ENERGIES: [f64; 2] = [1e3, 1e7];
 const EXPONENTS: [f64; 2] = [0.01, 0.99];
 /// Part of the distance from the lowest temperature to the pole of the WLF law that is left at least.
 const FROM_POLE: f64 = 1.01;
+/// Relative standard deviation that is added to the covariance of moduli, so that combinations that it holds for exact have a
+/// finite weight; friction is hardly ever measured as well.
+const LEAST_DEVIATION: f64 = 1e-3;
 /// Largest change of a logarithm in one step.
 const STEP: f64 = 2.0;
 
@@ -48,6 +51,8 @@ pub(super) struct Family<'a> {
     temperature: Option<f64>,
     numbers: Numbers<'a>,
     files: Files<'a>,
+    /// Of the moduli of the scene.
+    covariance: Option<Covariance>,
     /// The free moduli and other numbers of the material, then those of the law.
     moduli: Vec<Number>,
     shift: Option<Shift>,
@@ -70,6 +75,7 @@ impl<'a> Family<'a> {
     ) -> Result<Self, FrictionFitError> {
         let files = Files::of(scene, folder, read)?;
         let (mut scene, temperature) = with_material(scene, &files)?;
+        let covariance = scene.material.covariance().cloned();
         if free != Free::Shift {
             scene.material = scene.material.without_covariance();
         }
@@ -96,6 +102,7 @@ impl<'a> Family<'a> {
             temperature,
             numbers,
             files,
+            covariance,
             moduli,
             shift,
             shift_is_free,
@@ -103,23 +110,13 @@ impl<'a> Family<'a> {
     }
 
     /// The parameters with the start of each, as logarithms.
-    pub(super) fn parameters(
-        &self,
-        points: &[FrictionPoint],
-        prior: Option<f64>,
-    ) -> (Vec<FreeParameter>, Vec<f64>) {
+    pub(super) fn parameters(&self, points: &[FrictionPoint]) -> (Vec<FreeParameter>, Vec<f64>) {
         let of_material = self.moduli.iter().map(|number| {
             let [lowest, highest] = self.range(number);
             let parameter = FreeParameter {
                 name: number.path().trim_start_matches("material.").to_owned(),
                 unit: unit(number),
                 range: range([lowest, highest]),
-                prior: prior
-                    .filter(|_| is_stress(number) && self.is_measured(number))
-                    .map(|spread| Prior {
-                        mean: number.value.ln(),
-                        deviation: spread.ln_1p(),
-                    }),
             };
             (parameter, number.value.ln())
         });
@@ -129,11 +126,78 @@ impl<'a> Family<'a> {
                 name: constant.name.to_owned(),
                 unit: constant.unit,
                 range: range(constant.bounds),
-                prior: None,
             };
             (parameter, constant.start.ln())
         });
         of_material.chain(of_law).unzip()
+    }
+
+    /// What is known of the logarithms of the parameters before the fit; `start` are those of the scene.
+    pub(super) fn prior(&self, known: FrictionPrior, start: &[f64]) -> Option<Prior> {
+        let (places, covariance) = match known {
+            FrictionPrior::None => return None,
+            FrictionPrior::Relative(spread) => self.independent(spread.ln_1p()),
+            FrictionPrior::Covariance => self.covariance()?,
+        };
+        let (n, rank) = (start.len(), places.len());
+        let inverse = inverse(&covariance, rank)?;
+        let mut precision = vec![0.0; n * n];
+        for (at, entry) in inverse.into_iter().enumerate() {
+            precision[places[at / rank] * n + places[at % rank]] = entry;
+        }
+        Some(Prior {
+            mean: start.to_vec(),
+            precision,
+            rank,
+        })
+    }
+
+    /// Places of the moduli of elements that relax at measured frequencies, and their covariance with this standard deviation.
+    fn independent(&self, deviation: f64) -> (Vec<usize>, Vec<f64>) {
+        let moduli = self.moduli.iter().enumerate();
+        let moduli = moduli.filter(|(_, number)| is_stress(number) && self.is_measured(number));
+        let places: Vec<usize> = moduli.map(|(place, _)| place).collect();
+        let rank = places.len();
+        let entries = (0..rank * rank).map(|at| {
+            if at / rank == at % rank {
+                deviation * deviation
+            } else {
+                0.0
+            }
+        });
+        let entries = entries.collect();
+        (places, entries)
+    }
+
+    /// Places of the moduli in the covariance of the material, and that; `None` if the material has none.
+    fn covariance(&self) -> Option<(Vec<usize>, Vec<f64>)> {
+        let known = self.covariance.as_ref()?;
+        let moduli = self.moduli.iter().enumerate();
+        let moduli = moduli.filter_map(|(place, number)| match number.ends() {
+            // It comes first in the covariance.
+            [_, "equilibrium_modulus"] => Some((place, 0)),
+            [_, "modulus"] => Some((place, branch_of(number)? + 1)),
+            _ => None,
+        });
+        let moduli: Vec<(usize, usize)> = moduli.collect();
+        let entries = moduli.iter().flat_map(|&(row, from)| {
+            moduli.iter().map(move |&(column, to)| {
+                let least = if row == column { LEAST_DEVIATION } else { 0.0 };
+                known.relative[from][to] + least * least
+            })
+        });
+        let entries = entries.collect();
+        Some((moduli.iter().map(|(place, _)| *place).collect(), entries))
+    }
+
+    /// What of the prior that is asked for there is: a material without a covariance has none.
+    pub(super) fn known(&self, asked: FrictionPrior) -> FrictionPrior {
+        let has_covariance = self.covariance.is_some() && !self.moduli.is_empty();
+        match asked {
+            FrictionPrior::Covariance if !has_covariance => FrictionPrior::None,
+            FrictionPrior::Relative(_) if self.moduli.is_empty() => FrictionPrior::None,
+            other => other,
+        }
     }
 
     /// How many of the parameters are those of the material itself.
@@ -174,10 +238,8 @@ impl<'a> Family<'a> {
         let MaterialTable::Prony { branches, .. } = &self.scene.material else {
             return true;
         };
-        let path = number.path();
-        let mut places = branches.iter().enumerate();
-        let own = places.find(|(k, _)| path.ends_with(&format!("branches[{k}].modulus")));
-        own.is_some_and(|(_, branch)| (lowest..=highest).contains(&branch.relaxation_time.recip()))
+        let own = branch_of(number).and_then(|branch| branches.get(branch));
+        own.is_some_and(|branch| (lowest..=highest).contains(&branch.relaxation_time.recip()))
     }
 
     /// The constants of the law that is free, which is known down to so far below its temperature, \[K].
@@ -324,6 +386,13 @@ fn range(bounds: [f64; 2]) -> Range {
 fn is_stress(number: &Number) -> bool {
     let [_, key] = number.ends();
     STRESSES.contains(&key)
+}
+
+/// The branch whose modulus a number is, counted from 0.
+fn branch_of(number: &Number) -> Option<usize> {
+    let path = number.path();
+    let (_, branch) = path.strip_suffix("].modulus")?.rsplit_once("branches[")?;
+    branch.parse().ok()
 }
 
 fn unit(number: &Number) -> &'static str {

@@ -3,6 +3,8 @@
 mod error;
 mod family;
 mod model;
+mod prior;
+mod progress;
 
 use std::path::Path;
 use std::sync::PoisonError;
@@ -15,9 +17,11 @@ use numerics::positive;
 use serde::Serialize;
 
 pub use error::FrictionFitError;
+pub use prior::FrictionPrior;
+pub use progress::{FitProgress, FitStage};
 
 use crate::files::ReadFile;
-use crate::scene::{MaterialTable, Scene, SceneError};
+use crate::scene::{Edges, Indenter, MaterialTable, Scene, SceneError};
 use crate::solve::Problem;
 use family::Family;
 use model::Model;
@@ -42,9 +46,8 @@ pub struct FrictionFitOptions {
     pub free: Free,
     /// Errors of points without a standard error.
     pub noise: FrictionNoise,
-    /// Relative spread > 0 of the moduli about those of the scene, known beforehand, of elements that relax within the
-    /// valid frequencies of the material.
-    pub prior: Option<f64>,
+    /// What is known of the moduli before the fit.
+    pub prior: FrictionPrior,
 }
 
 /// A material found from friction.
@@ -61,6 +64,8 @@ pub struct FittedFriction {
     pub shifted_velocities: Vec<f64>,
     /// Largest relative error of the computed friction.
     pub solver_error: f64,
+    /// What was taken to be known of the moduli before the fit.
+    pub prior: FrictionPrior,
 }
 
 /// Points of the first search.
@@ -74,7 +79,7 @@ const CORRECTIONS: usize = 4;
 const NEAR: f64 = 0.2;
 
 /// Finds what is free of the material of a scene from points of its body; speeds, and forces and temperatures where they have
-/// some, are those of the points.
+/// some, are those of the points. `watch` is told what the fit has reached.
 ///
 /// # Errors
 /// [`FrictionFitError`] with the reason.
@@ -83,8 +88,9 @@ pub fn fit_friction(
     (folder, read): (&Path, ReadFile),
     points: &[FrictionPoint],
     options: &FrictionFitOptions,
+    watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<FittedFriction, FrictionFitError> {
-    if let Some(prior) = options.prior {
+    if let FrictionPrior::Relative(prior) = options.prior {
         positive("prior", prior).map_err(MeasurementError::from)?;
     }
     FrictionPoint::check_all(points).map_err(MeasurementError::from)?;
@@ -93,23 +99,32 @@ pub fn fit_friction(
     family.check_temperatures(points)?;
     let problem = Problem::new(&family.scene, folder, read)?;
     let mut model = Model::new(&family, &problem, points)?;
-    let (parameters, start) = family.parameters(points, options.prior);
-    let fitting = FrictionFitting::new(points, &parameters, options.noise)?;
-    let start = first_search(&model, &family, (&fitting, &parameters), &start)?;
-    let (found, solver_error) = corrected(&mut model, &fitting, start)?;
+    let (parameters, start) = family.parameters(points);
+    let known = family.known(options.prior);
+    let prior = family.prior(known, &start);
+    let fitting = FrictionFitting::new(points, &parameters, prior.as_ref(), options.noise)?;
+    let start = first_search(&model, &family, (&fitting, &parameters), &start, watch)?;
+    let (found, solver_error) = corrected(&mut model, &fitting, start, watch)?;
     let logs = &found.minimum.parameters;
     let shifted = points.iter().map(|point| {
         let (log, _) = family.shift_of(point, logs)?;
         Ok(point.velocity * log.exp())
     });
     let shifted = shifted.collect::<Result<_, rheology::RheologyError>>();
+    let residual = fitting.mean_residual(&found);
+    let of = parameters.len();
+    let intervals = |done: usize| {
+        let stage = FitStage::Intervals { done, of };
+        watch(&FitProgress { stage, residual });
+    };
     Ok(FittedFriction {
-        fit: fitting.fit(&model, &found)?,
+        fit: fitting.fit(&model, &found, &intervals)?,
         material: family.found(logs, points)?,
         points: points.to_vec(),
         shifted_velocities: shifted
             .map_err(|error| SceneError::at("material", error.to_string()))?,
         solver_error,
+        prior: known,
     })
 }
 
@@ -119,6 +134,7 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
         needed: 1,
         given: 0,
     })?;
+    check_scene(scene)?;
     let mut scene = scene.clone();
     scene.load.velocity = Some(first.velocity);
     let has_force = points.iter().all(|point| point.normal_force.is_some());
@@ -128,12 +144,43 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
     Ok(scene)
 }
 
+/// Refuses surfaces without end and motions, before a surface is drawn or a motion followed.
+fn check_scene(scene: &Scene) -> Result<(), SceneError> {
+    let is_endless = match &scene.indenter {
+        Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
+        Indenter::HeightMap(map) => map.edges != Edges::Wall,
+        _ => false,
+    };
+    if is_endless {
+        return Err(SceneError::at("indenter", ENDLESS_SURFACE));
+    }
+    let load = &scene.load;
+    let moves = [
+        ("stroke", load.stroke.is_some()),
+        ("motion", load.motion.is_some()),
+        ("motion_file", load.motion_file.is_some()),
+        ("history", load.history.is_some()),
+        ("history_file", load.history_file.is_some()),
+    ];
+    match moves.iter().find(|(_, is_given)| *is_given) {
+        Some((key, _)) => Err(SceneError::at(format!("load.{key}"), STEADY_SLIDING)),
+        None => Ok(()),
+    }
+}
+
+const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
+     of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
+     compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";
+const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
+     without a motion";
+
 /// A minimum of few points that explains them, or the best from some scales.
 fn first_search(
     model: &Model,
     family: &Family,
     (fitting, parameters): (&FrictionFitting, &[FreeParameter]),
     start: &[f64],
+    watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<Vec<f64>, FrictionFitError> {
     let few = model.some(model.points.len().div_ceil(FEW));
     let points = few.points.clone();
@@ -158,7 +205,10 @@ fn first_search(
     tried[1..].sort_by(|one, other| one.0.total_cmp(&other.0));
     let sum = |found: &FrictionMinimum| found.minimum.linearised.sum;
     let mut best: Option<FrictionMinimum> = None;
-    for (_, start) in tried.iter().take(STARTS) {
+    for (done, (_, start)) in tried.iter().take(STARTS).enumerate() {
+        let residual = best.as_ref().and_then(|best| of_few.mean_residual(best));
+        let stage = FitStage::Starts { done, of: STARTS };
+        watch(&FitProgress { stage, residual });
         let found = of_few.minimum(&few, start);
         let known = best.as_ref().map_or(f64::INFINITY, sum);
         best = found.filter(|found| sum(found) < known).or(best);
@@ -175,13 +225,17 @@ fn corrected(
     model: &mut Model,
     fitting: &FrictionFitting,
     mut start: Vec<f64>,
+    watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<(FrictionMinimum, f64), FrictionFitError> {
-    let mut corrected = 0;
+    let (mut corrected, mut residual) = (0, None);
     loop {
+        let stage = FitStage::LeastSquares { done: corrected };
+        watch(&FitProgress { stage, residual });
         let solver_error = model.correct(&start)?;
         corrected += 1;
         let found = fitting.minimum(model, &start);
         let found = found.ok_or_else(|| not_converged(model))?;
+        residual = fitting.mean_residual(&found);
         let moved = found.minimum.parameters.iter().zip(&start);
         let moved = moved
             .map(|(new, old)| (new - old).abs())

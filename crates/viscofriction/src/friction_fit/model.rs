@@ -73,9 +73,8 @@ impl<'a> Model<'a> {
         let control = match problem.motion() {
             Motion::Sliding(load) if load.sliding_distance().is_none() => load.control(),
             _ => {
-                let problem = "a body that slides or rolls without end is needed: a velocity, and no duration, distance or \
-                               history";
-                return Err(SceneError::at("load", problem).into());
+                let problem = "friction is fitted in the stationary state, without duration and sliding_distance: leave them out";
+                return Err(SceneError::at("solve", problem).into());
             }
         };
         let is_known = family.n_of_material() == 0 || matches!(control, Control::NormalForce(_));
@@ -333,8 +332,8 @@ fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitErr
     }
 }
 
-const ONE_BODY: &str = "friction has derivatives for a single body or a cylinder on the half space, and for a body of revolution \
-     in the one-dimensional model";
+const ONE_BODY: &str = "moduli are fitted to the friction of a single body or a cylinder on the half space, and of a body of revolution \
+     in the one-dimensional model; give one of these";
 
 const fn no_derivatives(method: Method) -> SolveError {
     SolveError::NoSensitivity { method }

@@ -58,6 +58,7 @@ pub enum SolveError {
     #[error(
         "the friction coefficient was not reached to the relative error {}, because the series of the material is off by \
          {series:.1e}: it is {}; give a larger solve.relative_error, or a material with a smaller relative_error",
+        InWords(*asked),
         Estimate::new(*value, *error)
     )]
     SeriesTooCoarse {

@@ -5,7 +5,7 @@ use std::path::Path;
 use measurements::Finding;
 use measurements::friction::{FrictionNoise, FrictionPoint};
 use viscofriction::friction_fit::{
-    FittedFriction, Free, FrictionFitError, FrictionFitOptions, fit_friction,
+    FittedFriction, Free, FrictionFitError, FrictionFitOptions, FrictionPrior, fit_friction,
 };
 use viscofriction::scene::{MaterialTable, Shift, ShiftLaw};
 use viscofriction::{Problem, Scene, WrongInput, solve};
@@ -64,7 +64,7 @@ fn fit(
     options: FrictionFitOptions,
 ) -> Result<FittedFriction, FrictionFitError> {
     let no_files = |path: &Path, _| Err(WrongInput(path.display().to_string()));
-    fit_friction(scene, (Path::new(""), no_files), points, &options)
+    fit_friction(scene, (Path::new(""), no_files), points, &options, &|_| ())
 }
 
 #[track_caller]
@@ -155,7 +155,7 @@ fn priors_are_for_measured_frequencies() {
     let points = measured(&rubber(TRUE, "", LINE), &speeds(1e-4, 5e-3, 6), Some(0.02));
     let fast = |window: &str| {
         let options = FrictionFitOptions {
-            prior: Some(0.1),
+            prior: FrictionPrior::Relative(0.1),
             ..FrictionFitOptions::default()
         };
         let found = fit(&rubber(START, window, LINE), &points, options).expect("a fit");
@@ -344,9 +344,9 @@ fn numbers_out_of_range_are_refused() {
         (with(|one| one.velocity = 0.0), "velocity"),
     ];
     for (points, expected) in cases {
-        let refused = refused(&points, None);
+        let refused = refused(&points, FrictionPrior::None);
         assert!(refused.contains(expected), "{refused}");
     }
-    let refused = refused(&many, Some(-1.0));
+    let refused = refused(&many, FrictionPrior::Relative(-1.0));
     assert!(refused.contains("prior"), "{refused}");
 }

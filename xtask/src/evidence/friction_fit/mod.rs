@@ -196,6 +196,7 @@ impl Case {
             (Path::new(""), no_files),
             &points,
             &options,
+            &|_| (),
         )?;
         Ok(fit.fit.findings)
     }

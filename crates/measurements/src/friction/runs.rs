@@ -1,0 +1,171 @@
+//! Time series of friction: runs at constant speed, and their means after the run-in.
+
+use std::fmt;
+
+use super::FrictionPoint;
+use super::read::{Row, rounded};
+use crate::indentation::correlated_points;
+
+/// Fewest rows of a run whose mean and scatter are known.
+pub(super) const FEWEST_ROWS: usize = 10;
+/// Part by which the speed of a row may be off from that of the first row of its run.
+const SAME_SPEED: f64 = 0.02;
+/// Part of the rows whose friction may have the other sign than the mean.
+const OTHER_SIGN: f64 = 0.1;
+/// Standard errors, and part of the mean, from which the two halves of a run differ.
+const SIGNIFICANT: f64 = 4.0;
+const DRIFT: f64 = 0.05;
+
+/// Rows that follow each other at one speed while time goes on; every row is a run of its own where there is no time.
+pub(super) fn split(rows: &[Row]) -> Vec<&[Row]> {
+    let mut runs = Vec::new();
+    let mut start = 0;
+    for at in 1..=rows.len() {
+        let goes_on = rows.get(at).is_some_and(|row| {
+            let is_later = row.time > rows[at - 1].time;
+            let off = (row.velocity / rows[start].velocity - 1.0).abs();
+            is_later && off <= SAME_SPEED
+        });
+        if !goes_on {
+            runs.push(&rows[start..at]);
+            start = at;
+        }
+    }
+    runs
+}
+
+/// The mean of a run at constant speed.
+pub(super) struct Run {
+    pub(super) point: FrictionPoint,
+    /// First and last line.
+    lines: [usize; 2],
+    n_rows: usize,
+    /// Standard deviation of the friction coefficient of a row.
+    scatter: f64,
+    /// Change of the mean from the first half to the second, where that is significant.
+    drift: Option<f64>,
+}
+
+impl Run {
+    /// The mean of the rows that are later than the run-in, \[s]; of forces the ratio of the means.
+    pub(super) fn new(rows: &[Row], run_in: f64, has_forces: bool) -> Result<Self, String> {
+        let steady = behind_run_in(rows, run_in)?;
+        let mean_of = |of: &dyn Fn(&Row) -> Option<f64>| {
+            let values: Option<Vec<f64>> = steady.iter().map(of).collect();
+            values.map(|values| mean(&values))
+        };
+        let normal_force = mean_of(&|row| row.normal_force);
+        if let Some(force) = normal_force.filter(|force| *force <= 0.0) {
+            return Err(format!(
+                "the mean normal force of the run is {force:.4} N, and must be greater than 0"
+            ));
+        }
+        let unit = normal_force.filter(|_| has_forces).unwrap_or(1.0);
+        let coefficients: Vec<f64> = steady.iter().map(|row| row.friction / unit).collect();
+        check_signs(&coefficients)?;
+        let (coefficient, scatter, error) = mean_and_errors(&coefficients);
+        Ok(Self {
+            point: FrictionPoint {
+                velocity: mean_of(&|row| Some(row.velocity)).unwrap_or(f64::NAN),
+                friction_coefficient: coefficient,
+                standard_error: Some(error).filter(|error| *error > 0.0),
+                temperature: mean_of(&|row| row.temperature),
+                normal_force,
+            },
+            lines: [rows[0].line, rows[rows.len() - 1].line],
+            n_rows: steady.len(),
+            scatter,
+            drift: drift(&coefficients),
+        })
+    }
+}
+
+/// The rows that are later than the run-in, where they are enough.
+fn behind_run_in(rows: &[Row], run_in: f64) -> Result<Vec<Row>, String> {
+    let time = |row: &Row| row.time.unwrap_or_default();
+    let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+    let is_steady = |row: &&Row| time(row) - time(first) >= run_in;
+    let steady: Vec<Row> = rows.iter().filter(is_steady).copied().collect();
+    if steady.len() >= FEWEST_ROWS {
+        return Ok(steady);
+    }
+    Err(format!(
+        "the run from here to line {} lasts {} s, and {} of its {} rows are later than the run-in of {run_in} s: at least {FEWEST_ROWS} \
+         are needed, so shorten the run-in or take this run out",
+        last.line,
+        rounded(time(last) - time(first)),
+        steady.len(),
+        rows.len()
+    ))
+}
+
+/// The change of the mean from the first half to the second, relative to the mean; `None` if it may be by chance, or is small.
+fn drift(coefficients: &[f64]) -> Option<f64> {
+    let (first, second) = coefficients.split_at(coefficients.len() / 2);
+    let [first, second] = [first, second].map(mean_and_errors);
+    let change = second.0 - first.0;
+    let relative = change / mean(coefficients);
+    let is_significant = change.abs() > SIGNIFICANT * first.2.hypot(second.2);
+    (is_significant && relative.abs() > DRIFT).then_some(relative)
+}
+
+impl fmt::Display for Run {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [first, last] = self.lines;
+        let point = &self.point;
+        write!(
+            formatter,
+            "lines {first} to {last}: {} m/s, friction {:.4}",
+            rounded(point.velocity),
+            point.friction_coefficient
+        )?;
+        if let Some(error) = point.standard_error {
+            write!(formatter, " ± {error:.1e} (standard error of the mean)")?;
+        }
+        write!(
+            formatter,
+            ", scatter {:.1e} of {} rows",
+            self.scatter, self.n_rows
+        )?;
+        match self.drift {
+            Some(drift) => write!(
+                formatter,
+                "; no plateau: its second half differs by {:.0} %, so name a longer run-in",
+                100.0 * drift
+            ),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Refuses friction that goes to and fro, whose mean says nothing.
+fn check_signs(coefficients: &[f64]) -> Result<(), String> {
+    let negative = coefficients.iter().filter(|value| **value < 0.0).count();
+    let part = negative as f64 / coefficients.len() as f64;
+    if part <= OTHER_SIGN && mean(coefficients) > 0.0 {
+        return Ok(());
+    }
+    Err(format!(
+        "the friction is negative in {:.0} % of the rows of the run that begins here: of a reciprocating motion give the rows of one \
+         direction, or the mean of its absolute value",
+        100.0 * part
+    ))
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Mean, standard deviation, and standard error of the mean of correlated values.
+fn mean_and_errors(values: &[f64]) -> (f64, f64, f64) {
+    let mean = mean(values);
+    let residuals: Vec<f64> = values.iter().map(|value| value - mean).collect();
+    let squares: f64 = residuals.iter().map(|one| one * one).sum();
+    let n = values.len() as f64;
+    let deviation = (squares / (n - 1.0)).sqrt();
+    (
+        mean,
+        deviation,
+        deviation * (correlated_points(&residuals) / n).sqrt(),
+    )
+}
