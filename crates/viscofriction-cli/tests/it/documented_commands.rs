@@ -1,9 +1,73 @@
-//! The commands of docs/scenes.md print what the page says.
+//! The commands in the console blocks of all pages print what the pages say.
+//!
+//! A block of TOML below a line that ends with the name of a file in backticks and a colon is that file. A command without output in
+//! its block is only required to succeed. What is not run is in [`NOT_RUN`], with the reason.
 
 use std::fs;
 use std::path::Path;
 
-use crate::support::{Folder, example};
+use crate::support::{Folder, repository};
+
+/// Pages with console blocks, and files that their commands need and the page only describes: the name, the file of the repository
+/// that it is made of, and what is replaced in that.
+const PAGES: [(&str, &[FileOfPage]); 9] = [
+    ("README.md", &[]),
+    (
+        "docs/excel.md",
+        &[("measured.csv", "examples/data/tread-rubber.csv", ["", ""])],
+    ),
+    ("docs/fit-friction.md", &[]),
+    ("docs/layers.md", &[]),
+    ("docs/methods.md", &[]),
+    ("docs/road.md", &[]),
+    (
+        "docs/scenes.md",
+        &[(
+            "scene.toml",
+            "examples/scenes/cone-viscous.toml",
+            ["velocity = 0.01 ", "velocity = -0.01 "],
+        )],
+    ),
+    ("docs/sensitivity.md", &[]),
+    (
+        "docs/tutorial.md",
+        &[(
+            "ball.toml",
+            "examples/scenes/ball-on-polymer.toml",
+            ["", ""],
+        )],
+    ),
+];
+
+type FileOfPage = (&'static str, &'static str, [&'static str; 2]);
+
+/// Commands that are not run, with the seconds of processor time that they take.
+const NOT_RUN: [(&str, &str); 6] = [
+    (
+        "fit-friction examples/data/friction.csv",
+        "10 s; crates/viscofriction/tests/it/friction_fits.rs fits friction",
+    ),
+    (
+        "road finest.toml --cut-offs 5",
+        "8 s, of a file that the page describes in words",
+    ),
+    (
+        "sweep road.toml --vary load.velocity=1e-3:10:13:log",
+        "20 s: 39 times the scene that is run",
+    ),
+    (
+        "run examples/scenes/ball-on-polymer.toml --spectral-sensitivity",
+        "3 s, and the page shows no output",
+    ),
+    (
+        "sweep ball.toml --vary load.velocity=1e-6:10:15:log",
+        "5 s: 15 times the scene that is run",
+    ),
+    (
+        "sweep examples/scenes/sphere-standard-solid.toml",
+        "6 s; the sweeps of docs/scenes.md are run",
+    ),
+];
 
 /// Commands and what is printed, from the console blocks of a page.
 fn console(page: &str) -> Vec<(String, String)> {
@@ -11,7 +75,12 @@ fn console(page: &str) -> Vec<(String, String)> {
     for block in page.split("```console\n").skip(1) {
         let block = block.split("```").next().expect("a block ends");
         for line in block.lines() {
-            match (line.strip_prefix("$ viscofriction "), commands.last_mut()) {
+            let command = line.strip_prefix("$ ");
+            let command = command.map(|line| line.trim_start_matches("cargo "));
+            match (
+                command.and_then(|line| line.strip_prefix("viscofriction ")),
+                commands.last_mut(),
+            ) {
                 (Some(arguments), _) => commands.push((arguments.to_owned(), String::new())),
                 (None, Some((_, printed))) => *printed += &format!("{line}\n"),
                 (None, None) => panic!("a block begins with a command: {line}"),
@@ -19,6 +88,19 @@ fn console(page: &str) -> Vec<(String, String)> {
         }
     }
     commands
+}
+
+/// Files that the page shows, with their contents.
+fn shown_files(page: &str) -> Vec<(String, String)> {
+    let blocks = page
+        .match_indices("```toml\n")
+        .filter_map(|(start, fence)| {
+            let before = page[..start].trim_end().strip_suffix("`:")?;
+            let name = before.rsplit('`').next()?;
+            let contents = page[start + fence.len()..].split("```").next()?;
+            Some((name.to_owned(), contents.to_owned()))
+        });
+    blocks.collect()
 }
 
 /// Times differ from run to run.
@@ -30,21 +112,92 @@ fn without_seconds(printed: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-#[test]
-fn the_commands_of_the_page_print_what_it_says() {
-    let wrong = [("velocity = 0.01 ", "velocity = -0.01 ")];
-    let folder = Folder::with("documented", "cone-viscous.toml", &wrong);
-    let scenes = folder.path("examples/scenes");
-    fs::create_dir_all(&scenes).expect("a folder");
-    for name in ["cone-viscous.toml", "cone-half-space.toml"] {
-        fs::copy(example(name), scenes.join(name)).expect("a scene");
+/// A folder with the files that the commands of a page read.
+fn folder_of(page: &str, text: &str, files: &[FileOfPage]) -> Folder {
+    let folder = Folder::new(&format!("documented-{}", page.replace(['/', '.'], "-")));
+    for below in [
+        "examples/scenes",
+        "examples/data",
+        "crates/rheology/tests/data",
+    ] {
+        fs::create_dir_all(folder.path(below)).expect("a folder");
+        let entries = fs::read_dir(repository().join(below)).expect("a folder");
+        for entry in entries.map(|entry| entry.expect("an entry").path()) {
+            if let (true, Some(name)) = (entry.is_file(), entry.file_name()) {
+                fs::copy(&entry, folder.path(below).join(name)).expect("a copy");
+            }
+        }
     }
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes.md");
-    let commands = console(&fs::read_to_string(page).expect("the page"));
-    assert!(commands.len() >= 6, "only {} commands", commands.len());
-    for (arguments, expected) in commands {
-        let said = folder.run(&arguments);
-        let printed = without_seconds(&(said.stdout + &said.stderr));
-        assert_eq!(printed, without_seconds(&expected), "{arguments}");
+    for (name, contents) in shown_files(text) {
+        folder.write(&name, contents);
+    }
+    for (name, source, [old, new]) in files {
+        let contents = fs::read(repository().join(source)).expect("a file");
+        let Ok(text) = String::from_utf8(contents.clone()) else {
+            folder.write(name, contents);
+            continue;
+        };
+        assert!(text.contains(old), "no {old} in {source}");
+        folder.write(
+            name,
+            if old.is_empty() {
+                text
+            } else {
+                text.replace(old, new)
+            },
+        );
+    }
+    folder
+}
+
+#[test]
+fn the_commands_of_the_pages_print_what_they_say() {
+    let mut n_not_run = 0;
+    for (page, files) in PAGES {
+        let text = fs::read_to_string(repository().join(page)).expect("the page");
+        let commands = console(&text);
+        assert!(!commands.is_empty(), "no console block on {page}");
+        let folder = folder_of(page, &text, files);
+        for (arguments, expected) in commands {
+            if NOT_RUN
+                .iter()
+                .any(|(command, _)| arguments.starts_with(command))
+            {
+                n_not_run += 1;
+                continue;
+            }
+            let said = folder.run(&arguments);
+            if expected.trim().is_empty() {
+                assert_eq!(said.status, Some(0), "{page}: {arguments}: {said:?}");
+                continue;
+            }
+            let printed = without_seconds(&(said.stdout + &said.stderr));
+            assert_eq!(
+                printed,
+                without_seconds(expected.trim_end()),
+                "{page}: {arguments}"
+            );
+        }
+    }
+    assert_eq!(n_not_run, NOT_RUN.len(), "every exception is one of a page");
+}
+
+/// A page with a console block is run.
+#[test]
+fn all_pages_with_commands_are_known() {
+    let mut pages = vec![repository().join("README.md")];
+    for folder in ["docs", "docs/theory"] {
+        let entries = fs::read_dir(repository().join(folder)).expect("a folder");
+        pages.extend(entries.map(|entry| entry.expect("an entry").path()));
+    }
+    for page in pages
+        .iter()
+        .filter(|page| page.extension().is_some_and(|one| one == "md"))
+    {
+        let text = fs::read_to_string(page).expect("a page");
+        let is_known = PAGES
+            .iter()
+            .any(|(known, _)| *page == repository().join(Path::new(known)));
+        assert_eq!(text.contains("```console"), is_known, "{}", page.display());
     }
 }

@@ -1,6 +1,7 @@
 //! What a user types, and what comes back; one binary, one module per claim.
 
 mod documented_commands;
+mod documented_links;
 mod files;
 mod fit_friction;
 mod fit_indentation;

@@ -19,6 +19,11 @@ const TABLES: [&str; 3] = [
     include_str!("../data/malformed.txt"),
 ];
 
+/// The root of the repository.
+pub(crate) fn repository() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
 /// A committed table of measured moduli.
 pub(crate) fn measured(name: &str) -> PathBuf {
     PathBuf::from(argument(&format!("DATA/{name}")))
