@@ -220,6 +220,15 @@ impl Stage {
         }
     }
 
+    /// Velocity after a part of its time, from 0 to 1, \[m/s].
+    pub fn velocity(&self, part: f64) -> f64 {
+        let mean = self.distance() / self.duration();
+        match self.shape {
+            Shape::Sinusoidal => self.haste() * (std::f64::consts::PI * part).sin() * mean,
+            Shape::Triangular => mean,
+        }
+    }
+
     /// How it moves between its ends.
     pub const fn shape(&self) -> Shape {
         self.shape

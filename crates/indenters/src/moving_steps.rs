@@ -21,6 +21,8 @@ pub struct MovingStep {
     pub duration: f64,
     /// Where it ends.
     pub end: MovingPoint,
+    /// Velocities at its beginning and its end, \[m/s].
+    pub velocities: [f64; 2],
 }
 
 impl MovingLoad {
@@ -53,12 +55,16 @@ impl MovingLoad {
                 let growth = (ELEMENTS_PER_GROWTH * elements).recip().exp();
                 graded(first, growth, fewest.recip())
             };
-            let step = |(part, length): (f64, f64)| MovingStep {
-                stage: index,
-                duration: length * stage.duration(),
-                end: end_of(stage, part),
-            };
-            steps.extend(parts.into_iter().map(step));
+            let mut from = stage.velocity(0.0);
+            steps.extend(parts.into_iter().map(|(part, length)| {
+                let to = stage.velocity(part);
+                MovingStep {
+                    stage: index,
+                    duration: length * stage.duration(),
+                    end: end_of(stage, part),
+                    velocities: [std::mem::replace(&mut from, to), to],
+                }
+            }));
             before = steps.last().map(|step| step.duration);
         }
         Ok(steps)

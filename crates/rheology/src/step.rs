@@ -1,9 +1,13 @@
 //! One step in time, exact for any ratio of step and time constants.
 //!
 //! ```text
-//! u_new = α w_new + history    α = J(Δt)    w held at w_new over the step
+//! u_new = α w_new + history    α = J(Δt)                  w held at w_new over the step
+//!                              α = (1/Δt) ∫₀^Δt J dt      w linear from w_old to w_new
 //! ```
-//! The history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input.
+//! The history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input, and, where
+//! the input is linear, of the input before. A held input is of the first order in Δt and a linear one of the second; but a
+//! surface whose displacement is prescribed answers a linear input with β/α of the error of the step before and the other sign,
+//! where β is the response to w_old. Without an instantaneous compliance β/α is 1 for short steps.
 
 use crate::{ComplexCompliance, CreepSpectrum, RheologyError};
 use numerics::positive;
@@ -17,14 +21,22 @@ pub struct ExponentialStep {
     /// What the input adds at once, without a field.
     direct: f64,
     fields: Vec<Field>,
+    /// Whether the state ends with the last input.
+    keeps_input: bool,
+    /// Part of the step in which the input is linear and not held.
+    linear_share: f64,
 }
 
-/// A decay e^(−Δt/λ), 1 for free flow, and the gain per unit of input.
+/// A decay e^(−Δt/λ), 1 for free flow, and the gains per unit of input and of the input before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Field {
     decay: f64,
     gain: f64,
+    gain_before: f64,
 }
+
+/// Ratio β/α up to which an input is linear over the whole of a step: errors of one step are a thirtieth after ten.
+const LARGEST_ALTERNATION: f64 = 0.7;
 
 impl ExponentialStep {
     /// From load potential w \[Pa m] to displacement u \[m], with w held at its new value over a `time_step` \[s].
@@ -38,17 +50,55 @@ impl ExponentialStep {
         let flow = (spectrum.fluidity() > 0.0).then(|| Field {
             decay: 1.0,
             gain: spectrum.fluidity() * time_step,
+            gain_before: 0.0,
         });
         let delayed = spectrum.elements().iter().map(|element| Field {
             decay: (-time_step / element.retardation_time).exp(),
             gain: element.yielded(time_step),
+            gain_before: 0.0,
         });
         let step = Self {
             direct: spectrum.instantaneous_compliance(),
             fields: delayed.chain(flow).collect(),
+            keeps_input: false,
+            linear_share: 0.0,
         };
         positive("step_compliance", step.response())?;
         Ok(step)
+    }
+
+    /// The same with w linear over the step, from its value at the end of the step before, as far as prescribed displacements do
+    /// not make it alternate: w is held in the other part of the step, which is all of it for short steps on a material without
+    /// instantaneous compliance.
+    ///
+    /// One more field than [`creep`](Self::creep) for a material that has any.
+    ///
+    /// # Errors
+    /// Like [`creep`](Self::creep).
+    pub fn creep_linear(spectrum: &CreepSpectrum, time_step: f64) -> Result<Self, RheologyError> {
+        let mut step = Self::creep(spectrum, time_step)?;
+        let delayed = spectrum.elements().iter().map(|one| one.lead(time_step));
+        let leads = delayed.chain((spectrum.fluidity() > 0.0).then_some(0.5));
+        let whole: f64 = leads
+            .clone()
+            .zip(&step.fields)
+            .map(|(lead, field)| lead * field.gain)
+            .sum();
+        let alternation = whole / (step.response() - whole);
+        let share = ((1.0 - alternation) / (1.0 - LARGEST_ALTERNATION)).clamp(0.0, 1.0);
+        for (lead, field) in leads.zip(&mut step.fields) {
+            field.gain_before = share * lead * field.gain;
+            field.gain -= field.gain_before;
+        }
+        step.keeps_input = !step.fields.is_empty();
+        step.linear_share = share;
+        positive("step_compliance", step.response())?;
+        Ok(step)
+    }
+
+    /// Part of the step in which the input is linear, from 0 to 1; in the rest of it the new input is held.
+    pub const fn linear_share(&self) -> f64 {
+        self.linear_share
     }
 
     /// What one unit of input adds to the output of its step: α \[1/Pa].
@@ -58,28 +108,35 @@ impl ExponentialStep {
     }
 
     /// Output of the last of very many steps whose inputs turn by an `angle` \[rad] from each to the next, over the last
-    /// input: the complex compliance at the frequency angle/Δt, of inputs that are held over each step.
+    /// input: the complex compliance at the frequency angle/Δt, of inputs that are held, or linear, over each step.
     pub fn turning_response(&self, angle: f64) -> ComplexCompliance {
         let mut response = ComplexCompliance {
             storage: self.direct,
             loss: 0.0,
         };
-        for Field { decay, gain } in &self.fields {
-            // gain/(1 − decay e^(−i angle)), without cancellation for small angles.
+        let (sin, cos) = angle.sin_cos();
+        for Field {
+            decay,
+            gain,
+            gain_before,
+        } in &self.fields
+        {
+            // (gain + gain_before e^(−i angle))/(1 − decay e^(−i angle)), without cancellation for small angles.
             let [real, imaginary] = [
                 (1.0 - decay) + 2.0 * decay * (0.5 * angle).sin().powi(2),
-                decay * angle.sin(),
+                decay * sin,
             ];
             let square = real * real + imaginary * imaginary;
-            response.storage += gain * real / square;
-            response.loss += gain * imaginary / square;
+            let [gain, before] = [gain + gain_before * cos, gain_before * sin];
+            response.storage += (gain * real - before * imaginary) / square;
+            response.loss += (gain * imaginary + before * real) / square;
         }
         response
     }
 
     /// Number of stored values per point.
     pub fn n_fields(&self) -> usize {
-        self.fields.len()
+        self.fields.len() + usize::from(self.keeps_input)
     }
 
     /// Output at the end of the step with zero input, for every point.
@@ -98,9 +155,16 @@ impl ExponentialStep {
                 *sum += field.decay * value;
             }
         }
+        if self.keeps_input {
+            let response: f64 = self.fields.iter().map(|field| field.gain_before).sum();
+            let before = &state[n_values - history.len()..];
+            for (sum, input) in history.iter_mut().zip(before) {
+                *sum += response * input;
+            }
+        }
     }
 
-    /// Moves the state to the end of the step, given the `input` of every point: w held over the step.
+    /// Moves the state to the end of the step, given the `input` of every point: w at the end of the step.
     ///
     /// # Panics
     /// If `state` does not have `n_fields() · input.len()` values.
@@ -110,10 +174,20 @@ impl ExponentialStep {
         if input.is_empty() {
             return;
         }
+        if !self.keeps_input {
+            for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
+                for (value, input) in values.iter_mut().zip(input) {
+                    *value = field.decay * *value + field.gain * input;
+                }
+            }
+            return;
+        }
+        let (state, before) = state.split_at_mut(n_values - input.len());
         for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
-            for (value, input) in values.iter_mut().zip(input) {
-                *value = field.decay * *value + field.gain * input;
+            for ((value, input), before) in values.iter_mut().zip(input).zip(&*before) {
+                *value = field.decay * *value + field.gain_before * before + field.gain * input;
             }
         }
+        before.copy_from_slice(input);
     }
 }

@@ -1,7 +1,8 @@
 //! Any motion along the surface with its error bars: starts, stops, dwells, returns, once or to and fro.
 //!
-//! Steps in time are as long as elements, or grow after a stop, so that both become finer together; the error is of the first
-//! order in their lengths, because force and load are held over a step.
+//! Steps in time are as long as a third of an element, or grow after a stop, so that both become finer together. Loads are linear over
+//! a step, and forces belong to its end, so that steps are of the second order; `docs/theory/transient-half-space.md` has what
+//! is different on a material without instantaneous compliance.
 
 use indenters::{
     Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
@@ -21,7 +22,7 @@ use crate::{BemError, Elastomer, GridOptions, Reached};
 
 /// Elements along the contact after which a motion is given up; a cycle takes about a minute.
 const LARGEST_GRID: usize = 48;
-/// Order of the error, that of a step in time.
+/// Order of the error, at least.
 pub(crate) const ORDER: f64 = 1.0;
 /// Of the elements of a path in as many steps as it has along it.
 pub(crate) const WORK: f64 = 3.0;
@@ -31,6 +32,9 @@ const MOST_CYCLES: usize = 100;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
 const PART_OF_CYCLES: f64 = 0.1;
 const TOLERANCE_ON_ELEMENTS: f64 = 1e-3;
+/// Steps in which the body passes an element at its largest speed. With three the errors of steps are about those of elements
+/// (docs/theory/transient-half-space.md has both for some strokes).
+const STEPS_PER_ELEMENT: usize = 3;
 /// Duration of the first touch, at rest, relative to that of the first step.
 pub(crate) const TOUCH: f64 = 1e-3;
 /// Times of the slowest element after which a body that is pressed rests.
@@ -126,8 +130,9 @@ pub fn move_along_memory(
     let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let options = problem.options(elements);
     let [dx, dy] = options.spacing;
-    let n_steps = load.steps(elements, dx, MOST_STEPS)?.len() as f64;
-    let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
+    let n_steps = problem.steps(elements, dx)?.len() as f64;
+    // One field more for the last load.
+    let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0) + 1;
     let [rear, front] = load.range();
     let across = (options.footprint.y[1] - options.footprint.y[0]) / dy;
     let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
@@ -188,10 +193,16 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         GridOptions::new([spacing; 2], self.plan.footprint.widened(spacing))
     }
 
+    fn steps(&self, elements: usize, spacing: f64) -> Result<Vec<MovingStep>, BemError> {
+        let per_contact = STEPS_PER_ELEMENT * elements;
+        let length = spacing / STEPS_PER_ELEMENT as f64;
+        Ok(self.load.steps(per_contact, length, MOST_STEPS)?)
+    }
+
     fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
         let options = self.options(elements);
         let [spacing, _] = options.spacing;
-        let steps = self.load.steps(elements, spacing, MOST_STEPS)?;
+        let steps = self.steps(elements, spacing)?;
         let start = self.load.stages()[0].start;
         let touch = TOUCH * steps[0].duration;
         let first = (start, touch);
@@ -206,50 +217,25 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
         });
         let (surface, elastomer) = (self.surface, self.elastomer);
         let mut march = March::again_and_again(surface, elastomer, motions, &options)?;
-        march.step()?;
-        if self.load.is_cycle() {
-            return self.cycle(&mut march, &steps, spacing, tell);
-        }
-        self.pass(&mut march, &steps, spacing, tell)
-    }
-
-    /// All steps once.
-    fn pass(
-        &self,
-        march: &mut March<'_>,
-        steps: &[MovingStep],
-        spacing: f64,
-        tell: &dyn Fn(f64),
-    ) -> Result<MotionRecord, BemError> {
-        let mut record = MotionRecord {
+        let touch = march.step()?;
+        let follow = Follow {
+            steps: &steps,
             spacing,
-            ..MotionRecord::default()
+            tell,
         };
-        let mut position = self.load.stages()[0].start.position;
-        for step in steps {
-            let Some(row) = march.step()? else {
-                return Ok(record);
-            };
-            record.push(step_of(step, &row), step.end.position - position);
-            position = step.end.position;
-            tell(march.part_done());
+        if self.load.is_cycle() {
+            return self.cycle(&mut march, &follow);
         }
-        Ok(record)
+        follow.pass(&mut march, touch.as_ref())
     }
 
     /// The cycle that is like the one before.
-    fn cycle(
-        &self,
-        march: &mut March<'_>,
-        steps: &[MovingStep],
-        spacing: f64,
-        tell: &dyn Fn(f64),
-    ) -> Result<MotionRecord, BemError> {
+    fn cycle(&self, march: &mut March<'_>, follow: &Follow<'_>) -> Result<MotionRecord, BemError> {
         let first = march.memory().to_vec();
         let pass = |from: &[f64]| {
             march.memory().copy_from_slice(from);
             march.begin_again();
-            let record = self.pass(march, steps, spacing, &|_| ())?;
+            let record = follow.pass(march, None)?;
             Ok((record, march.memory().to_vec()))
         };
         let cycles = Cycles {
@@ -257,8 +243,67 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             slowest: slowest(&self.creep),
             tolerance: self.tolerance,
         };
-        cycles.settle(first, pass, tell)
+        cycles.settle(first, pass, follow.tell)
     }
+}
+
+/// All steps of a motion, or of one cycle.
+struct Follow<'a> {
+    steps: &'a [MovingStep],
+    /// Length of an element, \[m].
+    spacing: f64,
+    tell: &'a dyn Fn(f64),
+}
+
+impl Follow<'_> {
+    /// Makes all steps, from the state with `first`, or from that of their end.
+    fn pass(
+        &self,
+        march: &mut March<'_>,
+        first: Option<&MotionRow>,
+    ) -> Result<MotionRecord, BemError> {
+        let mut rows = Vec::with_capacity(self.steps.len());
+        while let Some(row) = march.step()? {
+            rows.push((row, march.time_level()));
+            if first.is_some() {
+                (self.tell)(march.part_done());
+            }
+        }
+        let mut record = MotionRecord {
+            spacing: self.spacing,
+            ..MotionRecord::default()
+        };
+        let Some(mut before) = first.or_else(|| rows.last().map(|(row, _)| row)) else {
+            return Ok(record);
+        };
+        for (step, (row, time_level)) in self.steps.iter().zip(&rows) {
+            add_work(&mut record, step, [before, row], *time_level);
+            record.steps.push(step_of(step, row));
+            before = row;
+        }
+        Ok(record)
+    }
+}
+
+/// Adds ∫ F_t dx and ∫ F_N |dx| of a step whose forces belong before its end by a part of it, from them and those before:
+/// by the trapezoidal rule in time where they belong to its end, whose errors cancel over a sinusoidal cycle, and by the
+/// midpoint rule where they belong to its middle.
+fn add_work(
+    record: &mut MotionRecord,
+    step: &MovingStep,
+    [before, now]: [&MotionRow; 2],
+    time_level: f64,
+) {
+    let distance = now.position - before.position;
+    let mean = |[from, to]: [f64; 2]| to + (0.5 - time_level) * (from - to);
+    let of_both = |of: fn(&MotionRow) -> f64| [before, now].map(of);
+    let ways = step
+        .velocities
+        .map(|velocity| velocity * step.duration - distance);
+    let [from, to] = of_both(|row| row.tangential_force);
+    let bend = (0.5 - time_level) * (from * ways[0] + to * ways[1]);
+    record.work += mean([from, to]) * distance + bend;
+    record.normal_work += mean(of_both(|row| row.normal_force)) * distance.abs();
 }
 
 /// When two cycles are alike.

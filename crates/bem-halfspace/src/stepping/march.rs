@@ -3,7 +3,7 @@
 use indenters::{SlidingLoad, Surface};
 use numerics::positive;
 
-use super::{March, MeanSlopes, Motion, MotionRow, Route};
+use super::{LoadPath, March, MeanSlopes, Motion, MotionRow, Route};
 use crate::elements::grid::whole;
 use crate::{BemError, Elastomer, GridOptions};
 
@@ -34,7 +34,8 @@ impl<'a> March<'a> {
             before = motion.time;
             (motion, time_step)
         });
-        Self::on(Route::through(timed, spacing)?, surface, elastomer, options)
+        let route = Route::through(timed, spacing)?;
+        Self::on((route, LoadPath::Held), surface, elastomer, options)
     }
 
     /// Part of the steps that are done.
@@ -82,15 +83,12 @@ impl<'a> March<'a> {
             };
             (motion, length / load.velocity())
         });
-        Self::on(
-            Route::through(motions, spacing)?,
-            surface,
-            elastomer,
-            options,
-        )
+        let route = Route::through(motions, spacing)?;
+        Self::on((route, LoadPath::Held), surface, elastomer, options)
     }
 
-    /// A march through motions that each take a time \[s], the first of them once and the others again and again.
+    /// A march through motions that each take a time \[s], the first of them once and the others again and again, with loads
+    /// that are linear over each step.
     ///
     /// # Errors
     /// Like [`new`](Self::new).
@@ -102,7 +100,7 @@ impl<'a> March<'a> {
     ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let route = Route::through(motions, spacing)?.repeated();
-        Self::on(route, surface, elastomer, options)
+        Self::on((route, LoadPath::Linear), surface, elastomer, options)
     }
 
     /// Goes back to the end of the first motion, where it comes from the last one.
@@ -129,6 +127,11 @@ impl<'a> March<'a> {
         row.tangential_force = row.normal_force * self.means.met;
         row.tangential_force_end_of_step = row.normal_force * self.means.end;
         Ok(Some(row))
+    }
+
+    /// θ, the part of the last step by which its pressure and its forces belong before its end: 0 where loads are linear.
+    pub(crate) const fn time_level(&self) -> f64 {
+        self.means.time_level
     }
 
     /// Largest rise of the body over an element in contact, \[m].

@@ -1,7 +1,7 @@
 //! One step of contact after the other, on any linear viscoelastic half space.
 //!
 //! ```text
-//! u_new = 2 (1 − ν) α w + history,        w = K P / (4π) held over the step
+//! u_new = 2 (1 − ν) α w + history,        w = K P / (4π) held over the step, or linear
 //! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
 //! ```
 //! Every step is an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + history. The elements stay
@@ -22,7 +22,7 @@ use std::ops::Range;
 
 use indenters::{Control, Surface};
 use numerics::positive;
-use rheology::{CreepSpectrum, ExponentialStep, Material as _, check_spectra};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _, RheologyError, check_spectra};
 
 use crate::contact::{ContactBox, check_heights};
 use crate::elements::bounds::Bounds;
@@ -33,6 +33,24 @@ pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};
 use slopes::MeanSlopes;
 use window::Window;
+
+/// The load within a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LoadPath {
+    /// That of its end from its beginning on.
+    Held,
+    /// [Linear](ExponentialStep::creep_linear) from that of its beginning, as far as the material lets it.
+    Linear,
+}
+
+impl LoadPath {
+    fn step(self, creep: &CreepSpectrum, time_step: f64) -> Result<ExponentialStep, RheologyError> {
+        match self {
+            Self::Held => ExponentialStep::creep(creep, time_step),
+            Self::Linear => ExponentialStep::creep_linear(creep, time_step),
+        }
+    }
+}
 
 /// An indenter that moves over a half space, step by step.
 pub struct March<'a> {
@@ -46,6 +64,7 @@ pub struct March<'a> {
     half_space_factor: f64,
     route: Route,
     steps_done: usize,
+    load_path: LoadPath,
     step: ExponentialStep,
     time_step: f64,
     /// Heights of the indenter over the followed elements of the footprint, and the offset for which they were sampled.
@@ -68,7 +87,7 @@ impl fmt::Debug for March<'_> {
 
 impl<'a> March<'a> {
     fn on(
-        route: Route,
+        (route, load_path): (Route, LoadPath),
         surface: &'a dyn Surface,
         elastomer: &(impl Elastomer + ?Sized),
         options: &GridOptions,
@@ -79,7 +98,7 @@ impl<'a> March<'a> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let time_step = route.legs[0].time_step;
-        let step = ExponentialStep::creep(&creep, time_step)?;
+        let step = load_path.step(&creep, time_step)?;
         let route = match step.n_fields() {
             0 => route.without_memory(),
             _ => route,
@@ -99,6 +118,7 @@ impl<'a> March<'a> {
             half_space_factor: elastomer.material().half_space_factor(),
             route,
             steps_done: 0,
+            load_path,
             step,
             time_step,
             heights: Vec::new(),
@@ -115,7 +135,7 @@ impl<'a> March<'a> {
     }
 
     /// Number of values in the memory of an element: one per retardation element of the material, one more for free
-    /// flow, none for an elastic material.
+    /// flow, and one more for the last load where it is linear over a step; none for an elastic material.
     pub const fn n_fields(&self) -> usize {
         self.window.n_fields
     }
@@ -248,7 +268,7 @@ impl<'a> March<'a> {
             return Ok(());
         }
         let before = self.step.response();
-        self.step = ExponentialStep::creep(&self.creep, time_step)?;
+        self.step = self.load_path.step(&self.creep, time_step)?;
         self.time_step = time_step;
         // The same pressure is another load now.
         let ratio = self.step.response() / before;

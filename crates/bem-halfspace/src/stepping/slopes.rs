@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! F_h = Σ P ∂h/∂x ΔA,      ∂h/∂x at x + θ v Δt,      θ = ½ (1 − E G'(ω)),      ω = 2πv/L
-//! E = J₀ + Σ J_k ℒ(Δt/2λ_k)/(1 + ω²λ_k²),      ℒ(y) = coth y − 1/y
+//! E = J₀ + Σ J_k (1 − 2 m_k)/(1 + ω²λ_k²),      m_k = λ_k/Δt − 1/(e^(Δt/λ_k) − 1)
 //! ```
 //! The pressure that moves a dashpot belongs to the motion during the step, that of a spring to its end, and so does
 //! that of an element that yields within the step. Between them the moduli at the frequency decide with which a contact
 //! of length L passes; `docs/theory/transient-half-space.md` has the derivation. A chord over an element, or over the
-//! way of a longer step, stands for the slope, so that a cusp has one too.
+//! way of a longer step, stands for the slope, so that a cusp has one too. A load that is linear over the step belongs to its end.
 
 use std::f64::consts::PI;
 
@@ -19,6 +19,8 @@ use crate::stepping::{Leg, March};
 /// Slopes of the loaded elements, weighted with their pressure; zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeanSlopes {
+    /// θ, the part of the step by which pressure and forces belong before its end.
+    pub(super) time_level: f64,
     /// Mean of the slope that the pressure of the step meets: F_h / F_N.
     pub(super) met: f64,
     /// Mean of ∂h/∂x at the end of the step.
@@ -32,8 +34,12 @@ pub(super) struct MeanSlopes {
 impl MeanSlopes {
     /// Over the step that has been made.
     pub(super) fn over(march: &March<'_>, leg: &Leg) -> Result<Self, BemError> {
-        let chord = Chord::new(elastic_share(march, leg)?, leg);
-        let mut sum = Self::default();
+        let time_level = time_level(march, leg)?;
+        let chord = Chord::new(time_level, leg);
+        let mut sum = Self {
+            time_level,
+            ..Self::default()
+        };
         let mut normal = 0.0;
         // Images fore and aft have the opposite slope.
         let has_image = !march.layout.mirrors[0].is_none();
@@ -79,6 +85,15 @@ fn slopes_at(
     Ok([met, end])
 }
 
+/// θ, from 0 at the end of the step to ½ in its middle.
+fn time_level(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
+    let held = 1.0 - march.step.linear_share();
+    if held == 0.0 {
+        return Ok(0.0);
+    }
+    Ok(0.5 * held * (1.0 - elastic_share(march, leg)?))
+}
+
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
 fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
     let (creep, advance, time_step) = (&march.creep, leg.advance, leg.time_step);
@@ -86,7 +101,7 @@ fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
     let n_rows = march.contact_bounds().shape()[0];
     let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);
     for element in creep.elements() {
-        let within = langevin(0.5 * time_step / element.retardation_time);
+        let within = 1.0 - 2.0 * element.lead(time_step);
         let lag = frequency * element.retardation_time;
         elastic += element.compliance * within / (1.0 + lag * lag);
     }
@@ -99,16 +114,6 @@ fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
     Ok(storage / (storage * storage + loss * loss))
 }
 
-/// ℒ(y) = coth y − 1/y for y > 0.
-fn langevin(y: f64) -> f64 {
-    if y < 0.02 {
-        // The next term is below rounding.
-        let square = y * y;
-        return y / 3.0 * (1.0 - square / 15.0 * (1.0 - 2.0 * square / 21.0));
-    }
-    y.tanh().recip() - y.recip()
-}
-
 /// A piece of the body around the place that an element meets, in elements.
 struct Chord {
     centre: f64,
@@ -116,12 +121,11 @@ struct Chord {
 }
 
 impl Chord {
-    fn new(elastic_share: f64, leg: &Leg) -> Self {
-        let part = 0.5 * (1.0 - elastic_share);
+    fn new(time_level: f64, leg: &Leg) -> Self {
         Self {
-            centre: part * leg.advance,
+            centre: time_level * leg.advance,
             // The mean over the way of a dashpot; the element alone for a spring.
-            length: (2.0 * part * leg.advance.abs()).max(1.0),
+            length: (2.0 * time_level * leg.advance.abs()).max(1.0),
         }
     }
 

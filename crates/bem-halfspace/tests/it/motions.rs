@@ -1,7 +1,7 @@
 //! A motion with error bars: its end is steady sliding, and the bars of coarse grids hold finer values.
 
-use bem_halfspace::indenters::{MovingLoad, MovingPoint, Shape, Sphere, Stroke};
-use bem_halfspace::numerics::Accuracy;
+use bem_halfspace::indenters::{MovingLoad, MovingPoint, PowerProfile, Shape, Sphere, Stroke};
+use bem_halfspace::numerics::{Accuracy, Estimate};
 use bem_halfspace::rheology::{Maxwell, StandardSolid, StandardSolidParameters};
 use bem_halfspace::{BemError, Control, SlidingLoad, move_along, steady};
 
@@ -29,6 +29,7 @@ fn to_and_fro(length: f64, frequency: f64, control: Control) -> MovingLoad {
     MovingLoad::reciprocating(control, stroke).expect("a motion")
 }
 
+/// At the end e^(−S/vλ) of the tilt that the first touch leaves is still there, 0.2 % of the friction.
 #[test]
 fn a_long_path_ends_in_steady_sliding() {
     let (velocity, distance) = (0.1, 1.5e-2);
@@ -39,7 +40,7 @@ fn a_long_path_ends_in_steady_sliding() {
     };
     let path = [0.0, distance / velocity].map(point);
     let load = MovingLoad::through(&path).expect("a motion");
-    let moved = move_along(&ball(), &rubber(), &load, Accuracy::Elements(12)).expect("a motion");
+    let moved = move_along(&ball(), &rubber(), &load, Accuracy::Elements(8)).expect("a motion");
     let load = SlidingLoad::new(FORCE, velocity).expect("a load");
     let state = steady(&ball(), &rubber(), &load, 1e-2).expect("a stationary state");
     let expected = state.friction_coefficient.value * FORCE;
@@ -87,6 +88,58 @@ fn bars_of_coarse_grids_hold_finer_cycles() {
             }
         }
     }
+}
+
+/// A solid of an equilibrium modulus of 1 MPa and one branch of a modulus \[Pa] and a relaxation time \[s].
+fn one_branch(modulus: f64, relaxation_time: f64) -> StandardSolid {
+    let parameters = StandardSolidParameters {
+        equilibrium_modulus: 1e6,
+        maxwell_modulus: modulus,
+        viscosity: modulus * relaxation_time,
+    };
+    StandardSolid::new(parameters).expect("a solid")
+}
+
+/// Friction is of either sign behind a turning point, where the work of a step is not the force at its end times its length. The
+/// expected values come from a chain of Love rectangles with projected conjugate gradients, extrapolated from three resolutions.
+#[test]
+fn coarse_grids_know_the_friction_of_short_strokes() {
+    let cone = PowerProfile::new(0.2, 1.0).expect("a cone");
+    let stroke = Stroke {
+        length: 4.69e-4,
+        frequency: 3.9,
+        shape: Shape::Triangular,
+    };
+    let load = MovingLoad::reciprocating(Control::NormalForce(0.3), stroke).expect("a motion");
+    let accuracy = Accuracy::Elements(8);
+    let moved = move_along(&cone, &one_branch(4e6, 8.9e-3), &load, accuracy).expect("a cycle");
+    assert_holds(moved.friction_coefficient, Estimate::new(0.06015, 4e-5));
+
+    let paraboloid = PowerProfile::new(100.0, 2.0).expect("a paraboloid");
+    let load = to_and_fro(6.55e-4, 3.0, Control::IndentationDepth(5.15e-5));
+    let solid = one_branch(5e6, 0.02);
+    let moved = move_along(&paraboloid, &solid, &load, accuracy).expect("a cycle");
+    assert_holds(moved.peak_friction, Estimate::new(0.03594, 4e-5));
+}
+
+fn assert_holds(got: Estimate, expected: Estimate) {
+    let error = (got.value - expected.value).abs();
+    assert!(
+        error <= got.error + expected.error,
+        "{got:?}, expected {expected:?}"
+    );
+    assert!(got.error < 0.02 * expected.value, "{got:?}");
+}
+
+/// A memory of many cycles under a stroke as long as the contact.
+#[test]
+fn a_long_memory_needs_few_elements() {
+    let paraboloid = PowerProfile::new(100.0, 2.0).expect("a paraboloid");
+    let load = to_and_fro(6.55e-4, 2.0, Control::NormalForce(0.3));
+    let accuracy = Accuracy::Elements(8);
+    let moved = move_along(&paraboloid, &one_branch(2e6, 0.5), &load, accuracy).expect("a cycle");
+    let friction = moved.friction_coefficient;
+    assert!(friction.error < 0.02 * friction.value, "{friction:?}");
 }
 
 #[test]

@@ -167,4 +167,20 @@ impl RetardationElement {
         }
         -self.compliance * (-x).exp_m1()
     }
+
+    /// By which part of a step an input that is held over steps moves the element too early,
+    /// m = λ/Δt − 1/(e^(Δt/λ) − 1): a half for short steps, λ/Δt for long ones.
+    pub fn lead(&self, time_step: f64) -> f64 {
+        0.5 * (1.0 - langevin(0.5 * time_step / self.retardation_time))
+    }
+}
+
+/// ℒ(y) = coth y − 1/y for y > 0.
+fn langevin(y: f64) -> f64 {
+    if y < 0.02 {
+        // The next term is below rounding.
+        let square = y * y;
+        return y / 3.0 * (1.0 - square / 15.0 * (1.0 - 2.0 * square / 21.0));
+    }
+    y.tanh().recip() - y.recip()
 }
