@@ -129,7 +129,10 @@ pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bou
         return Err(wrong("body must be a body of revolution"));
     };
     let options = curve.options()?;
-    let CurveFile { curve: measured, notes } = curve.measured()?;
+    let CurveFile {
+        curve: measured,
+        notes,
+    } = curve.measured()?;
     let fit = py.detach(|| fit_indentation(&*body, &measured, &options));
     let mut fit = fit.map_err(|error| curve.refused(&error))?;
     fit.notes.splice(0..0, notes);
