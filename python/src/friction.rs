@@ -90,7 +90,7 @@ impl Measured<'_> {
         Ok(FrictionFitOptions {
             free,
             noise,
-            prior: self.prior.parse().map_err(wrong::<String>)?,
+            prior: self.prior.parse().map_err(wrong)?,
         })
     }
 }

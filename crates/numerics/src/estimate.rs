@@ -110,6 +110,32 @@ mod tests {
     use super::*;
 
     #[test]
+    fn messages_have_no_digits_beyond_the_second_of_the_error() {
+        let known = [
+            (0.038_464_693, 2.0e-6),
+            (-6.225_184e-5, 1.9e-4),
+            (7.356_372_07e-5, 4.4e-9),
+            (2.0e-7, 3.4e-9),
+            (1234.5678, 12.0),
+            (0.0, 1e-3),
+            (1.0 / 3.0, 0.0),
+            (1.0, f64::INFINITY),
+        ];
+        let said = known.map(|(value, error)| Estimate::new(value, error).to_string());
+        let expected = [
+            "0.0384647 ± 2.0e-6",
+            "-0.00006 ± 1.9e-4",
+            "0.0000735637 ± 4.4e-9",
+            "2.000e-7 ± 3.4e-9",
+            "1235 ± 1.2e1",
+            "0.0000 ± 1.0e-3",
+            "0.33333 ± 0",
+            "1 ± larger than any number",
+        ];
+        assert_eq!(said, expected, "{known:?}");
+    }
+
+    #[test]
     fn errors_add_up_and_are_compared_with_the_modulus() {
         let estimates =
             [(3.0, 0.25), (-5.0, 0.5)].map(|(value, error)| Estimate::new(value, error));

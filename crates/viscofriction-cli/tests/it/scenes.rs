@@ -122,7 +122,7 @@ fn a_line_that_could_not_be_reached_says_how_far_it_came_too() {
     let said = folder.ends(
         "run scene.toml --out out",
         1,
-        "relative error asked for is 1e-14",
+        "was not reached to the relative error 1e-14",
     );
     let holds = said.stdout.contains("| friction coefficient | 0.")
         && said.stdout.contains("\nnot reached: ");

@@ -365,7 +365,7 @@ fn uncertainties_of_what_is_no_number_are_refused() {
         (
             elastic,
             "\"material.file.temperature\" = 0.5",
-            "only a material of a file",
+            "only of a material of a file",
         ),
         (
             elastic,
