@@ -64,7 +64,8 @@ fn without_noise(number: f64) -> Option<f64> {
         .ok()?;
     let digits = format!("{:e}", short.abs());
     let n_digits = digits.split('e').next()?.len();
-    let is_noise = short != number && n_digits < FEW_DIGITS && short.fract() != 0.0;
+    let is_noise =
+        short.to_bits() != number.to_bits() && n_digits < FEW_DIGITS && short.fract() != 0.0;
     is_noise.then_some(short)
 }
 

@@ -134,8 +134,8 @@ pub fn friction_points(
     contents: &[u8],
     options: &FrictionTableOptions,
 ) -> Result<FrictionTable> {
-    for (name, radius) in [("track_radius", options.track_radius)] {
-        radius.map_or(Ok(1.0), |radius| positive(name, radius))?;
+    if let Some(radius) = options.track_radius {
+        positive("track_radius", radius)?;
     }
     not_negative("run_in", options.run_in.unwrap_or_default())?;
     let text = text_of(contents, &FRICTION);

@@ -52,7 +52,7 @@ impl fmt::Display for FitProgress {
         match self.stage {
             FitStage::Starts { done, of } => write!(formatter, "start {} of {of}", done + 1)?,
             FitStage::LeastSquares { done } => {
-                write!(formatter, "least squares, round {}", done + 1)?
+                write!(formatter, "least squares, round {}", done + 1)?;
             }
             FitStage::Intervals { done, of } => write!(formatter, "interval {} of {of}", done + 1)?,
         }
