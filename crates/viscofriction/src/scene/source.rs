@@ -1,10 +1,11 @@
 //! From a text to a scene, and from an error to the line it belongs to.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use super::{Scene, SceneError};
@@ -53,24 +54,27 @@ impl Source {
     /// # Errors
     /// [`WrongInput`] where the text is no TOML.
     pub fn table(&self) -> Result<Table, WrongInput> {
-        self.text.parse::<Table>().map_err(|error| {
+        let wrong = |start: usize, problem: String| {
+            let line = line_of(self.text.as_bytes(), start);
+            self.locate(&SceneError::Syntax { line, problem })
+        };
+        let table = self.text.parse::<Table>().map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);
-            self.locate(&SceneError::Syntax {
-                line: line_of(self.text.as_bytes(), start),
-                problem: self.syntax_problem(start, error.message()),
-            })
-        })
-    }
-
-    /// What is wrong with the text at a place, with what to do about the paths of Windows.
-    fn syntax_problem(&self, place: usize, problem: &str) -> String {
-        let [before, after] = [&self.text[..place], &self.text[place..]];
-        let line = [before.lines().last(), after.lines().next()];
-        if line.iter().flatten().any(|part| part.contains('\\')) {
-            let advice = "between \"…\" a backslash begins a character that is written otherwise; write a path as 'C:\\folder\\file' or with /";
-            return format!("{problem}; {advice}");
+            let line = self
+                .text
+                .lines()
+                .nth(line_of(self.text.as_bytes(), start) - 1);
+            let has_both = line.is_some_and(|line| line.contains('"') && line.contains('\\'));
+            let advice = if has_both { BACKSLASH } else { "" };
+            wrong(start, format!("{}{advice}", error.message()))
+        })?;
+        if let Ok(document) = DeTable::parse(&self.text)
+            && let Some(path) = escaped_path(document.get_ref(), &self.text)
+        {
+            let problem = format!("{} is no path{BACKSLASH}", &self.text[path.clone()]);
+            return Err(wrong(path.start, problem));
         }
-        problem.to_owned()
+        Ok(table)
     }
 
     /// The error with file and line.
@@ -155,6 +159,26 @@ fn check_quotes(table: &Table) -> Result<(), SceneError> {
     }
     let problem = format!("the path of an uncertain number is in quotes: \"{path}\" = {inner}");
     Err(SceneError::at(format!("uncertainty.{path}"), problem))
+}
+
+/// What to do about a path of Windows between double quotes.
+const BACKSLASH: &str = "; between double quotes a backslash begins an escape, as \\t a tab: write the path between single quotes, \
+    '…', or with / in the place of every backslash";
+/// Keys whose values are paths.
+const PATHS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
+
+/// The first path with an escape of another sign than a backslash or a quote, which no path has on purpose.
+fn escaped_path(table: &DeTable<'_>, text: &str) -> Option<Range<usize>> {
+    table.iter().find_map(|(key, value)| match value.get_ref() {
+        DeValue::Table(table) => escaped_path(table, text),
+        DeValue::String(_) if PATHS.contains(&&**key.get_ref()) => {
+            let raw = text.get(value.span())?.strip_prefix('"')?;
+            // What is left of a backslash that stands for itself is no escape.
+            let plain = raw.replace(r"\\", "").replace(r#"\""#, "");
+            plain.contains('\\').then(|| value.span())
+        }
+        _ => None,
+    })
 }
 
 /// The scene that keys and values describe, without an unknown or missing key or a value of the wrong type.
@@ -254,5 +278,40 @@ pub(crate) fn split_index(segment: &str) -> (&str, Option<usize>) {
     match segment.split_once('[') {
         Some((name, rest)) => (name, rest.trim_end_matches(']').parse().ok()),
         None => (segment, None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_backslash_in_a_path_is_explained() {
+        let table = |file: &str| {
+            let text = format!("[indenter.height-map]\nfile = {file}\n");
+            let source = Source::new(Path::new("scene.toml"), text.into_bytes());
+            source.expect("UTF-8").table()
+        };
+        for file in [
+            r#""maps\tread.csv""#,
+            r#""C:\Users\map.csv""#,
+            r#""D:\data\map.csv""#,
+            r#""a\u0041.csv""#,
+        ] {
+            let refused = table(file).expect_err(file).to_string();
+            let is_explained = refused.starts_with("scene.toml:2: ")
+                && refused.contains("single quotes, '…', or with /");
+            assert!(is_explained, "{refused}");
+        }
+        for file in [
+            r"'maps\tread.csv'",
+            r#""maps/tread.csv""#,
+            r#""maps\\tread.csv""#,
+            "\"tread.csv\"",
+        ] {
+            table(file).expect(file);
+        }
+        let other = table("\"a\nb\"").expect_err("no TOML").to_string();
+        assert!(!other.contains("backslash"), "{other}");
     }
 }
