@@ -4,11 +4,14 @@
 //! ⟨h²⟩ = ∫ C d²q = 2π ∫ q C dq,    ⟨|∇h|²⟩ = 2π ∫ q³ C dq,    ln C straight over ln q between the rows
 //! ```
 //!
+//! Beside a row with C = 0, which measured spectra have, C is straight over q; at the ends of a table such rows say that there
+//! are no waves.
+//!
 //! A wave and the opposite one, which are one wave of the surface, have the mean square amplitude 4 C Δq_x Δq_y.
 
 use std::f64::consts::TAU;
 
-use numerics::{in_range, positive};
+use numerics::{in_range, not_negative, positive};
 
 use super::random::RandomWaves;
 use crate::IndenterError;
@@ -24,12 +27,13 @@ pub struct TabulatedSpectrum {
 }
 
 impl TabulatedSpectrum {
-    /// The spectrum through the points (`wave_numbers[i]` \[1/m], `densities[i]` \[m⁴]); wave numbers increase, and all numbers are
-    /// greater than 0.
+    /// The spectrum through the points (`wave_numbers[i]` \[1/m], `densities[i]` \[m⁴]); wave numbers are greater than 0 and
+    /// increase, and densities are at least 0. It begins and ends with the first and the last density that is not 0.
     ///
     /// # Errors
-    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows are needed), `NotIncreasing` or `InvalidParameter`.
-    pub fn new(wave_numbers: Vec<f64>, densities: Vec<f64>) -> Result<Self, IndenterError> {
+    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows from the first to the last density that is not 0 are needed),
+    /// `NotIncreasing` or `InvalidParameter`.
+    pub fn new(mut wave_numbers: Vec<f64>, mut densities: Vec<f64>) -> Result<Self, IndenterError> {
         if wave_numbers.len() != densities.len() {
             return Err(IndenterError::LengthMismatch {
                 first: "wave numbers",
@@ -38,12 +42,22 @@ impl TabulatedSpectrum {
                 second_length: densities.len(),
             });
         }
-        at_least(2, "wave numbers", wave_numbers.len())?;
         increasing("wave numbers", &wave_numbers)?;
         for (&wave_number, &density) in wave_numbers.iter().zip(&densities) {
             positive("wave number", wave_number)?;
-            positive("density", density)?;
+            not_negative("density", density)?;
         }
+        let has_waves = |density: &f64| *density > 0.0;
+        let last = densities
+            .iter()
+            .rposition(has_waves)
+            .map_or(0, |last| last + 1);
+        let first = densities.iter().position(has_waves).unwrap_or(0);
+        for column in [&mut wave_numbers, &mut densities] {
+            column.truncate(last);
+            column.drain(..first);
+        }
+        at_least(2, "wave numbers with a density", wave_numbers.len())?;
         Ok(Self {
             wave_numbers,
             densities,
@@ -60,6 +74,12 @@ impl TabulatedSpectrum {
     pub fn rms_slope(&self) -> f64 {
         let between = self.wave_numbers.windows(2).zip(self.densities.windows(2));
         let squares = between.map(|(q, c)| {
+            if c.contains(&0.0) {
+                let slope = (c[1] - c[0]) / (q[1] - q[0]);
+                let powers =
+                    [4, 5].map(|power| (q[1].powi(power) - q[0].powi(power)) / f64::from(power));
+                return TAU * ((c[0] - slope * q[0]) * powers[0] + slope * powers[1]);
+            }
             let (range, change) = ((q[1] / q[0]).ln(), (c[1] / c[0]).ln());
             // q⁴ C is a power of q from row to row.
             let exponent = 4.0 * range + change;
@@ -79,10 +99,15 @@ impl TabulatedSpectrum {
         let row = self.wave_numbers.partition_point(|q| *q <= wave_number);
         let row = row.clamp(1, last);
         let [from, to] = [row - 1, row];
+        let [below, above] = [self.densities[from], self.densities[to]];
+        if below == 0.0 || above == 0.0 {
+            let width = self.wave_numbers[to] - self.wave_numbers[from];
+            let part = (wave_number - self.wave_numbers[from]) / width;
+            return (below + part * (above - below)).max(0.0);
+        }
         let range = (self.wave_numbers[to] / self.wave_numbers[from]).ln();
         let part = (wave_number / self.wave_numbers[from]).ln() / range;
-        let change = (self.densities[to] / self.densities[from]).ln();
-        self.densities[from] * (part * change).exp()
+        below * (part * (above / below).ln()).exp()
     }
 
     /// Draws a surface with the periods \[m] along x and y and the waves of the table that are not shorter than

@@ -234,6 +234,36 @@ fn a_surface_needs_waves() {
     refuses("phase", bad, |phase| new(1.0, Wave { phase, ..wave }));
 }
 
+/// Rows without waves end a table, and one in the middle is a density of 0: the slope is the integral that is known.
+#[test]
+fn rows_of_density_zero_have_no_waves() {
+    let wave_numbers = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+    let table =
+        |densities: [f64; 7]| TabulatedSpectrum::new(wave_numbers.clone(), densities.to_vec());
+    let found = table([0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0]).expect("a spectrum");
+    let [longest, shortest] = found.wavelengths();
+    assert!((longest - TAU / 3.0).abs() < 1e-15 && (shortest - TAU / 5.0).abs() < 1e-15);
+    // ∫ q³ |q − 4| dq from 3 to 5
+    let integral = |q: f64| 4.0 * q.powi(4) / 4.0 - q.powi(5) / 5.0;
+    let square = TAU * (2.0 * integral(4.0) - integral(3.0) - integral(5.0));
+    let off = found.rms_slope().powi(2) / square - 1.0;
+    assert!(off.abs() < 1e-12, "{off}");
+    let drawn = found.surface([TAU; 2], TAU / 5.0, 1).expect("a surface");
+    let wave = |numbers| drawn.waves().iter().find(|wave| wave.numbers == numbers);
+    let none = wave([4, 0]).expect("a wave").amplitude;
+    assert!(
+        none < 1e-15 && wave([5, 0]).is_some_and(|wave| wave.amplitude > 0.0),
+        "{none}"
+    );
+    for densities in [
+        [0.0; 7],
+        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+        [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -1.0],
+    ] {
+        table(densities).expect_err("no spectrum");
+    }
+}
+
 /// A table of the self-affine spectrum draws the same surface; its slope is the mean of those that it draws.
 #[test]
 fn a_table_of_a_spectrum_draws_the_same_surfaces() {

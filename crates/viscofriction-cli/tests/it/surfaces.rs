@@ -63,6 +63,50 @@ fn a_periodic_map_is_described_by_its_waves() {
     assert_close("density", density[0], 0.25 / (q * q) / 4.0, 1e-12);
 }
 
+/// The spectrum of a map is one that a scene reads, and distances have a unit.
+#[test]
+fn the_spectrum_of_a_periodic_map_is_that_of_a_scene() {
+    let folder = Folder::new("surface-spectrum");
+    let height = |x: i32, y: i32| {
+        (TAU * f64::from(3 * x + y) / 16.0).cos() + (TAU * f64::from(6 * x) / 16.0).sin()
+    };
+    let line = |y: i32| {
+        (0..16)
+            .map(|x| height(x, y).to_string())
+            .collect::<Vec<_>>()
+            .join(",")
+    };
+    folder.write(
+        "waves.csv",
+        (0..16).map(line).collect::<Vec<_>>().join("\n"),
+    );
+    let said = folder.done(
+        "surface waves.csv --spacing 10um 0.01mm --unit nm --periodic --keep-tilt --out told",
+    );
+    assert!(
+        said.stdout.contains("1.000000e-5 × 1.000000e-5 m apart"),
+        "{said:?}"
+    );
+    let densities = folder.column("told/spectrum.csv", 1);
+    assert!(
+        densities.contains(&0.0) && densities[0] == 0.0,
+        "{densities:?}"
+    );
+    let scene =
+        "indenter.spectrum = { file = \"told/spectrum.csv\", period = [16e-5, 16e-5], seed = 1 }
+        material.elastic.shear_modulus = 1e6
+        load = { mean_pressure = 1e4, velocity = 0.0 }
+        solve.duration = 1.0\n";
+    folder.write("scene.toml", scene);
+    folder.json("scene.toml");
+    folder.ends(
+        "surface waves.csv --spacing 1 ohm",
+        2,
+        "a length is needed, in m or with a unit",
+    );
+    folder.ends("surface waves.csv", 2, "--spacing: the distances");
+}
+
 /// In full contact all frictions are sums over waves, and with them Persson's theory of the waves that are left out.
 #[test]
 fn a_road_is_solved_octave_by_octave() {

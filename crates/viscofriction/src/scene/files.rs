@@ -6,7 +6,7 @@ use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
-use numerics::{InWords, InvalidParameter, positive};
+use numerics::{InWords, InvalidParameter, not_negative, positive};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -55,7 +55,7 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
     for (line, row) in &rows {
         let refused = |error: InvalidParameter| wrong((*line, error.to_string()));
         positive("wave_number", row.wave_number).map_err(refused)?;
-        positive("density", row.density).map_err(refused)?;
+        not_negative("density", row.density).map_err(refused)?;
         if row.wave_number <= before {
             let [found, before] = [row.wave_number, before].map(InWords);
             let problem = "wave_number must be larger than in the row before, but is";
