@@ -104,10 +104,14 @@ impl WithoutShortestOctave {
             )
         });
         let changes: Vec<String> = changes.collect();
+        // Squares of slopes add up over waves.
+        let octave = ((slope + self.rms_slope) * (slope - self.rms_slope))
+            .max(0.0)
+            .sqrt();
         Some(format!(
-            "the answer depends on the shortest waves that were kept: without the shortest octave, which has {:.0} % of the \
-             root mean square slope, {}",
-            100.0 * (1.0 - self.rms_slope / slope),
+            "the answer depends on the shortest waves that were kept: without the shortest octave, whose own root mean square \
+             slope is {:.0} % of that of all waves, {}",
+            100.0 * octave / slope,
             changes.join(" and ")
         ))
     }
