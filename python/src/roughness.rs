@@ -19,7 +19,8 @@ pub(crate) fn surface_numbers<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let (table, surface) = prepared(&heights, keys)?;
     let map = surface.body().map_err(wrong)?;
-    let warnings = warnings_of_heights(&table, &surface, &map, &AdviceOnHeights::SCENE);
+    let mut warnings = warnings_of_heights(&table, &surface, &map, &AdviceOnHeights::SCENE);
+    warnings.extend(surface.notes);
     let map = match table.edges {
         Edges::Mirrored => map.mirrored(),
         _ => map,

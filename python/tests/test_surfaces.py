@@ -185,14 +185,16 @@ def test_a_tilt_is_taken_out_when_asked(tmp_path: Path) -> None:
 WRONG = [
     ("asc", b"ncols 2\nnrows 2\ncellsize 1\n1 2 3", "3 heights for 2 × 2 points"),
     ("asc", b"ncols 2\nnrows 2\n1 2 3 4", "no cellsize"),
-    ("gsf", b"Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 3\n\0" + b"\0" * 8, "heights for"),
+    ("gsf", b"Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 3\nXReal = 1\nYReal = 1\n\0" + b"\0" * 8, "heights for"),
     ("gsf", b"nothing", "another beginning"),
     ("sur", FILES["sur"][:900], "bytes for"),
     ("sur", b"DIGITAL SURF", "another beginning"),
     ("x3p", FILES["x3p"][:300], "ISO 25178-72"),
     ("x3p", x3p(HEIGHTS[1:], "D"), "bytes of type 'D'"),
     ("xyz", b"0 0 1\n0 1 2\n1 0 3\n1.3 1 4\n", "beside a grid"),
-    ("xyz", b"0 0 1\n0 1 x\n", "line 2"),
+    ("xyz", b"0 0 1\n0 1 x\n", "xyz:2: column 3"),
+    ("xyz", b"0 0 1\n0 1 2\n1 0 3\n1 1 4\n0 1 2\n", "xyz:5: the point at x = 0, y = 1 stands in line 2"),
+    ("vk4", b"VK4_" + b"\0" * 100, "Keyence.*x3p.*read_topography.*numpy.save"),
 ]
 
 
@@ -228,6 +230,39 @@ def test_a_topography_is_pressed_with_its_tops(expected: dict[str, Any]) -> None
     assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
     with pytest.raises(ValueError, match="missing"):
         vf.HeightMap.from_topography(Topography(np.ma.masked_greater(HEIGHTS.T, 2e-4)))
+
+
+def test_a_topography_without_a_unit_needs_one() -> None:
+    bare = Topography(1e6 * HEIGHTS.T)
+    with pytest.raises(ValueError, match="leave out unit"):
+        vf.HeightMap.from_topography(bare, unit="um")
+    bare.unit = None  # type: ignore[assignment]
+    with pytest.raises(ValueError, match="states no unit"):
+        vf.HeightMap.from_topography(bare)
+    found = vf.HeightMap.from_topography(bare, unit="um")
+    assert found.spacing == pytest.approx(SPACING, rel=1e-12)
+
+
+@pytest.mark.parametrize("edges", ["wall", "periodic", "mirrored"])
+def test_a_flat_map_is_wrong_input(edges: Any) -> None:
+    plane = np.add.outer(np.arange(5.0), 3.0 * np.arange(7.0))
+    for heights, level in ((np.full((5, 7), 0.1), False), (1e-6 * plane, True)):
+        with pytest.raises(ValueError, match="the map is flat"):
+            vf.HeightMap(heights, 1e-6, level=level, edges=edges)
+
+
+def test_lengths_along_x_and_y_have_a_unit(expected: dict[str, Any], tmp_path: Path) -> None:
+    points = [(1e6 * j * SPACING[0], 1e6 * i * SPACING[1], HEIGHTS[i, j]) for i in range(21) for j in range(25)]
+    lines = ["%.17g %.17g %.17g" % point for point in points]
+    for name, text, options in (
+        ("metres.xyz", lines, {"lateral_unit": "um"}),
+        ("named.xyz", ["# x [um] y [um] z [m]", *lines], {}),
+        ("one.xyz", ["%.17g %.17g %.17g" % (x, y, 1e6 * z) for x, y, z in points], {"unit": "um"}),
+    ):
+        file = tmp_path / name
+        file.write_text("\n".join(text))
+        found = pressed(vf.HeightMapFile(file, **options))
+        assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9), name
 
 
 def test_a_topography_of_the_real_package_is_the_same(expected: dict[str, Any]) -> None:

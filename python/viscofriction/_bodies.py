@@ -275,9 +275,11 @@ class ProfileFile(Body):
 class HeightMapFile(Body):
     """A surface from a file, as a scene reads it; see ``HeightMap`` for what the keys mean.
 
-    The extension says the format: asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p (ISO 25178-72)
-    and xyz (points of a grid) have their own spacing; npy (NumPy) and any other, a text of numbers, take ``spacing``. Files of
-    gsf, sur and x3p state the unit of their heights and keep it.
+    Beginning and extension say the format: asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), sdf (ISO 25178-71), sur (Digital
+    Surf), x3p (ISO 25178-72) and xyz (points of a grid) have their own spacing; npy (NumPy) and any other, a text of numbers,
+    take ``spacing``. Files of gsf, sdf, sur and x3p, and texts whose head has them, state their units and keep them; in xyz and
+    asc that do not, ``lateral_unit`` is that of x and y (metres, or in xyz ``unit``, unless given). Files of other instruments
+    are read by the package SurfaceTopography: ``HeightMap.from_topography(SurfaceTopography.read_topography(file))``.
     """
 
     file: str | os.PathLike[str]
@@ -289,6 +291,7 @@ class HeightMapFile(Body):
     unit: Unit | None = None
     heights_are: HeightsAre = "surface"
     direction: float = 0
+    lateral_unit: Unit | None = None
     _kind = "height-map"
 
     def _table(self) -> dict[str, Any]:
@@ -348,9 +351,18 @@ class HeightMap(Compared, Body):
 
     @classmethod
     def from_topography(cls, topography: Any, **options: Any) -> HeightMap:
-        """The surface of a topography of the package SurfaceTopography, in metres; options as of a ``HeightMap``."""
-        scaled = topography.to_unit("m") if topography.unit is not None else topography
-        dx, dy = map(float, scaled.pixel_size)
+        """The surface of a topography of the package SurfaceTopography; options as of a ``HeightMap``.
+
+        One that states no unit, such as of a text, needs ``unit``, of its heights and of x and y.
+        """
+        unit = options.get("unit")
+        if topography.unit is None and unit is None:
+            raise ValueError('the topography states no unit: give unit="m", "mm", "um" or "nm", that of its x, y and heights')
+        if topography.unit is not None and unit is not None:
+            raise ValueError(f"the topography states its unit, {topography.unit}: leave out unit")
+        scaled = topography if topography.unit is None else topography.to_unit("m")
+        metres = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}.get(unit, 1.0)
+        dx, dy = (metres * float(step) for step in scaled.pixel_size)
         # Its first index is along x.
         return cls(scaled.heights().T, (dx, dy), **options)
 

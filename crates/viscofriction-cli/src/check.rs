@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use viscofriction::WrongInput;
-use viscofriction::indenters::topography::Topography;
+use viscofriction::indenters::topography::{Topography, TopographyError};
 use viscofriction::scene::{Source, in_file, profile};
 use viscofriction::solve::{plan_of, problem_of};
 
@@ -42,9 +42,13 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         InputKind::Profile => profile(file, contents).map(drop).map_err(WrongInput),
         InputKind::HeightMap => {
             let extension = file.extension().unwrap_or_default().to_string_lossy();
-            let spacing = (!Topography::has_spacing(&extension)).then_some([1.0; 2]);
-            let surface = Topography::read(&extension, contents, spacing, u64::MAX)
-                .map_err(|error| WrongInput(in_file(file, &error)))?;
+            let read = |spacing| Topography::read(&extension, contents, spacing, u64::MAX);
+            // Texts may state a size, and measured surfaces have a spacing.
+            let surface = match read(None) {
+                Err(TopographyError::Spacing { .. }) => read(Some([1.0; 2])),
+                other => other,
+            };
+            let surface = surface.map_err(|error| WrongInput(in_file(file, &error)))?;
             // All of the surface is wrong.
             let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
             surface.body().map(drop).map_err(wrong)

@@ -2,7 +2,7 @@
 
 use super::memory::Memory;
 use super::text::text_of;
-use super::{Topography, Unread, metres};
+use super::{LateralUnit, Topography, Unread, metres};
 
 /// The text of a Gwyddion Simple Field is written by a program and short, \[bytes].
 const LARGEST_HEAD: usize = 1 << 16;
@@ -23,10 +23,10 @@ pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography
         found.map_or(otherwise, |(_, value)| value.trim())
     };
     let number = |key: &str| {
-        let given = found(key, "1.0");
-        given
-            .parse::<f64>()
-            .map_err(|_| format!("{key} = {given:.40}"))
+        let given = found(key, "none");
+        given.parse::<f64>().map_err(|_| {
+            format!("{key} = {given:.40}, without which the size of the map is unknown")
+        })
     };
     let count = |key: &str| {
         let given = found(key, "none");
@@ -34,12 +34,10 @@ pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography
         count.ok_or_else(|| format!("{key} = {given:.40}"))
     };
     let [columns, rows] = [count("XRes")?, count("YRes")?];
-    let unit = metres(found("XYUnits", "m"))?;
-    let height = metres(found("ZUnits", ""))?;
-    let spacing = [
-        unit * number("XReal")? / columns as f64,
-        unit * number("YReal")? / rows as f64,
-    ];
+    let unit = unit_of(found("XYUnits", ""))?;
+    let height = unit_of(found("ZUnits", ""))?;
+    let size = [number("XReal")?, number("YReal")?].map(|size| size * unit.unwrap_or(1.0));
+    let spacing = [size[0] / columns as f64, size[1] / rows as f64];
     // The zeros end at a multiple of four bytes.
     let values = contents.get(4 * (end / 4 + 1)..).unwrap_or_default();
     let values = values.as_chunks().0;
@@ -50,11 +48,26 @@ pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography
     memory.holds(Some(values.len()))?;
     let values = values
         .iter()
-        .map(|value| height * f64::from(f32::from_le_bytes(*value)));
+        .map(|value| height.unwrap_or(1.0) * f64::from(f32::from_le_bytes(*value)));
     Ok(Topography {
-        states_unit: !found("ZUnits", "").is_empty(),
+        states_unit: height.is_some(),
+        lateral_unit: lateral(unit),
         ..Topography::of_rows([rows, columns], spacing, values.collect())
     })
+}
+
+/// Metres in a unit as files state it; `None` if they state none.
+fn unit_of(text: &str) -> Result<Option<f64>, String> {
+    let unit = text.trim_matches(['\0', ' ']);
+    if unit.is_empty() {
+        return Ok(None);
+    }
+    let known = metres(unit).ok_or_else(|| format!("the unit '{unit:.40}', which is no length"));
+    known.map(Some)
+}
+
+fn lateral(unit: Option<f64>) -> LateralUnit {
+    unit.map_or(LateralUnit::Unstated, |_| LateralUnit::Stated)
 }
 
 /// Digital Surf: 512 bytes, two comments, and integers. The places in the header are those that SurfaceTopography (Pastewka
@@ -67,7 +80,7 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
     let four = |at: usize| std::array::from_fn(|byte| contents[at + byte]);
     let short = |at: usize| usize::from(u16::from_le_bytes(two(at)));
     let real = |at: usize| f64::from(f32::from_le_bytes(four(at)));
-    let unit = |at: usize| metres(&text_of(&contents[at..at + 16]));
+    let unit = |at: usize| unit_of(&text_of(&contents[at..at + 16]));
     let count = |at: usize| u32::from_le_bytes(four(at)) as usize;
     let bytes = match short(98) {
         16 => 2,
@@ -79,16 +92,18 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
     let points = columns.checked_mul(rows);
     let needed = points.and_then(|points| points.checked_mul(bytes));
     let given = contents.len().saturating_sub(begin);
-    if short(18) != 2 || needed.is_none_or(|needed| needed == 0 || needed > given) {
-        let kind = short(18);
+    let [objects, kind] = [short(14), short(18)];
+    let is_held = needed.is_some_and(|needed| (1..=given).contains(&needed));
+    if objects > 1 || kind != 2 || !is_held {
         let points = format!("{columns} × {rows} points");
-        return Err(format!("kind {kind}, {given} bytes for {points}").into());
+        let found = format!("{objects} objects of kind {kind}, {given} bytes for {points}");
+        return Err(found.into());
     }
     memory.holds(points)?;
-    let spacing = [real(120) * unit(180)?, real(124) * unit(196)?];
-    // Inverted heights.
-    let sign = if short(290) == 0 { 1.0 } else { -1.0 };
-    let step = sign * real(128) * unit(212)?;
+    let [unit_x, unit_y, unit_z] = [unit(180)?, unit(196)?, unit(212)?];
+    let length = |at: usize, unit: Option<f64>| real(at) * unit.unwrap_or(1.0);
+    let spacing = [length(120, unit_x), length(124, unit_y)];
+    let step = length(128, unit_z);
     let missing = (short(86) == 1).then(|| i32::from_le_bytes(four(100)).wrapping_sub(2));
     let height = |index: usize| {
         let at = begin + bytes * index;
@@ -103,9 +118,38 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
         }
     };
     let heights = (0..columns * rows).map(height).collect();
-    let unit_of_heights = text_of(&contents[212..228]);
-    Ok(Topography {
-        states_unit: !unit_of_heights.trim_matches(['\0', ' ']).is_empty(),
+    let surface = Topography {
+        states_unit: unit_z.is_some(),
+        lateral_unit: lateral(unit_x.and(unit_y)),
         ..Topography::of_rows([rows, columns], spacing, heights)
-    })
+    };
+    Ok(inverted(surface, short(290))?)
+}
+
+/// A surface that was stored inverted: its heights (1), and mirrored along x (2) or y (3) with them. Gwyddion
+/// (`surffile.c`) inverts them back; other readers take the numbers as they are, so that a note says what was done.
+fn inverted(mut surface: Topography, inversion: usize) -> Result<Topography, String> {
+    let columns = surface.shape[1];
+    let mirrored = match inversion {
+        0 => return Ok(surface),
+        1 => "",
+        2 => {
+            surface
+                .heights
+                .chunks_exact_mut(columns)
+                .for_each(<[f64]>::reverse);
+            " and mirrored along x"
+        }
+        3 => {
+            let rows = surface.heights.chunks_exact(columns).rev();
+            surface.heights = rows.flatten().copied().collect();
+            " and mirrored along y"
+        }
+        other => return Err(format!("the inversion {other}, where 0 to 3 are known")),
+    };
+    surface.notes.push(format!(
+        "the file says that its heights were inverted{mirrored} (inversion {inversion}), which was taken back as Gwyddion does; \
+         heights_are = \"gap\" turns heights that are upside down"
+    ));
+    Ok(surface.scaled(-1.0))
 }

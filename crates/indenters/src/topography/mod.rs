@@ -8,18 +8,34 @@
 mod asc;
 #[cfg(feature = "topography")]
 mod binary;
+mod format;
+mod grid;
+mod header;
+mod matrix;
 mod memory;
 mod numpy;
+#[cfg(feature = "topography")]
+mod sdf;
 mod text;
+mod units;
 #[cfg(feature = "topography")]
 mod x3p;
 #[cfg(feature = "topography")]
 mod xyz;
 
+use format::Format;
 use memory::Memory;
 use thiserror::Error;
 
 use crate::{HeightMap, IndenterError};
+pub use units::length;
+use units::metres;
+
+/// The formats that are read, and the ways for others.
+const FORMATS: &str = "the formats that are read are asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), npy (NumPy), sdf \
+    (ISO 25178-71), sur (Digital Surf), x3p (ISO 25178-72), xyz (x, y and z in each line) and texts of one line of heights for \
+    each y; in Python vf.HeightMap.from_topography(SurfaceTopography.read_topography(FILE)) takes those of many instruments, as \
+    Zygo dat, Keyence vk4, NT-MDT mdt and Bruker spm, and numpy.save(\"map.npy\", heights) any array";
 
 /// Why a file is no surface.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -31,6 +47,12 @@ pub enum TopographyError {
         /// What is needed.
         format: &'static str,
         /// What there is instead, and where.
+        found: String,
+    },
+    /// The contents are of no format that is read.
+    #[error("{found}; {FORMATS}")]
+    Unknown {
+        /// What there is instead.
         found: String,
     },
     /// The heights do not fit into the memory that is allowed.
@@ -61,7 +83,7 @@ pub enum TopographyError {
     #[error("spacing: {problem}")]
     Spacing {
         /// What is needed.
-        problem: &'static str,
+        problem: String,
     },
     /// Points were not measured.
     #[error(
@@ -89,60 +111,66 @@ pub struct Topography {
     pub heights: Vec<f64>,
     /// Whether the file says in which unit its heights are.
     pub states_unit: bool,
+    /// Unit of the spacing.
+    pub lateral_unit: LateralUnit,
+    /// Heights that were filled by [`filled`](Self::filled).
+    pub n_filled: usize,
+    /// What was assumed when the file was read, in sentences: units of its head, lines that were skipped.
+    pub notes: Vec<String>,
+}
+
+/// In which unit the distances of the points of a file are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LateralUnit {
+    /// In metres, as they were given or as the file states.
+    #[default]
+    Stated,
+    /// The file does not state it: metres unless said otherwise.
+    Unstated,
+    /// The file states no unit, and has x, y and heights in its columns: that of the heights unless said otherwise.
+    AsHeights,
 }
 
 impl Topography {
-    /// The surface in the contents of a file, by its extension; beside the contents it takes at most so much `memory`
-    /// \[bytes].
+    /// The surface in the contents of a file, by their beginning or else by its extension; beside the contents it takes at most
+    /// so much `memory` \[bytes].
     ///
-    /// With the feature `topography`, asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p
-    /// (ISO 25178-72) and xyz (rows of x, y and z \[m]) have a `spacing` of their own. All others need one, along x and y \[m]:
-    /// npy is an array of NumPy of the shape (n_y, n_x), in which NaN is a missing height, and everything else a text of one
-    /// line of heights for each y, without names, in which a cell that is empty or says that it is no number (`nan`, `NA`, `--`)
-    /// is one. Commas, semicolons, tabs or blanks separate its cells. A comma is a decimal mark where semicolons or tabs
-    /// separate, and between blanks where there are no decimal points.
+    /// With the feature `topography`, asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), sdf (ISO 25178-71), sur (Digital
+    /// Surf), x3p (ISO 25178-72) and xyz (rows of x, y and z) have a `spacing` of their own. All others need one, along x and y
+    /// \[m]: npy is an array of NumPy of the shape (n_y, n_x), in which NaN is a missing height, and everything else a text of
+    /// one line of heights for each y, in which a cell that is empty or says that it is no number (`nan`, `NA`, `--`) is one, and
+    /// whose head may state a size. Commas, semicolons, tabs or blanks separate its cells. A comma is a decimal mark where
+    /// commas do not separate. Lines above the rows that are no numbers are skipped, with a note; units that they state count.
     ///
     /// # Errors
-    /// [`TopographyError::Format`] where the contents are not of that format; [`TopographyError::Line`] for a line of a text that
-    /// is shorter or longer than the others or holds anything else; [`TopographyError::Array`] for another array;
-    /// [`TopographyError::Memory`] before more is taken;
-    /// [`TopographyError::Spacing`] where it is missing, or there already.
+    /// [`TopographyError::Unknown`] and [`TopographyError::Format`] where the contents are not of such a format;
+    /// [`TopographyError::Line`] for a line of a text that is shorter or longer than the others or holds anything else, and for
+    /// a text that is no grid of heights; [`TopographyError::Array`] for another array; [`TopographyError::Memory`] before more
+    /// is taken; [`TopographyError::Spacing`] where it is missing, there already, or not that of the file.
     pub fn read(
         extension: &str,
         contents: &[u8],
         spacing: Option<[f64; 2]>,
         memory: u64,
     ) -> Result<Self, TopographyError> {
-        let extension = extension.to_ascii_lowercase();
         let memory = Memory(memory);
-        match (Self::has_spacing(&extension), spacing) {
-            (true, None) => measured(&extension, contents, memory),
-            (true, Some(_)) => {
-                let problem = "a measured surface has its own; leave this out";
-                Err(TopographyError::Spacing { problem })
-            }
-            (false, None) => {
-                let problem = "missing field `spacing`";
-                Err(TopographyError::Spacing { problem })
-            }
-            (false, Some(spacing)) if extension == "npy" => {
+        let format = Format::of(&extension.to_ascii_lowercase(), contents);
+        match format.map_err(|found| TopographyError::Unknown { found })? {
+            Format::Text => matrix::read(contents, spacing, memory),
+            Format::Npy => {
+                let spacing = spacing.ok_or_else(TopographyError::without_spacing)?;
                 let found = numpy::read(contents, spacing, memory);
                 found.map_err(|unread| match unread {
                     Unread::Other(problem) => TopographyError::Array { problem },
-                    Unread::TooLarge(error) => error,
+                    Unread::Known(error) => error,
                 })
             }
-            (false, Some(spacing)) => {
-                memory.holds_text(contents)?;
-                text::rows(contents, spacing)
+            _ if spacing.is_some() => {
+                let problem = "a measured surface has its own; leave this out".to_owned();
+                Err(TopographyError::Spacing { problem })
             }
+            format => measured(format, contents, memory),
         }
-    }
-
-    /// Whether files with this extension say how far apart their points are.
-    pub fn has_spacing(extension: &str) -> bool {
-        let mut known = MEASURED.iter();
-        known.any(|known| known.eq_ignore_ascii_case(extension))
     }
 
     /// From heights row by row, of a file that does not state their unit.
@@ -152,6 +180,9 @@ impl Topography {
             spacing,
             heights,
             states_unit: false,
+            lateral_unit: LateralUnit::Stated,
+            n_filled: 0,
+            notes: Vec::new(),
         }
     }
 
@@ -177,6 +208,15 @@ impl Topography {
         self
     }
 
+    /// Lengths along x and y of a map that repeats itself, \[m].
+    pub fn periods(&self) -> [f64; 2] {
+        let [rows, columns] = self.shape;
+        [
+            columns as f64 * self.spacing[0],
+            rows as f64 * self.spacing[1],
+        ]
+    }
+
     /// How many heights are missing.
     pub fn missing(&self) -> usize {
         self.heights.iter().filter(|height| height.is_nan()).count()
@@ -186,6 +226,7 @@ impl Topography {
     #[must_use]
     pub fn filled(mut self) -> Self {
         let columns = self.shape[1];
+        self.n_filled += self.missing();
         loop {
             let before = self.heights.clone();
             for index in (0..before.len()).filter(|index| before[*index].is_nan()) {
@@ -264,62 +305,57 @@ impl Topography {
     }
 }
 
-/// Extensions of the formats of measured surfaces.
-const MEASURED: [&str; 5] = ["asc", "gsf", "sur", "x3p", "xyz"];
-
 #[cfg(feature = "topography")]
 fn measured(
-    extension: &str,
+    format: Format,
     contents: &[u8],
     memory: Memory,
 ) -> Result<Topography, TopographyError> {
-    let (found, format) = match extension {
-        "asc" => (
-            asc::read(contents, memory),
-            "an ASCII grid with ncols, nrows, cellsize and heights",
-        ),
-        "gsf" => (
+    let (found, format) = match format {
+        Format::Asc => return asc::read(contents, memory),
+        Format::Gsf => (
             binary::simple_field(contents, memory),
             "a Gwyddion Simple Field 1.0",
         ),
-        "sur" => (
+        Format::Sdf => (
+            sdf::read(contents, memory),
+            "a surface of ISO 25178-71 that is not compressed",
+        ),
+        Format::Sur => (
             binary::digital_surf(contents, memory),
             "a surface of Digital Surf that is not compressed",
         ),
-        "x3p" => (
+        Format::X3p => (
             x3p::read(contents, memory),
             "a surface of ISO 25178-72 with equally spaced points",
         ),
-        _ => (
-            xyz::read(contents, memory),
-            "x, y and z of points of a grid in each line",
-        ),
+        _ => return xyz::read(contents, memory),
     };
-    found.map_err(|unread| unread.of(format))
+    found.map_err(|unread| match unread {
+        Unread::Other(found) => TopographyError::Format { format, found },
+        Unread::Known(error) => error,
+    })
 }
 
 #[cfg(not(feature = "topography"))]
-fn measured(extension: &str, _: &[u8], _: Memory) -> Result<Topography, TopographyError> {
+fn measured(format: Format, _: &[u8], _: Memory) -> Result<Topography, TopographyError> {
+    let found = format!("a file in the format {format:?}");
     let format = "the feature `topography` of the crate `indenters`";
-    let found = format!("a file in the format {extension}");
     Err(TopographyError::Format { format, found })
+}
+
+impl TopographyError {
+    fn without_spacing() -> Self {
+        let problem = "the distances of neighbouring heights along x and y are needed".to_owned();
+        Self::Spacing { problem }
+    }
 }
 
 /// Why a reader gives up.
 enum Unread {
     /// The contents are not of the format: what there is instead.
     Other(String),
-    TooLarge(TopographyError),
-}
-
-#[cfg(feature = "topography")]
-impl Unread {
-    fn of(self, format: &'static str) -> TopographyError {
-        match self {
-            Self::Other(found) => TopographyError::Format { format, found },
-            Self::TooLarge(error) => error,
-        }
-    }
+    Known(TopographyError),
 }
 
 impl From<String> for Unread {
@@ -330,20 +366,6 @@ impl From<String> for Unread {
 
 impl From<TopographyError> for Unread {
     fn from(error: TopographyError) -> Self {
-        Self::TooLarge(error)
+        Self::Known(error)
     }
-}
-
-/// Metres in a unit of length as files write it.
-#[cfg(feature = "topography")]
-fn metres(unit: &str) -> Result<f64, String> {
-    let unit = unit.trim_matches(|end: char| end.is_whitespace() || end == '\0');
-    Ok(match unit {
-        "m" | "" => 1.0,
-        "mm" => 1e-3,
-        // The last one is µ in MS-DOS.
-        "µm" | "μm" | "um" | "æm" => 1e-6,
-        "nm" => 1e-9,
-        other => return Err(format!("the unit '{other:.40}'")),
-    })
 }

@@ -78,7 +78,10 @@ fn size_of_number(header: &str) -> Result<usize, String> {
             let letters = value.chars().filter(|letter| !letter.is_control());
             let letters = letters.take_while(|letter| *letter != ',').take(40);
             let needed = "little-endian floats are needed, '<f8' or '<f4'";
-            Err(format!("{needed}, and not {}", letters.collect::<String>()))
+            let found = letters.collect::<String>();
+            Err(format!(
+                "{needed}, and not {found}: save heights.astype(\"<f8\")"
+            ))
         }
         None => Err(without("the type of its numbers, as in 'descr': '<f8'")),
     }

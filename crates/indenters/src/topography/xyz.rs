@@ -1,64 +1,120 @@
-//! Rows of x, y and z in metres, in any order; points of the grid that are left out are missing.
+//! Rows of x, y and z, in any order; points of the grid that are left out are missing.
 
-use super::memory::Memory;
-use super::text::{Notation, lines, text_of};
-use super::{Topography, Unread};
-use numerics::whole_part;
+use super::grid::{Axis, significant_digits};
+use super::header::Stated;
+use super::text::{Sheet, text_of};
+use super::{LateralUnit, Memory, Topography, TopographyError};
 
-/// Part of a spacing by which a point may miss its place in the grid.
-const MISS: f64 = 0.01;
+/// x and y, and z.
+type Point = ([f64; 2], f64);
 
-pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, TopographyError> {
     memory.holds_text(contents)?;
     let text = text_of(contents);
-    let notation = Notation::of(&text);
-    let point = |(number, line): (usize, &str)| {
-        let point = match notation.cells(line)[..] {
-            [x, y, z] => notation
-                .number(x)
-                .zip(notation.number(y))
-                .zip(notation.height(z)),
-            _ => None,
-        };
-        let point = point.map(|((x, y), z)| [x, y, z]);
-        point.ok_or_else(|| format!("line {number}: '{line:.40}'"))
+    let sheet = Sheet::of(&text)?;
+    let first = sheet.rows[0].0;
+    let wrong = |line: usize, problem: String| TopographyError::Line { line, problem };
+    if sheet.width() != 3 {
+        let width = sheet.width();
+        let problem = format!(
+            "x, y and z are needed, but the lines have {width} numbers: leave out other columns and channels"
+        );
+        return Err(wrong(first, problem));
+    }
+    let stated = Stated::of(&sheet.head)?;
+    let (points, digits) = points(&sheet)?;
+    let axis = |which: usize, name: &str| {
+        let values = points.iter().map(|(place, _)| place[which]).collect();
+        let axis = Axis::of(values, digits[which]);
+        axis.map_err(|found| {
+            wrong(
+                first,
+                format!("equally spaced points are needed, but along {name} there are {found}"),
+            )
+        })
     };
-    let points: Vec<[f64; 3]> = lines(&text).map(point).collect::<Result<_, _>>()?;
-    let axis = |which: usize| axis(points.iter().map(|point| point[which]).collect());
-    let [(x, dx, nx), (y, dy, ny)] = [axis(0)?, axis(1)?];
-    let places = nx.checked_mul(ny);
+    let axes = [axis(0, "x")?, axis(1, "y")?];
+    let heights = on_grid(axes, &points, &sheet, memory)?;
+    let [x, y] = axes;
+    let unit = stated.heights.as_ref().map_or(1.0, |(unit, _)| *unit);
+    let lateral = stated.lateral.as_ref().map_or(1.0, |(unit, _)| *unit);
+    let spacing = [x.step * lateral, y.step * lateral];
+    let mut surface = Topography::of_rows([y.count, x.count], spacing, heights).scaled(unit);
+    surface.states_unit = stated.heights.is_some();
+    surface.lateral_unit = match (&stated.lateral, &stated.heights) {
+        (Some(_), _) => LateralUnit::Stated,
+        (None, Some(_)) => LateralUnit::Unstated,
+        (None, None) => LateralUnit::AsHeights,
+    };
+    surface.notes.extend(sheet.skipped());
+    surface.notes.extend(stated.note());
+    Ok(surface)
+}
+
+/// x and y, and z, of each line, and the most significant digits of x and of y.
+fn points(sheet: &Sheet<'_>) -> Result<(Vec<Point>, [i32; 2]), TopographyError> {
+    let (mut points, mut digits) = (Vec::new(), [0; 2]);
+    sheet.for_each_row(|line, cells, numbers| {
+        let &[x, y, z] = numbers else {
+            return Ok(());
+        };
+        if x.is_nan() || y.is_nan() {
+            let problem = "x and y are needed".to_owned();
+            return Err(TopographyError::Line { line, problem });
+        }
+        for (digits, cell) in digits.iter_mut().zip(cells) {
+            *digits = significant_digits(cell).max(*digits);
+        }
+        points.push(([x, y], z));
+        Ok(())
+    })?;
+    Ok((points, digits))
+}
+
+/// The heights row by row of the grid.
+fn on_grid(
+    [x, y]: [Axis; 2],
+    points: &[Point],
+    sheet: &Sheet<'_>,
+    memory: Memory,
+) -> Result<Vec<f64>, TopographyError> {
+    let wrong = |index: usize, problem: String| {
+        let line = sheet.rows[index].0;
+        TopographyError::Line { line, problem }
+    };
+    let places = x.count.checked_mul(y.count);
     if places.is_none_or(|places| places / 100 > points.len()) {
-        let count = points.len();
-        return Err(format!("{count} points of a grid of {nx} × {ny}").into());
+        let (count, [nx, ny]) = (points.len(), [x.count, y.count]);
+        return Err(wrong(0, format!("{count} points of a grid of {nx} × {ny}")));
     }
     // Beside the points themselves.
     memory.holds(places.and_then(|places| places.checked_add(points.len())))?;
-    let mut heights = vec![f64::NAN; nx * ny];
-    for [at_x, at_y, height] in points {
-        let steps = [(at_x - x) / dx, (at_y - y) / dy];
-        if steps.iter().any(|step| (step - step.round()).abs() > MISS) {
-            return Err(
-                format!("a point at x = {at_x}, y = {at_y} beside a grid of {dx} × {dy}").into(),
-            );
+    let place_of = |[at_x, at_y]: [f64; 2]| Some(y.place(at_y)? * x.count + x.place(at_x)?);
+    let mut heights = vec![f64::NAN; x.count * y.count];
+    let mut is_there = vec![false; heights.len()];
+    for (index, (at, height)) in points.iter().enumerate() {
+        let [at_x, at_y] = at;
+        let place = place_of(*at).ok_or_else(|| {
+            let grid = format!("a grid of {:e} × {:e}", x.step, y.step);
+            wrong(
+                index,
+                format!("a point at x = {at_x}, y = {at_y} beside {grid}"),
+            )
+        })?;
+        if std::mem::replace(&mut is_there[place], true) {
+            let before = points
+                .iter()
+                .position(|(at, _)| place_of(*at) == Some(place));
+            let line = before.map_or(0, |before| sheet.rows[before].0);
+            return Err(wrong(
+                index,
+                format!(
+                    "the point at x = {at_x}, y = {at_y} stands in line {line} already: a file of one channel and one scan is \
+                     needed, with each point once"
+                ),
+            ));
         }
-        let [column, row] = steps.map(|step| whole_part(step.round()));
-        heights[row * nx + column] = height;
+        heights[place] = *height;
     }
-    Ok(Topography::of_rows([ny, nx], [dx, dy], heights))
-}
-
-/// First of equally spaced coordinates, their distance and number.
-fn axis(mut values: Vec<f64>) -> Result<(f64, f64, usize), String> {
-    values.sort_by(f64::total_cmp);
-    let ends = values.first().copied().zip(values.last().copied());
-    let (first, last) = ends.ok_or("no points")?;
-    let range = last - first;
-    let steps = values.windows(2).map(|pair| pair[1] - pair[0]);
-    let steps = steps.filter(|step| *step > 1e-6 * range);
-    let smallest = steps.fold(range, f64::min);
-    let count = (range / smallest).round();
-    if !(range > 0.0 && count.is_finite()) {
-        return Err(format!("coordinates from {first} to {last}"));
-    }
-    Ok((first, range / count, whole_part(count) + 1))
+    Ok(heights)
 }

@@ -1,6 +1,7 @@
 //! What the crate promises, claim by claim.
 
 mod contact_radius_solves_the_line;
+mod height_files;
 mod height_maps_are_bilinear;
 mod invalid_inputs_are_refused;
 mod leading_edge_has_several_intervals;

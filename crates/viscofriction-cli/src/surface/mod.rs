@@ -9,7 +9,7 @@ use anyhow::Result;
 use clap::Args;
 use viscofriction::WrongInput;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
-use viscofriction::indenters::topography::Topography;
+use viscofriction::indenters::topography::{Topography, length};
 use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError};
 use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
@@ -23,14 +23,17 @@ use crate::output::{ABOUT_WARNINGS, OutputFolder, markdown, print_line, print_te
     Example: viscofriction surface heights.csv --spacing 1e-6 1e-6 --periodic"
 )]
 pub(crate) struct Surface {
-    /// Heights as asc, gsf, sur, x3p or xyz; or as CSV or npy as in scenes, with --spacing.
+    /// Heights as asc, gsf, sdf, sur, x3p or xyz; or as CSV or npy as in scenes, with --spacing.
     file: PathBuf,
-    /// Distances of neighbouring heights along x and y in m, of CSV and npy.
-    #[arg(long, num_args = 2, value_names = ["DX", "DY"])]
+    /// Distances of neighbouring heights along x and y, of CSV and npy, in m or with a unit, as "10 um".
+    #[arg(long, num_args = 2, value_names = ["DX", "DY"], value_parser = distance)]
     spacing: Option<Vec<f64>>,
     /// Unit of the heights, in files that do not state it [default: m].
     #[arg(long, value_name = "U")]
     unit: Option<LengthUnit>,
+    /// Unit of x and y, in files that have positions and do not state it (xyz, asc) [default: m, and in xyz that of --unit].
+    #[arg(long, value_name = "U")]
+    lateral_unit: Option<LengthUnit>,
     /// Whether the largest heights touch first, or as gaps the smallest.
     #[arg(long, value_name = "WHAT", default_value = "surface")]
     heights_are: HeightsAre,
@@ -57,6 +60,7 @@ pub(crate) struct Surface {
 
 const ADVICE: AdviceOnHeights = AdviceOnHeights {
     unit: "--unit mm, um or nm says another one",
+    lateral_unit: "--lateral-unit mm, um or nm says another one of x and y in files, and --spacing takes a unit, as \"10 um\"",
     step: "in a scene edges = \"mirrored\" has no step",
 };
 
@@ -107,10 +111,6 @@ impl Surface {
         let memory = half_of_free_memory().unwrap_or(u64::MAX);
         let contents = read_input(&self.file, memory)?;
         let rest = memory.saturating_sub(contents.len() as u64);
-        let extension = self.file.extension().unwrap_or_default();
-        if !Topography::has_spacing(&extension.to_string_lossy()) && table.spacing.is_none() {
-            return Err(self.wrong("its heights need --spacing DX DY in m"));
-        }
         let wrong = |error| self.wrong_option(&error);
         let surface = table.read(&self.file, &contents, rest);
         let surface = surface.map_err(wrong)?;
@@ -126,6 +126,9 @@ impl Surface {
             "{columns} × {rows} heights along x and y, {dx:.6e} × {dy:.6e} m apart\n\
              the body moves along x, and its {first}\n"
         );
+        for note in &surface.notes {
+            notes += &format!("note: {note}\n");
+        }
         if missing > 0 {
             notes += &format!("missing, filled from their neighbours: {missing} of {points}\n");
         }
@@ -154,6 +157,7 @@ impl Surface {
             file: self.file.clone(),
             spacing: spacing.map(|spacing| [spacing[0], spacing[1]]),
             unit: self.unit,
+            lateral_unit: self.lateral_unit,
             heights_are: self.heights_are,
             direction: self.direction,
             fill_missing: self.fill_missing,
@@ -179,6 +183,12 @@ impl Surface {
     fn wrong(&self, problem: impl std::fmt::Display) -> WrongInput {
         WrongInput(format!("{}: {problem}", self.file.display()))
     }
+}
+
+/// A length in m, or with a unit.
+fn distance(text: &str) -> Result<f64, String> {
+    let metres = text.trim().parse().ok().or_else(|| length(text));
+    metres.ok_or_else(|| "a length is needed, in m or with a unit, as \"10 um\"".to_owned())
 }
 
 /// Quantity, symbol, value and unit.

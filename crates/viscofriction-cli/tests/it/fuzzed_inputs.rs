@@ -140,9 +140,11 @@ fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
     let array = (PathBuf::from("map.npy"), npy(header, &heights));
     let rows = ("rows.csv".into(), rows.into());
     let [profile, map] = ["profile.csv", "tread.csv"].map(|name| read(example(name)));
+    let texts = texts_of_heights().map(|(name, text)| (PathBuf::from(name), text.into_bytes()));
     for (kind, files, most) in [
         (InputKind::Profile, &[profile][..], 3_500),
         (InputKind::HeightMap, &[map], 3_500),
+        (InputKind::HeightMap, &texts, 3_500),
         (InputKind::SweepRows, &[rows], 3_500),
         (InputKind::Moduli, &moduli, 3_500),
         // Whatever changes more than a bit changes the length, too.
@@ -150,6 +152,43 @@ fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
     ] {
         fuzz(kind, files, 4_000, 100..=most);
     }
+}
+
+/// A map of 6 × 5 heights as programs write it in text.
+fn texts_of_heights() -> [(&'static str, String); 4] {
+    let height = |index: u32| f64::from(index * index * 7 % 31) / 8.0;
+    let row = |row: u32, mark: &str| {
+        let heights = (0..6).map(|column| height(6 * row + column).to_string());
+        heights.collect::<Vec<_>>().join(mark) + "\n"
+    };
+    let rows = |mark: &str| (0..5).map(|index| row(index, mark)).collect::<String>();
+    let points = (0..30).map(|index| {
+        format!(
+            "{:.2}\t{:.2}\t{}\n",
+            f64::from(index % 6) / 3.0,
+            f64::from(index / 6) * 0.7,
+            height(index)
+        )
+    });
+    let points: String = points.collect();
+    [
+        (
+            "gwyddion.txt",
+            format!(
+                "# Channel: A\n# Width: 6 µm\n# Height: 5 µm\n# Value units: nm\n{}",
+                rows("\t")
+            ),
+        ),
+        ("german.csv", rows(";").replace('.', ",")),
+        (
+            "grid.asc",
+            format!(
+                "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n{}",
+                rows(" ")
+            ),
+        ),
+        ("points.xyz", format!("# x [um] y [um] z [nm]\n{points}")),
+    ]
 }
 
 /// Depth that a reader without limits would follow until its stack ends.

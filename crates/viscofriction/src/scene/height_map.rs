@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use indenters::topography::{Topography, TopographyError};
+use indenters::topography::{LateralUnit, Topography, TopographyError};
 use numerics::{in_range, positive, whole_part};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,14 +19,18 @@ use super::source::problem_of;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub struct HeightMapTable {
     /// File beside the scene file: a text of one line of heights for each y, without names; with the extension npy an array of
-    /// NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sur, x3p and xyz a measured surface.
+    /// NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sdf, sur, x3p and xyz a measured surface.
     pub file: PathBuf,
-    /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own.
+    /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own, nor of a text
+    /// that states its size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<[f64; 2]>,
-    /// Unit of the heights, metres unless given; files that state it (gsf, sur, x3p) keep their own.
+    /// Unit of the heights, metres unless given; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
+    /// Unit of x and y in files that have positions and do not state it (xyz, asc): metres, or in xyz `unit`, unless given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lateral_unit: Option<LengthUnit>,
     /// What the heights are.
     #[serde(default)]
     pub heights_are: HeightsAre,
@@ -128,10 +132,11 @@ impl HeightMapTable {
         })
     }
 
-    /// The surface with its heights in metres out of the body, x along the motion, and holes and tilt treated as is asked.
+    /// The surface in metres, with its heights out of the body, x along the motion, and holes and tilt treated as is asked.
     ///
     /// # Errors
-    /// [`SceneError`] for a direction or a spacing out of range, and for heights that are missing.
+    /// [`SceneError`] for a direction or a spacing out of range, for heights that are missing, of which at most a half is
+    /// filled, for those beyond 1e30 m, and for a flat map.
     pub fn prepared(&self, surface: Topography) -> Result<Topography, SceneError> {
         if self.edges == Edges::Wall && self.shortest_wavelength.is_some() {
             let problem = "needs edges = \"periodic\" or \"mirrored\", because a map with a wall has no waves; leave it out, or give edges";
@@ -142,30 +147,123 @@ impl HeightMapTable {
         let quarters = self.direction / 90.0;
         let is_known = [0.0, 1.0, 2.0, 3.0].contains(&quarters);
         in_range(key, self.direction, is_known, "0, 90, 180 or 270")?;
+        let mut surface = self.in_metres(surface)?;
         positive("indenter.height-map.spacing[0]", surface.spacing[0])?;
         positive("indenter.height-map.spacing[1]", surface.spacing[1])?;
+        self.check_sizes(&surface)?;
+        surface.notes.extend(marker(&surface.heights));
+        let mut surface = self.without_holes(surface)?;
+        let sizes = surface.heights.iter().map(|height| height.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        if self.level {
+            surface = surface.levelled();
+        }
+        self.check_relief(&surface, largest)?;
+        Ok(surface.turned(whole_part(quarters)))
+    }
+
+    /// With the units that are given where the file states none.
+    fn in_metres(&self, surface: Topography) -> Result<Topography, SceneError> {
+        if self.spacing.is_some() && self.lateral_unit.is_some() {
+            let problem =
+                "the spacing is in m; this is the unit of x and y in files that have positions";
+            return Err(SceneError::at("indenter.height-map.lateral_unit", problem));
+        }
         let unit = self.unit.filter(|_| !surface.states_unit);
+        let lateral = match surface.lateral_unit {
+            LateralUnit::Stated => None,
+            LateralUnit::Unstated => self.lateral_unit,
+            LateralUnit::AsHeights => self.lateral_unit.or(unit),
+        };
         let factor = match self.heights_are {
             HeightsAre::Surface => unit.map_or(1.0, LengthUnit::metres),
             HeightsAre::Gap => -unit.map_or(1.0, LengthUnit::metres),
         };
-        let surface = surface.scaled(factor);
-        let (points, missing) = (surface.heights.len(), surface.missing());
-        let surface = match missing {
-            0 => surface,
-            _ if self.fill_missing && missing < points => surface.filled(),
-            _ => {
-                let problem = format!(
-                    "{missing} of {points} heights are missing; fill_missing makes each the mean of its known neighbours"
-                );
-                return Err(SceneError::at("indenter.height-map.fill_missing", problem));
-            }
-        };
-        let surface = if self.level {
-            surface.levelled()
-        } else {
-            surface
-        };
-        Ok(surface.turned(whole_part(quarters)))
+        let metres = lateral.map_or(1.0, LengthUnit::metres);
+        let mut surface = surface.scaled(factor);
+        surface.spacing = surface.spacing.map(|spacing| spacing * metres);
+        Ok(surface)
     }
+
+    /// Refuses heights that no unit has, as markers of missing heights have.
+    fn check_sizes(&self, surface: &Topography) -> Result<(), SceneError> {
+        let columns = surface.shape[1];
+        let mut heights = surface.heights.iter();
+        let Some(index) = heights.position(|height| height.abs() > LARGEST_HEIGHT) else {
+            return Ok(());
+        };
+        let (row, column) = (index / columns + 1, index % columns + 1);
+        Err(self.in_file(&format!(
+            "the height in row {row}, column {column} is {:e} m, where at most {LARGEST_HEIGHT:e} m is allowed; if it marks a \
+             missing height, write nan",
+            surface.heights[index]
+        )))
+    }
+
+    /// With its holes filled, if that is asked and they are no more than a half.
+    fn without_holes(&self, surface: Topography) -> Result<Topography, SceneError> {
+        let (points, missing) = (surface.heights.len(), surface.missing());
+        if missing == 0 {
+            return Ok(surface);
+        }
+        let advice = if !self.fill_missing {
+            "fill_missing makes each the mean of its known neighbours"
+        } else if 2 * missing > points {
+            "more than a half is not filled, because most of the map would be made up; cut out a part with fewer holes"
+        } else {
+            return Ok(surface.filled());
+        };
+        let problem = format!("{missing} of {points} heights are missing; {advice}");
+        Err(SceneError::at("indenter.height-map.fill_missing", problem))
+    }
+
+    /// Refuses a flat map, of which the largest height was given before it was levelled.
+    fn check_relief(&self, surface: &Topography, largest: f64) -> Result<(), SceneError> {
+        let heights = surface.heights.iter().copied();
+        let [lowest, highest] =
+            [f64::min, f64::max].map(|pick| heights.clone().fold(f64::NAN, pick));
+        // A single row or column is no map at all, which is said where the body is made of it.
+        if highest - lowest > FLAT * largest || surface.shape.contains(&1) {
+            return Ok(());
+        }
+        let problem = if self.level {
+            "the map is flat: without its mean slope all heights are the same".to_owned()
+        } else {
+            format!("the map is flat: all heights are {lowest:e} m")
+        };
+        Err(self.in_file(&format!(
+            "{problem}; a body with a flat end is a flat-punch"
+        )))
+    }
+
+    fn in_file(&self, problem: &str) -> SceneError {
+        let file = self.file.display();
+        SceneError::at("indenter.height-map.file", format!("{file}: {problem}"))
+    }
+}
+
+/// Numbers that no length has are refused from here on, \[m].
+const LARGEST_HEIGHT: f64 = 1e30;
+/// Part of the largest height within which all others are the same but for rounding.
+const FLAT: f64 = 1e-12;
+/// How many times farther from all other heights than these are from each other a marker is.
+const MARKER_DISTANCE: f64 = 20.0;
+
+/// A sentence if the lowest or highest height stands alone far from all others, as -9999 or 1e10 for missing heights does.
+fn marker(heights: &[f64]) -> Option<String> {
+    let known = || heights.iter().copied().filter(|height| !height.is_nan());
+    let [lowest, highest] = [f64::min, f64::max].map(|pick| known().fold(f64::NAN, pick));
+    [lowest, highest].into_iter().find_map(|end| {
+        let others = || known().filter(|height| height.to_bits() != end.to_bits());
+        let [from, to] = [f64::min, f64::max].map(|pick| others().fold(f64::NAN, pick));
+        let distance = (from - end).abs().min((to - end).abs());
+        // With two heights only there is nothing to compare with.
+        let is_far = to > from && distance > MARKER_DISTANCE * (to - from);
+        let count = known().count() - others().count();
+        is_far.then(|| {
+            format!(
+                "{count} heights are {end:e} m, and all others from {from:.3e} m to {to:.3e} m: if that marks missing heights, write nan"
+            )
+        })
+    })
 }

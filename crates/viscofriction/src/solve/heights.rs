@@ -1,7 +1,7 @@
 //! The rigid body of a grid of heights, and whether the grid is likely to be meant as it is.
 
 use indenters::rough::PeriodicSurface;
-use indenters::topography::Topography;
+use indenters::topography::{LateralUnit, Topography};
 use indenters::{HeightMap, IndenterError};
 use numerics::whole_part;
 
@@ -10,6 +10,12 @@ use crate::scene::{Edges, HeightMapTable, SceneError};
 
 /// Root mean square slope above which heights are likely to be in another unit.
 pub(super) const STEEPEST: f64 = 1.0;
+/// Root mean square slope below which heights or distances are likely to be in another unit: optical flats have 1e-5.
+const FLATTEST: f64 = 1e-5;
+/// Length of a map above which its distances are likely to be in another unit, \[m].
+const LONGEST: f64 = 1.0;
+/// Part of the heights that were filled above which an answer depends on them.
+const MOST_FILLED: f64 = 0.01;
 /// Part of the mean square slope above which the step at the edge of a map is most of it.
 const MOST: f64 = 0.5;
 
@@ -28,7 +34,15 @@ pub fn body_of_heights(
     };
     let surface = table.prepared(surface)?;
     let map = surface.body().map_err(|error| in_file(error.to_string()))?;
-    let warnings = warnings(table, &surface, &map, &Advice::SCENE);
+    let mut warnings = warnings(table, &surface, &map, &Advice::SCENE);
+    warnings.extend(surface.notes.iter().cloned());
+    if table.edges == Edges::Mirrored {
+        let [x, y] = surface.periods().map(|period| 2.0 * period);
+        warnings.push(format!(
+            "forces and areas are those of the map with its three mirror images, {x:.3e} m × {y:.3e} m, and four times those of \
+             the map alone; pressures, parts and friction coefficients are the same"
+        ));
+    }
     let periodic = |map: &HeightMap| {
         let shortest = table.shortest_wavelength.unwrap_or(0.0);
         let waves = PeriodicSurface::through(map, shortest);
@@ -59,6 +73,8 @@ pub fn body_of_heights(
 pub struct Advice {
     /// Where they are in another unit.
     pub unit: &'static str,
+    /// Where their distances are.
+    pub lateral_unit: &'static str,
     /// Where a map that repeats itself does not fit to itself.
     pub step: &'static str,
 }
@@ -67,6 +83,7 @@ impl Advice {
     /// In the keys of a scene.
     pub const SCENE: Self = Self {
         unit: "unit = \"mm\", \"um\" or \"nm\" says another one",
+        lateral_unit: "lateral_unit = \"mm\", \"um\" or \"nm\" says another one of x and y in files, and a spacing is in m",
         step: "level = true takes a tilt out, and edges = \"mirrored\" has no step",
     };
 }
@@ -78,25 +95,15 @@ pub fn warnings(
     map: &HeightMap,
     advice: &Advice,
 ) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if surface.states_unit && table.unit.is_some() {
-        warnings.push("the file states the unit of its heights: unit has no effect".to_owned());
-    }
-    let steps = [0, 1].map(|axis| Steps::of(map, axis, 1));
-    let slope = steps[0].rms_slope().hypot(steps[1].rms_slope());
-    let [x, y] = map.extent().map(|[from, to]| to - from);
-    let highest = map.heights().iter().copied().fold(0.0, f64::max);
-    // A body that ends may be steep far from its contact.
-    if slope > STEEPEST && (table.edges != Edges::Wall || highest > x.max(y)) {
-        let question = if surface.states_unit {
-            "is the unit in the file right?".to_owned()
-        } else {
-            format!("are they in that unit? {}", advice.unit)
-        };
+    let mut warnings = units_without_effect(table, surface);
+    let (points, filled) = (surface.heights.len(), surface.n_filled);
+    if filled as f64 > MOST_FILLED * points as f64 {
+        let part = 100.0 * filled as f64 / points as f64;
         warnings.push(format!(
-            "the heights span {highest:.3e} m over {x:.3e} m × {y:.3e} m, with a root mean square slope of {slope:.3}: {question}"
+            "{part:.1} % of the heights were missing and are filled from their neighbours, smoother than a surface: {filled} of {points}"
         ));
     }
+    warnings.extend(sizes(table, surface, map, advice));
     if table.edges == Edges::Periodic {
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
             let half = 0.5 * table.shortest_wavelength.unwrap_or(0.0) / map.spacing()[axis];
@@ -106,6 +113,59 @@ pub fn warnings(
         }
     }
     warnings
+}
+
+/// That units which are given change nothing, because the file states its own.
+fn units_without_effect(table: &HeightMapTable, surface: &Topography) -> Vec<String> {
+    let is_stated = surface.lateral_unit == LateralUnit::Stated;
+    let units = [
+        (
+            surface.states_unit && table.unit.is_some(),
+            "its heights: unit",
+        ),
+        (
+            is_stated && table.lateral_unit.is_some(),
+            "x and y: lateral_unit",
+        ),
+    ];
+    let units = units.into_iter().filter(|(holds, _)| *holds);
+    let sentence =
+        |(_, of): (bool, &str)| format!("the file states the unit of {of} has no effect");
+    units.map(sentence).collect()
+}
+
+/// Sentences about slopes and lengths that are likely to be in another unit.
+fn sizes(
+    table: &HeightMapTable,
+    surface: &Topography,
+    map: &HeightMap,
+    advice: &Advice,
+) -> Vec<String> {
+    let [x, y] = map.extent().map(|[from, to]| to - from);
+    let slopes = [0, 1].map(|axis| Steps::of(map, axis, 1).rms_slope());
+    let slope = slopes[0].hypot(slopes[1]);
+    let highest = map.heights().iter().copied().fold(0.0, f64::max);
+    // A body that ends may be steep far from its contact.
+    let is_steep = slope > STEEPEST && (table.edges != Edges::Wall || highest > x.max(y));
+    let mut sentences = Vec::new();
+    if is_steep || slope < FLATTEST {
+        let question = if surface.states_unit {
+            "is the unit in the file right?".to_owned()
+        } else {
+            format!("are they in that unit? {}", advice.unit)
+        };
+        sentences.push(format!(
+            "the heights span {highest:.3e} m over {x:.3e} m × {y:.3e} m, with a root mean square slope of {slope:.3e}: {question}"
+        ));
+    }
+    let [along_x, along_y] = surface.periods();
+    if along_x.max(along_y) > LONGEST {
+        let lateral = advice.lateral_unit;
+        sentences.push(format!(
+            "the map has a period of {along_x:.3e} m × {along_y:.3e} m: are these metres? {lateral}"
+        ));
+    }
+    sentences
 }
 
 /// Differences of heights some points apart along an axis.

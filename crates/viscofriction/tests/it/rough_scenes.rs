@@ -264,3 +264,84 @@ fn a_coarse_grid_tells_surfaces_apart() {
         folder.ends("scene.toml", status, why);
     }
 }
+
+/// What is strange about a map is said with the answer, and what cannot be one is refused.
+#[test]
+fn strange_maps_are_warned_of_or_refused() {
+    let folder = Folder::new("rough-strange-maps");
+    let (_, rest) = SURFACE.split_once('\n').expect("lines");
+    let height = |x: u32, y: u32| {
+        (TAU * f64::from(x) / 16.0).cos() + 0.3 * (TAU * f64::from(y) / 12.0).sin()
+    };
+    let point = |x: u32, y: u32| format!("{x} {y} {}\n", 0.1 * height(x, y));
+    let all = (0..192).map(|index| (index % 16, index / 16));
+    let points: String = all.clone().map(|(x, y)| point(x, y)).collect();
+    folder.write("map.xyz", &points);
+    folder.write("named.xyz", format!("# x [mm] y [mm] z [mm]\n{points}"));
+    let with_holes = |most: u32| {
+        let known = all.clone().filter(|(x, y)| (x * 7 + y * 5) % 16 >= most);
+        known.map(|(x, y)| point(x, y)).collect::<String>()
+    };
+    folder.write("holes.xyz", with_holes(1));
+    folder.write("gone.xyz", with_holes(9));
+    folder.write("flat.csv", "1,1\n1,1\n");
+    let scene = |keys: &str| {
+        let body = format!("indenter.height-map = {{ {keys} }}");
+        format!("{body}\n{rest}mean_pressure = 1000.0\n")
+    };
+    for (keys, warning) in [
+        (
+            "file = \"map.xyz\", edges = \"periodic\"",
+            "a period of 1.600e1 m",
+        ),
+        (
+            "file = \"map.xyz\", edges = \"periodic\", unit = \"nm\", lateral_unit = \"mm\"",
+            "root mean square slope of 3.032e-8",
+        ),
+        (
+            "file = \"map.xyz\", edges = \"mirrored\", unit = \"mm\"",
+            "four times those of the map alone",
+        ),
+        (
+            "file = \"named.xyz\", edges = \"periodic\", lateral_unit = \"um\"",
+            "x and y: lateral_unit has no effect",
+        ),
+        (
+            "file = \"holes.xyz\", edges = \"periodic\", fill_missing = true, unit = \"mm\"",
+            "6.2 % of the heights",
+        ),
+    ] {
+        let answer = folder.answer(scene(keys));
+        assert!(
+            answer["warnings"].to_string().contains(warning),
+            "{keys}: {}",
+            answer["warnings"]
+        );
+    }
+    for (keys, reason) in [
+        (
+            "file = \"gone.xyz\", fill_missing = true",
+            "more than a half",
+        ),
+        (
+            "file = \"flat.csv\", spacing = [1.0, 1.0]",
+            "the map is flat",
+        ),
+        (
+            "file = \"flat.csv\", spacing = [1.0, 1.0], lateral_unit = \"mm\"",
+            "the spacing is in m",
+        ),
+    ] {
+        folder.write("scene.toml", scene(keys));
+        folder.ends("scene.toml", 2, reason);
+    }
+    // The units of the head are those of the keys.
+    let force = |keys: &str| number(&folder.answer(scene(keys)), "normal_force");
+    let same = [
+        "file = \"map.xyz\", unit = \"mm\", edges = \"periodic\"",
+        "file = \"named.xyz\", edges = \"periodic\"",
+    ]
+    .map(force);
+    assert_close("force", same[0], 1000.0 * 0.016 * 0.012, 1e-9);
+    assert_close("force", same[1], same[0], 1e-12);
+}

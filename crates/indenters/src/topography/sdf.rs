@@ -1,0 +1,237 @@
+//! ISO 25178-71, a header and heights as text or binary, and the older BCR with the same header
+//! (<https://physics.nist.gov/VSC/jsp/DataFormat.jsp>).
+
+use std::str::FromStr;
+
+use super::text::{shown, text_of};
+use super::{Memory, Topography, Unread};
+
+/// Bytes of the version.
+const VERSION: usize = 8;
+/// Bytes of manufacturer and dates behind it.
+const DATES: usize = 34;
+
+/// The header.
+struct Head {
+    columns: usize,
+    rows: usize,
+    /// Distances of points along x and y, and what a height is multiplied by, \[m].
+    scales: [f64; 3],
+    kind: Kind,
+}
+
+/// The type of a height.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Unsigned(usize),
+    Signed(usize),
+    Single,
+    Double,
+}
+
+impl Kind {
+    fn of(number: i64) -> Result<Self, String> {
+        Ok(match number {
+            0 => Self::Unsigned(1),
+            1 => Self::Unsigned(2),
+            2 => Self::Unsigned(4),
+            3 => Self::Single,
+            4 => Self::Signed(1),
+            5 => Self::Signed(2),
+            6 => Self::Signed(4),
+            7 => Self::Double,
+            _ => return Err(format!("DataType = {number}, where 0 to 7 are known")),
+        })
+    }
+
+    const fn bytes(self) -> usize {
+        match self {
+            Self::Unsigned(bytes) | Self::Signed(bytes) => bytes,
+            Self::Single => 4,
+            Self::Double => 8,
+        }
+    }
+
+    /// The number that stands for a missing height: the least one.
+    fn missing(self) -> Option<f64> {
+        match self {
+            Self::Unsigned(_) => None,
+            Self::Signed(bytes) => Some(-(2.0_f64.powi(8 * i32::try_from(bytes).ok()? - 1))),
+            Self::Single => Some(f64::from(f32::MIN)),
+            Self::Double => Some(f64::MIN),
+        }
+    }
+
+    /// The number in some bytes, NaN for a missing one.
+    fn number(self, bytes: &[u8]) -> f64 {
+        let whole = bytes
+            .iter()
+            .rev()
+            .fold(0_u64, |whole, byte| whole << 8 | u64::from(*byte));
+        let number = match self {
+            Self::Unsigned(_) => whole as f64,
+            Self::Signed(count) => {
+                let unused = 64 - 8 * count;
+                ((whole << unused).cast_signed() >> unused) as f64
+            }
+            Self::Single => f64::from(f32::from_bits(u32::try_from(whole).unwrap_or_default())),
+            Self::Double => f64::from_bits(whole),
+        };
+        self.known(number)
+    }
+
+    fn known(self, number: f64) -> f64 {
+        if self.missing().is_some_and(|missing| number <= missing) {
+            f64::NAN
+        } else {
+            number
+        }
+    }
+}
+
+impl Head {
+    /// Refuses what no reader understands: compression, checks and sizes of nothing.
+    fn checked(self, compression: i64, check: i64) -> Result<Self, String> {
+        for (name, number) in [("Compression", compression), ("CheckType", check)] {
+            if number != 0 {
+                return Err(format!("{name} = {number}, where 0 is needed"));
+            }
+        }
+        let ([x, y, z], Self { columns, rows, .. }) = (self.scales, &self);
+        if *columns == 0 || *rows == 0 {
+            return Err(format!("{columns} × {rows} points"));
+        }
+        let are_lengths = x > 0.0 && y > 0.0 && [x, y, z].iter().all(|scale| scale.is_finite());
+        if !are_lengths {
+            return Err(format!(
+                "Xscale = {x}, Yscale = {y} and Zscale = {z}, where lengths in m are needed"
+            ));
+        }
+        Ok(self)
+    }
+
+    fn surface(self, heights: Vec<f64>) -> Topography {
+        let [x, y, z] = self.scales;
+        let mut surface = Topography::of_rows([self.rows, self.columns], [x, y], heights).scaled(z);
+        surface.states_unit = true;
+        surface
+    }
+}
+
+pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+    match contents.first() {
+        Some(b'a') => {
+            memory.holds_text(contents)?;
+            return Ok(text(&text_of(contents))?);
+        }
+        Some(b'b') => {}
+        _ => return Err("another beginning".to_owned().into()),
+    }
+    let (head, rest) = binary_head(contents)?;
+    let points = head.columns.checked_mul(head.rows);
+    let needed = points.and_then(|points| points.checked_mul(head.kind.bytes()));
+    let Some((data, trailer)) = needed.and_then(|needed| rest.split_at_checked(needed)) else {
+        let (Head { columns, rows, .. }, given) = (head, rest.len());
+        return Err(format!("{given} bytes for {columns} × {rows} points").into());
+    };
+    memory.holds(points)?;
+    let heights = data.chunks_exact(head.kind.bytes());
+    let heights = heights.map(|bytes| head.kind.number(bytes)).collect();
+    let mut surface = head.surface(heights);
+    if !trailer.is_empty() {
+        let bytes = trailer.len();
+        surface
+            .notes
+            .push(format!("{bytes} bytes behind the heights were not read"));
+    }
+    Ok(surface)
+}
+
+/// The header in binary, and what follows it.
+fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
+    let mut rest = contents
+        .get(VERSION + DATES..)
+        .ok_or("the end within the header")?;
+    let mut take = |count: usize| {
+        let bytes = rest.split_off(..count).ok_or("the end within the header")?;
+        Ok::<_, String>(bytes)
+    };
+    // Counts have two bytes in the first version, and four in the second.
+    let size = if contents[1..VERSION].ends_with(b"2.0") {
+        4
+    } else {
+        2
+    };
+    let mut count = || {
+        let bytes = take(size)?;
+        let count = bytes
+            .iter()
+            .rev()
+            .fold(0, |count, byte| count << 8 | usize::from(*byte));
+        Ok::<_, String>(count)
+    };
+    let [columns, rows] = [count()?, count()?];
+    let mut real = || {
+        let bytes = take(8)?;
+        Ok::<_, String>(Kind::Double.number(bytes))
+    };
+    let [x, y, z, _resolution] = [real()?, real()?, real()?, real()?];
+    let codes = take(3)?;
+    let head = Head {
+        columns,
+        rows,
+        scales: [x, y, z],
+        kind: Kind::of(codes[1].into())?,
+    };
+    Ok((head.checked(codes[0].into(), codes[2].into())?, rest))
+}
+
+/// A header of names and values, and heights between two stars, as many in a line as the writer likes.
+fn text(text: &str) -> Result<Topography, String> {
+    let mut parts = text.split('*');
+    let parts = parts.next().zip(parts.next());
+    let (names, data) = parts.ok_or("no '*' behind the header")?;
+    let names = Names(names);
+    let head = Head {
+        columns: names.parsed("NumPoints")?,
+        rows: names.parsed("NumProfiles")?,
+        scales: [
+            names.parsed("Xscale")?,
+            names.parsed("Yscale")?,
+            names.parsed("Zscale")?,
+        ],
+        kind: Kind::of(names.parsed("DataType")?)?,
+    };
+    let head = head.checked(names.parsed("Compression")?, names.parsed("CheckType")?)?;
+    let height = |word: &str| {
+        if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
+            return Ok(f64::NAN);
+        }
+        let height = word.replace(',', ".").parse::<f64>();
+        let height = height.ok().filter(|height| height.is_finite());
+        let height = height.ok_or_else(|| format!("a height '{}'", shown(word)))?;
+        Ok(head.kind.known(height))
+    };
+    let heights = data.split_whitespace().map(height);
+    let heights = heights.collect::<Result<Vec<f64>, String>>()?;
+    if head.columns.checked_mul(head.rows) != Some(heights.len()) {
+        let (Head { columns, rows, .. }, count) = (head, heights.len());
+        return Err(format!("{count} heights for {columns} × {rows} points"));
+    }
+    Ok(head.surface(heights))
+}
+
+/// Lines of names and values.
+struct Names<'a>(&'a str);
+
+impl Names<'_> {
+    fn parsed<N: FromStr>(&self, name: &str) -> Result<N, String> {
+        let mut pairs = self.0.lines().filter_map(|line| line.split_once('='));
+        let found = pairs.find(|(key, _)| key.trim().eq_ignore_ascii_case(name));
+        let (_, value) = found.ok_or_else(|| format!("no {name}"))?;
+        let value = value.trim().replace(',', ".");
+        value
+            .parse()
+            .map_err(|_| format!("{name} = {}", shown(&value)))
+    }
+}
