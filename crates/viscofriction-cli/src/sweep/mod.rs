@@ -48,9 +48,9 @@ pub(crate) struct Sweep {
     )]
     vary: Vec<Vary>,
     /// Draw what is uncertain in the scene so many times, as the column `sample`, of which 0 is the scene itself with what its
-    /// uncertainties make of it to first order; says and draws how the answers are distributed.
-    #[arg(long, value_name = "N", conflicts_with = "merge")]
-    samples: Option<usize>,
+    /// uncertainties make of it to first order; says and draws how the answers are distributed. From 1 to 999999.
+    #[arg(long, value_name = "N", conflicts_with = "merge", value_parser = Vary::samples)]
+    samples: Option<Vary>,
     /// Also say what the covariance of the material and the uncertainties of the scene make of every point, and draw the band of
     /// the material.
     #[arg(long, conflicts_with = "merge")]
@@ -84,8 +84,8 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
-    let samples = options.samples.map(Vary::samples);
-    let vary: Vec<Vary> = options.vary.iter().cloned().chain(samples).collect();
+    let vary = options.vary.iter().chain(&options.samples);
+    let vary: Vec<Vary> = vary.cloned().collect();
     let mut plan = Plan::new(read_scene(scene)?, &vary, read_input)?;
     plan.sensitivity = options.sensitivity || options.samples.is_some();
     // As many points are computed at the same time.

@@ -16,13 +16,18 @@ pub struct Vary {
 pub const SAMPLE: &str = "sample";
 
 impl Vary {
-    /// The scene itself, and so many samples of what is uncertain in it.
-    pub fn samples(count: usize) -> Self {
+    /// The scene itself, and as many samples of what is uncertain in it as a text says.
+    ///
+    /// # Errors
+    /// A sentence with the numbers that are allowed.
+    pub fn samples(count: &str) -> Result<Self, String> {
+        // One point is that of the scene itself.
+        let count = whole("N", count, MOST_POINTS - 1)?;
         let values = (0..=count).map(|sample| Varied::Number(sample as f64));
-        Self {
+        Ok(Self {
             key: SAMPLE.to_owned(),
             values: values.collect(),
-        }
+        })
     }
 }
 
