@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use viscofriction::numerics::Unwatched;
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{
     BodyOfScene, Budget, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
@@ -171,7 +172,8 @@ pub(crate) fn solve_loads<'py>(
             let mut answer = solve(problem)?;
             if sensitivity {
                 let files = (&*scenes.folder, read_file as ReadFile);
-                answer = with_sensitivity(&scenes.scene(index), files, problem, answer)?;
+                answer =
+                    with_sensitivity(&scenes.scene(index), files, problem, answer, &Unwatched)?;
             }
             if spectral {
                 answer.spectral_sensitivity = Some(spectral_sensitivity(problem, &answer)?);

@@ -152,7 +152,9 @@ fn with_derivatives(
         let files = (source.folder(), read_input as _);
         let task = format!("derivatives of {path}");
         let alone = answer.clone();
-        match progress::during(task, |_| with_sensitivity(&scene, files, problem, alone)) {
+        match progress::during(task, |watch| {
+            with_sensitivity(&scene, files, problem, alone, watch)
+        }) {
             Ok(found) => answer = found,
             Err(error) => return Ok((answer, Some(error.into()))),
         }

@@ -1,6 +1,6 @@
 //! The points of a sweep, the scene of each, and the row of its answer.
 
-use numerics::whole_part;
+use numerics::{Unwatched, whole_part};
 use toml::{Table, Value};
 
 use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
@@ -156,7 +156,7 @@ impl Plan {
             && let Ok(alone) = &mut answer
         {
             let files = (self.source.folder(), self.read);
-            match with_sensitivity(&scene, files, &problem, alone.clone()) {
+            match with_sensitivity(&scene, files, &problem, alone.clone(), &Unwatched) {
                 Ok(found) => *alone = found,
                 Err(why) => alone.warnings.push(format!("{NO_UNCERTAINTY}{why}")),
             }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use numerics::Estimate;
+use numerics::{Estimate, Unwatched};
 use viscofriction::solve::{Sensitivity, Source, spectral_sensitivity, with_sensitivity};
 use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
 
@@ -15,7 +15,7 @@ fn answered(text: &str) -> (Answer, Result<Vec<Sensitivity>, SolveError>) {
     let problem = Problem::try_from(&scene).expect("a problem");
     let answer = solve(&problem).expect("an answer");
     let files = (Path::new(""), no_file as _);
-    let known = with_sensitivity(&scene, files, &problem, answer.clone());
+    let known = with_sensitivity(&scene, files, &problem, answer.clone(), &Unwatched);
     (answer, known.map(|answer| answer.sensitivity))
 }
 
@@ -305,7 +305,7 @@ fn a_budget_adds_up_its_sources() {
         let problem = Problem::try_from(&scene).expect("a problem");
         let files = (Path::new(""), no_file as _);
         let answer = solve(&problem).expect("an answer");
-        with_sensitivity(&scene, files, &problem, answer).expect("derivatives")
+        with_sensitivity(&scene, files, &problem, answer, &Unwatched).expect("derivatives")
     };
     // 1e6 ± 30 % and 3e6 ∓ 10 % have the sum 4e6, and as independent ones 4e6 ± 0.424e6.
     let uncertainty = "uncertainty.\"load.normal_force\" = 0.02";

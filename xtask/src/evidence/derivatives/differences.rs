@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
+use numerics::Unwatched;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 use viscofriction::scene::{Method, Model, Scene};
@@ -104,7 +105,8 @@ pub(super) fn compared(
         return Ok(Vec::new());
     }
     let answer = solve(&problem)?;
-    let known = match with_sensitivity(&scene, (Path::new(""), no_file), &problem, answer) {
+    let files = (Path::new(""), no_file as _);
+    let known = match with_sensitivity(&scene, files, &problem, answer, &Unwatched) {
         Ok(answer) => answer.sensitivity,
         Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
         Err(error) => return Err(error.into()),

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result};
 use measurements::moduli::{Shifting, master_curve};
+use numerics::Unwatched;
 use rheology::fit::{Identification, IdentifyOptions, Isotherm, ModulusPoint, identify};
 use rheology::{RelaxationBranch, RelaxationSpectrum, WlfShift};
 use serde::{Deserialize, Serialize};
@@ -310,5 +311,6 @@ fn answered(scene: &Scene, with_derivatives: bool) -> Result<Answer> {
         (Path::new(""), no_file),
         &problem,
         answer,
+        &Unwatched,
     )?)
 }

@@ -4,7 +4,7 @@ use bem_halfspace::Elastomer;
 use bem_halfspace::periodic::sensitivity::PeriodicSensitivity;
 use bem_halfspace::steady::sensitivity::{ByModuli, Change, SteadySensitivity};
 use indenters::{SlidingLoad, Surface};
-use numerics::Estimate;
+use numerics::{Estimate, Progress};
 use rheology::Material;
 
 use super::Sensitivity;
@@ -26,14 +26,15 @@ const NONE: SolveError = SolveError::NoSensitivity {
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
-    load: &SlidingLoad,
-    answer: &Answer,
+    (load, answer): (&SlidingLoad, &Answer),
+    mut progress: Progress,
 ) -> Result<Vec<Sensitivity>> {
     let contact = Contact::new(problem, load, answer)?;
     let of = |number: &Number| {
         let ends = neighbours(numbers, number)?;
         let change = change(&contact, number, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
+        progress.add(1.0);
         Ok(relative(number.path(), answer, change, width))
     };
     all.iter().map(of).collect()

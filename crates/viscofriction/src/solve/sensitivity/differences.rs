@@ -1,6 +1,6 @@
 //! Differences of answers of closed forms: exact to rounding, or series that end after a few terms.
 
-use numerics::{Estimate, Unwatched};
+use numerics::{Estimate, Progress, Unwatched};
 
 use super::Sensitivity;
 use super::parameters::{Number, Numbers};
@@ -50,10 +50,14 @@ pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     values: Values,
     answer: &Answer,
+    mut progress: Progress,
 ) -> Result<Vec<Sensitivity>> {
-    let all = all.iter();
-    all.map(|number| sensitivity(numbers, number, values, answer))
-        .collect()
+    let of = |number: &Number| {
+        let found = sensitivity(numbers, number, values, answer);
+        progress.add(1.0);
+        found
+    };
+    all.iter().map(of).collect()
 }
 
 /// Differences of answers to either side, or to one.

@@ -9,7 +9,7 @@ mod spectral;
 
 use std::path::Path;
 
-use numerics::{Estimate, Unwatched};
+use numerics::{Estimate, Progress, Watch};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::answer::Answer;
@@ -54,7 +54,8 @@ pub struct Sensitivity {
 }
 
 /// An answer with its derivatives by all numbers of its scene that are moduli, times, ratios, loads, speeds or lengths, and with
-/// what the covariance of its material and the uncertainties of the scene make of it, where there are some.
+/// what the covariance of its material and the uncertainties of the scene make of it, where there are some; `watch` is told how
+/// far it is.
 ///
 /// Where the scene names no method and the cheapest one has no derivatives, the answer becomes that of boundary elements, which
 /// have them.
@@ -66,14 +67,16 @@ pub fn with_sensitivity(
     (folder, read): (&Path, ReadFile),
     problem: &Problem,
     answer: Answer,
+    watch: &dyn Watch,
 ) -> Result<Answer> {
     let numbers = Numbers::new(scene, folder, read)?;
     let all = numbers.all().into_iter();
     let all: Vec<Number> = all.chain(numbers.uncertain_temperature()).collect();
-    let (answer, mut sensitivity) = match sensitivities((&numbers, &all), problem, &answer) {
+    let known = (&numbers, &all[..]);
+    let (answer, mut sensitivity) = match sensitivities(known, problem, &answer, watch) {
         Err(none @ SolveError::NoSensitivity { .. }) => {
-            let answer = answer_with_derivatives(problem, answer.method).ok_or(none)??;
-            let found = sensitivities((&numbers, &all), problem, &answer)?;
+            let answer = answer_with_derivatives(problem, answer.method, watch).ok_or(none)??;
+            let found = sensitivities(known, problem, &answer, watch)?;
             (answer, found)
         }
         found => (answer, found?),
@@ -97,7 +100,9 @@ fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
     answer: &Answer,
+    watch: &dyn Watch,
 ) -> Result<Vec<Sensitivity>> {
+    let progress = Progress::new(watch, all.len() as f64);
     let method = answer.method;
     let asked = answer.requested_quantity();
     let is_exact = asked.error <= EXACT * asked.value.abs();
@@ -106,14 +111,14 @@ fn sensitivities(
         answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;
     match (method, problem.motion()) {
         (Method::BemSteady, Motion::Sliding(load)) => {
-            adjoint::sensitivities((numbers, all), problem, &load, answer)
+            adjoint::sensitivities((numbers, all), problem, (&load, answer), progress)
         }
         (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
         (Method::Analytic | Method::MdrSteady, _) if is_exact => {
-            differences::sensitivities((numbers, all), Values::Exact, answer)
+            differences::sensitivities((numbers, all), Values::Exact, answer, progress)
         }
         (Method::Analytic, Motion::Sliding(_)) if is_series => {
-            differences::sensitivities((numbers, all), Values::TruncatedSeries, answer)
+            differences::sensitivities((numbers, all), Values::TruncatedSeries, answer, progress)
         }
         (method, _) => Err(SolveError::NoSensitivity { method }),
     }
@@ -121,7 +126,11 @@ fn sensitivities(
 
 /// The answer of boundary elements to stationary sliding in the place of one of a cheaper method; `None` if the scene names its
 /// method or they do not answer it.
-fn answer_with_derivatives(problem: &Problem, cheaper: Method) -> Option<Result<Answer>> {
+fn answer_with_derivatives(
+    problem: &Problem,
+    cheaper: Method,
+    watch: &dyn Watch,
+) -> Option<Result<Answer>> {
     let method = Method::BemSteady;
     let is_free = problem.method().is_none() && cheaper != method;
     if !is_free || method.model() != Some(problem.model()) {
@@ -133,7 +142,7 @@ fn answer_with_derivatives(problem: &Problem, cheaper: Method) -> Option<Result<
         method,
         work,
     };
-    Some(plan.solve(&Unwatched))
+    Some(plan.solve(watch))
 }
 
 /// Refuses a problem whose answer by a method has no derivatives, before it is solved.
