@@ -14,8 +14,11 @@ mod heights;
 mod march;
 mod time_step;
 
-use indenters::{MotionView, Moved, MovingLoad, RigidLine};
-use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Request, positive, refine};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use indenters::{MotionRecord, MotionView, Moved, MovingLoad, RigidLine};
+use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Request, Watch, positive, refine};
 use rheology::Material;
 
 use crate::MdrError;
@@ -24,6 +27,10 @@ use march::Problem;
 
 /// Elements along the contact after which a motion is given up.
 const MOST_ELEMENTS: usize = 4096;
+/// Elements times steps of all cycles that are not exceeded to reach an error: about a minute of one thread.
+const MOST_WORK: f64 = 5e8;
+/// Elements from which on a friction that still changes by more than itself is no more than the error of the elements.
+const ELEMENTS_OF_A_FRICTION: usize = 128;
 /// There are about as many steps as elements.
 const WORK: f64 = 2.0;
 /// Smallest and largest order that errors are taken to have: below the first nothing converges, and that of smooth bodies is
@@ -77,19 +84,25 @@ pub fn move_along<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, MdrError> {
     let request = request.into();
-    let steady = LineProblem::new(line, material, load.fastest())?;
-    steady.check_kinks(load.largest_control())?;
-    let length = positive(
-        "contact length",
-        steady.contact_span(load.largest_control())?,
-    )?;
+    LineProblem::new(line, material, load.fastest())?.check_kinks(load.largest_control())?;
+    let length = contact_length(line, material, load)?;
     let tolerance = match request.accuracy {
         Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
         Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
     };
     let problem = Problem::new(line, material, load, (length, tolerance))?;
+    let limited = LimitedWork {
+        watch: request.watch,
+        load,
+        length,
+        is_elastic: material.creep().is_elastic(),
+        solved: Mutex::default(),
+    };
     let goal = Goal {
-        request,
+        request: Request {
+            watch: &limited,
+            ..request
+        },
         first: first_elements(load, length),
         largest: MOST_ELEMENTS,
         order: if has_steep_kinks(line) {
@@ -107,7 +120,11 @@ pub fn move_along<'w>(
     };
     let refined = refine(
         &goal,
-        |elements, tell: &dyn Fn(f64)| problem.on(elements, tell),
+        |elements, tell: &dyn Fn(f64)| {
+            let record = problem.on(elements, tell)?;
+            limited.note(elements, &record);
+            Ok(record)
+        },
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, MdrError>(view.rests(record)),
     )?;
@@ -118,6 +135,56 @@ pub fn move_along<'w>(
             missed,
             reached: Box::new(found),
         }),
+    }
+}
+
+/// Ends a refinement before a resolution with more work than [`MOST_WORK`], if that takes as many cycles as the one before, and where
+/// the friction is not told from none.
+#[derive(Debug)]
+struct LimitedWork<'a> {
+    watch: &'a dyn Watch,
+    load: &'a MovingLoad,
+    /// Of the contact, \[m].
+    length: f64,
+    is_elastic: bool,
+    /// Friction coefficients and cycles by the elements.
+    solved: Mutex<BTreeMap<usize, (f64, usize)>>,
+}
+
+impl LimitedWork<'_> {
+    fn note(&self, elements: usize, record: &MotionRecord) {
+        let mut solved = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
+        solved.insert(elements, (record.friction(), record.n_cycles.max(1)));
+    }
+
+    fn solved(&self, elements: usize) -> Option<(f64, usize)> {
+        let solved = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
+        solved.get(&elements).copied()
+    }
+
+    /// Whether the friction on so many elements is smaller than its change from half of them.
+    fn is_lost(&self, elements: usize) -> bool {
+        let pair = self.solved(elements).zip(self.solved(elements / 2));
+        let is_smaller =
+            pair.is_some_and(|((fine, _), (half, _))| fine.abs() < (fine - half).abs());
+        is_smaller && self.load.is_cycle() && !self.is_elastic
+    }
+}
+
+impl Watch for LimitedWork<'_> {
+    fn allows(&self, elements: usize) -> bool {
+        let before = elements / 2;
+        if before >= ELEMENTS_OF_A_FRICTION && self.is_lost(before) {
+            return false;
+        }
+        let n_cycles = self.solved(before).map_or(1, |(_, n_cycles)| n_cycles) as f64;
+        let allowed = MOST_WORK / (n_cycles * elements as f64);
+        let spacing = self.length / elements as f64;
+        self.load.n_steps(elements, spacing, allowed).is_ok() && self.watch.allows(elements)
+    }
+
+    fn done(&self, part: f64) {
+        self.watch.done(part);
     }
 }
 
@@ -132,6 +199,29 @@ fn first_elements(load: &MovingLoad, length: f64) -> usize {
     all.find(is_enough).unwrap_or(MOST_AT_FIRST)
 }
 
+/// Length of the contact at the largest speed, force and depth of a motion, \[m].
+fn contact_length(
+    line: &dyn RigidLine,
+    material: &dyn Material,
+    load: &MovingLoad,
+) -> Result<f64, MdrError> {
+    let steady = LineProblem::new(line, material, load.fastest())?;
+    let length = steady.contact_span(load.largest_control())?;
+    Ok(positive("contact length", length)?)
+}
+
+/// Elements along the contact with which [`move_along`] first seeks a relative error.
+///
+/// # Errors
+/// As for [`move_along`], before anything is followed.
+pub fn elements_of_motion(
+    line: &dyn RigidLine,
+    material: &dyn Material,
+    load: &MovingLoad,
+) -> Result<usize, MdrError> {
+    Ok(first_elements(load, contact_length(line, material, load)?))
+}
+
 /// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
 ///
 /// # Errors
@@ -142,10 +232,6 @@ pub fn move_along_memory(
     load: &MovingLoad,
     elements: usize,
 ) -> Result<f64, MdrError> {
-    let steady = LineProblem::new(line, material, load.fastest())?;
-    let length = positive(
-        "contact length",
-        steady.contact_span(load.largest_control())?,
-    )?;
+    let length = contact_length(line, material, load)?;
     Problem::new(line, material, load, (length, TOLERANCE_ON_ELEMENTS))?.memory_on(elements)
 }
