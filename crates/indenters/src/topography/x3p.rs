@@ -44,7 +44,8 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread
     let points = points.unwrap_or_default();
     let bytes = bytes_of(kind).ok_or_else(|| format!("the type '{kind:.40}'"))?;
     let link = main.text("Record3/DataLink/PointDataLink");
-    let [most, bits] = [points * bytes, points.div_ceil(8)].map(|bytes| bytes as u64 + FILLED);
+    let lengths = [points.saturating_mul(bytes), points.div_ceil(8)];
+    let [most, bits] = lengths.map(|length| (length as u64).saturating_add(FILLED));
     let heights = Heights {
         kind,
         step: if is_integer { increment("Z")? } else { 1.0 },
