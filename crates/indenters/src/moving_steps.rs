@@ -37,23 +37,15 @@ impl MovingLoad {
         spacing: f64,
         allowed: f64,
     ) -> Result<Vec<MovingStep>, IndenterError> {
-        let elements = elements as f64;
-        let mut steps = Vec::new();
-        let mut before = None;
+        self.n_steps(elements, spacing, allowed)?;
+        let mut steps: Vec<MovingStep> = Vec::new();
         for (index, stage) in self.stages().iter().enumerate() {
-            let ways = stage.haste() * stage.distance().abs() / spacing;
-            let fewest = ways.max(STEPS_PER_ELEMENT * elements).max(2.0);
-            let needed = steps.len() as f64 + fewest;
-            if needed > allowed {
-                let steps = needed;
-                return Err(IndenterError::TooManySteps { steps, allowed });
-            }
+            let fewest = fewest(stage, elements, spacing);
             let parts = if self.is_cycle() {
-                even(fewest)
+                even(fewest.ceil()).collect()
             } else {
-                let first = first_step(stage, before, fewest.recip());
-                let growth = (ELEMENTS_PER_GROWTH * elements).recip().exp();
-                graded(first, growth, fewest.recip())
+                let before = steps.last().map(|step| step.duration);
+                Graded::new(stage, before, fewest, elements).ends_and_lengths()
             };
             let mut from = stage.velocity(0.0);
             steps.extend(parts.into_iter().map(|(part, length)| {
@@ -65,10 +57,42 @@ impl MovingLoad {
                     velocities: [std::mem::replace(&mut from, to), to],
                 }
             }));
-            before = steps.last().map(|step| step.duration);
         }
         Ok(steps)
     }
+
+    /// Number of [`steps`](Self::steps), without the memory that they take.
+    ///
+    /// # Errors
+    /// As for [`steps`](Self::steps).
+    pub fn n_steps(
+        &self,
+        elements: usize,
+        spacing: f64,
+        allowed: f64,
+    ) -> Result<f64, IndenterError> {
+        let fewest = |stage: &Stage| fewest(stage, elements, spacing);
+        let mut steps: f64 = self.stages().iter().map(|stage| fewest(stage).ceil()).sum();
+        if !self.is_cycle() && steps <= allowed {
+            let mut before = None;
+            let graded = self.stages().iter().map(|stage| {
+                let graded = Graded::new(stage, before, fewest(stage), elements);
+                before = Some(graded.equal() * stage.duration());
+                graded.growing.len() as f64 + graded.n_equal
+            });
+            steps = graded.sum();
+        }
+        if steps > allowed {
+            return Err(IndenterError::TooManySteps { steps, allowed });
+        }
+        Ok(steps)
+    }
+}
+
+/// Length of a stage over that of its longest step.
+fn fewest(stage: &Stage, elements: usize, spacing: f64) -> f64 {
+    let ways = stage.haste() * stage.distance().abs() / spacing;
+    ways.max(STEPS_PER_ELEMENT * elements as f64).max(2.0)
 }
 
 /// Part of a stage that the first step of it is, where the one before took so long.
@@ -91,30 +115,61 @@ fn end_of(stage: &Stage, part: f64) -> MovingPoint {
     }
 }
 
-/// Ends and lengths of equal steps.
-fn even(fewest: f64) -> Vec<(f64, f64)> {
-    let count = fewest.ceil();
+/// Ends and lengths of equal steps, in parts of the whole.
+fn even(count: f64) -> impl Iterator<Item = (f64, f64)> {
     let length = count.recip();
-    let ends = (1_u32..).map(f64::from).take_while(|k| *k <= count);
-    ends.map(|k| (k / count, length)).collect()
+    let ends = (1_u32..).map(f64::from).take_while(move |k| *k <= count);
+    ends.map(move |k| (k / count, length))
 }
 
-/// Ends and lengths of steps that grow up to the longest, in parts of the whole.
-fn graded(first: f64, growth: f64, longest: f64) -> Vec<(f64, f64)> {
-    let mut lengths = Vec::new();
-    let (mut length, mut sum) = (first, 0.0);
-    while length < longest && sum + length < 1.0 {
-        lengths.push(length);
-        sum += length;
-        length *= growth;
+/// Steps that grow up to the longest, and equal ones that fill the rest, in parts of the whole.
+struct Graded {
+    growing: Vec<f64>,
+    n_equal: f64,
+    /// Length of the equal steps together.
+    rest: f64,
+}
+
+impl Graded {
+    /// Of a stage whose step before took so long, and which has at least the fewest steps.
+    fn new(stage: &Stage, before: Option<f64>, fewest: f64, elements: usize) -> Self {
+        let longest = fewest.recip();
+        let growth = (ELEMENTS_PER_GROWTH * elements as f64).recip().exp();
+        let mut growing = Vec::new();
+        // From 0 nothing grows.
+        let mut length = first_step(stage, before, longest).max(f64::MIN_POSITIVE);
+        let mut sum = 0.0;
+        while length < longest && sum + length < 1.0 {
+            growing.push(length);
+            sum += length;
+            length *= growth;
+        }
+        let rest = 1.0 - sum;
+        Self {
+            growing,
+            n_equal: (rest / longest).ceil(),
+            rest,
+        }
     }
-    let rest = even((1.0 - sum) / longest);
-    lengths.extend(rest.iter().map(|(_, length)| length * (1.0 - sum)));
-    let mut end = 0.0;
-    let last = lengths.len() - 1;
-    let step = |(index, length): (usize, f64)| {
-        end += length;
-        (if index == last { 1.0 } else { end }, length)
-    };
-    lengths.into_iter().enumerate().map(step).collect()
+
+    /// Length of an equal step.
+    fn equal(&self) -> f64 {
+        self.n_equal.recip() * self.rest
+    }
+
+    fn ends_and_lengths(&self) -> Vec<(f64, f64)> {
+        let equal = even(self.n_equal).map(|_| self.equal());
+        let mut end = 0.0;
+        let lengths = self.growing.iter().copied().chain(equal);
+        let mut steps: Vec<(f64, f64)> = lengths
+            .map(|length| {
+                end += length;
+                (end, length)
+            })
+            .collect();
+        if let Some((end, _)) = steps.last_mut() {
+            *end = 1.0;
+        }
+        steps
+    }
 }

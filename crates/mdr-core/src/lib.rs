@@ -50,7 +50,7 @@ pub use error::MdrError;
 pub use history::{
     CurvePoint, Follow, ForceDerivatives, force_derivatives, indent_along, work_along,
 };
-pub use motion::{move_along, move_along_memory};
+pub use motion::{elements_of_motion, move_along, move_along_memory};
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, indent, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};

@@ -130,7 +130,8 @@ pub fn move_along_memory(
     let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let options = problem.options(elements);
     let [dx, dy] = options.spacing;
-    let n_steps = problem.steps(elements, dx)?.len() as f64;
+    let (per_contact, length) = steps_of(elements, dx);
+    let n_steps = load.n_steps(per_contact, length, MOST_STEPS)?;
     // One field more for the last load.
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0) + 1;
     let [rear, front] = load.range();
@@ -151,6 +152,14 @@ struct Moving<'a, M: ?Sized> {
     plan: GridPlan,
     /// Relative error by which cycles may differ.
     tolerance: f64,
+}
+
+/// Steps along the contact, and the longest way \[m] of one, on a number of elements of this spacing \[m].
+fn steps_of(elements: usize, spacing: f64) -> (usize, f64) {
+    (
+        STEPS_PER_ELEMENT * elements,
+        spacing / STEPS_PER_ELEMENT as f64,
+    )
 }
 
 impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
@@ -194,8 +203,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
     }
 
     fn steps(&self, elements: usize, spacing: f64) -> Result<Vec<MovingStep>, BemError> {
-        let per_contact = STEPS_PER_ELEMENT * elements;
-        let length = spacing / STEPS_PER_ELEMENT as f64;
+        let (per_contact, length) = steps_of(elements, spacing);
         Ok(self.load.steps(per_contact, length, MOST_STEPS)?)
     }
 

@@ -104,7 +104,7 @@ impl<'a> Problem<'a> {
     /// Memory of all resolutions up to these elements, \[bytes].
     pub(super) fn memory_on(&self, elements: usize) -> Result<f64, MdrError> {
         let spacing = self.length / elements as f64;
-        let n_steps = self.load.steps(elements, spacing, MOST_STEPS)?.len() as f64;
+        let n_steps = self.load.n_steps(elements, spacing, MOST_STEPS)?;
         let [rear, front] = self.load.range();
         let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
         let n_slots = n_slots(&self.foundation);

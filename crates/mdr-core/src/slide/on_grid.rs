@@ -18,7 +18,7 @@ use rheology::{ExponentialStep, Material};
 
 use super::march::{ChainMarch, Stepped};
 use crate::MdrError;
-use crate::element_heights::{ElementHeights, checked_height};
+use crate::element_heights::{ElementHeights, MAX_ELEMENTS, checked_height};
 use crate::error::{enough_elements, finite};
 use crate::steady::LineProblem;
 
@@ -129,8 +129,12 @@ pub struct Transient {
     pub(super) unresolved: [f64; 2],
 }
 
-/// Memory that [`slide`](super::slide) takes at most for a number of elements along the contact, most of it for its steps,
-/// \[bytes].
+/// Elements of a chain per element of the stationary contact, at most about, and what each takes besides its memory, \[bytes].
+const FOOTPRINT: f64 = 4.0;
+const PER_ELEMENT: f64 = 80.0;
+
+/// Memory that [`slide`](super::slide) takes at most for a number of elements along the contact, or along the sliding distance where
+/// that is shorter, \[bytes].
 ///
 /// # Errors
 /// As for [`SlideOptions::with_elements`].
@@ -145,7 +149,11 @@ pub fn slide_memory(
     let steps = distance.unwrap_or(options.max_sliding_distance) / options.spacing;
     // Lists grow by doubling, and their rows are taken out of them.
     let per_step = 3 * size_of::<Stepped>() + 2 * size_of::<SlideRow>();
-    Ok(steps * per_step as f64)
+    let length = LineProblem::new(line, material, load.velocity())?.contact_span(load.control())?;
+    let n_elements = (FOOTPRINT * length / options.spacing).min(2.0 * MAX_ELEMENTS as f64);
+    let n_fields = material.creep().elements().len() + 1;
+    let per_element = PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    Ok(steps * per_step as f64 + n_elements * per_element)
 }
 
 /// Slides a line over an undeformed chain until the state is stationary, or over the sliding distance of the load, to half a

@@ -11,6 +11,7 @@ use indenters::{
 use numerics::{InWords, in_range, positive};
 
 use super::heights::{STEEPEST, body_of_heights};
+use super::memory::check_waves_to_draw;
 use crate::files::Files;
 use crate::scene::{
     Indenter, SceneError, SelfAffineSurface, SpectrumSurface, Term, profile, spectrum,
@@ -143,6 +144,7 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
         }
         Indenter::SelfAffine(surface) => {
             check_wavelengths(surface)?;
+            check_waves_to_draw(surface.period, surface.shortest_wavelength, files.memory)?;
             self_affine(surface).surface().map(Body::Periodic)
         }
         Indenter::Spectrum(surface) => return random(surface, files),
@@ -192,6 +194,7 @@ fn random(surface: &SpectrumSurface, files: &Files<'_>) -> Result<BodyOfScene, S
     let spectrum = spectrum(&file, &contents, factor).map_err(wrong)?;
     let [_, shortest] = spectrum.wavelengths();
     let kept = surface.shortest_wavelength.unwrap_or(shortest);
+    check_waves_to_draw(surface.period, kept, files.memory)?;
     let drawn = spectrum.surface(surface.period, kept, surface.seed);
     let drawn = drawn.map_err(|error| refused("indenter.spectrum", error))?;
     let slope = drawn.rms_slope();

@@ -35,13 +35,13 @@ pub enum SolveError {
     /// The method needs more memory than the scene or the caller allows.
     #[error(transparent)]
     TooMuchMemory(#[from] SceneError),
-    /// A refinement ended before a grid that needs more memory than allowed.
+    /// A refinement ended before a grid that needs more memory, or more steps in time, than allowed.
     #[error("{reached}; {refused}")]
     MemoryReached {
         /// What was reached.
         reached: Box<Self>,
         /// What is needed, and what is allowed.
-        refused: SceneError,
+        refused: Box<Self>,
     },
     /// What was found is not what was asked.
     #[error("{why}")]

@@ -4,12 +4,13 @@ use std::sync::OnceLock;
 
 use bem_halfspace::indent::{indent_along_memory, indent_memory};
 use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::steady_memory};
-use indenters::EquivalentLine;
 use indenters::rough::PeriodicSurface;
-use numerics::{FIRST_ELEMENTS, Watch};
+use indenters::{EquivalentLine, Surface};
+use mdr_core::elements_of_motion;
+use numerics::{FIRST_ELEMENTS, Watch, whole_part};
 
 use super::body::Body;
-use super::error::SolveError;
+use super::error::{Result, SolveError};
 use super::problem::Motion::{History, Moving, Pressing, Sliding};
 use super::problem::Problem;
 use crate::scene::Method::{self, BemSteady, BemTransient, MdrTransient};
@@ -17,16 +18,37 @@ use crate::scene::{Accuracy, SceneError};
 
 /// Refuses a method that needs more memory than is allowed, also for the grids that the shortest waves of a periodic surface need.
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
+    match check_first_grid(problem, method) {
+        Err(SolveError::TooMuchMemory(refused)) => Err(refused),
+        // What no grid can begin says why when it is solved.
+        _ => Ok(()),
+    }
+}
+
+/// Refuses what the first grid needs and may not have: memory, or steps in time.
+pub(super) fn check_first_grid(problem: &Problem, method: Method) -> Result<()> {
     let (elements, change) = match (problem.accuracy(), problem.body(), problem.motion()) {
         (Accuracy::Elements(elements), ..) => (elements, ["solve.elements", "fewer elements"]),
         (_, Body::Periodic(surface), Moving(_)) => {
             let change = ["solve.max_memory", "a longer shortest_wavelength"];
             (periodic::elements_of_motion(surface), change)
         }
-        (_, Body::Periodic(surface), _) => return check_waves(problem, surface),
+        (_, Body::Periodic(surface), _) => return Ok(check_waves(problem, surface)?),
+        (_, body, Moving(_)) if method == MdrTransient => {
+            (elements_of_line_motion(problem, body)?, OTHERWISE)
+        }
         _ => (FIRST_ELEMENTS, OTHERWISE),
     };
     check(problem, method, elements, change)
+}
+
+fn elements_of_line_motion(problem: &Problem, body: &Body) -> Result<usize> {
+    let surface = body.surface().and_then(Surface::as_axisymmetric);
+    let Some((surface, load)) = surface.zip(problem.moving()) else {
+        return Ok(FIRST_ELEMENTS);
+    };
+    let line = EquivalentLine(surface);
+    Ok(elements_of_motion(&line, problem.material(), load)?)
 }
 
 /// Refuses waves for which even the coarsest grids with error bars are too large.
@@ -40,14 +62,44 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
     let told = |shape| surface.told_by(shape);
     let mut told = shapes.filter_map(told);
-    let Some(kept) = told.find(|kept| periodic::elements_for_bars(kept) <= most) else {
+    let kept = told.find(|kept| periodic::elements_for_bars(kept) <= most);
+    let kept = kept.map(|kept| kept.largest_numbers());
+    Err(too_large([elements, most], surface.period(), kept))
+}
+
+/// Refuses waves for which all grids are too large, before they are drawn.
+pub(super) fn check_waves_to_draw(
+    period: [f64; 2],
+    shortest_wavelength: f64,
+    memory: Option<u64>,
+) -> Result<(), SceneError> {
+    let numbers = period.map(|period| period / shortest_wavelength);
+    let is_drawn = |number: &f64| *number > 0.0 && *number < f64::from(u32::MAX);
+    if !numbers.iter().all(is_drawn) {
+        // Drawing refuses them by the name of the parameter.
+        return Ok(());
+    }
+    let numbers = numbers.map(whole_part);
+    let most = periodic::largest_grid(memory.map(|bytes| bytes as f64));
+    let elements = periodic::fewest_elements(numbers);
+    if elements <= most {
+        return Ok(());
+    }
+    let halves = (1..usize::BITS).map(|power| numbers.map(|number| number >> power));
+    let mut halves = halves.take_while(|kept| *kept != [0; 2]);
+    let kept = halves.find(|kept| periodic::fewest_elements(*kept) <= most);
+    Err(too_large([elements, most], period, kept))
+}
+
+/// The refusal of waves that need so many elements, where so many are allowed, with the largest numbers of waves that fit.
+fn too_large([elements, most]: [f64; 2], period: [f64; 2], kept: Option<[usize; 2]>) -> SceneError {
+    let Some(numbers) = kept else {
         let problem = format!(
             "the largest grid that it allows a periodic surface has {most} elements, too few for an error bar with any waves"
         );
-        return Err(SceneError::at("solve.max_memory", problem));
+        return SceneError::at("solve.max_memory", problem);
     };
-    let numbers = kept.largest_numbers();
-    let wavelengths = [0, 1].map(|axis| surface.period()[axis] / numbers[axis] as f64);
+    let wavelengths = [0, 1].map(|axis| period[axis] / numbers[axis] as f64);
     let wavelengths = wavelengths.into_iter().filter(|length| length.is_finite());
     let shortest = wavelengths.fold(0.0, f64::max);
     let [x, y] = numbers.map(|number| 2 * number + 1);
@@ -55,7 +107,7 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
         "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the memory allowed is for {most:.3e}: leave \
          out waves shorter than shortest_wavelength = {shortest:e} m, or give a larger solve.max_memory; a map of at most {x} × {y} heights may keep all of its waves"
     );
-    Err(SceneError::at("indenter", problem))
+    SceneError::at("indenter", problem)
 }
 
 /// The key, and what to give, where the number of elements is not given.
@@ -66,8 +118,8 @@ fn check(
     method: Method,
     elements: usize,
     [key, finer]: [&'static str; 2],
-) -> Result<(), SceneError> {
-    let Some((needed, allowed)) = needed(problem, method, elements).zip(problem.max_memory())
+) -> Result<()> {
+    let Some((needed, allowed)) = needed(problem, method, elements)?.zip(problem.max_memory())
     else {
         return Ok(());
     };
@@ -84,16 +136,16 @@ fn check(
          give {finer}{shorter} or a larger max_memory",
         method.name()
     );
-    Err(SceneError::at(key, problem))
+    Err(SceneError::at(key, problem).into())
 }
 
-/// Ends a refinement before a grid that needs more memory than [`Problem::max_memory`].
+/// Ends a refinement before a grid that needs more memory than [`Problem::max_memory`], or more steps in time than are followed.
 #[derive(Debug)]
 pub(super) struct Limited<'a> {
     problem: &'a Problem,
     method: Method,
     watch: &'a dyn Watch,
-    refused: OnceLock<SceneError>,
+    refused: OnceLock<SolveError>,
 }
 
 impl<'a> Limited<'a> {
@@ -111,7 +163,7 @@ impl<'a> Limited<'a> {
         match self.refused.into_inner() {
             Some(refused) => SolveError::MemoryReached {
                 reached: Box::new(reached),
-                refused,
+                refused: Box::new(refused),
             },
             None => reached,
         }
@@ -130,37 +182,57 @@ impl Watch for Limited<'_> {
     }
 }
 
-/// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
-pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
-    let elastomer = problem.elastomer().ok()?;
+/// Memory that a method which marches or has elements takes for so many of them, \[bytes]; none of other methods.
+///
+/// # Errors
+/// As for the method, before anything is solved.
+pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
+    let elastomer = problem.elastomer()?;
     if let Body::Periodic(surface) = problem.body() {
         let needed = match problem.moving() {
             Some(load) => periodic::move_along_memory(surface, &elastomer, load, elements),
             None => periodic::memory(surface, elements),
         };
-        return needed.ok();
+        return Ok(Some(needed?));
     }
-    let surface = problem.body().surface()?;
-    match (method, problem.motion()) {
-        (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, &load, elements).ok(),
-        (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, &load, elements).ok(),
-        (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, &load, elements).ok(),
+    let Some(surface) = problem.body().surface() else {
+        return Ok(None);
+    };
+    let half_space = match (method, problem.motion()) {
+        (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, &load, elements),
+        (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, &load, elements),
+        (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, &load, elements),
         (BemTransient, History(_)) => {
-            indent_along_memory(surface, &elastomer, problem.history(), elements).ok()
-        }
-        (MdrTransient, Sliding(load)) => {
-            let line = EquivalentLine(surface.as_axisymmetric()?);
-            mdr_core::slide_memory(&line, problem.material(), &load, elements).ok()
+            indent_along_memory(surface, &elastomer, problem.history(), elements)
         }
         (BemTransient, Moving(_)) => {
-            move_along_memory(surface, &elastomer, problem.moving()?, elements).ok()
+            let Some(load) = problem.moving() else {
+                return Ok(None);
+            };
+            move_along_memory(surface, &elastomer, load, elements)
         }
-        (MdrTransient, Moving(_)) => {
-            let line = EquivalentLine(surface.as_axisymmetric()?);
-            mdr_core::move_along_memory(&line, problem.material(), problem.moving()?, elements).ok()
+        _ => return of_line(problem, method, elements),
+    };
+    Ok(Some(half_space?))
+}
+
+/// The same of marches on the line.
+fn of_line(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
+    let surface = problem.body().surface();
+    let surface = surface.and_then(Surface::as_axisymmetric);
+    let Some(line) = surface.map(EquivalentLine) else {
+        return Ok(None);
+    };
+    let material = problem.material();
+    Ok(match (method, problem.motion(), problem.moving()) {
+        (MdrTransient, Sliding(load), _) => {
+            Some(mdr_core::slide_memory(&line, material, &load, elements)?)
         }
+        (MdrTransient, Moving(_), Some(load)) => Some(mdr_core::move_along_memory(
+            &line, material, load, elements,
+        )?),
         _ => None,
-    }
+    })
 }
 
 fn written(bytes: f64) -> String {

@@ -52,7 +52,7 @@ pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;
 use self::left_out::left_out;
-use self::memory::check_memory;
+use self::memory::check_first_grid;
 use self::validity::{not_modelled, warnings};
 use self::work::rough;
 use crate::scene::{Method, Model};
@@ -85,7 +85,7 @@ impl Plan<'_> {
             method,
             work,
         } = self;
-        check_memory(problem, method)?;
+        check_first_grid(problem, method)?;
         let limited = Limited::new(problem, method, watch);
         let found = match work(&limited) {
             Ok(answer) => Found {

@@ -61,7 +61,7 @@ pub use march::{PeriodicRow, PeriodicTransient, slide_on_grid};
 #[cfg(feature = "rough")]
 pub use moving::{elements_of_motion, move_along, move_along_memory};
 #[cfg(feature = "rough")]
-pub use refinement::{elements_for_bars, largest_grid, memory};
+pub use refinement::{elements_for_bars, fewest_elements, largest_grid, memory};
 
 /// When the solver stops.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -147,6 +147,11 @@ pub fn elements_for_bars(surface: &PeriodicSurface) -> f64 {
     last_elements(coarsest(surface))
 }
 
+/// Elements of a grid without which no surface with waves of these largest numbers along x and y is solved.
+pub fn fewest_elements(largest_numbers: [usize; 2]) -> f64 {
+    last_elements(largest_numbers.map(|number| number.max(1)))
+}
+
 fn last_elements(first: [usize; 2]) -> f64 {
     let edges = first.map(|edge| (THREE_GRIDS * edge) as f64);
     edges[0] * edges[1]

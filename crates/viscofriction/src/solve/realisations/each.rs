@@ -15,7 +15,7 @@ use crate::solve::problem::Problem;
 /// How many surfaces are solved at the same time: as many as there are threads and memory for, if all take what the first did.
 pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
     let elements = first.period_grid.map(|[rows, columns]| rows.max(columns));
-    let needed = elements.and_then(|elements| needed(problem, first.method, elements));
+    let needed = elements.and_then(|elements| needed(problem, first.method, elements).ok()?);
     let fits = |count: usize| match (problem.max_memory(), needed) {
         (Some(allowed), Some(needed)) => count as f64 * needed <= allowed as f64,
         _ => true,

@@ -120,7 +120,7 @@ pub fn move_along_memory(
 ) -> Result<f64, BemError> {
     let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let shape = problem.shape(elements);
-    let n_steps = problem.steps(elements, shape)?.len() as f64;
+    let n_steps = problem.n_steps(elements, shape)?;
     let creep = &problem.spectra.creep;
     let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
     // One more is that of the grid before.
@@ -259,16 +259,26 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
 
     /// The steps of an element, if they and the elements are not too many.
     fn steps(&self, elements: usize, shape: [usize; 2]) -> Result<Vec<MovingStep>, BemError> {
+        let [spacing, allowed] = self.spacing_and_most_steps(shape);
+        Ok(self.load.steps(elements, spacing, allowed)?)
+    }
+
+    /// Number of [`steps`](Self::steps).
+    fn n_steps(&self, elements: usize, shape: [usize; 2]) -> Result<f64, BemError> {
+        let [spacing, allowed] = self.spacing_and_most_steps(shape);
+        Ok(self.load.n_steps(elements, spacing, allowed)?)
+    }
+
+    fn spacing_and_most_steps(&self, shape: [usize; 2]) -> [f64; 2] {
         let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
-        let limit = MOST_STEPS.min(MOST_WORK / n_elements);
         let spacing = self.surface.period()[0] / shape[0] as f64;
-        Ok(self.load.steps(elements, spacing, limit)?)
+        [spacing, MOST_STEPS.min(MOST_WORK / n_elements)]
     }
 
     /// The largest number of elements in the sequence of twice as many that has not too many steps.
     fn largest(&self, first: usize) -> usize {
         let mut elements = first;
-        while self.steps(2 * elements, self.shape(2 * elements)).is_ok() {
+        while self.n_steps(2 * elements, self.shape(2 * elements)).is_ok() {
             elements *= 2;
         }
         elements
