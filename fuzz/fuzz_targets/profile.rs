@@ -2,7 +2,14 @@
 
 #![no_main]
 
+use std::path::Path;
+
 use libfuzzer_sys::fuzz_target;
 use viscofriction_cli::InputKind;
 
-fuzz_target!(|contents: &[u8]| fuzz::check(InputKind::Profile, "profile.csv", contents));
+fuzz_target!(|contents: &[u8]| {
+    for file in ["profile.csv"] {
+        let checked = fuzz::check(InputKind::Profile, Path::new(file), contents);
+        checked.expect("a refusal that says where the file is wrong");
+    }
+});

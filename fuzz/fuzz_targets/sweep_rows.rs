@@ -2,7 +2,14 @@
 
 #![no_main]
 
+use std::path::Path;
+
 use libfuzzer_sys::fuzz_target;
 use viscofriction_cli::InputKind;
 
-fuzz_target!(|contents: &[u8]| fuzz::check(InputKind::SweepRows, "sweep.csv", contents));
+fuzz_target!(|contents: &[u8]| {
+    for file in ["sweep.csv"] {
+        let checked = fuzz::check(InputKind::SweepRows, Path::new(file), contents);
+        checked.expect("a refusal that says where the file is wrong");
+    }
+});

@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
+use measurements::friction::friction_points;
+use measurements::indentation::{CurveOptions, indentation_curve};
 use viscofriction::WrongInput;
 use viscofriction::indenters::topography::{Topography, TopographyError};
 use viscofriction::scene::{Source, in_file, profile};
 use viscofriction::solve::{plan_of, problem_of};
 
 use crate::input::read_input;
-use crate::material::check_table;
+use crate::material::{check_table, wrong_table};
 use crate::sweep::TableFile;
 
 /// A kind of file that the commands read.
@@ -22,6 +24,10 @@ pub enum InputKind {
     HeightMap,
     /// Measured moduli, of `fit-material`.
     Moduli,
+    /// Measured force over depth, of `fit-indentation`.
+    Curve,
+    /// Measured friction over speed, of `fit-friction`.
+    Friction,
     /// Rows of a sweep, of `sweep --resume` and `sweep --merge`.
     SweepRows,
 }
@@ -54,6 +60,14 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
             surface.body().map(drop).map_err(wrong)
         }
         InputKind::Moduli => check_table(file, contents),
+        InputKind::Curve => {
+            let curve = indentation_curve(file, contents, &CurveOptions::default());
+            curve.map(drop).map_err(wrong_table)
+        }
+        InputKind::Friction => {
+            let points = friction_points(file, contents);
+            points.map(drop).map_err(wrong_table)
+        }
         InputKind::SweepRows => TableFile::new(file, contents)?.check(file),
     }
 }

@@ -1,20 +1,27 @@
-//! Ten thousand mutilated scenes and as many tables: each is accepted, or refused with file and line, and none panics.
+//! Mutated files of every kind that the commands read: each is accepted, or refused with its place, and none panics.
 //!
-//! Nothing is solved. `fuzz/` asks the same without end, guided by the branches that are taken.
+//! Nothing is solved. `FUZZ_CASES=100000 FUZZ_SEED=7 cargo nextest run fuzzed_inputs` tries more files, and others. What it finds is
+//! written beside the tests and belongs into `tests/corpus`, which is tried in every run. `fuzz/` asks the same without end, guided by
+//! the branches that are taken.
 
 use std::cell::Cell;
+use std::env;
 use std::fs;
 use std::ops::{Range, RangeInclusive};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use casebook::fixed_cases;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use proptest::test_runner::TestRunner;
+use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use viscofriction_cli::{InputKind, check_input};
 
-use crate::support::{example, measured, npy};
+use crate::support::{Folder, example, measured, npy};
+
+#[path = "../../../../fuzz/src/lib.rs"]
+mod oracle;
 
 /// What happens to a file, as often as it is named: a bit is flipped, something put in, a number replaced by another
 /// value, a line deleted, put once more before another one (keys that are there twice, or in the table of others) or
@@ -67,47 +74,66 @@ fn number_at(text: &[u8], place: usize) -> Range<usize> {
     digit - before.count()..digit + behind.count()
 }
 
-/// What a refusal must say first: the file and a line that it has, or the one behind its end; of an array the file.
-fn names_place(message: &str, file: &Path, contents: &[u8]) -> bool {
-    let lines = 1 + contents.split(|byte| *byte == b'\n').count();
-    let names_line = |rest: &str| {
-        let rest = rest.strip_prefix(':').or(rest.strip_prefix(", line "))?;
-        let (line, why) = rest.split_once([':', ',', ' '])?;
-        let line: usize = line.parse().ok()?;
-        ((1..=lines).contains(&line) && !why.trim_matches([':', ',', ' ']).is_empty()).then_some(())
-    };
-    let is_array = file.extension().is_some_and(|extension| extension == "npy");
-    let rest = message.strip_prefix(&file.display().to_string());
-    let is_named = |rest: &str| is_array && rest.starts_with(": ") || names_line(rest).is_some();
-    rest.is_some_and(is_named) && !message.contains(['\n', '\r'])
+/// How many files of a kind are mutated: as many as the environment variable `FUZZ_CASES` says, or else so many.
+fn cases(otherwise: u32) -> u32 {
+    let given = env::var("FUZZ_CASES").ok();
+    given.map_or(otherwise, |cases| {
+        cases.parse().expect("FUZZ_CASES is a number")
+    })
 }
 
-/// Checks files with one to four mutations each, and how many of them are accepted.
-fn fuzz(kind: InputKind, files: &[(PathBuf, Vec<u8>)], cases: u32, expected: RangeInclusive<u32>) {
+/// The same cases in every run, unless the environment variable `FUZZ_SEED` asks for others.
+fn config(cases: u32) -> Config {
+    let fixed = fixed_cases(cases);
+    let seed = env::var("FUZZ_SEED").ok();
+    let seed = seed.map(|seed| RngSeed::Fixed(seed.parse().expect("FUZZ_SEED is a number")));
+    Config {
+        rng_seed: seed.unwrap_or(fixed.rng_seed),
+        ..fixed
+    }
+}
+
+/// Checks files with one to four mutations each, and which part of them is accepted.
+fn fuzz(
+    name: &str,
+    files: &[(PathBuf, Vec<u8>)],
+    cases: u32,
+    expected: RangeInclusive<f64>,
+    check: impl Fn(&Path, &[u8]) -> Result<bool, String>,
+) {
     let accepted = Cell::new(0);
-    let mut runner = TestRunner::new(fixed_cases(cases));
+    let mut runner = TestRunner::new(config(cases));
     let mutation = (select(&MUTATIONS[..]), any::<Index>(), any::<Index>());
     let strategy = (any::<Index>(), vec(mutation, 1..5));
+    let findings = Folder::new(&format!("findings of {name}"));
     let outcome = runner.run(&strategy, |(file, mutations)| {
         let (path, text) = file.get(files);
         let mutations = mutations.into_iter();
         let contents = mutations.fold(text.clone(), |text, mutation| mutated(&text, mutation));
-        match check_input(kind, path, &contents) {
-            Ok(()) => accepted.set(accepted.get() + 1),
-            Err(error) => prop_assert!(
-                names_place(&error.to_string(), path, &contents),
-                "{error}\n--- of\n{}",
-                String::from_utf8_lossy(&contents)
-            ),
-        }
-        Ok(())
+        let checked = catch_unwind(AssertUnwindSafe(|| check(path, &contents)));
+        let wrong = match checked {
+            Ok(Ok(is_accepted)) => {
+                accepted.set(accepted.get() + u32::from(is_accepted));
+                return Ok(());
+            }
+            Ok(Err(message)) => message,
+            Err(_) => "a panic".to_owned(),
+        };
+        let file = path.file_name().expect("a name").to_string_lossy();
+        // The last one that is written has the fewest mutations.
+        findings.write(&file, &contents);
+        let place = findings.path(&file);
+        let place = place.display();
+        Err(TestCaseError::fail(format!(
+            "{wrong}; {place} belongs into tests/corpus"
+        )))
     });
     if let Err(failure) = outcome {
-        panic!("{kind:?}: {failure}");
+        panic!("{name}: {failure}");
     }
-    let accepted = accepted.get();
-    let is_usual = expected.contains(&accepted);
-    assert!(is_usual, "{kind:?}: {accepted} of {cases} were accepted");
+    let part = f64::from(accepted.get()) / f64::from(cases);
+    let is_usual = expected.contains(&part);
+    assert!(is_usual, "{name}: {part} of {cases} were accepted");
 }
 
 fn read(path: PathBuf) -> (PathBuf, Vec<u8>) {
@@ -116,41 +142,195 @@ fn read(path: PathBuf) -> (PathBuf, Vec<u8>) {
 }
 
 #[test]
-fn mutilated_scenes_are_accepted_or_refused_with_file_and_line() {
+fn mutated_scenes_are_accepted_or_refused_with_file_and_line() {
     let folder = fs::read_dir(example("")).expect("the scenes are there");
     let paths = folder.map(|entry| entry.expect("an entry").path());
     let is_scene = |path: &PathBuf| path.extension().is_some_and(|end| end == "toml");
     let mut scenes: Vec<_> = paths.filter(is_scene).map(read).collect();
     scenes.sort();
     // Comments, and numbers that are right too.
-    fuzz(InputKind::Scene, &scenes, 10_000, 500..=6_000);
+    fuzz(
+        "scenes",
+        &scenes,
+        cases(10_000),
+        0.05..=0.6,
+        |file, contents| oracle::check(InputKind::Scene, file, contents),
+    );
 }
 
 #[test]
-fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
+fn mutated_tables_are_accepted_or_refused_with_file_and_line() {
     let rows = "sweep,point,points,load.velocity,failure\n5ca1ab1e,1,2,0.5,\n5ca1ab1e,2,2,0.7,\"no, \"\"never\"\"\"\n";
     let moduli = ["frequency_master", "frequency_raw", "time_master"].map(|name| {
         let (path, contents) = read(measured(&format!("pyvisco_{name}.csv")));
-        let lines = contents.split_inclusive(|byte| *byte == b'\n').take(24);
-        (path, lines.collect::<Vec<_>>().concat())
+        (path, first_lines(&contents, 24))
     });
-    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (12, 16), }";
-    let heights = (0..192).flat_map(|index| f64::from(index).to_le_bytes());
-    let heights: Vec<u8> = heights.collect();
-    let array = (PathBuf::from("map.npy"), npy(header, &heights));
+    let [curve, friction] = ["brain.csv", "friction.csv"].map(|name| {
+        let (path, contents) = read(example("../data").join(name));
+        (path, first_lines(&contents, 40))
+    });
     let rows = ("rows.csv".into(), rows.into());
     let [profile, map] = ["profile.csv", "tread.csv"].map(|name| read(example(name)));
     let texts = texts_of_heights().map(|(name, text)| (PathBuf::from(name), text.into_bytes()));
     for (kind, files, most) in [
-        (InputKind::Profile, &[profile][..], 3_500),
-        (InputKind::HeightMap, &[map], 3_500),
-        (InputKind::HeightMap, &texts, 3_500),
-        (InputKind::SweepRows, &[rows], 3_500),
-        (InputKind::Moduli, &moduli, 3_500),
-        // Whatever changes more than a bit changes the length, too.
-        (InputKind::HeightMap, &[array], 500),
+        (InputKind::Profile, &[profile][..], 0.9),
+        (InputKind::HeightMap, &[map], 0.9),
+        (InputKind::HeightMap, &texts, 0.95),
+        (InputKind::SweepRows, &[rows], 0.9),
+        (InputKind::Moduli, &moduli, 0.9),
+        (InputKind::Curve, &[curve], 0.9),
+        (InputKind::Friction, &[friction], 0.9),
     ] {
-        fuzz(kind, files, 4_000, 100..=most);
+        let check = |file: &Path, contents: &[u8]| oracle::check(kind, file, contents);
+        fuzz(&format!("{kind:?}"), files, cases(4_000), 0.0..=most, check);
+    }
+}
+
+fn first_lines(contents: &[u8], count: usize) -> Vec<u8> {
+    let lines = contents.split_inclusive(|byte| *byte == b'\n').take(count);
+    lines.collect::<Vec<_>>().concat()
+}
+
+#[test]
+fn mutated_surfaces_are_accepted_or_refused_with_their_file() {
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (12, 16), }";
+    let heights = (0..192).flat_map(|index| f64::from(index).to_le_bytes());
+    let array = npy(header, &heights.collect::<Vec<_>>());
+    let field = "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nXReal = 3e-6\nYReal = 2e-6\nZUnits = m\n\0\0";
+    let single = (0_u8..6).flat_map(|index| (1e-9 * f32::from(index)).to_le_bytes());
+    let field = field.bytes().chain(single).collect();
+    let grid = "ncols 3\nnrows 2\ncellsize 1e-6\nNODATA_value -9999\n1 2 3\n4 -9999 6\n";
+    let points = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n";
+    let files = [
+        ("map.npy", array),
+        ("map.gsf", field),
+        ("map.sur", digital_surf()),
+        ("map.asc", grid.into()),
+        ("map.xyz", points.into()),
+    ];
+    let road = read(example("../data/road.x3p"));
+    for (file, contents) in files.into_iter().chain([("road.x3p", road.1)]) {
+        // Whatever changes more than a bit of a binary format changes its length, too.
+        let check =
+            |file: &Path, contents: &[u8]| oracle::check(InputKind::HeightMap, file, contents);
+        fuzz(
+            file,
+            &[(file.into(), contents)],
+            cases(1_000),
+            0.0..=0.9,
+            check,
+        );
+    }
+}
+
+/// A surface of Digital Surf with 3 × 2 points of 16 bits.
+fn digital_surf() -> Vec<u8> {
+    let mut surface = vec![0; 512 + 12];
+    let mut set = |at: usize, bytes: &[u8]| surface[at..at + bytes.len()].copy_from_slice(bytes);
+    set(0, b"DIGITAL SURF");
+    set(18, &2_u16.to_le_bytes());
+    set(98, &16_u16.to_le_bytes());
+    set(108, &3_u32.to_le_bytes());
+    set(112, &2_u32.to_le_bytes());
+    for (at, number) in [(120, 1e-6_f32), (124, 1e-6), (128, 1e-9)] {
+        set(at, &number.to_le_bytes());
+    }
+    for at in [180, 196, 212] {
+        set(at, b"m");
+    }
+    for index in 0..6_u8 {
+        set(
+            512 + 2 * usize::from(index),
+            &u16::from(index).to_le_bytes(),
+        );
+    }
+    surface
+}
+
+/// Files that a scene names, each in a scene of its own.
+const NAMED: [[&str; 3]; 4] = [
+    [
+        "history.csv",
+        "load.history_file = \"history.csv\"\nindenter.sphere.radius = 5e-3\nmaterial.elastic.shear_modulus = 1e6\n",
+        "time_s,indentation_depth_m\n0,0\n0.5,1e-6\n1,2e-6\n2,0\n",
+    ],
+    [
+        "motion.csv",
+        "load.motion_file = \"motion.csv\"\nindenter.sphere.radius = 5e-3\nmaterial.viscous.viscosity = 1e6\nsolve.model = \"line\"\n",
+        "time_s,position_m,normal_force_n\n0,0,1\n0.5,1e-3,1\n1,2e-3,2\n2,0,1\n",
+    ],
+    [
+        "spectrum.csv",
+        "load = { mean_pressure = 1e5, velocity = 1e-3 }\nmaterial.elastic.shear_modulus = 1e6\n[indenter.spectrum]\nfile = \"spectrum.csv\"\n\
+         period = [1e-3, 1e-3]\nseed = 1\n",
+        "wave_number,density\n6e3,1e-18\n1e4,2e-19\n3e4,1e-20\n",
+    ],
+    [
+        "material.toml",
+        "load = { normal_force = 1.0, velocity = 1e-3 }\nindenter.sphere.radius = 5e-3\nmaterial.file = { path = \"material.toml\", temperature = 30 }\n",
+        "[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e6, relaxation_time = 1e-3 }]\n\
+         valid_frequencies = [1e-2, 1e3]\nshift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { wlf = [17.4, 51.6] } }\n\
+         covariance = { method = \"scatter\", relative = [[1e-4, 0.0], [0.0, 1e-4]] }\n",
+    ],
+];
+
+#[test]
+fn mutated_files_of_scenes_are_accepted_or_refused_with_both_places() {
+    let folder = Folder::new("mutated files of scenes");
+    for [file, scene, contents] in NAMED {
+        folder.write("scene.toml", scene);
+        let whole = check_named(&folder, file, contents.as_bytes());
+        assert_eq!(whole, Ok(true), "{file}");
+        let check = |_: &Path, contents: &[u8]| check_named(&folder, file, contents);
+        fuzz(
+            file,
+            &[(file.into(), contents.into())],
+            cases(1_000),
+            0.0..=0.9,
+            check,
+        );
+    }
+}
+
+/// Checks the scene of a folder, which names a file of these contents.
+fn check_named(folder: &Folder, file: &str, contents: &[u8]) -> Result<bool, String> {
+    folder.write(file, contents);
+    let scene = folder.path("scene.toml");
+    let Err(error) = check_input(
+        InputKind::Scene,
+        &scene,
+        folder.text("scene.toml").as_bytes(),
+    ) else {
+        return Ok(true);
+    };
+    let message = error.to_string();
+    let is_named = message.starts_with(&format!("{}:", scene.display()));
+    if is_named && !message.contains(['\n', '\r']) {
+        Ok(false)
+    } else {
+        Err(message)
+    }
+}
+
+/// Files that were found by a search, by the name of their kind.
+#[test]
+fn files_of_the_corpus_are_accepted_or_refused_with_their_place() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
+    for (folder, kind) in [
+        ("scenes", InputKind::Scene),
+        ("profiles", InputKind::Profile),
+        ("height-maps", InputKind::HeightMap),
+        ("moduli", InputKind::Moduli),
+        ("curves", InputKind::Curve),
+        ("friction", InputKind::Friction),
+        ("sweep-rows", InputKind::SweepRows),
+    ] {
+        let files = fs::read_dir(corpus.join(folder)).into_iter().flatten();
+        for file in files {
+            let (path, contents) = read(file.expect("an entry").path());
+            let checked = oracle::check(kind, &path, &contents);
+            checked.unwrap_or_else(|message| panic!("{}: {message}", path.display()));
+        }
     }
 }
 
@@ -204,8 +384,7 @@ fn endless_nesting_is_refused() {
         let [open, close] = [open, close].map(|part| part.repeat(100_000));
         let text = [start, &open, inside, &close].concat();
         let file = Path::new("scene.toml");
-        let error = check_input(InputKind::Scene, file, text.as_bytes()).expect_err("no scene");
-        let helpful = names_place(&error.to_string(), file, text.as_bytes());
-        assert!(helpful, "{}…: {error}", &text[..20]);
+        let checked = oracle::check(InputKind::Scene, file, text.as_bytes());
+        assert_eq!(checked, Ok(false), "{}…", &text[..20]);
     }
 }

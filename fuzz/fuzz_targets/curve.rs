@@ -1,0 +1,15 @@
+//! Measured curves of force over depth.
+
+#![no_main]
+
+use std::path::Path;
+
+use libfuzzer_sys::fuzz_target;
+use viscofriction_cli::InputKind;
+
+fuzz_target!(|contents: &[u8]| {
+    for file in ["curve.csv"] {
+        let checked = fuzz::check(InputKind::Curve, Path::new(file), contents);
+        checked.expect("a refusal that says where the file is wrong");
+    }
+});

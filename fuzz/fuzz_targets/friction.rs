@@ -1,0 +1,15 @@
+//! Tables of measured friction.
+
+#![no_main]
+
+use std::path::Path;
+
+use libfuzzer_sys::fuzz_target;
+use viscofriction_cli::InputKind;
+
+fuzz_target!(|contents: &[u8]| {
+    for file in ["friction.csv"] {
+        let checked = fuzz::check(InputKind::Friction, Path::new(file), contents);
+        checked.expect("a refusal that says where the file is wrong");
+    }
+});
