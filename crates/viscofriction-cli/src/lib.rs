@@ -79,6 +79,11 @@ enum Command {
     },
 }
 
+/// The commands of the program with their options.
+pub fn command_line() -> clap::Command {
+    CommandLine::command()
+}
+
 /// Does what the command line asks for.
 pub fn execute() -> ExitCode {
     let result = match CommandLine::try_parse() {
@@ -128,7 +133,7 @@ fn scene_schema() -> anyhow::Result<()> {
 }
 
 fn completions(shell: Shell) -> anyhow::Result<()> {
-    let (mut script, mut command) = (Vec::new(), CommandLine::command());
+    let (mut script, mut command) = (Vec::new(), command_line());
     clap_complete::generate(shell, &mut command, "viscofriction", &mut script);
     output::print_text(&String::from_utf8(script)?)
 }

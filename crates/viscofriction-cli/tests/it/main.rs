@@ -7,6 +7,7 @@ mod fit_friction;
 mod fit_indentation;
 mod fit_material;
 mod fuzzed_inputs;
+mod limits;
 mod malformed;
 mod scenes;
 mod support;
