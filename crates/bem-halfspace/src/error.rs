@@ -130,6 +130,12 @@ pub enum BemError {
     )]
     NotStationary {
         /// Sliding distance reached, \[m].
+    /// The equations of a contact that was tried have no solution in finite numbers.
+    #[error("the equations of a contact of {elements} elements are singular to rounding")]
+    SingularContact {
+        /// Number of elements in contact.
+        elements: usize,
+    },
         sliding_distance: f64,
         /// Relative change of the friction coefficient over the second half of the distance, or the distance asked for.
         drift: f64,

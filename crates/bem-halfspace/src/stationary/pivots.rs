@@ -4,15 +4,15 @@
 //! All of them change at once. A contact is in vain if no fewer elements are on the wrong side than with one before it, or if the
 //! residual that it began with is larger than that of the one before it. After some in vain, only the largest violation of those
 //! near to each other changes sides, so that neighbours do not flip to and fro together, and near means the farther the more
-//! contacts are in vain. In the end it is the last violation of all: where the operator has a positive symmetric part, this ends
-//! (Murty 1974).
+//! contacts are in vain. When all elements of the grid are near to each other, it is the last violation of all: where the operator has
+//! a positive symmetric part, no active set comes twice then, so that fewer elements are on the wrong side after a finite number of
+//! them (Murty 1974).
 
-/// Contacts in vain up to which all violating elements change sides, and up to which one of those near to each other does. What
-/// counts as near begins with two elements and doubles whenever `AS_NEAR` more contacts are in vain. Of 160 light contacts of
+/// Contacts in vain up to which all violating elements change sides.
+const ALL: i32 = 10;
+/// Contacts in vain after which the distance at which violations count as near doubles, from two elements. Of 160 light contacts of
 /// dashpots that repeat themselves, whose moduli grow with the frequency, all were found so, with 90 products each; where the
 /// violations above a part of the largest one change instead, four were not found.
-const ALL: i32 = 10;
-const APART: i32 = 110;
 const AS_NEAR: i32 = 10;
 
 /// An element in tension or penetrating, at its row and column, and by how much, in a unit that is the same for both.
@@ -27,15 +27,20 @@ pub(crate) struct Violation {
 pub(crate) struct Pivots {
     /// Rows and columns among which near elements are sought, as if they repeated themselves.
     shape: [usize; 2],
+    /// Contacts in vain up to which violations far from each other change sides together.
+    several_until: i32,
     fewest: usize,
     /// Contacts since there were fewest.
     vain: i32,
 }
 
 impl Pivots {
-    pub(crate) const fn new(shape: [usize; 2]) -> Self {
+    pub(crate) fn new(shape: [usize; 2]) -> Self {
+        let farthest = shape[0].max(shape[1]) / 2;
+        let doublings = (1..).find(|doublings| 1_usize << doublings > farthest);
         Self {
             shape,
+            several_until: ALL + AS_NEAR * doublings.unwrap_or(1),
             fewest: usize::MAX,
             vain: 0,
         }
@@ -48,7 +53,7 @@ impl Pivots {
 
     /// Whether single elements change, which takes accurate solutions.
     pub(crate) const fn are_single(&self) -> bool {
-        self.vain > APART
+        self.vain > self.several_until
     }
 
     /// The elements that change sides, of the violations of the next contact, which come in the order of their elements; `grows` says
@@ -57,7 +62,9 @@ impl Pivots {
         let mut elements = violations.iter().map(|violation| violation.element);
         let chosen = match self.vain {
             0..=ALL => elements.collect(),
-            ..=APART => self.largest_apart(violations, 2 << ((self.vain - ALL - 1) / AS_NEAR)),
+            vain if vain <= self.several_until => {
+                self.largest_apart(violations, 2 << ((vain - ALL - 1) / AS_NEAR))
+            }
             _ => elements.next_back().into_iter().collect(),
         };
         let are_fewer = violations.len() < self.fewest;
@@ -99,7 +106,7 @@ impl Pivots {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, APART, AS_NEAR, Pivots, Violation};
+    use super::{ALL, AS_NEAR, Pivots, Violation};
 
     /// Of a row of violations, each larger than the one before.
     #[test]
@@ -111,7 +118,9 @@ mod tests {
         };
         let violations: Vec<Violation> = (0..16).map(violation).collect();
         let mut pivots = Pivots::new([3, 32]);
-        let mut chosen = (0..APART + 2).map(|_| pivots.choose(&violations, false));
+        let several_until = pivots.several_until;
+        assert_eq!(several_until, ALL + 5 * AS_NEAR, "of 32 columns");
+        let mut chosen = (0..several_until + 2).map(|_| pivots.choose(&violations, false));
         let mut next = |count: i32| chosen.by_ref().take(count as usize).last();
         // The first contact is not in vain.
         assert_eq!(next(2 + ALL), Some((0..16).collect()));
@@ -120,7 +129,7 @@ mod tests {
             Some((0..8).rev().map(|n| 2 * n + 1).collect())
         );
         assert_eq!(next(AS_NEAR), Some(vec![15, 11, 7, 3]));
-        assert_eq!(next(APART - ALL - 2 * AS_NEAR), Some(vec![15]));
+        assert_eq!(next(several_until - ALL - 2 * AS_NEAR), Some(vec![15]));
         let mut single = violations;
         single[0].size = 100.0;
         assert!(pivots.are_single());

@@ -44,7 +44,8 @@ pub(crate) trait MovingContact {
     /// Rows and columns of the grid, and the place of an element.
     fn shape(&self) -> [usize; 2];
     fn place(&self, element: usize) -> [usize; 2];
-    /// Displacement of an element under its own unit pressure.
+    /// Displacement of an element under its own unit pressure, greater than zero: where the displacements are known up to a
+    /// constant only, relative to what does not depend on it.
     fn own_displacement(&self) -> f64;
     /// Replaces a field by the displacements K p of all elements, up to a constant, and returns what residuals are relative to.
     fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64;
@@ -55,7 +56,10 @@ pub(crate) trait MovingContact {
     /// Root mean square of the gap in the contact.
     fn residual(&self) -> f64;
     /// Solves until the root mean square, or the largest gap in the contact, is small enough.
-    fn solve(&mut self, mean: f64, largest: f64);
+    ///
+    /// # Errors
+    /// [`BemError::SingularContact`].
+    fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError>;
     /// Writes the pressure in contact into the field.
     fn give(&self, pressure: &mut [f64]);
     /// Whether the gap of an element is told from the residual as well as in the contact.
@@ -114,7 +118,7 @@ impl<'a, P: MovingContact> Search<'a, P> {
     /// Finds the contact.
     ///
     /// # Errors
-    /// [`BemError::ContactNotConverged`].
+    /// [`BemError::ContactNotConverged`]; [`BemError::SingularContact`].
     pub(crate) fn run(&mut self) -> Result<(), BemError> {
         self.problem.balance(&mut self.pressure);
         self.renew_gaps();
@@ -134,8 +138,8 @@ impl<'a, P: MovingContact> Search<'a, P> {
             };
             let rough = FINER.powi(pivots.in_vain().min(FINEST)) * self.rough_residual;
             self.problem
-                .solve(rough.min(part * size), PART_OF_TOLERANCE * self.allowed());
-            if self.change(grows, &mut pivots) {
+                .solve(rough.min(part * size), PART_OF_TOLERANCE * self.allowed())?;
+            if self.change(grows, &mut pivots)? {
                 return Ok(());
             }
             let (iterations, is_too_often) = self.problem.tried();
@@ -157,13 +161,17 @@ impl<'a, P: MovingContact> Search<'a, P> {
 
     /// Moves elements that violate the conditions to the other side, and says whether the problem is solved; `grows` says that
     /// the change before left a larger residual than the one before it.
-    fn change(&mut self, grows: bool, pivots: &mut Pivots) -> bool {
+    fn change(&mut self, grows: bool, pivots: &mut Pivots) -> Result<bool, BemError> {
         let noise = self.problem.residual();
         self.problem.give(&mut self.pressure);
         let [mut tension, mut total] = [0.0; 2];
         for pressure in &self.pressure {
             tension -= pressure.min(0.0);
             total += pressure;
+        }
+        if !f64::is_finite(total) {
+            let elements = self.contact.iter().filter(|inside| **inside).count();
+            return Err(BemError::SingularContact { elements });
         }
         let is_slight = tension <= self.tolerance * total;
         self.problem.balance(&mut self.pressure);
@@ -190,7 +198,7 @@ impl<'a, P: MovingContact> Search<'a, P> {
             self.renew_gaps();
             is_solved = is_slight && self.is_solved();
         }
-        is_solved
+        Ok(is_solved)
     }
 
     /// Takes tension away, and as much from the next pressures behind it along the motion. The longest waves along the motion

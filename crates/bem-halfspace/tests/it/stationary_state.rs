@@ -2,7 +2,9 @@
 //! solution, two methods with nothing in common but the elements, arrive at the same friction, outline and depth.
 
 use bem_halfspace::slide::Transient;
-use bem_halfspace::steady::{SteadyOptions, steady, steady_on_grid};
+use bem_halfspace::steady::{
+    RefinementOptions, SteadyOptions, steady, steady_on_grid, steady_refined,
+};
 use bem_halfspace::{Footprint, GridOptions};
 use casebook::group;
 use indenters::{SlidingLoad, Surface};
@@ -180,5 +182,26 @@ fn cones_paraboloids_and_skew_bodies_slide_alike_in_both() {
             elements,
         };
         twice.check(name);
+    }
+}
+
+/// Their own displacement on a dashpot, which is known up to a constant only, changes its sign between 3 and 10.
+#[test]
+fn elements_of_any_shape_find_the_same_friction() {
+    let body = paraboloid(1.0);
+    let friction = |aspect| {
+        let options = RefinementOptions {
+            relative_error: 1e-2,
+            aspect,
+            max_unknowns: 4000,
+        };
+        let state = steady_refined(&body, &viscous(1.0), &under_force(1.0, 1.0), &options);
+        state.expect("a state").friction_coefficient
+    };
+    let square = friction(1.0);
+    for aspect in [0.1, 0.3, 3.0, 6.0, 10.0, 30.0] {
+        let got = friction(aspect);
+        let allowed = got.error + square.error;
+        assert_near((aspect, "Δy/Δx"), got.value, square.value, allowed);
     }
 }

@@ -29,7 +29,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         BemError::GridTooCoarse { .. }
         | BemError::PeriodTooCoarse { .. }
         | BemError::SlopeNotResolved { .. } => FINER,
-        BemError::ContactNotConverged { .. } => OTHER_ELEMENTS,
+        BemError::ContactNotConverged { .. } | BemError::SingularContact { .. } => OTHER_ELEMENTS,
         BemError::NotReached { .. }
         | BemError::TimeNotResolved { .. }
         | BemError::NotPeriodic { .. } => LARGER_ERROR,

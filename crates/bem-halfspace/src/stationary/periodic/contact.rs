@@ -118,8 +118,9 @@ impl MovingContact for OnGrid<'_> {
         self.equations.size()
     }
 
-    fn solve(&mut self, mean: f64, largest: f64) {
+    fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError> {
         self.equations.iterate(mean, largest);
+        Ok(())
     }
 
     fn give(&self, pressure: &mut [f64]) {

@@ -8,6 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::BemError;
 use crate::parallel::reductions::{add, dot, larger};
 use crate::stationary::conjugate_residuals::{minimise, norm};
 use crate::stationary::search::MovingContact;
@@ -57,7 +58,7 @@ impl MovingContact for ContactEquations<'_> {
     }
 
     fn own_displacement(&self) -> f64 {
-        self.mesh.influence(0, 0)
+        self.mesh.own_creep()
     }
 
     /// Residuals are relative to the depth scale.
@@ -84,14 +85,14 @@ impl MovingContact for ContactEquations<'_> {
         norm(&self.gaps) / (self.contact.len() as f64).sqrt()
     }
 
-    fn solve(&mut self, mean: f64, largest: f64) {
+    fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError> {
         let region = self.mesh.region(self.contact.iter().copied());
         self.is_factorised = is_factorised(self.contact.len(), region.n_places());
         if self.is_factorised {
-            self.factorise();
-        } else {
-            self.iterate(&region, mean, largest);
+            return self.factorise();
         }
+        self.iterate(&region, mean, largest);
+        Ok(())
     }
 
     fn give(&self, pressure: &mut [f64]) {
@@ -130,7 +131,7 @@ impl<'mesh> ContactEquations<'mesh> {
         }
     }
 
-    fn factorise(&mut self) {
+    fn factorise(&mut self) -> Result<(), BemError> {
         let (mesh, contact) = (self.mesh, &self.contact);
         let n = contact.len();
         let control = mesh.loading.control;
@@ -141,10 +142,11 @@ impl<'mesh> ContactEquations<'mesh> {
             (false, false) => control.depth,
         };
         let heights = contact.iter().map(|&element| -mesh.height(element));
-        let mut loads = solve_dense(matrix, heights.chain([control.right]).collect());
-        loads.truncate(n);
-        self.loads = loads;
+        let solution = solve_dense(matrix, heights.chain([control.right]).collect());
+        self.loads = solution.ok_or(BemError::SingularContact { elements: n })?;
+        self.loads.truncate(n);
         self.gaps.fill(0.0);
+        Ok(())
     }
 
     fn iterate(&mut self, region: &Region, mean: f64, largest: f64) {
@@ -174,13 +176,13 @@ pub(super) fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
     n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
 }
 
-/// The solution of linear equations with the entries of a matrix and the right sides, by factorisation; not a number where
-/// they are singular.
-pub(super) fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64>) -> Vec<f64> {
+/// The solution of linear equations with the entries of a matrix and the right sides, by factorisation; `None` if they are
+/// singular.
+fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64>) -> Option<Vec<f64>> {
     let n = right.len();
     let factors = DMatrix::from_fn(n, n, entry).lu();
-    let solution = factors.solve(&DVector::from_vec(right));
-    solution.map_or_else(|| vec![f64::NAN; n], |solution| solution.data.into())
+    let solution = factors.solve(&DVector::from_vec(right))?;
+    Some(solution.data.into())
 }
 
 /// Directions for the iteration of one contact.
@@ -227,5 +229,20 @@ impl<'a> Directions<'a> {
     /// Sum of the loads of the whole.
     fn total(&self, loads: &[f64]) -> f64 {
         dot(loads, &self.weights)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::solve_dense;
+
+    #[test]
+    fn singular_equations_have_no_solution() {
+        let of_rank = |rank: usize| {
+            let entry = |row: usize, column: usize| f64::from(row == column && row < rank);
+            solve_dense(entry, vec![1.0, 2.0, 3.0])
+        };
+        assert_eq!(of_rank(3), Some(vec![1.0, 2.0, 3.0]));
+        assert_eq!(of_rank(2), None, "of rank 2");
     }
 }

@@ -216,6 +216,12 @@ impl Mesh {
         direct + self.table.at(rows, to.column - self.image(from.column))
     }
 
+    /// What the unit load of an element creeps within the element: greater than zero, where the displacement on a material that
+    /// flows has an unknown constant.
+    pub(super) fn own_creep(&self) -> f64 {
+        self.table.potential(0, 0)
+    }
+
     /// By how much the kernel of one element falls to its neighbours along an axis, which is its bend.
     pub(super) fn bend(&self, axis: usize) -> f64 {
         let beside = match axis {

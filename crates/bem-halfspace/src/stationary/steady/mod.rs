@@ -111,7 +111,7 @@ impl SteadyOptions {
 /// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
 /// [`BemError::SlidingDistanceMissing`]; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`];
 /// [`BemError::SlopeNotResolved`]; [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`];
-/// [`BemError::InvalidHeight`]; [`BemError::Material`].
+/// [`BemError::SingularContact`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
 pub fn steady_on_grid(
     surface: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),

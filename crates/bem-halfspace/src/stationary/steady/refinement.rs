@@ -48,8 +48,6 @@ const FEWEST: i32 = 5;
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
 /// Elements that hardly cost anything.
 const ALWAYS_ALLOWED: f64 = 1e5;
-/// Active sets tried on one grid.
-const MAX_ITERATIONS: usize = 100;
 /// At the edge of a contact elements may change sides without end; then the grid is this much finer, and its own spacing is
 /// the one that is reported.
 const FINER: [f64; 2] = [0.99, 0.98];
@@ -367,10 +365,8 @@ impl Grids<'_> {
     /// The averages over the shifts, each started from the contact of the one before.
     fn refine(&mut self, index: i32) -> Result<Solved, BemError> {
         let (spacing, work) = (self.edges(index), work_of(index..index + 1));
-        let mut options = SteadyOptions {
-            max_iterations: MAX_ITERATIONS,
-            ..SteadyOptions::new(spacing, self.problem.plan.footprint.widened(spacing[0]))
-        };
+        let footprint = self.problem.plan.footprint.widened(spacing[0]);
+        let mut options = SteadyOptions::new(spacing, footprint);
         let mut states = Vec::new();
         for &phase in self.phases() {
             options.phase = phase;
@@ -431,7 +427,11 @@ impl Grids<'_> {
         };
         let mut solution = solve_on(options.spacing);
         for finer in FINER {
-            if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
+            let is_lost = matches!(
+                solution,
+                Err(BemError::ContactNotConverged { .. } | BemError::SingularContact { .. })
+            );
+            if !is_lost {
                 break;
             }
             solution = solve_on(loading.scaled(options.spacing, finer));
