@@ -3,6 +3,7 @@
 mod agreement;
 mod calibration;
 mod commands;
+mod pages;
 mod rough;
 mod speed_range;
 mod stability;

@@ -28,6 +28,12 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
+/// A page of the documentation.
+pub(crate) fn page(name: &str) -> String {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    fs::read_to_string(docs.join(name).with_extension("md")).expect("a page")
+}
+
 pub(crate) fn argument(path: &Path) -> &str {
     path.to_str().expect("a path in Unicode")
 }

@@ -19,8 +19,6 @@ pub(super) struct Family {
     /// First and last power of ten, and the step of the exponent.
     decades: Vec<(i32, i32, usize)>,
     values: Vec<f64>,
-    /// Whether a quick run leaves it out.
-    pub(super) is_costly: bool,
 }
 
 impl Family {

@@ -25,15 +25,13 @@ pub(super) struct Options {
     only: Option<String>,
 }
 
-/// A quick run takes one case of so many.
-const QUICK: usize = 3;
 /// Smaller parts of the tolerance are drawn as this one.
 const SMALLEST: f64 = 1e-9;
 
-/// Runs all cases; a quick run takes every third case of the cheap families.
-pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+/// Runs all cases: a quick run, too, because they take seconds.
+pub(super) fn report(options: &Options) -> Result<Report> {
     let families = families::all()?;
-    report_of(&case::judge(&chosen(&families, options, quick)?)?)
+    report_of(&case::judge(&chosen(&families, options)?)?)
 }
 
 fn report_of(rows: &[Row]) -> Result<Report> {
@@ -54,15 +52,12 @@ fn report_of(rows: &[Row]) -> Result<Report> {
 fn chosen<'a>(
     families: &'a [(Family, Run)],
     options: &Options,
-    quick: bool,
 ) -> Result<Vec<(&'a Family, Run, f64)>> {
-    let step = if quick { QUICK } else { 1 };
     let text = options.only.as_deref().unwrap_or_default();
     let mut cases = Vec::new();
     for (family, run) in families {
-        let values = family.values().step_by(step);
         let is_asked = |value: &f64| family.case(*value).contains(text);
-        let values = values.filter(|value| is_asked(value) && !(quick && family.is_costly));
+        let values = family.values().filter(is_asked);
         cases.extend(values.map(|value| (family, *run, value)));
     }
     let wrong = format!("--only {text:?} is in no case");
