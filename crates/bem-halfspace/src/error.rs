@@ -44,12 +44,29 @@ pub enum BemError {
         /// The largest number allowed.
         limit: f64,
     },
-    /// The stationary contact covers too few elements for its friction to mean anything.
-    #[error("the contact covers {elements} elements along x, but at least {needed} are needed")]
+    /// The contact, or a patch of it that carries load, covers too few elements for its friction to mean anything.
+    #[error(
+        "a patch of the contact is {elements} elements wide along x or across it, but at least {needed} are needed"
+    )]
     GridTooCoarse {
-        /// Number of elements of the contact along x.
+        /// Number of elements of the patch along x or across it.
         elements: usize,
         /// The smallest number allowed.
+        needed: usize,
+    },
+    /// So few elements were asked for that a patch of the contact covers too few of them on one of the grids that make the error bar.
+    #[error(
+        "with {elements} elements along the contact a patch of it is {across} elements wide on one of the grids that make \
+         the error bar, but at least {least} are needed: ask for {needed} elements or more"
+    )]
+    ElementsTooFew {
+        /// Number of elements asked for.
+        elements: usize,
+        /// Elements of the patch along x or across it.
+        across: usize,
+        /// The smallest number allowed.
+        least: usize,
+        /// Number of elements along the contact, at least, with which it is wide enough.
         needed: usize,
     },
     /// The period has too few elements for its shortest waves.
@@ -111,6 +128,12 @@ pub enum BemError {
         /// Tolerance asked for.
         tolerance: f64,
     },
+    /// The equations of a contact that was tried have no solution in finite numbers.
+    #[error("the equations of a contact of {elements} elements are singular to rounding")]
+    SingularContact {
+        /// Number of elements in contact.
+        elements: usize,
+    },
     /// The elements do not bear the force below their largest pressure.
     #[error(
         "the grid bears less than {} N below the largest pressure, but the normal force is {} N",
@@ -130,12 +153,6 @@ pub enum BemError {
     )]
     NotStationary {
         /// Sliding distance reached, \[m].
-    /// The equations of a contact that was tried have no solution in finite numbers.
-    #[error("the equations of a contact of {elements} elements are singular to rounding")]
-    SingularContact {
-        /// Number of elements in contact.
-        elements: usize,
-    },
         sliding_distance: f64,
         /// Relative change of the friction coefficient over the second half of the distance, or the distance asked for.
         drift: f64,

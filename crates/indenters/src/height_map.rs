@@ -8,6 +8,10 @@ use crate::table::{at_least, check_heights};
 use crate::{IndenterError, Surface};
 use numerics::{finite, positive, whole_part};
 
+/// Part of the length of a map by which a point beyond its edge is on it: a point that was meant to be on the edge is off it by
+/// some units in the last place.
+const EDGE_TOLERANCE: f64 = 1e-12;
+
 /// A surface through heights on a grid, bilinear between them; it ends at the edge of the grid.
 ///
 /// Heights count as those of all bodies here, from the lowest point away from the elastomer; those of instruments and arrays,
@@ -99,13 +103,16 @@ impl HeightMap {
         nodes.map(|node| (node as f64 - self.lowest[axis] as f64) * self.spacing[axis])
     }
 
-    /// The cell along an axis that holds a coordinate \[m], and where in the cell it lies, from 0 to 1; none outside.
+    /// The cell along an axis that holds a coordinate \[m], and where in the cell it lies, from 0 to 1; `None` outside.
     fn cell(&self, axis: usize, coordinate: f64) -> Option<(usize, f64)> {
         let place = coordinate / self.spacing[axis] + self.lowest[axis] as f64;
         let last = self.shape[axis] - 1;
-        if !(place >= 0.0 && place <= last as f64) {
+        let end = last as f64;
+        let rounding = EDGE_TOLERANCE * end;
+        if !(place >= -rounding && place <= end + rounding) {
             return None;
         }
+        let place = place.clamp(0.0, end);
         let cell = whole_part(place).min(last - 1);
         Some((cell, place - cell as f64))
     }
@@ -174,6 +181,10 @@ impl Surface for HeightMap {
             let end = (last + 1).min(self.shape[axis] - 1);
             self.between(axis, [first.saturating_sub(1), end])
         })
+    }
+
+    fn cell_length(&self) -> Option<f64> {
+        Some(self.spacing[0])
     }
 
     fn mirrors(&self) -> [bool; 2] {

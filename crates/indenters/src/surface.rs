@@ -42,6 +42,12 @@ pub trait Surface: Send + Sync {
         1.0
     }
 
+    /// Length along x of the cells at whose ends the slope may jump, the lowest point among them, \[m]; `None` where it jumps nowhere
+    /// or nothing is known.
+    fn cell_length(&self) -> Option<f64> {
+        None
+    }
+
     /// The surface as a body of revolution about the origin, if it is one.
     fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric> {
         None
@@ -70,5 +76,9 @@ impl<S: Surface + ?Sized> Surface for Unmirrored<'_, S> {
 
     fn apex_exponent(&self) -> f64 {
         self.0.apex_exponent()
+    }
+
+    fn cell_length(&self) -> Option<f64> {
+        self.0.cell_length()
     }
 }

@@ -12,6 +12,10 @@ use crate::{BemError, Elastomer};
 /// Heights up to this many depth scales may touch, as under a cusp.
 pub(crate) const HIGHEST: f64 = 2.0;
 
+/// Ratio of the footprints that are tried one after the other where the contact reaches the boundary: chosen; with another one the same
+/// contact is found.
+const GROWTH: f64 = 1.5;
+
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -113,6 +117,15 @@ impl Footprint {
         Self {
             x: widened(self.x),
             y: widened(self.y),
+        }
+    }
+
+    /// The rectangle whose edges are [`GROWTH`] times as far from the lowest point.
+    pub(crate) fn grown(&self) -> Self {
+        let grown = |ends: [f64; 2]| ends.map(|end| GROWTH * end);
+        Self {
+            x: grown(self.x),
+            y: grown(self.y),
         }
     }
 

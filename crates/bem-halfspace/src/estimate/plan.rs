@@ -13,6 +13,10 @@ const COARSEST: f64 = 5.0;
 const THICKNESSES: f64 = 16.0;
 /// Jumps of the slope above this part of it, squared, decide how fast errors fall; the small ones of a table do not.
 pub(crate) const SHARP: f64 = 0.01;
+/// Cells of a height map along the contact and one beyond either end of it; more of them are small, and their edges with them.
+const MANY_CELLS: f64 = 8.0;
+/// Jump of the slope between two cells, as a part of the slope at the end of the contact, that is an edge.
+const LARGE_JUMP: f64 = 0.3;
 /// Height that is left of a steep flank one element further in, at least, on the coarsest grids.
 const RESOLVED: f64 = 0.3;
 /// Refinements by √2 at most; the limit of unknowns ends most before.
@@ -29,6 +33,8 @@ pub(crate) struct GridPlan {
     pub(crate) apex_exponent: f64,
     /// Sum of the squares of the jumps of the slope in contact over the square of the slope at its end, at most 1.
     pub(crate) kinks: f64,
+    /// Whether the contact lies on a few cells of a height map whose slopes differ much.
+    pub(crate) shows_cells: bool,
 }
 
 impl GridPlan {
@@ -50,6 +56,7 @@ impl GridPlan {
             }
         })?;
         plan.kinks = kinks(surface, depth, &footprint)?;
+        plan.shows_cells = shows_cells(surface, depth);
         if plan.kinks > SHARP {
             // Each is as sharp as a cone.
             plan.apex_exponent = plan.apex_exponent.min(1.0);
@@ -102,6 +109,7 @@ impl GridPlan {
             coarsest_spacing: contact_radius(body, depth)? / COARSEST,
             apex_exponent: body.profile_exponent(),
             kinks: 0.0,
+            shows_cells: false,
         };
         // Where a steep flank is as long as an element, elements stand for nothing, and their contact is hard to find.
         let [_, radius] = plan.footprint.x;
@@ -123,6 +131,7 @@ impl GridPlan {
             coarsest_spacing: SHORTER * (0.5 * (front - rear)) / COARSEST,
             apex_exponent: surface.apex_exponent(),
             kinks: 0.0,
+            shows_cells: false,
         }
     }
 
@@ -140,6 +149,25 @@ impl GridPlan {
     pub(crate) fn length(&self) -> f64 {
         COARSEST * self.coarsest_spacing
     }
+}
+
+/// Whether a surface that dips to a depth does so on a few cells, and its slope along x jumps between two of them beside the lowest
+/// point: elements then see an edge as that of a flat end.
+fn shows_cells(surface: &dyn Surface, depth: f64) -> bool {
+    let Some(length) = surface.cell_length() else {
+        return false;
+    };
+    let [rear, front] = surface.extent_below(depth)[0].map(|end| (end / length).round());
+    if front - rear > MANY_CELLS {
+        return false;
+    }
+    let slope = |cell: f64| surface.gradient([(cell + 0.5) * length, 0.0])[0];
+    let largest = slope(rear).abs().max(slope(front - 1.0).abs());
+    let inside = (1..).map(|step| rear + f64::from(step));
+    inside
+        .take_while(|cell| *cell < front)
+        .filter(|cell| cell.abs() > 0.5)
+        .any(|cell| (slope(cell) - slope(cell - 1.0)).abs() > LARGE_JUMP * largest)
 }
 
 /// How much of the slope of a body that dips to a depth is jumps, as [`GridPlan::kinks`], where contact may occur.

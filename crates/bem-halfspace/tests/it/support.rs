@@ -148,6 +148,12 @@ pub(crate) fn assert_refused<T>(what: impl Debug, result: Result<T, BemError>, n
     let says_why = match error {
         BemError::GridTooLarge { elements, limit } => elements > limit,
         BemError::GridTooCoarse { elements, needed } => elements < needed,
+        BemError::ElementsTooFew {
+            elements,
+            across,
+            least,
+            needed,
+        } => across < least && elements < needed,
         BemError::ContactNotConverged {
             residual,
             tolerance,

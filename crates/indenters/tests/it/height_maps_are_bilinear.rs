@@ -43,6 +43,21 @@ fn a_map_ends_at_its_edge() {
     }
 }
 
+/// A grid of elements of another spacing reaches the edge up to some units in the last place.
+#[test]
+fn a_point_beside_the_edge_by_rounding_is_on_it() {
+    let map = map(1.0);
+    for (axis, ends) in map.extent().into_iter().enumerate() {
+        for end in ends {
+            let mut position = [0.0; 2];
+            position[axis] = end * (1.0 + 4.0 * f64::EPSILON);
+            let height = map.height(position);
+            position[axis] = end;
+            assert_close!(height => map.height(position), within 1e-14; "axis {axis}, {end}");
+        }
+    }
+}
+
 #[test]
 fn what_lies_below_a_height_is_inside_its_rectangle() {
     for (height, expected) in [

@@ -27,6 +27,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
     match error {
         BemError::GridTooLarge { .. } | BemError::TooManySteps { .. } => FEWER,
         BemError::GridTooCoarse { .. }
+        | BemError::ElementsTooFew { .. }
         | BemError::PeriodTooCoarse { .. }
         | BemError::SlopeNotResolved { .. } => FINER,
         BemError::ContactNotConverged { .. } | BemError::SingularContact { .. } => OTHER_ELEMENTS,

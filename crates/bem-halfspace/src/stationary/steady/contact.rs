@@ -1,6 +1,7 @@
 //! One contact of a body.
 
 use crate::BemError;
+use crate::error::check_contact_elements;
 use crate::stationary::search::Search;
 use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
@@ -30,6 +31,10 @@ pub(super) fn solve(
     plans: &mut Plans,
     guess: Vec<(usize, f64)>,
 ) -> Result<Solution, BemError> {
+    if guess.is_empty() {
+        // No element is as low as the contact is deep.
+        check_contact_elements(0)?;
+    }
     let heights = (0..mesh.n_elements()).map(|element| mesh.height(element));
     let surface = (heights.collect(), rough_residual(guess.len()));
     let mut loads = vec![0.0; mesh.n_elements()];

@@ -9,6 +9,7 @@ use rheology::Material as _;
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::{GridPlan, SHARP};
 use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::patches::LEAST_ACROSS;
 use crate::stationary::steady::refinement::{SteadyProblem, refine};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::solution::SteadyEstimate;
@@ -27,11 +28,14 @@ const ORDER_AT_EDGE: f64 = 0.5;
 const BETTER: f64 = 0.2;
 /// Of a transform of the elements along x and y, of which finer grids take hardly more.
 const WORK: f64 = 2.0;
+/// Footprints that are tried at most: the last one is 11 times as long as the first.
+const FOOTPRINTS: usize = 7;
 /// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 900.0;
 
 /// Memory that [`steady`] takes at most for a number of elements along the contact, \[bytes]; a relative error is not sought
-/// on grids that take more than 2 GB.
+/// on grids that take more than 2 GB. Where the
+/// contact is longer than expected, its footprint grows, and takes 9/4 of it each time.
 ///
 /// # Errors
 /// As for [`steady`], before anything is solved.
@@ -46,6 +50,21 @@ pub fn steady_memory(
     // A mirror halves the unknowns, and saves less of the kernel.
     let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
     Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+}
+
+/// Solves in the footprint of a plan, and in larger ones while the contact reaches the boundary: how far a long surface, or one that
+/// rises in steps, is met does not follow from its height alone.
+fn in_growing_footprint<T>(
+    mut plan: GridPlan,
+    solve: impl Fn(&GridPlan) -> Result<T, BemError>,
+) -> Result<T, BemError> {
+    for _ in 1..FOOTPRINTS {
+        match solve(&plan) {
+            Err(BemError::ContactReachesBoundary { .. }) => plan.footprint = plan.footprint.grown(),
+            result => return result,
+        }
+    }
+    solve(&plan)
 }
 
 /// The grids of the stationary state, at whichever distance it is seen.
@@ -153,16 +172,17 @@ fn refined(
     options: &RefinementOptions,
     watch: &dyn Watch,
 ) -> Result<SteadyEstimate, BemError> {
-    let plan = plan(surface, elastomer, load)?;
-    let problem = SteadyProblem {
-        surface,
-        loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
-        plan,
-        has_peak: peak_has_limit(surface, elastomer),
-        watch,
-    };
-    refine(&problem, options, |estimate| {
-        with_meaning(load, elastomer, estimate)
+    in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
+        let problem = SteadyProblem {
+            surface,
+            loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
+            plan,
+            has_peak: peak_has_limit(surface, elastomer),
+            watch,
+        };
+        refine(&problem, options, |estimate| {
+            with_meaning(load, elastomer, estimate)
+        })
     })
 }
 
@@ -173,23 +193,60 @@ fn with_elements(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let plan = plan(surface, elastomer, load)?;
+    in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
+        with_elements_in(plan, surface, elastomer, load, request)
+    })
+}
+
+/// The same in the footprint of a plan.
+fn with_elements_in(
+    plan: &GridPlan,
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+    request: Request,
+) -> Result<SteadyEstimate, BemError> {
     let has_peak = peak_has_limit(surface, elastomer);
     let mut resolution = resolution(request, load.control(), ORDER, has_peak);
-    if plan.kinks > SHARP {
+    if plan.kinks > SHARP || plan.shows_cells {
         (resolution.goal.order, resolution.better) = (ORDER_AT_EDGE, f64::INFINITY);
     } else {
         resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
     }
     let creep = SlidingCreep::under(elastomer, load)?;
     let solve = |elements: usize, _: &dyn Fn(f64)| {
-        let options = grid(&plan, elements);
-        let state = steady_on_grid(surface, elastomer, load, &options)?;
+        let options = grid(plan, elements);
+        let state = steady_on_grid(surface, elastomer, load, &options)
+            .map_err(|error| too_few(error, request.accuracy, elements))?;
         Ok(state.on_grid((&creep, plan.kinks), options, load.sliding_distance()))
     };
     bars::resolve(&resolution, solve, |estimate| {
         with_meaning(load, elastomer, estimate)
     })
+}
+
+/// How many elements to ask for where one of the grids that make the error bar is too coarse, which has `elements`.
+fn too_few(error: BemError, asked: Accuracy, elements: usize) -> BemError {
+    let (
+        &BemError::GridTooCoarse {
+            elements: across,
+            needed: least,
+        },
+        Accuracy::Elements(asked),
+    ) = (&error, asked)
+    else {
+        return error;
+    };
+    // A patch may be narrower than its elements by about half of one, and other grids need as many across.
+    let half_widths = (2 * across).saturating_sub(1).max(1);
+    let on_coarsest = (2 * elements * least.max(LEAST_ACROSS)).div_ceil(half_widths);
+    BemError::ElementsTooFew {
+        elements: asked,
+        across,
+        least,
+        // The coarsest grid has three eighths of them.
+        needed: (8 * on_coarsest).div_ceil(3),
+    }
 }
 
 /// On a given number of elements.

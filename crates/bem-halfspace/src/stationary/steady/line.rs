@@ -116,15 +116,17 @@ pub fn steady_line<'w>(
     let (length, footprint) = lengths(profile, elastomer, load)?;
     let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
+    let plan = GridPlan {
+        footprint: strip.footprint(footprint),
+        coarsest_spacing: length / COARSEST,
+        apex_exponent: 2.0,
+        kinks: 0.0,
+        shows_cells: false,
+    };
     let problem = SteadyProblem {
         surface: &strip,
         loading,
-        plan: GridPlan {
-            footprint: strip.footprint(footprint),
-            coarsest_spacing: length / COARSEST,
-            apex_exponent: 2.0,
-            kinks: 0.0,
-        },
+        plan: &plan,
         has_peak: bars::reacts_at_once(elastomer),
         watch: request.watch,
     };

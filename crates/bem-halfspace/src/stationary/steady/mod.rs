@@ -27,7 +27,7 @@ mod kernel;
 mod line;
 mod loading;
 mod mesh;
-
+mod patches;
 mod plans;
 mod refinement;
 mod region;

@@ -88,7 +88,7 @@ impl Default for RefinementOptions {
 pub(super) struct SteadyProblem<'a> {
     pub(super) surface: &'a dyn Surface,
     pub(super) loading: Loading,
-    pub(super) plan: GridPlan,
+    pub(super) plan: &'a GridPlan,
     /// Whether the largest pressure is known to have a limit.
     pub(super) has_peak: bool,
     pub(super) watch: &'a dyn Watch,
@@ -110,7 +110,7 @@ pub(super) fn refine<E: Into<Reached>>(
         reuse: Reuse::default(),
         progress: Progress::new(problem.watch, work_of(0..FEWEST)),
     };
-    let (mut index, mut finest) = grids.coarsest()?;
+    let (mut index, mut finest) = grids.coarsest(0)?;
     let mut refinements = vec![finest.averages];
     loop {
         let friction = grids.friction(&refinements);
@@ -146,7 +146,14 @@ pub(super) fn refine<E: Into<Reached>>(
         let excess = excess[0].max(excess[1]) / relative_error;
         grids.expect(index, excess, &finest.averages);
         index += 1;
-        finest = grids.refine(index)?;
+        match grids.refine(index) {
+            // A patch that coarser grids do not show: nothing follows from them.
+            Err(BemError::GridTooCoarse { .. }) => {
+                (index, finest) = grids.coarsest(index + 1)?;
+                refinements.clear();
+            }
+            refined => finest = refined?,
+        }
         refinements.push(finest.averages);
     }
 }
@@ -309,9 +316,9 @@ impl Grids<'_> {
         }
     }
 
-    /// The coarsest refinement on which the body is resolved, if enough of those that follow are within the limits.
-    fn coarsest(&mut self) -> Result<(i32, Solved), BemError> {
-        let mut index = 0;
+    /// The coarsest refinement from one on in which body and contact are resolved, if enough of those that follow are within the
+    /// limits.
+    fn coarsest(&mut self, mut index: i32) -> Result<(i32, Solved), BemError> {
         loop {
             let elements = self.n_elements(index + FEWEST - 1);
             if elements > self.most_elements() {

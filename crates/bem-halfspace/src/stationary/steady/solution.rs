@@ -12,6 +12,7 @@ use crate::stationary::steady::SteadyOptions;
 use crate::stationary::steady::contact::Solution;
 use crate::stationary::steady::depth::SinkingDepth;
 use crate::stationary::steady::mesh::Mesh;
+use crate::stationary::steady::patches::check_patches;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 
 /// Elements between an edge of the body and the end of the contact with which the two are told apart.
@@ -111,14 +112,9 @@ impl SteadySliding {
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
         let loaded = mesh.loaded(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
-        let mut places = loaded.iter().map(|(element, _)| element);
-        if let Some([row, column]) = places.find(|place| mesh.faces_wall(**place)) {
-            return Err(BemError::VerticalWall {
-                x: mesh.centre(0, *row),
-                y: mesh.centre(1, *column),
-            });
-        }
+        check_walls(mesh, &solution.loads)?;
         check_slopes(mesh, &solution.loads)?;
+        check_patches(mesh.loading.is_strip, &loaded, &bounds)?;
         let spacing = mesh.options.spacing;
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
@@ -159,6 +155,19 @@ impl SteadySliding {
             pressure,
             factorised: solution.factorised,
         })
+    }
+}
+
+/// Refuses a vertical wall in contact. An image is not asked: it may lie beyond the end of a surface by rounding, where its element
+/// does not.
+fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
+    let mut places = loads.iter().map(|(element, _)| mesh.places(*element)[0]);
+    match places.find(|place| mesh.faces_wall(*place)) {
+        Some([row, column]) => Err(BemError::VerticalWall {
+            x: mesh.centre(0, row),
+            y: mesh.centre(1, column),
+        }),
+        None => Ok(()),
     }
 }
 

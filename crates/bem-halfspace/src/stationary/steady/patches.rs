@@ -1,0 +1,129 @@
+//! The patches of a stationary contact, and whether they cover enough elements.
+
+use crate::BemError;
+use crate::elements::bounds::Bounds;
+use crate::error::check_contact_elements;
+
+/// Smaller parts of the load, on patches that cover too few elements, are less than the error bars of a contact contain.
+const SMALL_PART: f64 = 0.01;
+/// Elements across the sliding direction in the widest row of a patch, at least: on one to three of them, several grids may agree by
+/// chance.
+pub(super) const LEAST_ACROSS: usize = 4;
+
+/// A loaded element, by row and column, and its load.
+type Loaded = ([usize; 2], f64);
+
+/// Refuses a contact with a patch that carries load on too few elements along x or, unless it is a strip of one element, across it.
+pub(super) fn check_patches(
+    is_strip: bool,
+    loaded: &[Loaded],
+    bounds: &Bounds,
+) -> Result<(), BemError> {
+    if is_strip {
+        return Ok(());
+    }
+    let total: f64 = loaded.iter().map(|(_, load)| load).sum();
+    for patch in patches(loaded, bounds) {
+        let load: f64 = patch.iter().map(|(_, load)| load).sum();
+        if load < SMALL_PART * total {
+            continue;
+        }
+        let [mut per_row, mut per_column] = bounds.shape().map(|n| vec![0_usize; n]);
+        for ([row, column], _) in &patch {
+            per_row[row - bounds.lower[0]] += 1;
+            per_column[column - bounds.lower[1]] += 1;
+        }
+        check_contact_elements(per_row.iter().filter(|count| **count > 0).count())?;
+        let elements = per_row.into_iter().max().unwrap_or(0);
+        if elements < LEAST_ACROSS {
+            let needed = LEAST_ACROSS;
+            return Err(BemError::GridTooCoarse { elements, needed });
+        }
+    }
+    Ok(())
+}
+
+/// The loaded elements that hang together by their edges or corners.
+fn patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
+    // Loads by place in the box, 0 where there is none left.
+    let mut left = vec![0.0; bounds.n_elements()];
+    for (element, load) in loaded {
+        left[bounds.place(*element)] = *load;
+    }
+    let mut patches = Vec::new();
+    for (first, _) in loaded {
+        let mut patch = Vec::new();
+        take(*first, &mut left, bounds, &mut patch);
+        let mut done = 0;
+        while let Some(&([row, column], _)) = patch.get(done) {
+            done += 1;
+            for row in row.saturating_sub(1)..=row + 1 {
+                for column in column.saturating_sub(1)..=column + 1 {
+                    take([row, column], &mut left, bounds, &mut patch);
+                }
+            }
+        }
+        if !patch.is_empty() {
+            patches.push(patch);
+        }
+    }
+    patches
+}
+
+/// Moves an element that is left to a patch.
+fn take(element: [usize; 2], left: &mut [f64], bounds: &Bounds, patch: &mut Vec<Loaded>) {
+    if !bounds.contains(element) {
+        return;
+    }
+    let load = std::mem::take(&mut left[bounds.place(element)]);
+    if load > 0.0 {
+        patch.push((element, load));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The error of a contact that is drawn with a load in each `#`, rows along x.
+    fn refused(drawn: &[&str]) -> Option<usize> {
+        let rows = drawn.iter().enumerate();
+        let loaded: Vec<Loaded> = rows
+            .flat_map(|(row, line)| {
+                let columns = line.bytes().enumerate().filter(|(_, mark)| *mark != b'.');
+                columns.map(move |(column, mark)| {
+                    ([row, column], if mark == b'#' { 1.0 } else { 1e-4 })
+                })
+            })
+            .collect();
+        let bounds = Bounds::of(loaded.iter().map(|(element, _)| *element)).expect("a contact");
+        match check_patches(false, &loaded, &bounds) {
+            Ok(()) => None,
+            Err(BemError::GridTooCoarse { elements, needed }) => {
+                assert!(elements < needed, "{elements} of {needed}");
+                Some(elements)
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    #[test]
+    fn every_patch_that_carries_load_needs_elements_along_and_across() {
+        let wide = ["####", "####", "####"];
+        assert_eq!(refused(&wide), None);
+        assert_eq!(refused(&wide[..2]), Some(2));
+        assert_eq!(refused(&["###", "###", "###", "###"]), Some(3));
+        assert_eq!(
+            refused(&["##...", ".##..", "..##.", "...##"]),
+            Some(2),
+            "diagonal"
+        );
+        let beside = ["####..", "####..", "####.#"];
+        assert_eq!(refused(&beside), Some(1), "a second patch");
+        let hardly_loaded = ["####..", "####..", "####.+"];
+        assert_eq!(refused(&hardly_loaded), None);
+        // A crescent is as wide as its horns are apart.
+        let crescent = ["#....#", "##..##", ".####."];
+        assert_eq!(refused(&crescent), None);
+    }
+}
