@@ -30,6 +30,7 @@ mod periodic_sensitivity;
 mod periodic_sliding;
 mod pressure_spectrum;
 #[cfg(feature = "rough")]
+mod small_friction;
 mod soft_waves;
 mod stationary_state;
 mod substrates;

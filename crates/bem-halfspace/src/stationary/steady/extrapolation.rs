@@ -7,6 +7,14 @@ pub(super) const OBSERVED: [f64; 2] = [0.5, 1.5];
 /// Those where elements hide an edge: values may turn around once it is seen, so that nothing observed is believed.
 pub(super) const HIDDEN_EDGE: [f64; 2] = [0.5, 0.5];
 
+/// Powers of the elements with which the friction of materials that recover is seen to converge: 2 from the dissipated power, and
+/// under cones, up to 5/2 from slopes.
+const FASTER: [f64; 2] = [2.0, 2.5];
+/// Part of an error that that of another order must be below, to be taken: the least of several bars holds less often than each of
+/// them. With it all of 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without other orders, and the median is 0.6 of
+/// that.
+const CLEARLY_BETTER: f64 = 0.5;
+
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
 /// The error of a grid falls with the spacing to the power `order`, and with the next power after that. Each power is
@@ -24,6 +32,19 @@ pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
         (Some(first), None) => first,
         (None, None) => unknown,
     }
+}
+
+/// Extrapolates values whose error is known to fall with the power `order`, or faster: where elements resolve what creeps in the
+/// contact, the friction of a material that recovers does so with one of [`FASTER`].
+pub(super) fn extrapolate_faster(values: &[f64], order: f64) -> Estimate {
+    let mut best = extrapolate(values, order);
+    for faster in FASTER {
+        let limit = judge(&eliminate(values, faster), values);
+        if let Some(limit) = limit.filter(|limit| limit.error < CLEARLY_BETTER * best.error) {
+            best = limit;
+        }
+    }
+    best
 }
 
 /// By how much the limit changes if errors fall with the observed power, between two `powers`, instead of `order`.
@@ -92,6 +113,24 @@ mod tests {
             let limit = extrapolate(&sequence(orders, 7), orders[0]);
             assert!((limit.value - 3.0).abs() < 1e-12, "{orders:?}: {limit:?}");
             assert!(limit.error < 1.0, "{orders:?}: {limit:?}");
+        }
+    }
+
+    #[test]
+    fn errors_that_fall_faster_are_seen() {
+        for faster in FASTER {
+            let values = sequence([faster, 3.5], 9);
+            let [slow, fast] = [extrapolate(&values, 1.0), extrapolate_faster(&values, 1.0)];
+            assert!(fast.error < 0.3 * slow.error, "{slow:?}, {fast:?}");
+            assert!((fast.value - 3.0).abs() <= fast.error, "{fast:?}");
+        }
+        for order in [1.0, 1.5] {
+            let values = sequence([order, order + 1.0], 9);
+            let limit = extrapolate_faster(&values, order);
+            assert!(
+                (limit.value - 3.0).abs() <= limit.error,
+                "{order}: {limit:?}"
+            );
         }
     }
 

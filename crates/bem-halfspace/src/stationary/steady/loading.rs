@@ -36,6 +36,8 @@ pub(super) struct Loading {
     pub(super) strip: Option<f64>,
     /// Whether the slope of the body jumps inside the contact.
     pub(super) has_edges: bool,
+    /// Whether the contact may have patches: not under a body of revolution, where elements only break up a thin crescent.
+    pub(super) may_have_patches: bool,
 }
 
 /// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
@@ -66,6 +68,7 @@ impl Loading {
         };
         Ok(Self {
             has_edges: kinks(surface, depth_scale, footprint)? > SHARP,
+            may_have_patches: surface.as_axisymmetric().is_none(),
             creep,
             depth_scale,
             control: load.control(),
@@ -95,6 +98,7 @@ impl Loading {
             sliding_distance: None,
             strip: Some(strip),
             has_edges: false,
+            may_have_patches: false,
         })
     }
 
@@ -134,6 +138,7 @@ impl Loading {
             spacing,
             is_strip: self.strip.is_some(),
             has_edges: self.has_edges,
+            may_have_patches: self.may_have_patches,
         })
     }
 }
@@ -168,6 +173,7 @@ pub(super) struct GridLoading {
     /// Whether one element along y stands for infinitely many.
     pub(super) is_strip: bool,
     pub(super) has_edges: bool,
+    pub(super) may_have_patches: bool,
 }
 
 impl GridLoading {

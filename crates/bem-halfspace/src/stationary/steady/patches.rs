@@ -13,15 +13,8 @@ pub(super) const LEAST_ACROSS: usize = 4;
 /// A loaded element, by row and column, and its load.
 type Loaded = ([usize; 2], f64);
 
-/// Refuses a contact with a patch that carries load on too few elements along x or, unless it is a strip of one element, across it.
-pub(super) fn check_patches(
-    is_strip: bool,
-    loaded: &[Loaded],
-    bounds: &Bounds,
-) -> Result<(), BemError> {
-    if is_strip {
-        return Ok(());
-    }
+/// Refuses a contact with a patch that carries load on too few elements along x or across it.
+pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), BemError> {
     let total: f64 = loaded.iter().map(|(_, load)| load).sum();
     for patch in patches(loaded, bounds) {
         let load: f64 = patch.iter().map(|(_, load)| load).sum();
@@ -97,7 +90,7 @@ mod tests {
             })
             .collect();
         let bounds = Bounds::of(loaded.iter().map(|(element, _)| *element)).expect("a contact");
-        match check_patches(false, &loaded, &bounds) {
+        match check_patches(&loaded, &bounds) {
             Ok(()) => None,
             Err(BemError::GridTooCoarse { elements, needed }) => {
                 assert!(elements < needed, "{elements} of {needed}");

@@ -18,7 +18,7 @@ use crate::estimate::bars;
 use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::estimate::quantities::Name;
 use crate::stationary::steady::extrapolation::{
-    HIDDEN_EDGE, OBSERVED, by_observed_order, extrapolate,
+    HIDDEN_EDGE, OBSERVED, by_observed_order, extrapolate, extrapolate_faster,
 };
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
@@ -46,6 +46,9 @@ const RECOVERING: f64 = 1.5;
 const FEWEST: i32 = 5;
 /// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
+/// Elements of the footprint up to which that holds, and for each unknown pressure beyond: they take some GB.
+const MANY_ELEMENTS: f64 = 2e6;
+const MANY_PER_UNKNOWN: f64 = 12.5;
 /// Elements that hardly cost anything.
 const ALWAYS_ALLOWED: f64 = 1e5;
 /// At the edge of a contact elements may change sides without end; then the grid is this much finer, and its own spacing is
@@ -69,17 +72,17 @@ pub struct RefinementOptions {
     /// Δy/Δx. The outline of the contact is steeper across the sliding direction than along it.
     pub aspect: f64,
     /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it, or
-    /// whose footprint has more than 50 times as many elements, and more than 1e5.
+    /// whose footprint has more than 50 times as many elements, from 2e6 elements on 12.5 times as many, and more than 1e5.
     pub max_unknowns: usize,
 }
 
 impl Default for RefinementOptions {
-    /// A relative error of 1e-3, elements half as wide as long, and at most 40 000 unknowns, which take some seconds.
+    /// A relative error of 1e-3, elements half as wide as long, and at most 160 000 unknowns, which take some ten seconds.
     fn default() -> Self {
         Self {
             relative_error: 1e-3,
             aspect: 0.5,
-            max_unknowns: 40_000,
+            max_unknowns: 160_000,
         }
     }
 }
@@ -243,7 +246,7 @@ impl Grids<'_> {
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
         let mut friction = self.friction_of_slopes(refinements);
         if !self.problem.loading.creep.only_flows() {
-            let dissipated = self.limit(refinements, self.order, |r| r.friction_from_dissipation);
+            let dissipated = self.limit_of_friction(refinements, |r| r.friction_from_dissipation);
             let has_edges = self.problem.loading.has_edges;
             if has_edges || dissipated.error < BETTER * friction.error {
                 friction = dissipated;
@@ -252,6 +255,29 @@ impl Grids<'_> {
         }
         let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
         friction.widened(unresolved * friction.value.abs())
+    }
+
+    /// The limit of one of the two frictions. Of a body of finite width without edges, on a material that recovers, errors may fall
+    /// faster than the front and the apex let them fall on a dashpot.
+    fn limit_of_friction(
+        &self,
+        refinements: &[Refinement],
+        friction: impl Fn(&Refinement) -> Average,
+    ) -> Estimate {
+        let Loading {
+            creep,
+            strip,
+            has_edges,
+            ..
+        } = &self.problem.loading;
+        if creep.only_flows() || strip.is_some() || *has_edges {
+            return self.limit(refinements, self.order, friction);
+        }
+        let values: Vec<f64> = refinements.iter().map(|r| friction(r).value).collect();
+        let scatter = refinements
+            .last()
+            .map_or(0.0, |last| friction(last).scatter);
+        extrapolate_faster(&values, self.order).widened(scatter)
     }
 
     /// On a dashpot the scatter falls as fast as the rest of the error.
@@ -266,7 +292,7 @@ impl Grids<'_> {
             scatter: 0.0,
             ..refinement.friction_coefficient
         };
-        let friction = self.limit(refinements, self.order, value);
+        let friction = self.limit_of_friction(refinements, value);
         let last = refinements.iter().rev().take(counted);
         let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
         friction.widened(scatter.fold(0.0, f64::max))
@@ -366,7 +392,9 @@ impl Grids<'_> {
     }
 
     fn most_elements(&self) -> f64 {
-        (ELEMENTS_PER_UNKNOWN * self.options.max_unknowns as f64).max(ALWAYS_ALLOWED)
+        let n_unknowns = self.options.max_unknowns as f64;
+        let many = MANY_ELEMENTS.max(MANY_PER_UNKNOWN * n_unknowns);
+        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(ALWAYS_ALLOWED, many)
     }
 
     /// The averages over the shifts, each started from the contact of the one before.

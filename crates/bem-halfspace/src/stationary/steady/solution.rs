@@ -114,7 +114,9 @@ impl SteadySliding {
         let bounds = checked_bounds(mesh, &loaded)?;
         check_walls(mesh, &solution.loads)?;
         check_slopes(mesh, &solution.loads)?;
-        check_patches(mesh.loading.is_strip, &loaded, &bounds)?;
+        if mesh.loading.may_have_patches {
+            check_patches(&loaded, &bounds)?;
+        }
         let spacing = mesh.options.spacing;
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
