@@ -7,11 +7,12 @@ use rheology::Material;
 
 use super::chain::{Chain, Given, Kept, Stepped};
 use super::cycle::cycle;
+use super::element_means::average_tangential_forces;
 use super::time_step::n_slots;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
 use crate::error::enough_elements;
-use crate::steady::Foundation;
+use crate::steady::{Foundation, has_steep_kinks};
 
 /// Steps of a motion, or of one cycle, after which it is not begun.
 const MOST_STEPS: f64 = 4e6;
@@ -89,16 +90,28 @@ impl<'a> Problem<'a> {
                     height,
                 });
             }
-            if let Some(record) = self.follow(&sampled, &legs, tell)? {
+            if let Some(mut record) = self.follow(&sampled, &legs, tell)? {
                 let contacts = record.steps.iter().map(|step| step.n_contact);
                 enough_elements(contacts.max().unwrap_or(0), spacing)?;
                 if self.load.is_cycle() {
                     self.height.set(height);
                 }
+                if has_steep_kinks(self.line) {
+                    average_tangential_forces(&mut record, &self.ways(&legs));
+                }
                 return Ok(record);
             }
             height = 2.0 * sampled.ceiling;
         }
+    }
+
+    /// Lengths of the steps, \[m].
+    fn ways(&self, legs: &[MovingStep]) -> Vec<f64> {
+        let mut position = self.load.stages()[0].start.position;
+        let way = |leg: &MovingStep| {
+            (leg.end.position - std::mem::replace(&mut position, leg.end.position)).abs()
+        };
+        legs.iter().map(way).collect()
     }
 
     /// Memory of all resolutions up to these elements, \[bytes].

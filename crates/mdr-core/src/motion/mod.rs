@@ -9,6 +9,7 @@
 mod chain;
 mod contacts;
 mod cycle;
+mod element_means;
 mod event;
 mod heights;
 mod march;

@@ -1,0 +1,113 @@
+//! Tangential forces as means over the way of one element.
+//!
+//! Behind a steep kink the slope has no limit, and neither has the force of the element that the kink passes at that moment.
+//! Its mean over the way of an element is what elements resolve; a shorter step shows a part of it by chance.
+
+use indenters::MotionRecord;
+
+/// Replaces the tangential force of every step by its mean over the way of one element around the step, within its stage; `ways`
+/// are the lengths of the steps, \[m].
+pub(super) fn average_tangential_forces(record: &mut MotionRecord, ways: &[f64]) {
+    let spacing = record.spacing;
+    let stages = record.steps.chunk_by_mut(|a, b| a.stage == b.stage);
+    let mut first = 0;
+    for steps in stages {
+        let ways = &ways[first..first + steps.len()];
+        first += steps.len();
+        let work = Work::new(ways, steps.iter().map(|step| step.tangential_force));
+        let whole = work.way[steps.len()];
+        let window = spacing.min(whole);
+        if window > 0.0 {
+            for (step, ends) in steps.iter_mut().zip(work.way.windows(2)) {
+                let middle = ends[0].midpoint(ends[1]);
+                let start = (middle - 0.5 * window).clamp(0.0, whole - window);
+                step.tangential_force = (work.at(start + window) - work.at(start)) / window;
+            }
+        }
+    }
+}
+
+/// The work done on the way.
+struct Work {
+    /// Lengths \[m] and works \[J] up to the beginning of each step, and to the end of the last.
+    way: Vec<f64>,
+    done: Vec<f64>,
+}
+
+impl Work {
+    fn new(ways: &[f64], forces: impl Iterator<Item = f64>) -> Self {
+        let (mut way, mut done) = (vec![0.0], vec![0.0]);
+        let mut sums = [0.0, 0.0];
+        for (length, force) in ways.iter().zip(forces) {
+            sums = [sums[0] + length, sums[1] + force * length];
+            way.push(sums[0]);
+            done.push(sums[1]);
+        }
+        Self { way, done }
+    }
+
+    /// After a length of the way.
+    fn at(&self, length: f64) -> f64 {
+        let last = self.way.len() - 1;
+        let after = self.way.partition_point(|end| *end < length).clamp(1, last);
+        let [from, to] = [self.way[after - 1], self.way[after]];
+        let part = if to > from {
+            (length - from) / (to - from)
+        } else {
+            1.0
+        };
+        self.done[after - 1] + part.min(1.0) * (self.done[after] - self.done[after - 1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use casebook::assert_close;
+    use indenters::MotionStep;
+
+    fn record(forces: &[(usize, f64)], spacing: f64) -> MotionRecord {
+        let step = |&(stage, tangential_force): &(usize, f64)| MotionStep {
+            stage,
+            time: 0.0,
+            position: 0.0,
+            tangential_force,
+            normal_force: 1.0,
+            indentation_depth: 0.0,
+            contact: None,
+            n_contact: 0,
+        };
+        MotionRecord {
+            steps: forces.iter().map(step).collect(),
+            spacing,
+            ..MotionRecord::default()
+        }
+    }
+
+    #[test]
+    fn a_peak_that_comes_back_with_every_element_is_its_mean() {
+        // Four steps of a quarter of an element each, and the same backwards.
+        let forces: Vec<(usize, f64)> = (0..2)
+            .flat_map(|stage| {
+                let sign = if stage == 0 { 1.0 } else { -1.0 };
+                (0..12).map(move |k| (stage, sign * if k % 4 == 1 { 9.0 } else { 1.0 }))
+            })
+            .collect();
+        let mut record = record(&forces, 1.0);
+        average_tangential_forces(&mut record, &[0.25; 24]);
+        for (index, step) in record.steps.iter().enumerate() {
+            let expected = if index < 12 { 3.0 } else { -3.0 };
+            assert_close!(step.tangential_force => expected, within 1e-12; "step {index}");
+        }
+    }
+
+    #[test]
+    fn steps_at_rest_and_steps_longer_than_an_element_keep_their_forces() {
+        let forces = [(0, 5.0), (0, 4.0), (1, 2.0), (1, 7.0)];
+        let mut record = record(&forces, 1.0);
+        average_tangential_forces(&mut record, &[0.0, 0.0, 2.0, 2.0]);
+        for (step, (_, force)) in record.steps.iter().zip(forces) {
+            assert_close!(step.tangential_force => force, within 1e-12);
+        }
+    }
+}
