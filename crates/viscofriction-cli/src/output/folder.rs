@@ -18,10 +18,10 @@ use crate::input::is_input;
 
 /// A folder for the files of one result; nobody else writes into it as long as this value lives.
 pub(crate) struct OutputFolder {
-    /// Behind links.
-    path: PathBuf,
     /// As it was given.
-    given: PathBuf,
+    path: PathBuf,
+    /// Behind links.
+    real: PathBuf,
     overwrite: bool,
     names: Vec<&'static str>,
     place: Place,
@@ -74,8 +74,8 @@ impl OutputFolder {
         }
         let place = place(&real, &names).map_err(failed)?;
         let folder = Self {
-            path: real,
-            given: path.to_owned(),
+            path: path.to_owned(),
+            real,
             overwrite,
             names,
             place: place.ok_or_else(|| wrong(NO_EXCHANGE))?,
@@ -88,13 +88,13 @@ impl OutputFolder {
 
     /// The folder as it was given.
     pub(crate) fn path(&self) -> &Path {
-        &self.given
+        &self.path
     }
 
     /// Begins to write the files.
     pub(crate) fn begin(&self) -> Result<NewFiles<'_>> {
         let part = self.new_part();
-        let part = part.map_err(|error| not_written(self.given.display(), error))?;
+        let part = part.map_err(|error| not_written(self.path.display(), error))?;
         Ok(NewFiles {
             folder: self,
             part,
@@ -104,17 +104,17 @@ impl OutputFolder {
 
     fn new_part(&self) -> io::Result<TempDir> {
         let within = match self.place {
-            Place::Beside => self.path.parent().unwrap_or(&self.path),
-            Place::Inside => &self.path,
+            Place::Beside => self.real.parent().unwrap_or(&self.real),
+            Place::Inside => &self.real,
         };
-        new_part(&self.path, within)
+        new_part(&self.real, within)
     }
 }
 
 impl Drop for OutputFolder {
     /// A folder without files says nothing; one that has some is not removed by the system.
     fn drop(&mut self) {
-        fs::remove_dir(&self.path).ok();
+        fs::remove_dir(&self.real).ok();
     }
 }
 
@@ -130,7 +130,7 @@ impl NewFiles<'_> {
     /// Writes one of the files.
     pub(crate) fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
         let written = fs::write(self.part.path().join(name), contents);
-        written.map_err(|error| not_written(self.folder.given.join(name).display(), error))?;
+        written.map_err(|error| not_written(self.folder.path.join(name).display(), error))?;
         self.written.borrow_mut().push(name.to_owned());
         Ok(())
     }
@@ -144,27 +144,27 @@ impl NewFiles<'_> {
 
     /// Makes them the files of the folder; where that cannot be done, they stay where they are, and the error says where.
     pub(crate) fn finish(self) -> Result<()> {
-        let OutputFolder { path, names, .. } = self.folder;
+        let OutputFolder { real, names, .. } = self.folder;
         // Somebody else may have written there meanwhile.
-        check_names(&self.folder.given, names, self.folder.overwrite)?;
+        check_names(&self.folder.path, names, self.folder.overwrite)?;
         // As long as it is open, nobody takes it for one that was left.
         let lock = File::open(self.part.path()).ok();
         lock.as_ref().map(File::try_lock);
         let part = self.part.keep();
         let kept = |error| {
-            let [given, part] = [&self.folder.given, &part].map(|path| path.display());
+            let [given, part] = [&self.folder.path, &part].map(|path| path.display());
             not_written(format!("{given} (the files are in {part})"), error)
         };
         if self.folder.place == Place::Inside {
             let mut written = self.written.into_inner().into_iter();
             let moved =
-                written.try_for_each(|name| rename_new(&part.join(&name), &path.join(name)));
+                written.try_for_each(|name| rename_new(&part.join(&name), &real.join(name)));
             return moved.and_then(|()| fs::remove_dir(&part)).map_err(kept);
         }
-        take_over(&part, path, names).map_err(kept)?;
-        let old = exchange(&part, path).map_err(kept)?;
-        keep_links(&old, path, names)?;
-        clear(&old, path, names);
+        take_over(&part, real, names).map_err(kept)?;
+        let old = exchange(&part, real).map_err(kept)?;
+        keep_links(&old, real, names)?;
+        clear(&old, real, names);
         Ok(())
     }
 }
@@ -297,14 +297,18 @@ fn is_of_answer(file: &Path, names: &[&str]) -> bool {
 /// Removes a folder with an answer that is given up; what else is in it stays, or goes, into the other folder.
 fn clear(old: &Path, folder: &Path, names: &[&str]) {
     let cleared = || -> io::Result<()> {
-        for entry in fs::read_dir(old)?.flatten() {
-            let [left, kept] = [entry.path(), folder.join(entry.file_name())];
-            if is_of_answer(&left, names) || is_same(&left, &kept) {
-                fs::remove_file(&left)?;
-            } else {
-                rename_new(&left, &kept)?;
-            }
-        }
+        let entries = fs::read_dir(old)?.flatten();
+        let paths = entries.map(|entry| (entry.path(), folder.join(entry.file_name())));
+        let is_given_up =
+            |(left, kept): &(PathBuf, PathBuf)| is_of_answer(left, names) || is_same(left, kept);
+        let (given_up, others): (Vec<_>, Vec<_>) = paths.partition(is_given_up);
+        // What is not of an answer comes back first.
+        others
+            .iter()
+            .try_for_each(|(left, kept)| rename_new(left, kept))?;
+        given_up
+            .iter()
+            .try_for_each(|(left, _)| fs::remove_file(left))?;
         fs::remove_dir(old)
     };
     if let Err(error) = cleared() {
