@@ -60,25 +60,25 @@ pub(crate) struct Run {
 impl Run {
     /// Refuses derivatives that the method of the scene has not.
     fn check_derivatives(&self, problem: &Problem, method: Method) -> Result<(), SceneError> {
-        let checks: [(_, _, fn(&_, _) -> _); 2] = [
-            (self.sensitivity, "--sensitivity", check_sensitivity),
-            (
-                self.spectral_sensitivity,
-                "--spectral-sensitivity",
-                check_spectral_sensitivity,
-            ),
-        ];
-        let asked = checks.into_iter().filter(|(is_asked, ..)| *is_asked);
-        asked
-            .map(|(_, option, check)| (option, check(problem, method)))
-            .try_for_each(|(option, checked): (_, Result<(), SceneError>)| {
-                checked.map_err(|error| match error {
-                    SceneError::At { key, problem } => {
-                        SceneError::at(key, format!("{problem}, or leave {option} out"))
-                    }
-                    other => other,
-                })
-            })
+        if self.sensitivity {
+            let checked = check_sensitivity(problem, method);
+            checked.map_err(|error| or_without("--sensitivity", error))?;
+        }
+        if self.spectral_sensitivity {
+            let checked = check_spectral_sensitivity(problem, method);
+            checked.map_err(|error| or_without("--spectral-sensitivity", error))?;
+        }
+        Ok(())
+    }
+}
+
+/// The error with the advice to leave out the option that it comes from.
+fn or_without(option: &str, error: SceneError) -> SceneError {
+    match error {
+        SceneError::At { key, problem } => {
+            SceneError::at(key, format!("{problem}, or leave {option} out"))
+        }
+        other => other,
     }
 }
 
