@@ -125,6 +125,18 @@ def test_a_fit_finds_the_material_within_its_intervals() -> None:
     assert plain.keys() == vars(fit).keys()
 
 
+def test_an_elastic_curve_has_one_modulus_whatever_was_asked_for() -> None:
+    time, depth = TIME[:101], DEPTH[:101] - 0.5e-6
+    force = vf.indent(vf.Sphere(5e-6), vf.Elastic(1e3), time=time, indentation_depth=depth).normal_force
+    force = force + 0.01 * force.max() * np.random.default_rng(1).standard_normal(time.size)
+    for material, notes in ("elastic", 0), ("standard-solid", 1), ("power-law", 1):
+        fit = vf.fit_indentation(time, depth, force, body=vf.Sphere(5e-6), material=material)
+        low, high = fit.findings["G"].interval
+        assert low is not None and high is not None and low < 1e3 < high, (material, fit)
+        assert len(fit.notes) == notes and fit.material.branches == (), (material, fit.notes)
+        assert all("does not determine how the material relaxes" in note for note in fit.notes)
+
+
 def test_a_table_is_fitted_as_its_columns_are(tmp_path: Path) -> None:
     time, depth, force = curve(noise=0.01)
     table = tmp_path / "curve.csv"
@@ -133,6 +145,13 @@ def test_a_table_is_fitted_as_its_columns_are(tmp_path: Path) -> None:
     of_table = vf.fit_indentation(table, body=vf.Sphere(5e-6), profile=False)
     value = of_columns.findings["G_inf"].value
     assert value is not None and of_table.findings["G_inf"].value == pytest.approx(value, rel=1e-9)
+    # What is guessed about a file is said, and what is wrong with it as the program says it.
+    table.write_text(table.read_text().replace("d (m)", "displacement (m)"))
+    [note] = vf.fit_indentation(table, body=vf.Sphere(5e-6), profile=False).notes
+    assert note.startswith("'displacement (m)' is taken for the depth of the body")
+    table.write_text("\n".join(table.read_text().splitlines()[:20]))
+    with pytest.raises(ValueError, match=r"curve\.csv: 19 points are too few"):
+        vf.fit_indentation(table, body=vf.Sphere(5e-6))
 
 
 class Measured(dict[str, np.ndarray]):
@@ -183,6 +202,8 @@ def test_wrong_input_is_named() -> None:
         "history": lambda: vf.indent(ball, GEL, time=[1.0, 0.0], indentation_depth=[0.0, 1e-6]),
         "material must be": lambda: vf.fit_indentation(time, depth, force, body=ball, material="wood"),
         "body of revolution": lambda: vf.fit_indentation(time, depth, force, body=vf.Cylinder(1.0)),
+        "no branches to choose": lambda: vf.fit_indentation(time, depth, force, body=ball, branches=2),
+        "as wide as deep|radius must": lambda: vf.fit_indentation(time, depth, force, body=vf.Sphere(1e308)),
         "too few": lambda: vf.fit_indentation(time[:9], depth[:9], force[:9], body=ball),
         "no contact|sign": lambda: vf.fit_indentation(time, depth, -force, body=ball),
         "poisson_ratio": lambda: vf.fit_indentation(time, depth, force, body=ball, poisson_ratio=2.0),

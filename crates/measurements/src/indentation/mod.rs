@@ -166,30 +166,12 @@ pub fn fit_indentation(
     curve: &IndentationCurve,
     options: &FitOptions,
 ) -> Result<IndentationFit, MeasurementError> {
-    crate::moduli::shear_per_tension(options.poisson_ratio)?;
-    if let Thickness::Known(thickness) = options.thickness {
-        numerics::positive("thickness", thickness)?;
-    }
-    let n = curve.time.len();
-    for (name, other) in [("depths", &curve.depth), ("forces", &curve.force)] {
-        let holds = other.len() == n;
-        numerics::in_range(name, other.len() as f64, holds, "as many as times")?;
-    }
-    if let Some(branches) = options.branches {
-        let holds = (1..=search::MAX_BRANCHES).contains(&branches);
-        numerics::in_range("branches", branches as f64, holds, "from 1 to 6")?;
-    }
+    check(curve, options)?;
     let measured =
         checks::usable(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
     let curve = &measured.curve;
     checks::scale(body, curve).map_err(MeasurementError::Damaged)?;
-    let pull_in = pull_in::find(&measured);
-    let jump = pull_in.as_ref().and_then(pull_in::PullIn::flag);
-    if let (Some(pull_in), Some(flag)) = (&pull_in, &jump)
-        && pull_in.is_useless()
-    {
-        return Err(MeasurementError::Damaged(flag.clone()));
-    }
+    let jump = pull_in::flag(&measured).map_err(MeasurementError::Damaged)?;
     let sample = sample::Sample::new(body, curve, options)?;
     let begin = start::start(&sample, curve, options)?;
     checks::before(&measured, &begin).map_err(MeasurementError::Damaged)?;
@@ -225,4 +207,22 @@ pub fn fit_indentation(
         flags,
         notes: note::of_material(options, &found).into_iter().collect(),
     })
+}
+
+/// Whether options and lengths of columns are in their ranges.
+fn check(curve: &IndentationCurve, options: &FitOptions) -> Result<(), MeasurementError> {
+    crate::moduli::shear_per_tension(options.poisson_ratio)?;
+    if let Thickness::Known(thickness) = options.thickness {
+        numerics::positive("thickness", thickness)?;
+    }
+    let n = curve.time.len();
+    for (name, other) in [("depths", &curve.depth), ("forces", &curve.force)] {
+        let holds = other.len() == n;
+        numerics::in_range(name, other.len() as f64, holds, "as many as times")?;
+    }
+    if let Some(branches) = options.branches {
+        let holds = (1..=search::MAX_BRANCHES).contains(&branches);
+        numerics::in_range("branches", branches as f64, holds, "from 1 to 6")?;
+    }
+    Ok(())
 }

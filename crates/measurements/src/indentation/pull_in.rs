@@ -17,9 +17,9 @@ use super::means::Measured;
 use super::noise::{Linear, Noise, RIDGE, normal_matrix};
 use super::start::approach_end;
 
-/// Least number of points of a baseline, and the ratio of the numbers that are tried.
+/// Least number of points of a baseline; each that is tried next is longer by one in as many points.
 const SHORTEST_BASELINE: usize = 10;
-const BASELINE_RATIO: f64 = 1.2;
+const BASELINE_SHARE: usize = 5;
 /// Points of the narrowest fall: fewer are wild points.
 const NARROWEST: usize = 3;
 /// Part of the means within as many standard errors as are noise, five of a normal distribution: about a thousand means of a curve are
@@ -29,25 +29,27 @@ const COVERAGE: f64 = 1.0 - 5.7e-7;
 const WILD: f64 = 5.0;
 
 /// A fall of the force.
-pub(super) struct PullIn {
+struct PullIn {
     /// Below the baseline, \[N].
     fall: f64,
     /// Largest force above the baseline, \[N].
     peak: f64,
 }
 
-impl PullIn {
-    /// What there is to say about it, if it is not too small to matter.
-    pub(super) fn flag(&self) -> Option<Flag> {
-        let Self { fall, peak } = *self;
-        let part = fall / peak;
-        (part > DOUBTFUL).then_some(Flag::JumpToContact { fall, part })
+/// What there is to say about a fall that is large enough to matter.
+///
+/// # Errors
+/// The same, where it makes a fit without adhesion useless.
+pub(super) fn flag(measured: &Measured) -> Result<Option<Flag>, Flag> {
+    let Some(PullIn { fall, peak }) = find(measured) else {
+        return Ok(None);
+    };
+    let part = fall / peak;
+    let flag = Flag::JumpToContact { fall, part };
+    if part > SPOILT {
+        return Err(flag);
     }
-
-    /// Whether a fit without adhesion says nothing.
-    pub(super) fn is_useless(&self) -> bool {
-        self.fall > SPOILT * self.peak
-    }
+    Ok((part > DOUBTFUL).then_some(flag))
 }
 
 /// The mean of some points that is below the line through the first ones.
@@ -62,7 +64,7 @@ struct Fall {
 }
 
 /// The largest fall that is no noise, neither independent nor lasting noise of the kind of the baseline.
-pub(super) fn find(measured: &Measured) -> Option<PullIn> {
+fn find(measured: &Measured) -> Option<PullIn> {
     let IndentationCurve { time, depth, force } = &measured.curve;
     let counts = &measured.counts;
     let n = approach_end(depth) + 1;
@@ -218,7 +220,7 @@ impl<'a> Approach<'a> {
 
 /// Numbers of points of the baselines that are tried.
 fn baselines(n: usize) -> impl Iterator<Item = usize> {
-    let next = |last: &usize| Some((BASELINE_RATIO * *last as f64).ceil() as usize);
+    let next = |last: &usize| Some(last + last.div_ceil(BASELINE_SHARE));
     std::iter::successors(Some(SHORTEST_BASELINE), next).take_while(move |one| *one < n)
 }
 

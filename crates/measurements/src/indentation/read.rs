@@ -181,7 +181,7 @@ struct Stated {
 impl Stated {
     fn of(text: &str) -> Self {
         // JPK and Asylum, afmformats, AFM Workshop (whose default of 1 says nothing), and Optics11.
-        let workshop = |name| number_behind(text, name).filter(|number| *number != 1.0);
+        let workshop = |name| number_behind(text, name).filter(|number| differs(*number, 1.0));
         let stiffness = ["pringConstant:", "\"spring constant\":", "k (N/m)"];
         let stiffness = stiffness.iter().find_map(|name| number_behind(text, name));
         let gain = workshop("Light Lever Gain, mV/nm:");
@@ -222,7 +222,7 @@ impl Stated {
             let stated = stated?;
             match given {
                 None => Some(format!("{option} = {stated:?} {unit} is that of the file")),
-                Some(given) if given != stated => Some(format!(
+                Some(given) if differs(given, stated) => Some(format!(
                     "{option} = {given:?} {unit} is taken, but the file says {stated:?} {unit}"
                 )),
                 Some(_) => None,
@@ -230,6 +230,11 @@ impl Stated {
         };
         all.into_iter().filter_map(note).collect()
     }
+}
+
+/// By more than a file rounds.
+fn differs(number: f64, other: f64) -> bool {
+    (number - other).abs() > 1e-6 * other
 }
 
 /// The number greater than 0 that stands behind a name.
@@ -254,6 +259,35 @@ impl CurveOptions {
         let holds = sensitivity.is_finite() && sensitivity != 0.0;
         in_range("sensitivity", sensitivity, holds, "finite and not 0")?;
         Ok(())
+    }
+
+    /// \[N/m], or what is wrong.
+    fn stiffness(&self, reason: &str) -> Result<f64, String> {
+        let needed = || {
+            format!("the stiffness of the cantilever (spring_constant) is needed, because {reason}")
+        };
+        self.spring_constant.ok_or_else(needed)
+    }
+
+    /// Depth of a place of 1, and of a force of 1 N, or what is wrong.
+    fn place(&self, table: &Table) -> Result<[f64; 2], String> {
+        let bending = |column: &Column| {
+            let name = column.name;
+            let reason = format!(
+                "'{name}' is the place of a piezo; a column without the bending of the cantilever is named depth or tip position"
+            );
+            Ok::<f64, String>(-self.stiffness(&reason)?.recip())
+        };
+        let is_depth = table.find(Deflection).is_none() && self.spring_constant.is_none();
+        let columns = [Depth, Tip, Displacement, Piezo, Height].map(|one| table.find(one));
+        Ok(match columns {
+            [Some(_), ..] => [1.0, 0.0],
+            [_, Some(_), ..] => [-1.0, 0.0],
+            [_, _, Some(_), ..] if is_depth => [1.0, 0.0],
+            [_, _, Some(piezo), ..] | [_, _, _, Some(piezo), _] => [1.0, bending(piezo)?],
+            [.., Some(height)] => [-1.0, bending(height)?],
+            _ => return Err("a depth is needed".to_owned()),
+        })
     }
 
     /// Refuses what changes nothing beside the columns of a table.
@@ -329,34 +363,13 @@ impl Segment {
         if load.is_some_and(is_volts) && options.sensitivity.is_none() {
             return Err(missing("the deflection per volt (sensitivity)"));
         }
-        let stiffness = |what: &str, other: &str| {
-            let needed = format!(
-                "the stiffness of the cantilever (spring_constant) is needed, because {what}{other}"
-            );
-            options.spring_constant.ok_or_else(|| wrong(&needed))
-        };
         let length = load.filter(|load| !load.unit.ends_with('N'));
-        let of_load = match length {
-            Some(load) => stiffness(&format!("'{}' is a length", load.name), "")?,
-            None => 1.0,
-        };
-        let bending = |column: &Column| {
-            let what = format!("'{}' is the place of a piezo", column.name);
-            let other =
-                "; a column without the bending of the cantilever is named depth or tip position";
-            Ok::<f64, MeasurementError>(-stiffness(&what, other)?.recip())
-        };
-        let [of_place, of_force] =
-            match [Depth, Tip, Displacement, Piezo, Height].map(|one| table.find(one)) {
-                [Some(_), ..] => [1.0, 0.0],
-                [_, Some(_), ..] => [-1.0, 0.0],
-                [_, _, Some(_), ..] if load.is_none() && options.spring_constant.is_none() => {
-                    [1.0, 0.0]
-                }
-                [_, _, Some(piezo), ..] | [_, _, _, Some(piezo), _] => [1.0, bending(piezo)?],
-                [.., Some(height)] => [-1.0, bending(height)?],
-                _ => return Err(missing("a depth")),
-            };
+        let of_load = length.map_or(Ok(1.0), |load| {
+            let what = format!("'{}' is a length", load.name);
+            options.stiffness(&what).map_err(|problem| wrong(&problem))
+        })?;
+        let place = options.place(table).map_err(|problem| wrong(&problem));
+        let [of_place, of_force] = place?;
         Ok(Self {
             of_load,
             is_length: length.is_some(),

@@ -2,6 +2,7 @@
 //! (separator and decimal mark), from a line of names to columns with units, and from the rows below to numbers in SI.
 
 mod cells;
+mod choice;
 mod columns;
 mod layout;
 
@@ -13,6 +14,7 @@ use rheology::KELVIN_AT_ZERO_CELSIUS;
 
 use crate::MeasurementError;
 use Quantity::{Frequency, Loss, Storage};
+use choice::{retain_first, retain_half};
 pub(crate) use columns::{Half, Quantity, Vocabulary};
 use columns::{divided, half_of};
 use layout::{Layout, is_comment, tagged};
@@ -248,16 +250,7 @@ impl<'a> Table<'a> {
         let head = &block[0];
         let vocabulary = source.vocabulary;
         let mut columns = source.columns(head);
-        if half.is_some() {
-            // Columns without a mark belong to both halves.
-            let is_marked = |column: &Column| half_of(column.name) == half;
-            let marked = columns.iter().filter(|one| is_marked(one));
-            let marked: Vec<Quantity> = marked.map(|one| one.quantity).collect();
-            columns.retain(|one| {
-                let is_shared = half_of(one.name).is_none() && !marked.contains(&one.quantity);
-                is_marked(one) || is_shared
-            });
-        }
+        retain_half(&mut columns, half);
         let known: Vec<(Quantity, &str)> =
             columns.iter().map(|one| (one.quantity, one.name)).collect();
         let quantities = quantities(&columns);
@@ -272,23 +265,7 @@ impl<'a> Table<'a> {
             vocabulary.optional.contains(quantity) || needed.contains(quantity)
         });
         if vocabulary.has_order {
-            let rank = |column: &Column| {
-                let mut units = column.quantity.units().split(' ');
-                let known = column.quantity.unit(column.unit);
-                let place = known.and_then(|(known, _)| units.position(|unit| unit == known));
-                // Before those of another quantity, as volts are for a force.
-                let is_other = place.is_none() && !column.unit.is_empty();
-                (column.order, is_other, place)
-            };
-            let ranks: Vec<_> = columns
-                .iter()
-                .map(|one| (one.quantity, rank(one)))
-                .collect();
-            columns.retain(|one| {
-                ranks
-                    .iter()
-                    .all(|(quantity, other)| *quantity != one.quantity || *other >= rank(one))
-            });
+            retain_first(&mut columns);
         }
         let mut table = Self {
             source,

@@ -10,7 +10,9 @@ use measurements::indentation::{
 use rayon::prelude::*;
 
 use crate::support::{Normal, assert_close};
-use crate::synthetic::{CONTACT_POINT, Case, NOISES, TILT, change, n_curves, peak, sphere, thin};
+use crate::synthetic::{
+    CONTACT_POINT, Case, NOISES, TILT, change, n_curves, peak, sphere, thin, write_table,
+};
 
 fn cases() -> [Case; 5] {
     let cone = PowerProfile::cone(0.7).expect("a cone");
@@ -78,8 +80,7 @@ fn intervals_hold(cases: &[Case], few: usize, file: &str) {
         )
         .expect("text");
     }
-    let file = format!("{}/{file}", env!("CARGO_TARGET_TMPDIR"));
-    std::fs::write(file, &table).expect("the table can be written");
+    write_table(file, &table);
     let is_few = all_flagged as f64 <= (0.02 * n_curves as f64).max(3.0);
     assert!(is_few, "{all_flagged} of {n_curves} flagged\n{table}");
     let mean = parts.iter().sum::<f64>() / parts.len() as f64;

@@ -123,6 +123,16 @@ pub(crate) fn n_curves(few: usize) -> usize {
     given.map_or(few, |n| n.parse().expect("a number"))
 }
 
+/// Writes what a test has counted, for whoever asks for it.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the table is for whoever asks for it"
+)]
+pub(crate) fn write_table(name: &str, table: &str) {
+    let file = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
+    std::fs::write(file, table).expect("the table can be written");
+}
+
 fn on_layer(body: &dyn Axisymmetric, thickness: f64) -> LayerProfile {
     let layer = BondedLayer::new(thickness, 0.5).expect("a layer");
     LayerProfile::new(body, &layer, 1.5e-6).expect("a profile")
