@@ -74,6 +74,21 @@ pub enum RheologyError {
         /// How many there are.
         given: usize,
     },
+    /// Isotherms that overlap with no other, because they have one frequency.
+    #[cfg(feature = "fit")]
+    #[error(
+        "{count} of {given} isotherms have one frequency only, the first of them at {temperature}, and no shift follows from that: give \
+         the shift law of a ramp of temperature (--wlf or --arrhenius); where the temperature drifts by more than 1 K within an isotherm, \
+         number the isotherms in a column Set"
+    )]
+    OneFrequency {
+        /// How many have one frequency.
+        count: usize,
+        /// Number of isotherms.
+        given: usize,
+        /// Temperature of the first of them.
+        temperature: f64,
+    },
     /// Two isotherms that cannot be shifted onto each other.
     #[cfg(feature = "fit")]
     #[error(

@@ -6,15 +6,18 @@ mod isotherms;
 mod names;
 mod shifting;
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use numerics::in_range;
 use rheology::InvalidParameter;
-use rheology::fit::{Isotherm, ModulusPoint, RelaxationPoint};
+use rheology::fit::{CreepPoint, Isotherm, ModulusPoint, RelaxationPoint, relaxation_of_creep};
 
 use crate::MeasurementError;
 pub use crate::table::Deformation;
-use crate::table::Quantity::{Loss, LossFactor, Set, Storage, Temperature, Time};
+use crate::table::Quantity::{
+    Creep, Loss, LossFactor, Magnitude, Phase, Set, Storage, Temperature, Time,
+};
 use crate::table::{Column, Line, Meaning, Source, Table, text_of};
 use isotherms::{Group, IsothermRow, insert};
 use names::MODULI;
@@ -35,7 +38,7 @@ pub struct MeasuredModuli {
 pub enum Measurements {
     /// Isotherms in the order in which they begin in the table; without temperatures there is one, whose own means nothing.
     Oscillation(Vec<Isotherm>),
-    /// Points at increasing times.
+    /// Points at increasing times; those of a creep compliance are converted.
     Relaxation(Vec<RelaxationPoint>),
 }
 
@@ -70,6 +73,7 @@ pub fn measured_moduli(
 ) -> Result<MeasuredModuli, MeasurementError> {
     let text = text_of(contents, &MODULI);
     let scale = |column: &Column| match column.deformation {
+        Some(Deformation::Tension) if column.quantity == Creep => options.shear_per_tension.recip(),
         Some(Deformation::Tension) => options.shear_per_tension,
         _ => 1.0,
     };
@@ -98,7 +102,7 @@ pub fn measured_moduli(
         return Err(source.wrong_end(&format!("{needed}, but there are {n_rows}")));
     }
     Ok(MeasuredModuli {
-        measurements: measurements(&source, groups, kind.is_relaxation)?,
+        measurements: measurements(&source, groups, kind)?,
         celsius: kind.celsius,
     })
 }
@@ -107,6 +111,8 @@ pub fn measured_moduli(
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Kind {
     is_relaxation: bool,
+    /// Whether what is measured over the time is a compliance.
+    is_creep: bool,
     /// Whether temperatures are in °C, where there are some.
     celsius: Option<bool>,
 }
@@ -116,6 +122,7 @@ impl Kind {
         let temperature = table.find(Temperature);
         Self {
             is_relaxation: table.needed[0] == Time,
+            is_creep: table.needed.contains(&Creep),
             celsius: temperature.map(|column| column.unit != "K"),
         }
     }
@@ -124,9 +131,19 @@ impl Kind {
 fn row(table: &Table, line: &Line) -> Result<IsothermRow, MeasurementError> {
     let numbers = table.positives(line)?;
     let [first, last] = [numbers[1], numbers[numbers.len() - 1]];
-    let moduli = match table.needed[1..] {
-        [Storage, LossFactor] => [first, first * last],
-        [Loss, LossFactor] => [first / last, first],
+    let [quantity, angle] = [table.needed[1], table.needed[table.needed.len() - 1]];
+    let loss_factor = match angle {
+        Phase if last < FRAC_PI_2 => last.tan(),
+        Phase => return Err(table.wrong_in(line, Phase, "a phase angle below 90° = 1.5708 rad")),
+        _ => last,
+    };
+    let moduli = match (quantity, angle) {
+        (Storage, LossFactor | Phase) => [first, first * loss_factor],
+        (Loss, LossFactor | Phase) => [first / loss_factor, first],
+        (Magnitude, _) => {
+            let storage = first / 1.0_f64.hypot(loss_factor);
+            [storage, storage * loss_factor]
+        }
         _ => [first, last],
     };
     Ok(IsothermRow {
@@ -141,9 +158,9 @@ fn row(table: &Table, line: &Line) -> Result<IsothermRow, MeasurementError> {
 fn measurements(
     source: &Source,
     groups: Vec<Group>,
-    is_relaxation: bool,
+    kind: Kind,
 ) -> Result<Measurements, MeasurementError> {
-    if !is_relaxation {
+    if !kind.is_relaxation {
         let isotherms = groups.into_iter().map(isotherm).collect();
         return Ok(Measurements::Oscillation(isotherms));
     }
@@ -153,6 +170,15 @@ fn measurements(
     }
     let groups = groups.into_iter();
     let rows = groups.flat_map(|group| group.rows.into_values());
+    if kind.is_creep {
+        let point = |IsothermRow { at, moduli, .. }: IsothermRow| CreepPoint {
+            time: at,
+            compliance: moduli[0],
+        };
+        let points: Vec<CreepPoint> = rows.map(point).collect();
+        let points = relaxation_of_creep(&points).map_err(|problem| source.wrong_end(&problem))?;
+        return Ok(Measurements::Relaxation(points));
+    }
     let point = |IsothermRow { at, moduli, .. }: IsothermRow| RelaxationPoint {
         time: at,
         modulus: moduli[0],
@@ -167,7 +193,23 @@ fn isotherm(group: Group) -> Isotherm {
         loss: moduli[1],
     };
     Isotherm {
-        temperature: group.temperatures.iter().sum::<f64>() / group.rows.len() as f64,
+        temperature: mean(&group.temperatures),
         points: group.rows.into_values().map(point).collect(),
     }
+}
+
+/// The mean with the decimals of the numbers themselves; 0 of none.
+fn mean(numbers: &[f64]) -> f64 {
+    if numbers.is_empty() {
+        return 0.0;
+    }
+    let decimals = |number: &f64| {
+        number
+            .to_string()
+            .split_once('.')
+            .map_or(0, |parts| parts.1.len())
+    };
+    let most = numbers.iter().map(decimals).max().unwrap_or(0);
+    let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+    format!("{mean:.most$}").parse().unwrap_or(mean)
 }

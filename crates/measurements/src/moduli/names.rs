@@ -2,10 +2,14 @@
 
 use super::Deformation;
 use crate::table::{Quantity, Vocabulary};
-use Quantity::{Frequency, Loss, LossFactor, Relaxation, Set, Storage, Temperature, Time};
+use Quantity::{
+    Creep, Frequency, Loss, LossFactor, Magnitude, Phase, Relaxation, Set, Storage, Temperature,
+    Time,
+};
 
 pub(super) static MODULI: Vocabulary = Vocabulary {
-    names: "f or ω with two of E', E'' and tan delta (or G' and G''), or t with E_relax (or G_relax), and perhaps T and Set",
+    names: "f or ω with two of E', E'' and tan delta (or G' and G''), or with one of E', E'' and |E*| (or G', G'' and |G*|) and a \
+            phase angle or tan delta, or t with E_relax (or G_relax) or J(t) (or D(t)), and perhaps T and Set",
     known: &KNOWN,
     is_head,
     needed,
@@ -17,7 +21,7 @@ const TENSION: Option<Deformation> = Some(Deformation::Tension);
 const SHEAR: Option<Deformation> = Some(Deformation::Shear);
 
 /// Names without blanks, points, dashes, underlines and accents.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 41] = [
+const KNOWN: [(Quantity, Option<Deformation>, &str); 54] = [
     (Frequency, None, "f freq frequency frequenz ω omega w"),
     (Frequency, None, "angularfrequency angfrequency"),
     (Frequency, None, "kreisfrequenz"),
@@ -52,6 +56,43 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 41] = [
     (LossFactor, None, "factordeperdida factordeperdidas"),
     (LossFactor, None, "fattorediperdita fattoredidissipazione"),
     (LossFactor, None, "损耗因子 损耗角正切 損失正接 損失係数"),
+    (Magnitude, TENSION, "|E*| E* |E|"),
+    (Magnitude, SHEAR, "|G*| G* |G|"),
+    (Magnitude, SHEAR, "complexshearmodulus"),
+    (Magnitude, TENSION, "complexyoungsmodulus"),
+    (
+        Magnitude,
+        None,
+        "complexmodulus komplexermodul komplexmodul",
+    ),
+    (
+        Magnitude,
+        None,
+        "modulecomplexe modulocomplejo modulocomplesso",
+    ),
+    (Magnitude, None, "复数模量 複素弾性率"),
+    (
+        Phase,
+        None,
+        "δ delta phase phaseangle phaseshift phaseshiftangle lossangle",
+    ),
+    (
+        Phase,
+        None,
+        "phasenwinkel phasenverschiebung phasenverschiebungswinkel verlustwinkel",
+    ),
+    (
+        Phase,
+        None,
+        "angledephase angledeperte angulodefase angolodifase sfasamento 相位角 位相角",
+    ),
+    (
+        Creep,
+        None,
+        "creepcompliance kriechnachgiebigkeit complaisance",
+    ),
+    (Creep, TENSION, "D D(t)"),
+    (Creep, SHEAR, "J J(t)"),
     (Relaxation, TENSION, "E E(t) Erelax"),
     (Relaxation, SHEAR, "G G(t) Grelax"),
     (Set, None, "set"),
@@ -69,11 +110,19 @@ fn is_head(columns: &[Quantity]) -> bool {
 
 /// Oscillation is measured over the time, too.
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
-    let has = |quantity| columns.contains(&quantity);
-    match [Storage, Loss, LossFactor].map(has) {
-        _ if has(Time) && (has(Relaxation) || !has(Frequency)) => vec![Time, Relaxation],
-        [true, false, true] => vec![Frequency, Storage, LossFactor],
-        [false, true, true] => vec![Frequency, Loss, LossFactor],
+    let has = |quantity: &Quantity| columns.contains(quantity);
+    if has(&Time) && (has(&Relaxation) || has(&Creep) || !has(&Frequency)) {
+        let compliance = has(&Creep) && !has(&Relaxation);
+        return vec![Time, if compliance { Creep } else { Relaxation }];
+    }
+    if has(&Storage) && has(&Loss) {
+        return vec![Frequency, Storage, Loss];
+    }
+    let modulus = [Storage, Loss, Magnitude].into_iter().find(has);
+    let angle = [LossFactor, Phase].into_iter().find(has);
+    match (modulus, angle) {
+        (Some(modulus), Some(angle)) => vec![Frequency, modulus, angle],
+        (Some(Magnitude), None) => vec![Frequency, Magnitude, Phase],
         _ => vec![Frequency, Storage, Loss],
     }
 }

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::Deformation;
 use Quantity::{
-    Deflection, Depth, Displacement, Force, Frequency, Friction, FrictionError, FrictionForce,
-    Height, Loss, LossFactor, Other, Piezo, Radius, Relaxation, Set, Storage, Temperature, Time,
-    Tip, Velocity,
+    Creep, Deflection, Depth, Displacement, Force, Frequency, Friction, FrictionError,
+    FrictionForce, Height, Loss, LossFactor, Magnitude, Other, Phase, Piezo, Radius, Relaxation,
+    Set, Storage, Temperature, Time, Tip, Velocity,
 };
 
 /// What a column holds.
@@ -17,7 +17,13 @@ pub(crate) enum Quantity {
     Storage,
     Loss,
     LossFactor,
+    /// |G*| or |E*|.
+    Magnitude,
+    /// Angle δ by which strain lags behind stress.
+    Phase,
     Relaxation,
+    /// Creep compliance.
+    Creep,
     Temperature,
     /// Number of the isotherm.
     Set,
@@ -70,6 +76,8 @@ impl Vocabulary {
     pub(super) fn meaning(&self, name: &str) -> Option<(usize, Option<Deformation>)> {
         let name = name
             .replace(['′', '’', '´', '`'], "'")
+            // A quote in a cell in quotes is doubled (RFC 4180).
+            .replace("\"\"", "\"")
             .replace(['″', '”', '"'], "''")
             .replace([' ', '_', '-', '.'], "");
         let beside = |&(symbol, quantity, deformation): &(&str, Quantity, Option<Deformation>)| {
@@ -101,7 +109,7 @@ impl Vocabulary {
 }
 
 /// Symbols that may stand beside a name, as in `Speichermodul E'` or `Loss modulus (G'')`.
-const SYMBOLS: [(&str, Quantity, Option<Deformation>); 11] = [
+const SYMBOLS: [(&str, Quantity, Option<Deformation>); 18] = [
     ("E''", Loss, Some(Deformation::Tension)),
     ("G''", Loss, Some(Deformation::Shear)),
     ("E'", Storage, Some(Deformation::Tension)),
@@ -109,6 +117,13 @@ const SYMBOLS: [(&str, Quantity, Option<Deformation>); 11] = [
     ("tandelta", LossFactor, None),
     ("tanδ", LossFactor, None),
     ("tan(δ)", LossFactor, None),
+    ("|E*|", Magnitude, Some(Deformation::Tension)),
+    ("|G*|", Magnitude, Some(Deformation::Shear)),
+    ("E*", Magnitude, Some(Deformation::Tension)),
+    ("G*", Magnitude, Some(Deformation::Shear)),
+    ("δ", Phase, None),
+    ("J(t)", Creep, Some(Deformation::Shear)),
+    ("D(t)", Creep, Some(Deformation::Tension)),
     ("f", Frequency, None),
     ("ω", Frequency, None),
     ("t", Time, None),
@@ -192,6 +207,9 @@ impl Quantity {
             Storage => ("E' or G'", "Pa kPa MPa GPa"),
             Loss => ("E'' or G''", "Pa kPa MPa GPa"),
             LossFactor => ("tan delta", "-  1"),
+            Magnitude => ("|E*| or |G*|", "Pa kPa MPa GPa"),
+            Phase => ("phase angle", "deg rad mrad"),
+            Creep => ("J(t) or D(t)", "1/Pa 1/kPa 1/MPa 1/GPa"),
             Relaxation => ("E_relax or G_relax", "Pa kPa MPa GPa"),
             Temperature => ("T", "C °C K"),
             Set => ("Set", "-  1"),
@@ -221,7 +239,7 @@ impl Quantity {
     }
 
     pub(crate) const fn is_modulus(self) -> bool {
-        matches!(self, Storage | Loss | Relaxation)
+        matches!(self, Storage | Loss | Magnitude | Relaxation | Creep)
     }
 
     /// The unit, and the factor that turns a number into SI; temperatures stay as they are.
@@ -239,6 +257,11 @@ impl Quantity {
         let of_unit = match unit {
             "Hz" | "mHz" | "kHz" => TAU,
             "rpm" => return TAU / 60.0,
+            "deg" => return TAU / 360.0,
+            "rad" => return 1.0,
+            "1/kPa" => return 1e-3,
+            "1/MPa" => return 1e-6,
+            "1/GPa" => return 1e-9,
             "min" => return 60.0,
             "h" => return 3600.0,
             "A" => return 1e-10,
@@ -255,7 +278,7 @@ impl Quantity {
 }
 
 /// Other ways to write them.
-const SAME_UNITS: [(&str, &str); 14] = [
+const SAME_UNITS: [(&str, &str); 24] = [
     ("1/min", "rpm"),
     ("min-1", "rpm"),
     ("U/min", "rpm"),
@@ -270,4 +293,14 @@ const SAME_UNITS: [(&str, &str); 14] = [
     ("℃", "°C"),
     ("deg C", "°C"),
     ("Å", "A"),
+    ("°", "deg"),
+    ("º", "deg"),
+    ("degrees", "deg"),
+    ("Grad", "deg"),
+    ("Pa-1", "1/Pa"),
+    ("Pa^-1", "1/Pa"),
+    ("Pa⁻¹", "1/Pa"),
+    ("MPa-1", "1/MPa"),
+    ("MPa^-1", "1/MPa"),
+    ("MPa⁻¹", "1/MPa"),
 ];

@@ -87,10 +87,13 @@ impl Layout {
         if self.is_blank() {
             return line.split_whitespace().collect();
         }
-        let [mut quoted, mut begins] = [false, true];
+        // In a cell that begins with a quote a quote is doubled, and opens what it has closed (RFC 4180).
+        let [mut in_quotes, mut quoted, mut begins] = [false, false, true];
         let cells = line.split(|character| {
-            quoted ^= character == '"' && (quoted || begins);
+            in_quotes |= character == '"' && begins;
+            quoted ^= character == '"' && in_quotes;
             let ends = character == self.separator && !quoted;
+            in_quotes &= !ends;
             begins = ends || (begins && character == ' ');
             ends
         });

@@ -301,7 +301,8 @@ impl<'a> Table<'a> {
             let other = storage.filter(|storage| storage.deformation != column.deformation);
             let expected = match other {
                 _ if column.quantity.is_modulus() && column.deformation.is_none() => {
-                    "E (tension) or G (shear) in the name, or else the option deformation"
+                    "E (tension) or G (shear) in the name, or else --deformation tension or --deformation shear (in Python \
+                     deformation=\"tension\" or \"shear\")"
                 }
                 Some(storage) => &format!("a loss modulus to go with {}", storage.shown()),
                 None => continue,

@@ -188,3 +188,73 @@ fn isotherms_are_found_in_temperature_sweeps_of_any_order() {
     assert_eq!(storage, expected, "{isotherms:?}");
     assert_close("mean temperature", isotherms[0].0, 293.1, 1e-12);
 }
+
+/// Magnitude and phase angle, or one modulus and the phase angle, are the same moduli; quotes in quotes are doubled (RFC 4180).
+#[test]
+fn magnitude_and_phase_are_two_moduli() {
+    let degrees = |[_, storage, loss]: [f64; 3]| (loss / storage).atan().to_degrees();
+    type Row = Box<dyn Fn([f64; 3]) -> [f64; 2]>;
+    let magnitude = |[_, storage, loss]: [f64; 3]| storage.hypot(loss);
+    let tables: [(&str, Row); 6] = [
+        (
+            "|G*| (MPa),Phase angle (deg)",
+            Box::new(move |point| [magnitude(point), degrees(point)]),
+        ),
+        (
+            "Complex modulus G* [MPa],δ [rad]",
+            Box::new(move |point| [magnitude(point), degrees(point).to_radians()]),
+        ),
+        (
+            "|E*| / MPa,delta / °",
+            Box::new(move |point| [3.0 * magnitude(point), degrees(point)]),
+        ),
+        (
+            "G* (MPa),tan(delta)",
+            Box::new(move |point| [magnitude(point), point[2] / point[1]]),
+        ),
+        (
+            "G' (MPa),Loss angle (°)",
+            Box::new(move |point| [point[1], degrees(point)]),
+        ),
+        (
+            "\"G' (MPa)\",\"G\"\" (MPa)\"",
+            Box::new(|point| [point[1], point[2]]),
+        ),
+    ];
+    for (names, row) in tables {
+        let rows = POINTS.map(|point| {
+            let [first, second] = row(point);
+            format!("{},{first},{second}\n", point[0])
+        });
+        let text = format!("f (Hz),{names}\n{}", rows.concat());
+        let isotherms = isotherms(read(text.as_bytes(), None));
+        for (found, written) in isotherms[0].1.iter().zip(POINTS) {
+            for (found, written) in found.iter().zip(written) {
+                assert_close(names, *found, written, 1e-12);
+            }
+        }
+    }
+}
+
+/// J(t) = J₀ + J₁ (1 − e^(−t/λ)) in shear, and D = J/3 of an incompressible body.
+#[test]
+fn creep_is_read_as_relaxation() {
+    let [soft, stiff, time] = [1e6, 4e6, 0.3_f64];
+    let retardation = time * (soft + stiff) / soft;
+    let compliance =
+        |t: f64| 1.0 / soft - (1.0 / soft - 1.0 / (soft + stiff)) * (-t / retardation).exp();
+    for (name, factor) in [("J(t) (1/MPa)", 1e6), ("D(t) [MPa-1]", 1e6 / 3.0)] {
+        let rows = (0..40).map(|k| {
+            let t = 10_f64.powf(0.1 * f64::from(k) - 2.0);
+            format!("{t},{}\n", factor * compliance(t))
+        });
+        let text = format!("t (s),{name}\n{}", rows.collect::<String>());
+        let Measurements::Relaxation(points) = read(text.as_bytes(), None).measurements else {
+            panic!("{name} is no relaxation")
+        };
+        for point in points {
+            let exact = soft + stiff * (-point.time / time).exp();
+            assert_close(name, point.modulus, exact, 0.02);
+        }
+    }
+}

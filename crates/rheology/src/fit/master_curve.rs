@@ -79,13 +79,23 @@ pub fn shifted_master_curve(
 /// The isotherm nearest to the temperature asked for stays where it is; the curve belongs to its temperature.
 ///
 /// # Errors
-/// [`RheologyError::NoOverlap`] when two neighbours stay farther apart than a quarter of their moduli;
+/// [`RheologyError::OneFrequency`] when one of several isotherms has one point; [`RheologyError::NoOverlap`] when two neighbours stay farther apart than a quarter of their moduli;
 /// [`RheologyError::TooFewPoints`]
 /// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
 pub fn automatic_master_curve(
     isotherms: &[Isotherm],
     temperature: f64,
 ) -> Result<MasterCurve, RheologyError> {
+    let single = |isotherm: &&Isotherm| isotherm.points.len() == 1;
+    if let Some(first) = isotherms.iter().find(single)
+        && isotherms.len() > 1
+    {
+        return Err(RheologyError::OneFrequency {
+            count: isotherms.iter().filter(single).count(),
+            given: isotherms.len(),
+            temperature: first.temperature,
+        });
+    }
     let mut order: Vec<usize> = (0..isotherms.len()).collect();
     let temperature_of = |place: usize| isotherms[place].temperature;
     order.sort_by(|&a, &b| temperature_of(a).total_cmp(&temperature_of(b)));

@@ -471,3 +471,21 @@ fn samples_of_a_fit_scatter_as_its_first_order_says() {
         "samples need a number that is uncertain",
     );
 }
+
+/// One frequency at each temperature needs a law, and has one.
+#[test]
+fn a_ramp_of_temperature_needs_a_law() {
+    let folder = Folder::new("ramp");
+    let table: Vec<String> = isotherms(0.0).lines().map(str::to_owned).collect();
+    let is_kept = |line: &&String| {
+        !line.contains(',')
+            || line.starts_with("1,")
+            || !line.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let rows: Vec<&String> = table.iter().filter(is_kept).collect();
+    let rows: Vec<&str> = rows.iter().map(|line| line.as_str()).collect();
+    folder.write("ramp.csv", rows.join("\n"));
+    let refused = folder.ends("fit-material ramp.csv", 2, "--wlf or --arrhenius");
+    assert!(refused.stderr.contains("column Set"), "{}", refused.stderr);
+    folder.done("fit-material ramp.csv --reference-temperature 20 --wlf 8.86 101.6");
+}
