@@ -42,6 +42,9 @@ const BETTER: f64 = 0.5;
 /// Weight of the error on materials that recover, where all outlines scatter and the refinement that ends is one that does so
 /// little by chance: without it 95.8 of 100 bars hold on random solids and cylinders, with it 98.6 (docs/calibration.md).
 const RECOVERING: f64 = 1.5;
+/// Friction as a part of the mean slope, below which it is a small difference of slopes, and faster orders are looked for: chosen;
+/// larger ones reach what is asked for without.
+const SMALL_FRICTION: f64 = 0.2;
 /// Refinements of which an error bar can come, at least.
 const FEWEST: i32 = 5;
 /// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
@@ -257,8 +260,8 @@ impl Grids<'_> {
         friction.widened(unresolved * friction.value.abs())
     }
 
-    /// The limit of one of the two frictions. Of a body of finite width without edges, on a material that recovers, errors may fall
-    /// faster than the front and the apex let them fall on a dashpot.
+    /// The limit of one of the two frictions. Of a body of finite width without edges, on a material that recovers, errors of a small
+    /// friction may fall faster than the front and the apex let them fall on a dashpot.
     fn limit_of_friction(
         &self,
         refinements: &[Refinement],
@@ -270,7 +273,11 @@ impl Grids<'_> {
             has_edges,
             ..
         } = &self.problem.loading;
-        if creep.only_flows() || strip.is_some() || *has_edges {
+        let is_small =
+            self.reuse.solution.as_ref().is_some_and(|last| {
+                last.friction_coefficient.abs() < SMALL_FRICTION * last.mean_slope
+            });
+        if !is_small || creep.only_flows() || strip.is_some() || *has_edges {
             return self.limit(refinements, self.order, friction);
         }
         let values: Vec<f64> = refinements.iter().map(|r| friction(r).value).collect();
