@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use measurements::friction::friction_points;
+use measurements::friction::{FrictionTableOptions, friction_points};
 use measurements::indentation::{CurveOptions, indentation_curve};
 use viscofriction::WrongInput;
 use viscofriction::indenters::topography::{Topography, TopographyError};
@@ -65,7 +65,7 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
             curve.map(drop).map_err(wrong_table)
         }
         InputKind::Friction => {
-            let points = friction_points(file, contents);
+            let points = friction_points(file, contents, &FrictionTableOptions::default());
             points.map(drop).map_err(wrong_table)
         }
         InputKind::SweepRows => TableFile::new(file, contents)?.check(file),
