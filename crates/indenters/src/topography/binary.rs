@@ -76,12 +76,10 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
     if contents.len() < 512 || !contents.starts_with(b"DIGITAL SURF") {
         return Err("another beginning".to_owned().into());
     }
-    let two = |at: usize| [contents[at], contents[at + 1]];
-    let four = |at: usize| std::array::from_fn(|byte| contents[at + byte]);
-    let short = |at: usize| usize::from(u16::from_le_bytes(two(at)));
-    let real = |at: usize| f64::from(f32::from_le_bytes(four(at)));
+    let short = |at: usize| usize::from(u16::from_le_bytes(part(contents, at)));
+    let real = |at: usize| f64::from(f32::from_le_bytes(part(contents, at)));
     let unit = |at: usize| unit_of(&text_of(&contents[at..at + 16]));
-    let count = |at: usize| u32::from_le_bytes(four(at)) as usize;
+    let count = |at: usize| u32::from_le_bytes(part(contents, at)) as usize;
     let bytes = match short(98) {
         16 => 2,
         32 => 4,
@@ -104,12 +102,12 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
     let length = |at: usize, unit: Option<f64>| real(at) * unit.unwrap_or(1.0);
     let spacing = [length(120, unit_x), length(124, unit_y)];
     let step = length(128, unit_z);
-    let missing = (short(86) == 1).then(|| i32::from_le_bytes(four(100)).wrapping_sub(2));
+    let missing = (short(86) == 1).then(|| i32::from_le_bytes(part(contents, 100)).wrapping_sub(2));
     let height = |index: usize| {
         let at = begin + bytes * index;
         let value = match bytes {
-            2 => i32::from(i16::from_le_bytes(two(at))),
-            _ => i32::from_le_bytes(four(at)),
+            2 => i32::from(i16::from_le_bytes(part(contents, at))),
+            _ => i32::from_le_bytes(part(contents, at)),
         };
         if Some(value) == missing {
             f64::NAN
@@ -124,6 +122,11 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
         ..Topography::of_rows([rows, columns], spacing, heights)
     };
     Ok(inverted(surface, short(290))?)
+}
+
+/// Bytes from a place on that is there.
+fn part<const N: usize>(contents: &[u8], at: usize) -> [u8; N] {
+    std::array::from_fn(|byte| contents[at + byte])
 }
 
 /// A surface that was stored inverted: its heights (1), and mirrored along x (2) or y (3) with them. Gwyddion

@@ -205,6 +205,10 @@ mod tests {
             );
             assert_eq!(found.heights.map(|(unit, _)| unit), Some(1e-9), "{text}");
         }
+    }
+
+    #[test]
+    fn only_units_of_lengths_count() {
         let found = stated("Z unit = um\nX unit = mm").expect("a unit");
         assert_eq!(
             (found.heights.map(|(unit, _)| unit), found.lateral),

@@ -39,8 +39,18 @@ fn is_surface(found: &Topography, spacing: [f64; 2]) -> bool {
     found.shape == [6, 8] && are_heights && are_apart
 }
 
+/// Requires that texts are refused, with these reasons.
+fn assert_refused<const N: usize>(texts: [(String, &str); N]) {
+    for (text, reason) in texts {
+        let refused = read("csv", &text, Some(SPACING))
+            .expect_err(&text)
+            .to_string();
+        assert!(refused.contains(reason), "{refused}\n--- of\n{text}");
+    }
+}
+
 #[test]
-fn texts_that_are_no_heights_are_refused_with_the_reason() {
+fn texts_of_something_else_than_heights_are_refused() {
     let plain = lines(&rows(1e-6), ",");
     let labelled = |label: &dyn Fn(usize) -> String| -> String {
         let rows = rows(1e-6).into_iter().enumerate();
@@ -49,18 +59,19 @@ fn texts_that_are_no_heights_are_refused_with_the_reason() {
     };
     let index = labelled(&|index| index.to_string());
     let axis = labelled(&|index| format!("{:.3}", 0.125 * index as f64));
-    let points: String = (0..48)
-        .map(|index| {
-            format!(
-                "{} {} {}\n",
-                index % 8,
-                index / 8,
-                height(index % 8, index / 8, 1.0)
-            )
-        })
-        .collect();
+    let point = |index: u32| {
+        format!(
+            "{} {} {}\n",
+            index % 8,
+            index / 8,
+            height(index % 8, index / 8, 1.0)
+        )
+    };
+    let points: String = (0..48).map(point).collect();
     let gwyddion = "# Channel: A\n# Width: 16 um\n# Height: 18 um\n# Value units: V\n";
-    for (text, reason) in [
+    let corner = "column 1: a finite height is needed, and not 'y\\x'; are the first row";
+    let phase = "line 8: a second block of heights begins ('# Phase')";
+    assert_refused([
         (
             format!(",0,1,2,3,4,5,6,7\n{index}"),
             "first row and the first column",
@@ -68,23 +79,28 @@ fn texts_that_are_no_heights_are_refused_with_the_reason() {
         (index, "first column is an index"),
         (axis, "first column is an index or an axis"),
         (format!("0,1,2,3,4,5,6,7\n{plain}"), "first row is an index"),
+        (format!("y\\x,1,2,3,4,5,6,7\n{plain}"), corner),
         (points, "extension xyz"),
         (format!("{plain}\n{plain}"), "line 8: a second block"),
-        (
-            format!("{plain}# Phase\n{plain}"),
-            "line 8: a second block of heights begins ('# Phase')",
-        ),
+        (format!("{plain}# Phase\n{plain}"), phase),
         (
             format!("{gwyddion}{plain}"),
             "line 4: the values are in 'V'",
         ),
-        (
-            "4,866;967.0\n4,360;303.5\n".to_owned(),
-            "line 1: '4,866' has a comma and '967.0' in line 1 a point",
-        ),
+    ]);
+}
+
+#[test]
+fn damaged_texts_are_refused_with_the_place() {
+    let plain = lines(&rows(1e-6), ",");
+    let both = "line 1: '4,866' has a comma and '967.0' in line 1 a point";
+    let thousands = "begins with '\"4,866.5\",\"967.0\"' (is there a separator of thousands?)";
+    let exponent = "1.2e-06;2.5e-06\n3.7e-06;4.1e-0".to_owned();
+    assert_refused([
+        ("4,866;967.0\n4,360;303.5\n".to_owned(), both),
         (
             "\"4,866.5\",\"967.0\"\n\"4,360.1\",\"303.5\"\n".to_owned(),
-            "begins with '\"4,866.5\",\"967.0\"' (is there a separator of thousands?)",
+            thousands,
         ),
         (
             plain.replacen('\n', ",1\n", 2),
@@ -97,24 +113,16 @@ fn texts_that_are_no_heights_are_refused_with_the_reason() {
         (format!("6,8\n{plain}"), "line 1: 8 values are needed"),
         (format!("1,2,3,x,5,6,7,8\n{plain}"), "line 1: column 4"),
         (
-            format!("y\\x,1,2,3,4,5,6,7\n{plain}"),
-            "column 1: a finite height is needed, and not 'y\\x'; are the first row",
-        ),
-        (
             "1.25;2.50\n3.75;4.1".to_owned(),
             "line 2: the text ends with '4.1'",
         ),
-        (
-            "1.2e-06;2.5e-06\n3.7e-06;4.1e-0".to_owned(),
-            "line 2: the text ends with '4.1e-0'",
-        ),
+        (exponent, "line 2: the text ends with '4.1e-0'"),
         ("nothing\n".to_owned(), "x3p"),
-    ] {
-        let refused = read("csv", &text, Some(SPACING))
-            .expect_err(&text)
-            .to_string();
-        assert!(refused.contains(reason), "{refused}\n--- of\n{text}");
-    }
+    ]);
+}
+
+#[test]
+fn other_formats_are_named_with_those_that_are_read() {
     for (contents, reason) in [
         (&b"VK4_\0\0\0\0"[..], "Keyence"),
         (b"PK\x03\x04 arr_0.npy", "npz"),
@@ -123,10 +131,8 @@ fn texts_that_are_no_heights_are_refused_with_the_reason() {
         let refused = read("csv", contents, Some(SPACING))
             .expect_err(reason)
             .to_string();
-        let is_helpful = [reason, "x3p", "read_topography", "numpy.save"]
-            .iter()
-            .all(|word| refused.contains(word));
-        assert!(is_helpful, "{refused}");
+        let mut words = [reason, "x3p", "read_topography", "numpy.save"].into_iter();
+        assert!(words.all(|word| refused.contains(word)), "{refused}");
     }
 }
 

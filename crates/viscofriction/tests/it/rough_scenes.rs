@@ -265,59 +265,83 @@ fn a_coarse_grid_tells_surfaces_apart() {
     }
 }
 
-/// What is strange about a map is said with the answer, and what cannot be one is refused.
-#[test]
-fn strange_maps_are_warned_of_or_refused() {
-    let folder = Folder::new("rough-strange-maps");
-    let (_, rest) = SURFACE.split_once('\n').expect("lines");
-    let height = |x: u32, y: u32| {
-        (TAU * f64::from(x) / 16.0).cos() + 0.3 * (TAU * f64::from(y) / 12.0).sin()
+/// A folder with maps of 16 × 12 points: in unknown units, with its units in its head, with holes, and a flat one.
+fn folder_of_maps(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    let point = |(x, y): (u32, u32)| {
+        let [along_x, along_y] = [f64::from(x) / 16.0, f64::from(y) / 12.0];
+        let height = (TAU * along_x).cos() + 0.3 * (TAU * along_y).sin();
+        format!("{x} {y} {}\n", 0.1 * height)
     };
-    let point = |x: u32, y: u32| format!("{x} {y} {}\n", 0.1 * height(x, y));
-    let all = (0..192).map(|index| (index % 16, index / 16));
-    let points: String = all.clone().map(|(x, y)| point(x, y)).collect();
-    folder.write("map.xyz", &points);
-    folder.write("named.xyz", format!("# x [mm] y [mm] z [mm]\n{points}"));
-    let with_holes = |most: u32| {
-        let known = all.clone().filter(|(x, y)| (x * 7 + y * 5) % 16 >= most);
-        known.map(|(x, y)| point(x, y)).collect::<String>()
+    let with_holes = |most: u32| -> String {
+        let all = (0..192).map(|index| (index % 16, index / 16));
+        all.filter(|(x, y)| (x * 7 + y * 5) % 16 >= most)
+            .map(point)
+            .collect()
     };
+    folder.write("map.xyz", with_holes(0));
+    folder.write(
+        "named.xyz",
+        format!("# x [mm] y [mm] z [mm]\n{}", with_holes(0)),
+    );
     folder.write("holes.xyz", with_holes(1));
     folder.write("gone.xyz", with_holes(9));
     folder.write("flat.csv", "1,1\n1,1\n");
-    let scene = |keys: &str| {
-        let body = format!("indenter.height-map = {{ {keys} }}");
-        format!("{body}\n{rest}mean_pressure = 1000.0\n")
-    };
+    folder
+}
+
+/// The scene of a height map with these keys.
+fn scene_of_map(keys: &str) -> String {
+    let (_, rest) = SURFACE.split_once('\n').expect("lines");
+    format!("indenter.height-map = {{ {keys} }}\n{rest}mean_pressure = 1000.0\n")
+}
+
+#[test]
+fn strange_maps_are_warned_of() {
+    let folder = folder_of_maps("rough-strange-maps");
+    let periodic = "edges = \"periodic\"";
     for (keys, warning) in [
+        ("file = \"map.xyz\"", "a period of 1.600e1 m"),
         (
-            "file = \"map.xyz\", edges = \"periodic\"",
-            "a period of 1.600e1 m",
-        ),
-        (
-            "file = \"map.xyz\", edges = \"periodic\", unit = \"nm\", lateral_unit = \"mm\"",
+            "file = \"map.xyz\", unit = \"nm\", lateral_unit = \"mm\"",
             "root mean square slope of 3.032e-8",
         ),
         (
-            "file = \"map.xyz\", edges = \"mirrored\", unit = \"mm\"",
-            "four times those of the map alone",
-        ),
-        (
-            "file = \"named.xyz\", edges = \"periodic\", lateral_unit = \"um\"",
+            "file = \"named.xyz\", lateral_unit = \"um\"",
             "x and y: lateral_unit has no effect",
         ),
         (
-            "file = \"holes.xyz\", edges = \"periodic\", fill_missing = true, unit = \"mm\"",
+            "file = \"holes.xyz\", fill_missing = true, unit = \"mm\"",
             "6.2 % of the heights",
         ),
     ] {
-        let answer = folder.answer(scene(keys));
-        assert!(
-            answer["warnings"].to_string().contains(warning),
-            "{keys}: {}",
-            answer["warnings"]
-        );
+        let answer = folder.answer(scene_of_map(&format!("{keys}, {periodic}")));
+        let warnings = answer["warnings"].to_string();
+        assert!(warnings.contains(warning), "{keys}: {warnings}");
     }
+    let mirrored = "file = \"map.xyz\", edges = \"mirrored\", unit = \"mm\"";
+    let warnings = folder.answer(scene_of_map(mirrored))["warnings"].to_string();
+    assert!(
+        warnings.contains("four times those of the map alone"),
+        "{warnings}"
+    );
+}
+
+#[test]
+fn units_of_a_head_are_those_of_the_keys() {
+    let folder = folder_of_maps("rough-units-of-maps");
+    let force = |keys: &str| {
+        let answer = folder.answer(scene_of_map(&format!("{keys}, edges = \"periodic\"")));
+        number(&answer, "normal_force")
+    };
+    let same = ["file = \"map.xyz\", unit = \"mm\"", "file = \"named.xyz\""].map(force);
+    assert_close("force", same[0], 1000.0 * 0.016 * 0.012, 1e-9);
+    assert_close("force", same[1], same[0], 1e-12);
+}
+
+#[test]
+fn maps_that_are_none_are_refused() {
+    let folder = folder_of_maps("rough-no-maps");
     for (keys, reason) in [
         (
             "file = \"gone.xyz\", fill_missing = true",
@@ -332,16 +356,7 @@ fn strange_maps_are_warned_of_or_refused() {
             "the spacing is in m",
         ),
     ] {
-        folder.write("scene.toml", scene(keys));
+        folder.write("scene.toml", scene_of_map(keys));
         folder.ends("scene.toml", 2, reason);
     }
-    // The units of the head are those of the keys.
-    let force = |keys: &str| number(&folder.answer(scene(keys)), "normal_force");
-    let same = [
-        "file = \"map.xyz\", unit = \"mm\", edges = \"periodic\"",
-        "file = \"named.xyz\", edges = \"periodic\"",
-    ]
-    .map(force);
-    assert_close("force", same[0], 1000.0 * 0.016 * 0.012, 1e-9);
-    assert_close("force", same[1], same[0], 1e-12);
 }

@@ -551,7 +551,8 @@ fn a_method_with_derivatives_takes_the_place_of_one_without() {
     let answer = solve(&problem).expect("an answer");
     assert_eq!(answer.method, Method::Analytic, "the cheapest");
     let files = (Path::new(""), no_file as _);
-    let known = with_sensitivity(&scene, files, &problem, answer.clone(), &Unwatched).expect("derivatives");
+    let known =
+        with_sensitivity(&scene, files, &problem, answer.clone(), &Unwatched).expect("derivatives");
     assert_eq!(known.method, Method::BemSteady, "one with derivatives");
     let frictions = [answer, known].map(|answer| answer.friction_coefficient.expect("a friction"));
     let off = (frictions[0].value - frictions[1].value).abs();
