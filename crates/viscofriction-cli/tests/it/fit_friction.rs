@@ -129,7 +129,10 @@ fn wrong_input_is_named_with_file_line_and_column() {
             "v (m/s),mu\n1e-3,-0.1\n",
             "line 2, column 2 (mu): expected a number greater than 0",
         ),
-        ("v,mu\n1e-3,0.1\n", "the unit of v: m/s, mm/s"),
+        (
+            "v,mu\n1e-3,0.1\n",
+            "column 1 (v) has no unit, in brackets behind its name or in the line below: m/s, mm/s",
+        ),
         (
             "v (m/s),friction force (N)\n1,2\n",
             "there must be a column force",
