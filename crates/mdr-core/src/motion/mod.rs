@@ -106,11 +106,7 @@ pub fn move_along<'w>(
         },
         first: first_elements(load, length),
         largest: MOST_ELEMENTS,
-        order: if has_steep_kinks(line) {
-            BEHIND_STEEP_KINK
-        } else {
-            (line.apex_exponent() - CHANCE).clamp(ORDERS[0], ORDERS[1])
-        },
+        order: convergence_order(line),
         work: WORK,
         others: 0.0,
         selection: 1.0,
@@ -209,6 +205,15 @@ fn contact_length(
     let steady = LineProblem::new(line, material, load.fastest())?;
     let length = steady.contact_span(load.largest_control())?;
     Ok(positive("contact length", length)?)
+}
+
+/// Order in the spacing with which the friction of a motion converges.
+fn convergence_order(line: &dyn RigidLine) -> f64 {
+    if has_steep_kinks(line) {
+        BEHIND_STEEP_KINK
+    } else {
+        (line.apex_exponent() - CHANCE).clamp(ORDERS[0], ORDERS[1])
+    }
 }
 
 /// Elements along the contact with which [`move_along`] first seeks a relative error.

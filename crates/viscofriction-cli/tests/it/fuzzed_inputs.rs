@@ -21,6 +21,7 @@ use viscofriction_cli::{InputKind, check_input};
 use crate::support::{Folder, example, measured, npy};
 
 #[path = "../../../../fuzz/src/lib.rs"]
+#[expect(unreachable_pub, reason = "the library of the fuzz targets")]
 mod oracle;
 
 /// What happens to a file, as often as it is named: a bit is flipped, something put in, a number replaced by another

@@ -81,7 +81,7 @@ fn sensitivity(
     let of = |quantity: fn(&Answer) -> Option<Estimate>| {
         let known = quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
         match values {
-            Values::Exact => difference(&points, |answer| quantity(answer)),
+            Values::Exact => difference(&points, quantity),
             Values::TruncatedSeries => {
                 let truncation = LARGEST_OMITTED_POWER * known.error / known.value.abs();
                 let without_error =

@@ -257,7 +257,7 @@ impl State {
         // A depth is that of the mean plane.
         quantities[1] -= lifted;
         let [from, to] = surfaces.map(PeriodicSurface::period);
-        if from == to {
+        if (0..2).all(|axis| from[axis].total_cmp(&to[axis]).is_eq()) {
             return Ok(self.of_all(quantities));
         }
         // Stretched elements have another kernel; the heights and pressures of the elements stay.
