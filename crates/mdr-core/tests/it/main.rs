@@ -4,6 +4,7 @@ mod any_scene_keeps_the_invariants;
 mod bad_input_is_refused;
 mod cusps_and_kinks;
 mod edges_and_bars;
+mod flat_ends_in_motion;
 mod force_derivatives_are_exact;
 mod friction_converges_to_the_theorem;
 mod histories_are_refused;

@@ -19,6 +19,7 @@ mod own_materials;
 mod rough_scenes;
 mod scenes;
 mod sensitivities;
+mod sensitivities_of_more_scenes;
 mod shared;
 mod support;
 mod windows;
