@@ -100,15 +100,6 @@ pub(super) struct SteadyProblem<'a> {
     pub(super) watch: &'a dyn Watch,
 }
 
-/// Part of the mean slope to which rounding leaves the friction of a contact unknown.
-const fn rounding(is_elastic: bool) -> f64 {
-    if is_elastic {
-        ROUNDING
-    } else {
-        SMALLEST_RESIDUAL
-    }
-}
-
 /// Refines until friction and force have the error asked for; `finish` makes of the estimate what is returned, also where
 /// that error was not reached.
 pub(super) fn refine<E: Into<Reached>>(
@@ -131,8 +122,9 @@ pub(super) fn refine<E: Into<Reached>>(
         let friction = grids.friction(&refinements);
         let force = grids.force(&refinements);
         let is_elastic = problem.loading.creep.is_elastic();
+        let rounding = [SMALLEST_RESIDUAL, ROUNDING][usize::from(is_elastic)];
         // Without friction the contact is known as well as its depth, and finer grids leave what is rounding.
-        let is_rounding = friction.error <= rounding(is_elastic) * finest.state.mean_slope;
+        let is_rounding = friction.error <= rounding * finest.state.mean_slope;
         let (name, driving) = match grids.depth(&refinements) {
             Some(depth) if is_rounding => (Name::Depth, depth),
             None if is_rounding => (Name::Force, force),
