@@ -361,7 +361,7 @@ class HeightMap(Compared, Body):
         if topography.unit is not None and unit is not None:
             raise ValueError(f"the topography states its unit, {topography.unit}: leave out unit")
         scaled = topography if topography.unit is None else topography.to_unit("m")
-        metres = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}.get(unit, 1.0)
+        metres = {None: 1.0, "m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}.get(unit, 1.0)
         dx, dy = (metres * float(step) for step in scaled.pixel_size)
         # Its first index is along x.
         return cls(scaled.heights().T, (dx, dy), **options)
