@@ -192,6 +192,7 @@ pub(crate) fn fitted<'py>(
         dictionary.set_item("covariance_method", covariance.in_words())?;
         let relative = PyArray2::from_vec2(py, &covariance.relative).map_err(wrong)?;
         dictionary.set_item("relative_covariance", relative)?;
+        dictionary.set_item("shift_errors", covariance.shift_errors)?;
     }
     Ok(dictionary)
 }

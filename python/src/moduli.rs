@@ -9,7 +9,7 @@ use measurements::moduli::{
 use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rheology::fit::{Isotherm, ModulusPoint};
+use rheology::fit::{Isotherm, IsothermShift, ModulusPoint, VerticalChoice, VerticalShift};
 use viscofriction::scene::Shift;
 
 use crate::materials::{Options, fitted};
@@ -90,13 +90,14 @@ pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoi
 type Given<'py> = (f64, [PyReadonlyArray1<'py, f64>; 3]);
 
 /// The series of the master curve of isotherms at a temperature, or at that of the one in the middle, as `fit_oscillation`, and
-/// with it pairs of temperature and log₁₀ of the factor, the temperature of the curve, and as JSON the shift law.
+/// with it for every isotherm temperature, log₁₀ a_T, b_T and whether the law of others placed it, the standard errors of ln a_T and
+/// ln b_T, how the moduli change and why, the temperature of the curve, and as JSON the shift law.
 #[pyfunction]
 pub(crate) fn fit_isotherms<'py>(
     py: Python<'py>,
     isotherms: Vec<Given<'py>>,
     celsius: bool,
-    reference_temperature: Option<f64>,
+    wanted: (Option<f64>, Option<String>),
     options: Options,
 ) -> PyResult<Bound<'py, PyDict>> {
     let isotherm = |(temperature, columns): &Given<'py>| Isotherm {
@@ -104,24 +105,51 @@ pub(crate) fn fit_isotherms<'py>(
         points: points(columns),
     };
     let isotherms: Vec<Isotherm> = isotherms.iter().map(isotherm).collect();
+    let (reference_temperature, vertical) = wanted;
     let shifting = Shifting {
         reference_temperature,
         law: None,
+        vertical: vertical.as_deref().map(vertical_shift).transpose()?,
     };
     let found = moduli::master_curve(&isotherms, celsius, shifting).map_err(wrong)?;
     let master = found.master;
     let shift = found.shift.map(|shift| serde_json::to_string(&shift));
     let dictionary = fitted(py, Ok(master.curve), &options)?;
-    dictionary.set_item("log10_factors", master.log10_factors)?;
+    let place = |shift: &IsothermShift| {
+        let factors = (shift.log10_factor, shift.modulus_factor);
+        (shift.temperature, factors, shift.placed_by_law)
+    };
+    let places: Vec<_> = master.shifts.iter().map(place).collect();
+    dictionary.set_item("shifts", places)?;
+    dictionary.set_item("vertical", name_of(master.vertical))?;
+    let found_in_data = master.vertical_choice != VerticalChoice::NotInData;
+    dictionary.set_item("vertical_is_found", found_in_data)?;
     dictionary.set_item("temperature", master.reference_temperature)?;
     dictionary.set_item("shift", shift.transpose().map_err(wrong)?)?;
     Ok(dictionary)
 }
 
-/// The factor of all times to a temperature \[°C], by a shift law as JSON.
+fn vertical_shift(name: &str) -> PyResult<VerticalShift> {
+    let named = VerticalShift::NAMED.into_iter();
+    let mut kinds = named.filter_map(|(own, kind)| (own == name).then_some(kind));
+    let names = VerticalShift::NAMED
+        .map(|(name, _)| format!("{name:?}"))
+        .join(", ");
+    kinds
+        .next()
+        .ok_or_else(|| wrong(format!("vertical must be one of {names}, but is {name:?}")))
+}
+
+fn name_of(vertical: VerticalShift) -> Option<&'static str> {
+    let mut named = VerticalShift::NAMED.into_iter();
+    named.find_map(|(name, kind)| (kind == vertical).then_some(name))
+}
+
+/// The factors of all times and of all moduli to a temperature \[°C], by a shift law as JSON.
 #[pyfunction]
-pub(crate) fn shift_factor(shift: &str, temperature: f64) -> PyResult<f64> {
+pub(crate) fn shift_factors(shift: &str, temperature: f64) -> PyResult<(f64, f64)> {
     let shift: Shift = serde_json::from_str(shift).map_err(wrong)?;
     let log10_factor = shift.log10_factor(temperature).map_err(wrong)?;
-    Ok(10_f64.powf(log10_factor))
+    let modulus_factor = shift.modulus_factor(temperature).map_err(wrong)?;
+    Ok((10_f64.powf(log10_factor), modulus_factor))
 }

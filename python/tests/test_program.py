@@ -61,17 +61,36 @@ def test_a_history_is_named_arrays() -> None:
     assert (np.diff(history["time"]) >= 0).all() and history["normal_force"].max() > 0
 
 
-def export(*temperatures: float) -> str:
+def export(*temperatures: float, entropic: bool = False) -> str:
     """A table of Young's moduli, as an instrument writes it: one isotherm per temperature, a decade apart for 10 °C."""
     rubber = vf.Prony(1e6, [(1e7, 1e-3), (3e6, 1e-1)])
     lines = ["Gummi, gemessen", "f (Hz);T (°C);E' (MPa);E'' (MPa)"]
     for temperature in temperatures:
         hertz = np.logspace(-2, 2, 17)
         omega = 2 * np.pi * hertz * 10 ** (0.1 * (20.0 - temperature))
+        megapascals = 3e-6 * ((temperature + 273.15) / 293.15 if entropic else 1.0)
         moduli = zip(rubber.storage_modulus(omega), rubber.loss_modulus(omega), strict=True)
         for frequency, (storage, loss) in zip(hertz, moduli, strict=True):
-            lines.append(f"{frequency:.6e};{temperature};{3e-6 * storage:.9e};{3e-6 * loss:.9e}".replace(".", ","))
+            lines.append(f"{frequency:.6e};{temperature};{megapascals * storage:.9e};{megapascals * loss:.9e}".replace(".", ","))
     return "\n".join(lines)
+
+
+def test_moduli_may_change_with_the_absolute_temperature(tmp_path: Path) -> None:
+    table = tmp_path / "export.csv"
+    table.write_text(export(0.0, 10.0, 20.0, 30.0, 40.0, entropic=True), encoding="latin-1")
+    fit = vf.fit_material(table)
+    assert fit.vertical == "entropic" and fit.vertical_is_found and fit.shift is not None
+    assert fit.shift["vertical"] == "entropic"
+    for shift in fit.shifts:
+        assert np.isclose(shift.modulus_factor, (shift.temperature + 273.15) / 293.15, rtol=1e-12)
+        assert shift.modulus_factor_error == 0.0 and shift.log10_factor_error is not None and not shift.placed_by_law
+        assert abs(shift.log10_factor - 0.1 * (20.0 - shift.temperature)) < 2e-3
+    warm = fit.at(36.0)
+    assert np.isclose(warm.equilibrium_modulus / fit.material.equilibrium_modulus, 309.15 / 293.15, rtol=1e-12)
+    free = vf.fit_material(table, vertical="free")
+    assert free.vertical == "free" and abs(free.shifts[0].modulus_factor * 293.15 / 273.15 - 1) < 0.02
+    with pytest.raises(ValueError, match='vertical must be one of "none", "entropic", "free"'):
+        vf.fit_material(table, vertical="rubber")
 
 
 @pytest.mark.parametrize("temperatures", [(20.0,), (30.0, 20.0, 10.0)])
@@ -107,6 +126,7 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
     else:
         with pytest.raises(ValueError, match="no shift law"):
             fit.at(24.0)
+    assert fit.vertical == ("none" if len(temperatures) > 1 else None) and len(fit.shifts) == len(fit.log10_factors)
     moduli = vf.read_moduli(table)
     assert moduli.time is None and moduli.storage is not None and moduli.storage.size == 17 * len(temperatures)
     assert (moduli.temperature is None) == (len(temperatures) == 1)

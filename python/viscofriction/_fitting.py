@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -17,7 +18,23 @@ from ._materials import Prony
 Numbers = NDArray[np.float64]
 File = str | os.PathLike[str]
 
-__all__ = ["Fit", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
+__all__ = ["Fit", "IsothermShift", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
+
+
+@dataclass(frozen=True)
+class IsothermShift:
+    """Where an isotherm is on a master curve: G*(ω, T) = b_T G*(a_T ω, T_r)."""
+
+    #: In the unit of the table.
+    temperature: float
+    #: log₁₀ a_T, and its standard error.
+    log10_factor: float
+    log10_factor_error: float | None
+    #: b_T, and its standard error.
+    modulus_factor: float
+    modulus_factor_error: float | None
+    #: Whether it overlaps too little with its neighbour, and the law of the other shifts places it, or one that it follows.
+    placed_by_law: bool
 
 
 @dataclass(frozen=True)
@@ -35,6 +52,12 @@ class Fit:
     loss_error: tuple[float, float] | None = None
     #: Of several isotherms that were shifted onto one another, pairs of temperature and log₁₀ of the factor of frequency.
     log10_factors: tuple[tuple[float, float], ...] = ()
+    #: Of several isotherms what is known of each of them on the master curve.
+    shifts: tuple[IsothermShift, ...] = ()
+    #: How the moduli of several isotherms change with temperature: "none", "entropic" or "free".
+    vertical: str | None = None
+    #: Whether that was asked for or is what the isotherms show; without it they do not show whether moduli change, and b_T = 1.
+    vertical_is_found: bool = True
     #: Of isotherms the temperature of the material, in the unit of the table.
     temperature: float | None = None
     #: The shift law as in a scene's ``shift``, in °C, where several isotherms have one.
@@ -61,19 +84,19 @@ class Fit:
 
     def at(self, temperature: float) -> Prony:
         """The material at another temperature, in the unit of the table, by the shift law; the frequencies at which it was
-        measured shift along.
+        measured shift along, and moduli change by b_T.
 
         Raises ValueError outside of the law's range of temperatures.
         """
         if self.shift is None or self.temperature is None:
             raise ValueError("temperature: the fit has no shift law, which needs isotherms of several temperatures")
         celsius = number("temperature", temperature) + (self.shift["temperature"] - self.temperature)
-        factor = _native.shift_factor(json.dumps(self.shift), celsius)
+        factor, stiffer = _native.shift_factors(json.dumps(self.shift), celsius)
         material = self.material
         window = material.valid_frequencies
         return Prony(
-            material.equilibrium_modulus,
-            [{"modulus": modulus, "relaxation_time": time * factor} for modulus, time in material.branches],
+            material.equilibrium_modulus * stiffer,
+            [{"modulus": modulus * stiffer, "relaxation_time": time * factor} for modulus, time in material.branches],
             poisson_ratio=material.poisson_ratio,
             valid_frequencies=window and (window[0] / factor, window[1] / factor),
             relative_covariance=material.relative_covariance,
@@ -124,11 +147,13 @@ def fit_material(
     poisson_ratio: float = 0.5,
     deformation: str | None = None,
     reference_temperature: float | None = None,
+    vertical: str | None = None,
 ) -> Fit:
     """The Prony series with the least relative error of shear moduli [Pa] that were measured over frequency [Hz], in any order.
 
     Instead of the three arrays the name of a file will do, which ``read_moduli`` reads; isotherms are then shifted to
-    ``reference_temperature``, or onto the one in the middle.
+    ``reference_temperature``, or onto the one in the middle. ``vertical`` says how their moduli change with temperature:
+    "none", "entropic" (with the absolute temperature, as those of rubber) or "free" (by a factor of each); without it as they show.
 
     Without ``branches`` the fewest are taken whose error is at most 1 + ``tolerance`` (0.02) times that of many;
     ``smoothing`` keeps ``branches`` equally spaced and smooths their moduli with this weight. A ``liquid`` has no equilibrium
@@ -141,11 +166,11 @@ def fit_material(
         if storage is not None or loss is not None:
             raise ValueError("storage and loss: a file has its own")
         measured = _native.read_moduli(os.fspath(frequency), poisson_ratio, deformation)
-        return _fit_table(measured, reference_temperature, options, poisson_ratio)
+        return _fit_table(measured, (reference_temperature, vertical), options, poisson_ratio)
     if storage is None or loss is None:
         raise ValueError("storage and loss are needed beside frequency")
-    if deformation is not None or reference_temperature is not None:
-        raise ValueError("deformation and reference_temperature are for files")
+    if deformation is not None or reference_temperature is not None or vertical is not None:
+        raise ValueError("deformation, reference_temperature and vertical are for files")
     hertz, shear, viscous = columns(frequency=frequency, storage=storage, loss=loss)
     order = np.argsort(hertz, kind="stable")
     found = _native.fit_oscillation(2 * np.pi * hertz[order], shear[order], viscous[order], options)
@@ -154,13 +179,15 @@ def fit_material(
 
 def _fit_table(
     measured: tuple[list[tuple[float | None, list[Numbers]]], bool | None],
-    reference: float | None,
+    wanted: tuple[float | None, str | None],
     options: dict[str, Any],
     poisson_ratio: float,
 ) -> Fit:
     parts, celsius = measured
-    if celsius is None and reference is not None:
-        raise ValueError("reference_temperature: the table has no temperatures, from which it could be shifted to another one")
+    if celsius is None and wanted != (None, None):
+        raise ValueError(
+            "reference_temperature and vertical: the table has no temperatures, from which it could be shifted to another one"
+        )
     isotherms = [(temperature, columns) for temperature, columns in parts if temperature is not None]
     if not isotherms:
         time, modulus = parts[0][1]
@@ -168,10 +195,41 @@ def _fit_table(
     if celsius is None:
         omega, storage, loss = isotherms[0][1]
         return _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
-    found = _native.fit_isotherms(isotherms, celsius, reference, options)
-    pairs = tuple((one, factor) for one, factor in found["log10_factors"]) if len(isotherms) > 1 else ()
-    shift = json.loads(found["shift"]) if found["shift"] else None
-    return replace(_fit(found, poisson_ratio), log10_factors=pairs, temperature=found["temperature"], shift=shift)
+    found = _native.fit_isotherms(isotherms, celsius, wanted, options)
+    fit = replace(
+        _fit(found, poisson_ratio),
+        temperature=found["temperature"],
+        shift=json.loads(found["shift"]) if found["shift"] else None,
+    )
+    if len(isotherms) == 1:
+        return fit
+    errors = found.get("shift_errors") or [(None, None)] * len(isotherms)
+    shifts = tuple(_isotherm_shift(*one, *error) for one, error in zip(found["shifts"], errors, strict=True))
+    return replace(
+        fit,
+        log10_factors=tuple((one.temperature, one.log10_factor) for one in shifts),
+        shifts=shifts,
+        vertical=found["vertical"],
+        vertical_is_found=found["vertical_is_found"],
+    )
+
+
+def _isotherm_shift(
+    temperature: float,
+    factors: tuple[float, float],
+    placed_by_law: bool,
+    log_error: float | None,
+    modulus_error: float | None,
+) -> IsothermShift:
+    log10_factor, modulus_factor = factors
+    return IsothermShift(
+        temperature,
+        log10_factor,
+        None if log_error is None else log_error / math.log(10),
+        modulus_factor,
+        None if modulus_error is None else modulus_factor * modulus_error,
+        placed_by_law,
+    )
 
 
 def fit_relaxation(

@@ -56,7 +56,7 @@ pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
 pub use materials::generalised::{Compressible, Prony};
 pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
 pub use numerics::InvalidParameter;
-pub use shift::{KELVIN_AT_ZERO_CELSIUS, Shift, ShiftLaw};
+pub use shift::{KELVIN_AT_ZERO_CELSIUS, Shift, ShiftLaw, VerticalLaw};
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
 pub use step::ExponentialStep;

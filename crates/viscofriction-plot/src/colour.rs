@@ -15,9 +15,23 @@ pub enum Colour {
     Magenta,
     /// #000000.
     Black,
+    /// A step of [`STEPS`], for series in an order; steps beyond the last one are the last.
+    Step(u8),
 }
 
+/// Viridis from dark blue to green, at equal steps up to where it becomes too bright for markers on white.
+const STEPS: [&str; 9] = [
+    "#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58",
+    "#b5de2b",
+];
+
 impl Colour {
+    /// The colour of a series that is this part of the way from the first to the last one of an order, from 0 to 1.
+    pub fn between(part: f64) -> Self {
+        let steps = (1..STEPS.len()).take_while(|step| *step as f64 <= part * STEPS.len() as f64);
+        Self::Step(u8::try_from(steps.count()).unwrap_or(0))
+    }
+
     /// Value as #rrggbb.
     pub(crate) const fn hex(self) -> &'static str {
         match self {
@@ -26,6 +40,14 @@ impl Colour {
             Self::Green => "#009e73",
             Self::Magenta => "#aa3377",
             Self::Black => "#000000",
+            Self::Step(step) => {
+                let last = STEPS.len() - 1;
+                STEPS[if (step as usize) < last {
+                    step as usize
+                } else {
+                    last
+                }]
+            }
         }
     }
 }

@@ -1,8 +1,13 @@
 //! Isotherms onto one curve, at exactly the temperature that is wanted.
 
 use numerics::finite;
-use rheology::fit::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};
-use rheology::{ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError, Shift, ShiftLaw, WlfShift};
+use rheology::fit::{
+    Isotherm, IsothermShift, MasterCurve, SuperpositionOptions, VerticalShift,
+    automatic_master_curve, shifted_master_curve,
+};
+use rheology::{
+    ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError, Shift, ShiftLaw, VerticalLaw, WlfShift,
+};
 
 /// How isotherms are shifted.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -11,6 +16,8 @@ pub struct Shifting {
     pub reference_temperature: Option<f64>,
     /// The law, about that temperature; without one the isotherms are shifted onto one another.
     pub law: Option<ShiftLaw>,
+    /// How the moduli change with temperature; without it as the isotherms show.
+    pub vertical: Option<VerticalShift>,
 }
 
 /// Isotherms as one curve.
@@ -35,54 +42,124 @@ pub fn master_curve(
     celsius: bool,
     shifting: Shifting,
 ) -> Result<Shifted, RheologyError> {
-    let to_celsius = if celsius {
-        0.0
-    } else {
-        -KELVIN_AT_ZERO_CELSIUS
+    let table = Table {
+        isotherms,
+        to_celsius: if celsius {
+            0.0
+        } else {
+            -KELVIN_AT_ZERO_CELSIUS
+        },
     };
-    let mut temperatures: Vec<f64> = isotherms.iter().map(|one| one.temperature).collect();
-    temperatures.sort_by(f64::total_cmp);
-    let (Some(lowest), Some(highest)) = (temperatures.first(), temperatures.last()) else {
-        return Err(RheologyError::TooFewPoints {
-            needed: 1,
-            given: 0,
-        });
-    };
-    let range = [lowest, highest].map(|temperature| temperature + to_celsius);
-    let middle = temperatures[temperatures.len() / 2];
-    let wanted = shifting.reference_temperature.unwrap_or(middle);
-    finite("reference_temperature", wanted)?;
-    if let Some(law) = shifting.law {
-        let temperature = wanted + to_celsius;
-        let shift = Shift {
-            temperature,
-            temperature_range: [range[0].min(temperature), range[1].max(temperature)],
-            law,
-        };
-        let log10_factor = |temperature| shift.log10_factor(temperature + to_celsius);
-        return Ok(Shifted {
-            master: shifted_master_curve(isotherms, wanted, log10_factor)?,
-            shift: Some(shift),
-        });
-    }
-    let master = automatic_master_curve(isotherms, wanted)?;
-    let nearest = master.reference_temperature;
-    let in_celsius = |[temperature, log]: &[f64; 2]| [temperature + to_celsius, *log];
-    let mut shifts: Vec<[f64; 2]> = master.log10_factors.iter().map(in_celsius).collect();
-    shifts.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let shift = law_around(&shifts, [nearest, wanted].map(|one| one + to_celsius));
-    if wanted.total_cmp(&nearest).is_eq() {
-        return Ok(Shifted { master, shift });
-    }
-    let shift = shift.ok_or(RheologyError::NoShiftLaw {
-        temperature: wanted,
-        nearest,
+    let temperatures = table.temperatures();
+    let middle = temperatures.get(temperatures.len() / 2);
+    let middle = middle.ok_or(RheologyError::TooFewPoints {
+        needed: 1,
+        given: 0,
     })?;
-    let log10_factor = shift.log10_factor(wanted + to_celsius)?;
-    Ok(Shifted {
-        master: master.about(wanted, log10_factor)?,
-        shift: Some(shift.about(wanted + to_celsius)?),
-    })
+    let wanted = shifting.reference_temperature.unwrap_or(*middle);
+    finite("reference_temperature", wanted)?;
+    let options = SuperpositionOptions {
+        vertical: shifting.vertical,
+        kelvin_at_zero: table.to_celsius + KELVIN_AT_ZERO_CELSIUS,
+    };
+    match shifting.law {
+        Some(law) => table.by_law(wanted, law, &options),
+        None => table.automatic(wanted, &options),
+    }
+}
+
+/// Isotherms of a table.
+struct Table<'a> {
+    isotherms: &'a [Isotherm],
+    /// What is to be added to their temperatures for °C.
+    to_celsius: f64,
+}
+
+impl Table<'_> {
+    /// From the lowest one on.
+    fn temperatures(&self) -> Vec<f64> {
+        let temperatures = self.isotherms.iter().map(|one| one.temperature);
+        let mut temperatures: Vec<f64> = temperatures.collect();
+        temperatures.sort_by(f64::total_cmp);
+        temperatures
+    }
+
+    /// By a law about the temperature that is wanted.
+    fn by_law(
+        &self,
+        wanted: f64,
+        law: ShiftLaw,
+        options: &SuperpositionOptions,
+    ) -> Result<Shifted, RheologyError> {
+        let celsius = |temperature: f64| temperature + self.to_celsius;
+        let all = self.temperatures().into_iter().chain([wanted]).map(celsius);
+        let start = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut shift = Shift {
+            temperature: celsius(wanted),
+            temperature_range: all.fold(start, |[low, high], one| [low.min(one), high.max(one)]),
+            law,
+            vertical: None,
+        };
+        let log10_factor = |temperature| shift.log10_factor(celsius(temperature));
+        let master = shifted_master_curve(self.isotherms, wanted, log10_factor, options)?;
+        shift.vertical = self.vertical_law(&master);
+        let nearest = celsius(master.reference_temperature);
+        let [log10_factor, modulus_factor] = [
+            -shift.log10_factor(nearest)?,
+            shift.modulus_factor(nearest)?.recip(),
+        ];
+        Ok(Shifted {
+            master: master.about(wanted, log10_factor, modulus_factor)?,
+            shift: Some(shift),
+        })
+    }
+
+    /// Onto one another, and to the temperature that is wanted by the law of the shifts.
+    fn automatic(
+        &self,
+        wanted: f64,
+        options: &SuperpositionOptions,
+    ) -> Result<Shifted, RheologyError> {
+        let celsius = |temperature: f64| temperature + self.to_celsius;
+        let master = automatic_master_curve(self.isotherms, wanted, options)?;
+        let nearest = master.reference_temperature;
+        let pair = |shift: &IsothermShift| [celsius(shift.temperature), shift.log10_factor];
+        let mut shifts: Vec<[f64; 2]> = master.shifts.iter().map(pair).collect();
+        shifts.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        let shift = law_around(&shifts, [nearest, wanted].map(celsius));
+        let vertical = self.vertical_law(&master);
+        let shift = shift.map(|shift| Shift { vertical, ..shift });
+        if wanted.total_cmp(&nearest).is_eq() {
+            return Ok(Shifted { master, shift });
+        }
+        let shift = shift.ok_or(RheologyError::NoShiftLaw {
+            temperature: wanted,
+            nearest,
+        })?;
+        let log10_factor = shift.log10_factor(celsius(wanted))?;
+        let modulus_factor = shift.modulus_factor(celsius(wanted))?;
+        Ok(Shifted {
+            master: master.about(wanted, log10_factor, modulus_factor)?,
+            shift: Some(shift.about(celsius(wanted))?),
+        })
+    }
+
+    /// How the moduli of a master curve change with temperature.
+    fn vertical_law(&self, master: &MasterCurve) -> Option<VerticalLaw> {
+        let of_isotherm =
+            |shift: &IsothermShift| [shift.temperature + self.to_celsius, shift.modulus_factor];
+        match master.vertical {
+            VerticalShift::None => None,
+            VerticalShift::Entropic => Some(VerticalLaw::Entropic),
+            VerticalShift::Free => {
+                let mut table: Vec<[f64; 2]> = master.shifts.iter().map(of_isotherm).collect();
+                table.sort_by(|one, other| one[0].total_cmp(&other[0]));
+                // Isotherms of the same temperature: the first one.
+                table.dedup_by(|next, kept| next[0] <= kept[0]);
+                Some(VerticalLaw::Table(table))
+            }
+        }
+    }
 }
 
 /// Distance of shifts from a law, in decades, within which the law holds.
@@ -128,6 +205,7 @@ fn closest(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
         temperature: reference,
         temperature_range: [shifts[0][0], shifts[shifts.len() - 1][0]],
         law,
+        vertical: None,
     };
     let off = |shift: &Shift| deviation(shift, shifts);
     let laws = laws.into_iter().filter_map(Result::ok).map(shift);

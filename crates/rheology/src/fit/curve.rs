@@ -1,5 +1,6 @@
 //! What was measured, over frequency or over time.
 
+use super::superposition::{Link, LinkedBy};
 use super::system::{LEAST_PART, Measurement, Quantity};
 use crate::RheologyError;
 use crate::error::in_list;
@@ -56,12 +57,22 @@ pub(super) struct JoinedIsotherms {
     pub(super) temperatures: Vec<f64>,
     /// ln of the factors of their frequencies.
     pub(super) log_factors: Vec<f64>,
-    /// Pairs of an isotherm that stayed where it was and the one that was shifted onto it, each after the one that it was shifted
-    /// onto; none where the factors were given.
-    pub(super) chain: Vec<[usize; 2]>,
+    /// What says where each of them is, each after the one that it was shifted onto; none where that was given.
+    pub(super) links: Vec<Link>,
 }
 
 impl JoinedIsotherms {
+    /// The isotherm that stayed where it was while others were shifted onto it; none where all shifts were given.
+    pub(super) fn reference(&self) -> Option<usize> {
+        let finds_shift = |link: &Link| match link.by {
+            LinkedBy::Overlap { finds_shift, .. } => finds_shift,
+            LinkedBy::Law(_) => true,
+            LinkedBy::Given => false,
+        };
+        let first = self.links.first()?;
+        self.links.iter().any(finds_shift).then_some(first.fixed)
+    }
+
     /// d ln a/dT from the neighbours of every isotherm; 0 of a single one.
     pub(super) fn secants(&self) -> Vec<f64> {
         let n = self.temperatures.len();
@@ -129,11 +140,6 @@ impl MeasuredCurve {
         }
         self.joined = Some(joined);
         self
-    }
-
-    /// The isotherm of every point.
-    pub(super) fn places(&self) -> Vec<usize> {
-        self.rows.chunks(2).map(|point| point[0].isotherm).collect()
     }
 
     /// A curve measured in relaxation.

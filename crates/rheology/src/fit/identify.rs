@@ -9,6 +9,7 @@ use super::covariance::{ModuliCovariance, covariance};
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
+use super::sign_changes::SignChanges;
 use super::system::{Measurement, Quantity};
 use crate::{PronyExpansion, RelaxationBranch, RelaxationSpectrum, RheologyError};
 
@@ -87,6 +88,10 @@ pub struct Identification {
     pub storage_error: Option<RelativeError>,
     /// The same of G''.
     pub loss_error: Option<RelativeError>,
+    /// Signs of the errors of G' along the frequency; none of G(t).
+    pub storage_sign_changes: Option<SignChanges>,
+    /// The same of G''.
+    pub loss_sign_changes: Option<SignChanges>,
     /// How well the moduli are known; none where that leaves the range of `f64`.
     pub covariance: Option<ModuliCovariance>,
 }
@@ -289,6 +294,8 @@ impl Measured {
             max_relative_error: errors.into_iter().fold(0.0, f64::max).sqrt(),
             storage_error: measured.error_of(series, Quantity::Storage),
             loss_error: measured.error_of(series, Quantity::Loss),
+            storage_sign_changes: measured.sign_changes_of(series, Quantity::Storage),
+            loss_sign_changes: measured.sign_changes_of(series, Quantity::Loss),
             covariance: None,
         })
     }
@@ -304,6 +311,10 @@ impl Measured {
             max: errors.iter().copied().fold(0.0, f64::max),
         };
         Some(errors.len()).filter(|n| *n > 0).map(of_all)
+    }
+
+    fn sign_changes_of(&self, series: &Series, quantity: Quantity) -> Option<SignChanges> {
+        SignChanges::of(&self.rows, quantity, |row| series.value(row) - row.value)
     }
 
     /// Squared relative error of every point; the two rows of a frequency are one point.

@@ -3,8 +3,10 @@
 use std::f64::consts::LN_10;
 
 use super::curve::{JoinedIsotherms, MeasuredCurve, ModulusPoint};
+use super::superposition::{
+    LinkedBy, Superposed, SuperpositionOptions, VerticalChoice, VerticalShift, superpose,
+};
 use crate::RheologyError;
-use numerics::golden_section;
 
 /// Moduli over frequency at one temperature.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,35 +17,62 @@ pub struct Isotherm {
     pub points: Vec<ModulusPoint>,
 }
 
+/// Where an isotherm is on a master curve: G*(ω, T) = b_T G*(a_T ω, T_r).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IsothermShift {
+    /// Temperature, in the unit of the reference temperature.
+    pub temperature: f64,
+    /// log₁₀ a_T.
+    pub log10_factor: f64,
+    /// b_T.
+    pub modulus_factor: f64,
+    /// Whether it overlaps too little with its neighbour, so that the law of the others says where it, and what is beyond it, belongs.
+    pub placed_by_law: bool,
+}
+
 /// Isotherms shifted to the reference temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MasterCurve {
-    /// All points at increasing reduced frequencies a_T ω.
+    /// All points at increasing reduced frequencies a_T ω, their moduli divided by b_T.
     pub curve: MeasuredCurve,
     /// The same points, \[rad/s] and \[Pa].
     pub points: Vec<ModulusPoint>,
+    /// The isotherm of every point, by its place in `shifts`; of points that were averaged that of one of them.
+    pub isotherms: Vec<usize>,
     /// Temperature that the curve belongs to.
     pub reference_temperature: f64,
-    /// Pairs of temperature and log₁₀ a_T, in the order of the isotherms.
-    pub log10_factors: Vec<[f64; 2]>,
+    /// In the order of the isotherms.
+    pub shifts: Vec<IsothermShift>,
+    /// How the moduli change with temperature.
+    pub vertical: VerticalShift,
+    /// Why they are taken to.
+    pub vertical_choice: VerticalChoice,
 }
 
 impl MasterCurve {
-    /// The same at another temperature, at which all times are `10^log10_factor` of those at this one.
+    /// The same at another temperature, at which all times are `10^log10_factor` and all moduli `modulus_factor` > 0 of those at this one.
     ///
     /// # Errors
-    /// Those of [`MeasuredCurve::oscillation`], where a frequency leaves the range of `f64`.
-    pub fn about(mut self, temperature: f64, log10_factor: f64) -> Result<Self, RheologyError> {
+    /// Those of [`MeasuredCurve::oscillation`], where a frequency or a modulus leaves the range of `f64`.
+    pub fn about(
+        mut self,
+        temperature: f64,
+        log10_factor: f64,
+        modulus_factor: f64,
+    ) -> Result<Self, RheologyError> {
         let factor = 10_f64.powf(log10_factor);
         for point in &mut self.points {
             point.angular_frequency /= factor;
+            point.storage *= modulus_factor;
+            point.loss *= modulus_factor;
         }
-        for [_, log] in &mut self.log10_factors {
-            *log -= log10_factor;
+        for shift in &mut self.shifts {
+            shift.log10_factor -= log10_factor;
+            shift.modulus_factor /= modulus_factor;
         }
         let mut curve = MeasuredCurve::oscillation(self.points.clone())?;
         if let Some(joined) = self.curve.joined.take() {
-            curve = curve.of_isotherms(&self.curve.places(), joined);
+            curve = curve.of_isotherms(&self.isotherms, joined);
         }
         Ok(Self {
             curve,
@@ -53,38 +82,46 @@ impl MasterCurve {
     }
 }
 
-/// The master curve at a reference temperature with log₁₀ a_T given as a function of temperature.
+/// The master curve at the temperature of the isotherm that is nearest to the one asked for, with log₁₀ a_T given as a function of
+/// temperature.
 ///
 /// # Errors
-/// Those of `log10_factor`, and of [`MeasuredCurve::oscillation`].
+/// Those of `log10_factor`, of [`MeasuredCurve::oscillation`], and [`RheologyError::TooFewPoints`] without an isotherm.
 pub fn shifted_master_curve(
     isotherms: &[Isotherm],
-    reference_temperature: f64,
+    temperature: f64,
     log10_factor: impl Fn(f64) -> Result<f64, RheologyError>,
+    options: &SuperpositionOptions,
 ) -> Result<MasterCurve, RheologyError> {
-    let factors = isotherms.iter().map(|isotherm| {
-        let log = log10_factor(isotherm.temperature)?;
-        Ok([isotherm.temperature, log])
-    });
-    let factors = factors.collect::<Result<_, RheologyError>>()?;
-    joined(isotherms, reference_temperature, factors, Vec::new())
+    let chain = Chain::new(isotherms, temperature)?;
+    let log_factor = |isotherm: &Isotherm| Ok(LN_10 * log10_factor(isotherm.temperature)?);
+    let known = isotherms.iter().map(log_factor);
+    let mut known: Vec<f64> = known.collect::<Result<_, RheologyError>>()?;
+    let reference = known[chain.reference];
+    known
+        .iter_mut()
+        .for_each(|log_factor| *log_factor -= reference);
+    let superposed = superpose(isotherms, &chain.pairs, Some(&known), options)?;
+    joined(isotherms, &chain, superposed)
 }
 
-/// The master curve with every isotherm shifted horizontally onto its neighbour, so that the storage moduli of both lie
-/// on one line where they overlap.
+/// The master curve with every isotherm shifted onto its neighbour, so that both moduli lie on one line where they overlap.
 ///
-/// The storage modulus decides alone: it is the one that is measured well, and on a material that is not quite
-/// thermorheologically simple the loss moduli would pull the curves apart.
+/// Each modulus is weighed by what it says: on a plateau of the storage modulus the loss modulus decides. Where the two contradict
+/// each other the storage modulus does: it is the one that is measured well, and on a material that is not quite
+/// thermorheologically simple the loss moduli would pull the curves apart. An isotherm that has too little in common with its
+/// neighbour is placed by the law of Williams, Landel and Ferry through the shifts around it.
 ///
 /// The isotherm nearest to the temperature asked for stays where it is; the curve belongs to its temperature.
 ///
 /// # Errors
-/// [`RheologyError::OneFrequency`] when one of several isotherms has one point; [`RheologyError::NoOverlap`] when two neighbours stay farther apart than a quarter of their moduli;
-/// [`RheologyError::TooFewPoints`]
+/// [`RheologyError::OneFrequency`] when one of several isotherms has one point; [`RheologyError::NoOverlap`] when two neighbours
+/// stay farther apart than a quarter of their moduli, and no law of others bridges that; [`RheologyError::TooFewPoints`]
 /// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
 pub fn automatic_master_curve(
     isotherms: &[Isotherm],
     temperature: f64,
+    options: &SuperpositionOptions,
 ) -> Result<MasterCurve, RheologyError> {
     let single = |isotherm: &&Isotherm| isotherm.points.len() == 1;
     if let Some(first) = isotherms.iter().find(single)
@@ -96,44 +133,69 @@ pub fn automatic_master_curve(
             temperature: first.temperature,
         });
     }
-    let mut order: Vec<usize> = (0..isotherms.len()).collect();
-    let temperature_of = |place: usize| isotherms[place].temperature;
-    order.sort_by(|&a, &b| temperature_of(a).total_cmp(&temperature_of(b)));
-    let distance = |place: &usize| (temperature_of(order[*place]) - temperature).abs();
-    let nearest = (0..order.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let nearest = nearest.ok_or(RheologyError::TooFewPoints {
-        needed: 1,
-        given: 0,
-    })?;
+    let chain = Chain::new(isotherms, temperature)?;
     for isotherm in isotherms {
         MeasuredCurve::oscillation(isotherm.points.clone())?;
     }
-    let mut logs = vec![0.0; isotherms.len()];
-    let upwards = (nearest + 1..order.len()).map(|place| [place - 1, place]);
-    let downwards = (0..nearest).rev().map(|place| [place + 1, place]);
-    let chain = upwards.chain(downwards);
-    let chain: Vec<[usize; 2]> = chain.map(|pair| pair.map(|place| order[place])).collect();
-    for &[known, new] in &chain {
-        logs[new] = logs[known] + shift_onto(&isotherms[known], &isotherms[new])?;
+    let superposed = superpose(isotherms, &chain.pairs, None, options)?;
+    joined(isotherms, &chain, superposed)
+}
+
+/// In which order isotherms are shifted onto one another.
+struct Chain {
+    /// The isotherm that stays where it is.
+    reference: usize,
+    /// Of an isotherm and its neighbour that is farther from the reference, from that one outwards.
+    pairs: Vec<[usize; 2]>,
+}
+
+impl Chain {
+    /// From the isotherm whose temperature is nearest.
+    fn new(isotherms: &[Isotherm], temperature: f64) -> Result<Self, RheologyError> {
+        let mut order: Vec<usize> = (0..isotherms.len()).collect();
+        let temperature_of = |place: usize| isotherms[place].temperature;
+        order.sort_by(|&a, &b| temperature_of(a).total_cmp(&temperature_of(b)));
+        let distance = |place: &usize| (temperature_of(order[*place]) - temperature).abs();
+        let nearest = (0..order.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let nearest = nearest.ok_or(RheologyError::TooFewPoints {
+            needed: 1,
+            given: 0,
+        })?;
+        let upwards = (nearest + 1..order.len()).map(|place| [place - 1, place]);
+        let downwards = (0..nearest).rev().map(|place| [place + 1, place]);
+        let pairs = upwards
+            .chain(downwards)
+            .map(|pair| pair.map(|place| order[place]));
+        Ok(Self {
+            reference: order[nearest],
+            pairs: pairs.collect(),
+        })
     }
-    let factors = isotherms.iter().zip(logs);
-    let factors = factors.map(|(isotherm, log)| [isotherm.temperature, log]);
-    let reference_temperature = isotherms[order[nearest]].temperature;
-    joined(isotherms, reference_temperature, factors.collect(), chain)
 }
 
 fn joined(
     isotherms: &[Isotherm],
-    reference_temperature: f64,
-    log10_factors: Vec<[f64; 2]>,
-    chain: Vec<[usize; 2]>,
+    chain: &Chain,
+    superposed: Superposed,
 ) -> Result<MasterCurve, RheologyError> {
-    let pairs = isotherms.iter().zip(&log10_factors).enumerate();
-    let shifted = pairs.flat_map(|(place, (isotherm, [_, log]))| {
-        let factor = 10_f64.powf(*log);
+    let mut by_law = vec![false; isotherms.len()];
+    for link in &superposed.links {
+        by_law[link.moved] = by_law[link.fixed] || matches!(link.by, LinkedBy::Law(_));
+    }
+    let shift = |place: usize| IsothermShift {
+        temperature: isotherms[place].temperature,
+        log10_factor: superposed.log_factors[place] / LN_10,
+        modulus_factor: superposed.log_moduli[place].exp(),
+        placed_by_law: by_law[place],
+    };
+    let shifts: Vec<IsothermShift> = (0..isotherms.len()).map(shift).collect();
+    let pairs = isotherms.iter().zip(&shifts).enumerate();
+    let shifted = pairs.flat_map(|(place, (isotherm, shift))| {
+        let factor = 10_f64.powf(shift.log10_factor);
         let points = isotherm.points.iter().map(move |point| ModulusPoint {
             angular_frequency: point.angular_frequency * factor,
-            ..*point
+            storage: point.storage / shift.modulus_factor,
+            loss: point.loss / shift.modulus_factor,
         });
         points.map(move |point| (place, point))
     });
@@ -150,82 +212,17 @@ fn joined(
     });
     let (places, points): (Vec<usize>, Vec<ModulusPoint>) = shifted.into_iter().unzip();
     let isotherms = JoinedIsotherms {
-        temperatures: log10_factors.iter().map(|pair| pair[0]).collect(),
-        log_factors: log10_factors.iter().map(|pair| LN_10 * pair[1]).collect(),
-        chain,
+        temperatures: shifts.iter().map(|shift| shift.temperature).collect(),
+        log_factors: superposed.log_factors,
+        links: superposed.links,
     };
     Ok(MasterCurve {
         curve: MeasuredCurve::oscillation(points.clone())?.of_isotherms(&places, isotherms),
         points,
-        reference_temperature,
-        log10_factors,
+        isotherms: places,
+        reference_temperature: shifts[chain.reference].temperature,
+        shifts,
+        vertical: superposed.vertical,
+        vertical_choice: superposed.choice,
     })
 }
-
-/// log₁₀ of the factor on the frequencies of `moving` that brings it onto `fixed`.
-fn shift_onto(fixed: &Isotherm, moving: &Isotherm) -> Result<f64, RheologyError> {
-    let [fixed_line, moving_line] = [fixed, moving].map(Line::new);
-    // From just touching at one end to just touching at the other.
-    let lowest = fixed_line.ends()[0] - moving_line.ends()[1];
-    let highest = fixed_line.ends()[1] - moving_line.ends()[0];
-    let mismatch = |shift: f64| mean_square(&fixed_line, &moving_line, shift);
-    let step = (highest - lowest) / f64::from(N_TRIALS);
-    let trials = (1..N_TRIALS).map(|k| lowest + step * f64::from(k));
-    let tried = trials.filter_map(|shift| Some((shift, mismatch(shift)?)));
-    let best = tried.min_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((coarse, _)) = best.filter(|(_, best)| *best <= FAR * FAR) else {
-        return Err(RheologyError::NoOverlap {
-            first: fixed.temperature,
-            second: moving.temperature,
-        });
-    };
-    let cost = |shift: f64| mismatch(shift).unwrap_or(f64::INFINITY);
-    Ok(golden_section(cost, [coarse - step, coarse + step]))
-}
-
-const N_TRIALS: u32 = 400;
-
-/// log₁₀ of frequency and storage modulus, straight in between.
-struct Line(Vec<[f64; 2]>);
-
-impl Line {
-    fn new(isotherm: &Isotherm) -> Self {
-        let points = isotherm.points.iter();
-        let logs = points.map(|point| [point.angular_frequency, point.storage].map(f64::log10));
-        // A modulus of zero has no logarithm.
-        let logs = logs.filter(|point| point.iter().all(|x| x.is_finite()));
-        Self(logs.collect())
-    }
-
-    fn ends(&self) -> [f64; 2] {
-        [self.0.first(), self.0.last()].map(|point| point.map_or(f64::NAN, |p| p[0]))
-    }
-
-    fn at(&self, log_frequency: f64) -> Option<f64> {
-        let above = self.0.partition_point(|point| point[0] < log_frequency);
-        let [below, above] = [self.0.get(above.checked_sub(1)?)?, self.0.get(above)?];
-        let part = (log_frequency - below[0]) / (above[0] - below[0]);
-        Some(below[1] + part * (above[1] - below[1]))
-    }
-}
-
-/// Mean squared distance of the points of each line from the other where they overlap, in decades of modulus; `None`
-/// with fewer points than [`LEAST_OVERLAP`].
-fn mean_square(fixed: &Line, moving: &Line, shift: f64) -> Option<f64> {
-    let mut sum = 0.0;
-    let mut count = 0_u32;
-    for (points, line, offset) in [(moving, fixed, shift), (fixed, moving, -shift)] {
-        for &[log_frequency, log_modulus] in &points.0 {
-            if let Some(other) = line.at(log_frequency + offset) {
-                sum += (log_modulus - other).powi(2);
-                count += 1;
-            }
-        }
-    }
-    (count >= LEAST_OVERLAP).then(|| sum / f64::from(count))
-}
-
-/// Two points of each line.
-const LEAST_OVERLAP: u32 = 4;
-/// Lines that are farther apart do not overlap.
-const FAR: f64 = 0.1;

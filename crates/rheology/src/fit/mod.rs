@@ -1,5 +1,6 @@
 //! Materials from measurements: master curves, and the Prony series behind them.
 
+mod bridge;
 mod covariance;
 mod creep;
 mod curve;
@@ -7,7 +8,10 @@ mod expand;
 mod identify;
 mod master_curve;
 mod nnls;
+mod overlap;
 mod refine;
+mod sign_changes;
+mod superposition;
 mod system;
 
 pub use covariance::ModuliCovariance;
@@ -15,4 +19,8 @@ pub use creep::{CreepPoint, relaxation_of_creep};
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};
 pub use expand::expand;
 pub use identify::{Control, Ending, Identification, IdentifyOptions, RelativeError, identify};
-pub use master_curve::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};
+pub use master_curve::{
+    Isotherm, IsothermShift, MasterCurve, automatic_master_curve, shifted_master_curve,
+};
+pub use sign_changes::SignChanges;
+pub use superposition::{SuperpositionOptions, VerticalChoice, VerticalShift};

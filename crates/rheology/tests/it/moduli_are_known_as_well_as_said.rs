@@ -1,29 +1,14 @@
 //! The covariance of fitted moduli, against materials that are known.
 
-use std::f64::consts::{LN_10, TAU};
+use std::f64::consts::LN_10;
 
 use rheology::fit::{
     Control, IdentifyOptions, Isotherm, MeasuredCurve, ModuliCovariance, ModulusPoint,
-    RelaxationPoint, automatic_master_curve, identify, shifted_master_curve,
+    RelaxationPoint, SuperpositionOptions, automatic_master_curve, identify, shifted_master_curve,
 };
 use rheology::{RelaxationBranch, RelaxationSpectrum, WlfShift};
 
-/// Numbers that look random and are the same every time (Steele, Lea & Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (-2.0 * (1.0 - self.uniform()).ln()).sqrt() * (TAU * self.uniform()).cos()
-    }
-}
+use crate::experiments::{Random, dissipation, uncertainty};
 
 /// A rubber whose moduli follow a power of frequency.
 fn rubber() -> RelaxationSpectrum {
@@ -67,46 +52,6 @@ fn measured(truth: &RelaxationSpectrum, seed: u64, scale: f64) -> Vec<Isotherm> 
     (0..6).map(isotherm).collect()
 }
 
-/// What friction depends on: J'' around a frequency.
-fn dissipation(material: &RelaxationSpectrum) -> f64 {
-    let part = |k: i32| {
-        let decades = 0.1 * f64::from(k);
-        let modulus = material.complex_modulus(30.0 * 10_f64.powf(decades));
-        let modulus = modulus.expect("moduli");
-        let size = modulus.storage.hypot(modulus.loss);
-        (-4.0 * decades * decades).exp() * modulus.loss / (size * size)
-    };
-    (-15..=15).map(part).sum()
-}
-
-/// √(gᵀ C g) with the derivatives by the logarithms of the moduli.
-fn uncertainty(material: &RelaxationSpectrum, covariance: &ModuliCovariance) -> f64 {
-    const STEP: f64 = 1e-5;
-    let changed = |place: usize, factor: f64| {
-        let of = |own: usize, modulus: f64| {
-            if own == place {
-                factor * modulus
-            } else {
-                modulus
-            }
-        };
-        let branches = material.branches().iter().enumerate();
-        let branches = branches
-            .map(|(k, one)| RelaxationBranch::new(of(k + 1, one.modulus), one.relaxation_time));
-        let spring = of(0, material.equilibrium_modulus());
-        let changed = RelaxationSpectrum::new(spring, 0.0, branches.collect());
-        dissipation(&changed.expect("a material"))
-    };
-    let n = covariance.relative.len();
-    let slope = |k| (changed(k, 1.0 + STEP) - changed(k, 1.0 - STEP)) / (2.0 * STEP);
-    let slopes: Vec<f64> = (0..n).map(slope).collect();
-    let row = |k: usize| -> f64 {
-        let entries = covariance.relative[k].iter().zip(&slopes);
-        slopes[k] * entries.map(|(entry, slope)| entry * slope).sum::<f64>()
-    };
-    (0..n).map(row).sum::<f64>().sqrt()
-}
-
 /// Of 200 experiments 95 per cent are expected within 1.96 standard errors, give or take 1.5 by chance; bands half as wide hold
 /// only two thirds.
 #[test]
@@ -117,7 +62,8 @@ fn bands_hold_the_true_material_as_often_as_they_say() {
     let mut deviations = Vec::new();
     for seed in 0..COUNT {
         let isotherms = measured(&truth, u64::from(seed), 1.0);
-        let master = automatic_master_curve(&isotherms, MIDDLE).expect("a master curve");
+        let master = automatic_master_curve(&isotherms, MIDDLE, &SuperpositionOptions::default())
+            .expect("a master curve");
         let found = identify(&master.curve, &IdentifyOptions::default()).expect("a series");
         let covariance = found.covariance.expect("a covariance");
         let error = uncertainty(&found.spectrum, &covariance);
@@ -188,7 +134,13 @@ fn errors_of_moduli_follow_those_of_the_data() {
     let noise = |scale: f64| {
         let isotherms = measured(&truth, 7, scale);
         let log10_factor = |temperature| law().log10_factor(temperature);
-        let master = shifted_master_curve(&isotherms, MIDDLE, log10_factor).expect("a curve");
+        let master = shifted_master_curve(
+            &isotherms,
+            MIDDLE,
+            log10_factor,
+            &SuperpositionOptions::default(),
+        )
+        .expect("a curve");
         let known = fitted(&master.curve, control);
         assert!(
             known.factor.is_some() && known.temperature.is_some(),

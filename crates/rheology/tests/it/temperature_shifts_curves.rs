@@ -69,7 +69,9 @@ fn a_shift_multiplies_every_time() {
 #[cfg(feature = "fit")]
 mod isotherms {
     use super::*;
-    use rheology::fit::{Isotherm, ModulusPoint, automatic_master_curve, shifted_master_curve};
+    use rheology::fit::{
+        Isotherm, ModulusPoint, SuperpositionOptions, automatic_master_curve, shifted_master_curve,
+    };
 
     fn law() -> WlfShift {
         WlfShift::new(8.86, 101.6, 42.0).unwrap()
@@ -104,8 +106,11 @@ mod isotherms {
     fn isotherms_find_their_place_by_themselves() {
         // Exact data: what is left is the curvature between points an eighth of a decade apart.
         for (scatter, tolerance) in [(0.0, 0.01), (0.01, 0.03)] {
-            let found = automatic_master_curve(&isotherms(scatter), 42.0).unwrap();
-            for [temperature, log] in found.log10_factors {
+            let found =
+                automatic_master_curve(&isotherms(scatter), 42.0, &SuperpositionOptions::default())
+                    .unwrap();
+            for shift in found.shifts {
+                let (temperature, log) = (shift.temperature, shift.log10_factor);
                 let exact = law().log10_factor(temperature).unwrap();
                 let off = (log - exact).abs();
                 assert!(
@@ -119,7 +124,13 @@ mod isotherms {
     #[test]
     fn a_given_law_puts_the_points_onto_the_curve() {
         let shift = |temperature| law().log10_factor(temperature);
-        let master = shifted_master_curve(&isotherms(0.0), 42.0, shift).unwrap();
+        let master = shifted_master_curve(
+            &isotherms(0.0),
+            42.0,
+            shift,
+            &SuperpositionOptions::default(),
+        )
+        .unwrap();
         let material = named_spectrum("P10");
         let n_points = master.points.len();
         assert_eq!(n_points, 9 * 25, "no two reduced frequencies meet");
@@ -133,7 +144,8 @@ mod isotherms {
     #[test]
     fn points_that_meet_are_averaged() {
         let two = &isotherms(0.0)[..2];
-        let master = shifted_master_curve(two, 42.0, |_| Ok(0.0)).unwrap();
+        let master =
+            shifted_master_curve(two, 42.0, |_| Ok(0.0), &SuperpositionOptions::default()).unwrap();
         assert_eq!(master.points.len(), 25, "every point meets another");
         let pairs = two[0].points.iter().zip(&two[1].points);
         for (mean, (one, other)) in master.points.iter().zip(pairs) {
@@ -149,7 +161,7 @@ mod isotherms {
         for point in &mut two[1].points {
             point.storage *= 1e-4;
         }
-        let error = automatic_master_curve(&two, 42.0);
+        let error = automatic_master_curve(&two, 42.0, &SuperpositionOptions::default());
         assert_matches!(error, Err(RheologyError::NoOverlap { .. }));
     }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use measurements::MeasurementError;
 use measurements::moduli::{
     Deformation, MeasuredModuli, Measurements, Shifted, Shifting, TableOptions, master_curve,
@@ -15,13 +16,13 @@ use measurements::moduli::{
 use rheology::RheologyError;
 use rheology::fit::{
     Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelativeError,
-    RelaxationPoint, identify,
+    RelaxationPoint, SignChanges, VerticalChoice, VerticalShift, identify,
 };
 use viscofriction::WrongInput;
 use viscofriction::scene::ShiftLaw;
 
 use crate::input::{read_table, wrong_option};
-use crate::output::{OutputFolder, print_line, print_text};
+use crate::output::{OutputFolder, print_line, print_text, say};
 use crate::progress;
 pub(crate) use output_files::prony;
 pub(crate) use picture::decades;
@@ -67,6 +68,19 @@ pub(crate) struct FitMaterial {
     /// Shift by the law of Arrhenius with this activation energy in J/mol, instead of automatically.
     #[arg(long, value_name = "ENERGY")]
     arrhenius: Option<f64>,
+    /// How the moduli of the isotherms change with temperature: none, not at all; entropic, with the absolute temperature, as those of
+    /// rubber; free, by a factor of each [default: what the isotherms show].
+    #[arg(long, value_name = "KIND", value_parser = vertical_shift())]
+    vertical: Option<VerticalShift>,
+}
+
+fn vertical_shift() -> impl TypedValueParser<Value = VerticalShift> {
+    let names = VerticalShift::NAMED.map(|(name, _)| name);
+    PossibleValuesParser::new(names).try_map(|name| {
+        let named = VerticalShift::NAMED.into_iter();
+        let mut kinds = named.filter_map(|(own, kind)| (own == name).then_some(kind));
+        kinds.next().ok_or("none of the names")
+    })
 }
 
 /// Reads the table, fits it, and writes the material and its picture.
@@ -83,6 +97,9 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
             "the table has no temperatures, from which it could be shifted to another one";
         return Err(WrongInput(format!("{}: {problem}", options.data.display())).into());
     }
+    let unit = moduli
+        .celsius
+        .map_or("", |celsius| if celsius { "°C" } else { "K" });
     let (points, shifted) = joined(moduli, options).map_err(wrong)?;
     let curve = match &shifted {
         // It knows its isotherms.
@@ -104,15 +121,11 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
         options,
         points,
         shifted,
+        unit,
         frequencies: curve.frequencies(),
         found,
     };
-    let Some(out) = &out else {
-        return print_text(&output_files::material(&fitted));
-    };
-    output_files::write(&fitted, out)?;
-    print_line(&fitted.summary())?;
-    print_line(&format!("written into {}", out.path().display()))
+    fitted.leave(out.as_ref())
 }
 
 /// The points of one curve, and where there are temperatures what they were shifted by.
@@ -157,6 +170,8 @@ struct Fitted<'a> {
     options: &'a FitMaterial,
     points: Points,
     shifted: Option<Shifted>,
+    /// Of the temperatures.
+    unit: &'static str,
     /// At which the material was measured.
     frequencies: [f64; 2],
     found: Identification,
@@ -193,6 +208,7 @@ impl FitMaterial {
         Shifting {
             reference_temperature: self.reference_temperature,
             law: wlf.or(self.arrhenius.map(ShiftLaw::Arrhenius)),
+            vertical: self.vertical,
         }
     }
 
@@ -214,6 +230,22 @@ impl FitMaterial {
 }
 
 impl Fitted<'_> {
+    /// Writes what was found into a folder, or prints the material.
+    fn leave(&self, out: Option<&OutputFolder>) -> Result<()> {
+        for warning in self.warnings() {
+            say(&format!("warning: {warning}"));
+        }
+        let Some(out) = out else {
+            return print_text(&output_files::material(self));
+        };
+        output_files::write(self, out)?;
+        print_line(&self.summary())?;
+        for sentence in self.superposition() {
+            print_line(&sentence)?;
+        }
+        print_line(&format!("written into {}", out.path().display()))
+    }
+
     fn summary(&self) -> String {
         let found = &self.found;
         let n_branches = found.spectrum.branches().len();
@@ -232,4 +264,75 @@ impl Fitted<'_> {
         };
         format!("{n_branches} branches; relative error of {errors}")
     }
+
+    /// How several isotherms were put onto one curve, in sentences.
+    fn superposition(&self) -> Vec<String> {
+        let Some(master) = self.isotherms().map(|shifted| &shifted.master) else {
+            return Vec::new();
+        };
+        let kind = match master.vertical {
+            VerticalShift::None => "moduli do not change with temperature, b_T = 1",
+            VerticalShift::Entropic => "moduli change with the absolute temperature, b_T = T/T_r",
+            VerticalShift::Free => "moduli change by a factor b_T of each isotherm",
+        };
+        let why = match master.vertical_choice {
+            VerticalChoice::Given => "as --vertical says",
+            VerticalChoice::FoundInData => "which the isotherms show",
+            VerticalChoice::NotInData => {
+                "because the isotherms do not show whether they do; --vertical entropic takes that of rubber"
+            }
+        };
+        let mut sentences = vec![format!("{kind}, {why}")];
+        let by_law = master.shifts.iter().filter(|shift| shift.placed_by_law);
+        let by_law: Vec<String> = by_law.map(|shift| shift.temperature.to_string()).collect();
+        if !by_law.is_empty() {
+            sentences.push(format!(
+                "placed by the law of the other shifts, because they overlap too little with their neighbours or follow such a one: isotherms {} {}",
+                by_law.join(", "),
+                self.unit
+            ));
+        }
+        sentences
+    }
+
+    /// What was shifted, if there are several isotherms.
+    fn isotherms(&self) -> Option<&Shifted> {
+        let shifted = self.shifted.as_ref();
+        shifted.filter(|shifted| shifted.master.shifts.len() > 1)
+    }
+
+    /// What the errors show of the series or of the isotherms.
+    fn warnings(&self) -> Vec<String> {
+        let moduli = [
+            (
+                "G'",
+                self.found.storage_error,
+                self.found.storage_sign_changes,
+            ),
+            ("G''", self.found.loss_error, self.found.loss_sign_changes),
+        ];
+        let warning = |(name, error, changes): (
+            &str,
+            Option<RelativeError>,
+            Option<SignChanges>,
+        )| {
+            let (error, changes) = (error?, changes?);
+            let matters = error.rms > PATTERN_MATTERS && changes.are_too_few();
+            matters.then(|| {
+                format!(
+                    "the errors of {name}, {:.2} % rms, are not noise: from one frequency to the next they change their sign {} of {} times, \
+                     and noise does every other time; {}the two moduli contradict each other, or the series does not have their form: see the \
+                     errors in fit.svg",
+                    100.0 * error.rms,
+                    changes.found,
+                    changes.possible,
+                    self.isotherms().map_or("", |_| "the isotherms do not lie on one curve, ")
+                )
+            })
+        };
+        moduli.into_iter().filter_map(warning).collect()
+    }
 }
+
+/// Errors below this are smaller than what matters to a friction, whatever their pattern.
+const PATTERN_MATTERS: f64 = 0.01;

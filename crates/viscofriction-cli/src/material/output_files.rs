@@ -1,11 +1,14 @@
 //! The files that the command leaves behind.
 
+use std::f64::consts::LN_10;
+
 use anyhow::Result;
-use rheology::RelaxationSpectrum;
-use rheology::fit::{ModuliCovariance, ModulusPoint, RelaxationPoint};
+use measurements::moduli::Shifted;
+use rheology::fit::{IsothermShift, ModuliCovariance, ModulusPoint, RelaxationPoint};
+use rheology::{RelaxationSpectrum, VerticalLaw};
 use viscofriction::scene::{Shift, ShiftLaw};
 
-use super::picture::{Comparison, OSCILLATION, RELAXATION, figure};
+use super::picture::{Comparison, Isotherms, OSCILLATION, RELAXATION, figure};
 use super::{Fitted, Points};
 use crate::output::{OutputFolder, to_csv};
 
@@ -22,16 +25,34 @@ pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
     let rows = to_csv(comparison.names, &comparison.rows)?;
     out.write("fit.csv", &rows)?;
     out.draw("fit", &figure(&comparison))?;
-    if let Some(shifted) = &fitted.shifted {
-        let factors = &shifted.master.log10_factors;
-        if factors.len() > 1 {
-            let names = "temperature log10_shift_factor";
-            out.write("shifts.csv", &to_csv(names, factors)?)?;
-        }
+    if let Some(shifted) = fitted.isotherms() {
+        out.write("shifts.csv", &to_csv(SHIFTS, shifts(fitted, shifted))?)?;
     }
     // Last: with it the others are there.
     out.write("material.toml", material(fitted).as_bytes())?;
     out.finish()
+}
+
+/// Columns of shifts.csv.
+const SHIFTS: &str = "temperature log10_shift_factor log10_shift_factor_error vertical_shift_factor \
+    vertical_shift_factor_error placed_by_law";
+
+/// A row for each isotherm; an error that is not known is no number.
+fn shifts(fitted: &Fitted<'_>, shifted: &Shifted) -> Vec<Vec<f64>> {
+    let errors = fitted.found.covariance.as_ref();
+    let row = |(place, shift): (usize, &IsothermShift)| {
+        let [factor_error, modulus_error] =
+            errors.map_or([f64::NAN; 2], |known| known.shift_errors[place]);
+        vec![
+            shift.temperature,
+            shift.log10_factor,
+            factor_error / LN_10,
+            shift.modulus_factor,
+            shift.modulus_factor * modulus_error,
+            f64::from(u8::from(shift.placed_by_law)),
+        ]
+    };
+    shifted.master.shifts.iter().enumerate().map(row).collect()
 }
 
 fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
@@ -45,15 +66,15 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         let fit = spectrum.complex_modulus(omega)?;
         let [of_storage, of_loss] = point.sizes();
         let errors = [
-            (fit.storage - storage).abs() / of_storage,
-            (fit.loss - loss).abs() / of_loss,
+            (fit.storage - storage) / of_storage,
+            (fit.loss - loss) / of_loss,
         ];
         let moduli = [omega, storage, loss, fit.storage, fit.loss];
         Ok([&moduli[..], &errors[..]].concat())
     };
     let relaxation = |&RelaxationPoint { time, modulus }: &RelaxationPoint| {
         let fit = spectrum.relaxation_modulus(time)?;
-        Ok(vec![time, modulus, fit, (fit / modulus - 1.0).abs()])
+        Ok(vec![time, modulus, fit, fit / modulus - 1.0])
     };
     let (names, rows): (_, Result<Vec<_>>) = match &fitted.points {
         Points::Oscillation(points) => (OSCILLATION, points.iter().map(oscillation).collect()),
@@ -68,10 +89,21 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         Points::Relaxation(_) => Ok(vec![x, spectrum.relaxation_modulus(x)?]),
     });
     let series = series.collect::<Result<_>>()?;
+    let isotherms = fitted.isotherms().map(|shifted| Isotherms {
+        of_rows: shifted.master.isotherms.clone(),
+        temperatures: shifted
+            .master
+            .shifts
+            .iter()
+            .map(|shift| shift.temperature)
+            .collect(),
+        unit: fitted.unit,
+    });
     Ok(Comparison {
         names,
         rows,
         series,
+        isotherms,
     })
 }
 
@@ -98,6 +130,9 @@ pub(super) fn material(fitted: &Fitted<'_>) -> String {
     if let Some(shifted) = &fitted.shifted {
         let reference = shifted.master.reference_temperature;
         text += &format!("# at the temperature {reference}\n");
+        for sentence in fitted.superposition() {
+            text += &format!("# {sentence}\n");
+        }
         if let Some(shift) = &shifted.shift {
             measured += &shift_line(shift);
         }
@@ -120,7 +155,7 @@ fn covariance_lines(covariance: &ModuliCovariance) -> String {
     format!("covariance.method = {method:?}\ncovariance.relative = [\n{rows}]\n")
 }
 
-/// How times change with temperature, as a key of the material.
+/// How times and moduli change with temperature, as a key of the material.
 fn shift_line(shift: &Shift) -> String {
     let law = match shift.law {
         ShiftLaw::Wlf([c1, c2]) => format!("wlf = [{c1:?}, {c2:?}]"),
@@ -128,7 +163,12 @@ fn shift_line(shift: &Shift) -> String {
     };
     let (temperature, [lowest, highest]) = (shift.temperature, shift.temperature_range);
     let range = format!("temperature_range = [{lowest:?}, {highest:?}]");
-    format!("shift = {{ temperature = {temperature:?}, {range}, law = {{ {law} }} }}\n")
+    let vertical = match &shift.vertical {
+        None => String::new(),
+        Some(VerticalLaw::Entropic) => ", vertical = \"entropic\"".to_owned(),
+        Some(VerticalLaw::Table(table)) => format!(", vertical = {{ table = {table:?} }}"),
+    };
+    format!("shift = {{ temperature = {temperature:?}, {range}, law = {{ {law} }}{vertical} }}\n")
 }
 
 /// The table `[material.prony]` of a scene file, with lines about how it was `measured`, and the standard errors of its moduli as

@@ -13,6 +13,16 @@ pub(super) struct Comparison {
     pub(super) rows: Vec<Vec<f64>>,
     /// Frequencies or times that are dense between the first and the last one, and the moduli of the series.
     pub(super) series: Vec<Vec<f64>>,
+    /// Of several isotherms.
+    pub(super) isotherms: Option<Isotherms>,
+}
+
+/// Which isotherm every row is of.
+pub(super) struct Isotherms {
+    /// By the places of the temperatures.
+    pub(super) of_rows: Vec<usize>,
+    pub(super) temperatures: Vec<f64>,
+    pub(super) unit: &'static str,
 }
 
 pub(super) fn figure(comparison: &Comparison) -> Figure {
@@ -37,15 +47,63 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
         let points = points_of(&comparison.series, 1 + index);
         Series::line(points, line, colour).labelled(format!("{name} of the series"))
     });
-    let errors = coloured().map(|(index, (name, colour))| {
-        let marker = Marker::filled(Shape::Diamond);
-        Series::markers(points(1 + 2 * n + index), marker, colour).labelled(*name)
+    let errors = (0..n).map(|index| {
+        let column = 1 + 2 * n + index;
+        let of_modulus = residuals(comparison, column);
+        let name = format!("{} fitted/measured − 1 [%]", moduli[index]);
+        signed(x, &name, of_modulus)
     });
-    let charts = [
-        decades(x, "modulus [Pa]", measured.chain(fitted).collect()),
-        decades(x, "relative error", errors.collect()),
-    ];
-    Figure::new(charts, 2)
+    let moduli = decades(x, "modulus [Pa]", measured.chain(fitted).collect());
+    let charts: Vec<Chart> = std::iter::once(moduli).chain(errors).collect();
+    let columns = charts.len();
+    Figure::new(charts, columns)
+}
+
+/// The errors of a modulus in per cent, a series for each isotherm in the order of the temperatures.
+fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
+    let point = |row: &Vec<f64>| [row[0], 100.0 * row[column]];
+    let marker = Marker::open(Shape::Circle);
+    let Some(isotherms) = &comparison.isotherms else {
+        let points = comparison.rows.iter().map(point).collect();
+        return vec![Series::markers(points, marker, Colour::Blue)];
+    };
+    let mut order: Vec<usize> = (0..isotherms.temperatures.len()).collect();
+    order.sort_by(|a, b| isotherms.temperatures[*a].total_cmp(&isotherms.temperatures[*b]));
+    let last = order.len() - 1;
+    let labelled = order.len().div_ceil(LABELLED);
+    let of_isotherm = |(place, isotherm): (usize, &usize)| {
+        let rows = comparison.rows.iter().zip(&isotherms.of_rows);
+        let own = rows.filter(|(_, of_row)| *of_row == isotherm);
+        let points = own.map(|(row, _)| point(row)).collect();
+        let series = Series::markers(points, marker, Colour::between(place as f64 / last as f64));
+        if place == last || place % labelled == 0 {
+            let temperature = isotherms.temperatures[*isotherm];
+            series.labelled(format!("{temperature} {}", isotherms.unit))
+        } else {
+            series
+        }
+    };
+    let all = order.iter().enumerate().map(of_isotherm);
+    // All points of an isotherm may have been averaged with those of others.
+    all.filter(|series| !series.points.is_empty()).collect()
+}
+
+/// Isotherms that are named in the legend, beside the last one.
+const LABELLED: usize = 6;
+
+/// Errors below this are drawn as none, \[%].
+const SMALLEST: f64 = 0.01;
+
+/// Numbers of both signs over decades, with the zero in the middle.
+fn signed(x: &str, y: &str, series: Vec<Series>) -> Chart {
+    let points = || series.iter().flat_map(|one| &one.points);
+    let most = points().map(|point| point[1].abs()).fold(0.0, f64::max);
+    let most = 1.05 * most.max(SMALLEST);
+    let x = Axis::decades(x, points().map(|point| point[0]));
+    let zero = vec![[x.range[0], 0.0], [x.range[1], 0.0]];
+    let zero = Series::line(zero, Line::thin(Dash::Solid), Colour::Black);
+    let all = std::iter::once(zero).chain(series).collect();
+    Chart::new(x, Axis::linear(y, [-most, most]), all)
 }
 
 /// Series over the decades that they take.

@@ -40,7 +40,8 @@ fn a_master_curve_becomes_the_material_of_a_scene() {
 }
 
 /// Logarithms of some shifts by pyvisco 2.1.3, `master.get_aT(df_raw, -5)`, which fits power laws to the storage moduli and
-/// shifts those: onto the isotherm at −4.761699 °C. The two coldest isotherms are nearly flat and left out.
+/// shifts those: onto the isotherm at −4.761699 °C. The two coldest isotherms are nearly flat and left out. In the glass, where the
+/// loss modulus contradicts the storage modulus, the two differ by up to half a decade.
 const PEERS: [f64; 6] = [7.840, 6.095, 0.0, -6.689, -14.511, -18.345];
 
 #[test]
@@ -52,7 +53,8 @@ fn isotherms_are_shifted_onto_one_curve() {
     assert_eq!(logs.len(), 21, "isotherms");
     for (place, peer) in [2, 3, 6, 10, 15, 20].into_iter().zip(PEERS) {
         let (temperature, log) = (temperatures[place], logs[place]);
-        let is_near = (log - peer).abs() < 0.3;
+        let tolerance = if temperature < -20.0 { 0.5 } else { 0.3 };
+        let is_near = (log - peer).abs() < tolerance;
         assert!(is_near, "log a_T at {temperature}: {log} and not {peer}");
     }
     let slower = logs.windows(2).find(|pair| pair[1] >= pair[0]);

@@ -86,7 +86,7 @@ impl<'a> Family<'a> {
         };
         let shift_is_free = free != Free::Moduli;
         let key = scene.material.key();
-        let shift = scene.material.shift();
+        let shift = scene.material.shift().cloned();
         if shift_is_free && shift.is_none() {
             let problem = "to find its shift law the material needs one to begin with: shift = { temperature, \
                            temperature_range, law = { wlf = [C1, C2] } or { arrhenius = E } } of a prony series";
@@ -250,7 +250,7 @@ impl<'a> Family<'a> {
             start,
             bounds,
         };
-        let law = self.shift.filter(|_| self.shift_is_free);
+        let law = self.shift.as_ref().filter(|_| self.shift_is_free);
         match law.map(|shift| shift.law) {
             Some(ShiftLaw::Wlf([c1, c2])) => vec![
                 constant("C1", "", c1, C1),
@@ -263,7 +263,7 @@ impl<'a> Family<'a> {
 
     /// How far the coldest point is below the temperature of the law, \[K].
     fn furthest_below(&self, points: &[FrictionPoint]) -> f64 {
-        let reference = self.shift.map_or(0.0, |shift| shift.temperature);
+        let reference = self.shift.as_ref().map_or(0.0, |shift| shift.temperature);
         let temperatures = points.iter().filter_map(|point| self.temperature_of(point));
         temperatures.fold(0.0, |most, temperature| most.max(reference - temperature))
     }
@@ -290,7 +290,7 @@ impl<'a> Family<'a> {
         point: &FrictionPoint,
         logs: &[f64],
     ) -> Result<(f64, Vec<f64>), RheologyError> {
-        let (Some(shift), Some(temperature)) = (self.shift, self.temperature_of(point)) else {
+        let (Some(shift), Some(temperature)) = (&self.shift, self.temperature_of(point)) else {
             return Ok((0.0, vec![0.0; logs.len() - self.moduli.len()]));
         };
         if !self.shift_is_free {
@@ -314,6 +314,24 @@ impl<'a> Family<'a> {
                 Ok((log, vec![log]))
             }
             _ => Ok((0.0, Vec::new())),
+        }
+    }
+
+    /// The factor of all moduli at a point.
+    pub(super) fn modulus_factor_of(&self, point: &FrictionPoint) -> Result<f64, RheologyError> {
+        match (&self.shift, self.temperature_of(point)) {
+            // The range of a law that is free is that of the points.
+            (Some(shift), Some(temperature)) if self.shift_is_free => {
+                let [low, high] = shift.temperature_range;
+                let temperature_range = [low.min(temperature), high.max(temperature)];
+                let shift = Shift {
+                    temperature_range,
+                    ..shift.clone()
+                };
+                shift.modulus_factor(temperature)
+            }
+            (Some(shift), Some(temperature)) => shift.modulus_factor(temperature),
+            _ => Ok(1.0),
         }
     }
 
@@ -364,7 +382,10 @@ impl<'a> Family<'a> {
             return Err(SceneError::at(self.scene.material.key(), problem).into());
         }
         let mut others = points.iter().filter_map(|point| self.temperature_of(point));
-        let reference = self.shift.map_or(f64::NAN, |shift| shift.temperature);
+        let reference = self
+            .shift
+            .as_ref()
+            .map_or(f64::NAN, |shift| shift.temperature);
         let says = others.any(|temperature| (temperature - reference).abs() > 0.0);
         if self.shift_is_free && !says {
             let problem = "a shift law is found from points at other temperatures than that of the material, and there are none";

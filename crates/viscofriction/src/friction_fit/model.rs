@@ -187,12 +187,18 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The load of a point at the speed that its temperature makes of it.
+    /// The load of a point at the speed that its temperature makes of it, by which the material is that of the reference
+    /// temperature: with moduli b_T times as large a force does what its b_T-th part does there.
     fn load(&self, point: &FrictionPoint, parameters: &[f64]) -> Result<SlidingLoad> {
         let (shift, _) = self.family.shift_of(point, parameters)?;
+        let factor = self.family.modulus_factor_of(point)?;
         let control = point
             .normal_force
             .map_or(self.control, Control::NormalForce);
+        let control = match control {
+            Control::NormalForce(force) => Control::NormalForce(force / factor),
+            other => other,
+        };
         self.at_speed(control, point.velocity * shift.exp())
     }
 

@@ -96,7 +96,7 @@ pub enum MaterialTable {
         poisson_ratio: f64,
         /// Lowest and highest frequency at which it was measured, \[rad/s].
         valid_frequencies: Option<[f64; 2]>,
-        /// How its times change with temperature, for scenes that name this material as a file.
+        /// How its times and moduli change with temperature, for scenes that name this material as a file.
         shift: Option<Shift>,
         /// How well it stands for another law, where it does; the error is then in all bars.
         approximation: Option<Approximation>,
@@ -230,10 +230,10 @@ impl MaterialTable {
         }
     }
 
-    /// How times change with temperature, where that is known.
-    pub const fn shift(&self) -> Option<Shift> {
+    /// How times and moduli change with temperature, where that is known.
+    pub const fn shift(&self) -> Option<&Shift> {
         match self {
-            Self::Prony { shift, .. } => *shift,
+            Self::Prony { shift, .. } => shift.as_ref(),
             _ => None,
         }
     }
@@ -280,6 +280,7 @@ impl MaterialTable {
     pub(crate) fn at(mut self, celsius: f64) -> Result<Self, SceneError> {
         let key = "material.file.temperature";
         let Self::Prony {
+            equilibrium_modulus,
             viscosity,
             branches,
             valid_frequencies,
@@ -293,8 +294,11 @@ impl MaterialTable {
         };
         let wrong = |error: RheologyError| SceneError::at(key, error.to_string());
         let factor = 10_f64.powf(shift.log10_factor(celsius).map_err(wrong)?);
-        *viscosity *= factor;
+        let modulus_factor = shift.modulus_factor(celsius).map_err(wrong)?;
+        *equilibrium_modulus *= modulus_factor;
+        *viscosity *= modulus_factor * factor;
         for branch in branches {
+            branch.modulus *= modulus_factor;
             branch.relaxation_time *= factor;
         }
         for end in valid_frequencies.iter_mut().flatten() {

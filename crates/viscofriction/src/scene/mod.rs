@@ -33,7 +33,7 @@ pub use indenters::Control;
 pub use load::{Load, LoadPoint, MotionPoint, StrokeShape};
 pub use material::{Approximation, Branch, MaterialKind, MaterialTable};
 pub use numerics::Accuracy;
-pub use rheology::{Shift, ShiftLaw};
+pub use rheology::{Shift, ShiftLaw, VerticalLaw};
 pub use solve::{Method, Model, Solve};
 pub use source::Source;
 pub(crate) use source::{quoted, scene_file, split_index};

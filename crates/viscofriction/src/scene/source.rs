@@ -212,6 +212,9 @@ pub(super) fn problem_of(error: &toml::de::Error) -> String {
     }
 }
 
+/// Keys of lists of lists of numbers.
+const ROWS: [&str; 2] = [".covariance.relative", ".shift.vertical.table"];
+
 /// Refuses lists where tables belong, of which serde would take the values in the order of the keys.
 fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
     let table = value.as_table().ok_or_else(|| no_table(key, value))?;
@@ -219,8 +222,8 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
     for (name, value) in table {
         let inner = format!("{key}.{name}");
         match value {
-            // A matrix.
-            Value::Array(_) if inner.ends_with(".covariance.relative") => {}
+            // Rows of numbers.
+            Value::Array(_) if ROWS.iter().any(|key| inner.ends_with(key)) => {}
             Value::Table(_) => check_tables(&inner, value)?,
             Value::Array(elements) => {
                 // Serde says itself what it needs in the place of a list of numbers.

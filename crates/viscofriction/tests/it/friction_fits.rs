@@ -7,7 +7,7 @@ use measurements::friction::{FrictionNoise, FrictionPoint};
 use viscofriction::friction_fit::{
     FittedFriction, Free, FrictionFitError, FrictionFitOptions, FrictionPrior, fit_friction,
 };
-use viscofriction::scene::{MaterialTable, Shift, ShiftLaw};
+use viscofriction::scene::{MaterialTable, Shift, ShiftLaw, VerticalLaw};
 use viscofriction::{Problem, Scene, WrongInput, solve};
 
 const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[load]\nnormal_force = 1.0\nvelocity = 1.0\n";
@@ -174,13 +174,15 @@ fn priors_are_for_measured_frequencies() {
 }
 
 /// Friction at several temperatures by this law.
-fn at_temperatures(shift: Shift) -> Vec<FrictionPoint> {
+fn at_temperatures(shift: &Shift) -> Vec<FrictionPoint> {
     let isotherm = |temperature: f64| {
         let factor = 10_f64.powf(shift.log10_factor(temperature).expect("a factor"));
         // The colder, the slower is the material.
         let faster = speeds(1e-3, 1.0, 6);
         let faster: Vec<f64> = faster.iter().map(|speed| speed * factor).collect();
-        let row = measured(&damped(1e6, 1e4, ""), &faster, Some(0.02));
+        let stiffer = shift.modulus_factor(temperature).expect("a factor");
+        let material = damped(1e6 * stiffer, 1e4 * stiffer, "");
+        let row = measured(&material, &faster, Some(0.02));
         row.into_iter().map(move |point| FrictionPoint {
             velocity: point.velocity / factor,
             temperature: Some(temperature),
@@ -197,13 +199,15 @@ fn shift_laws_come_back_from_several_temperatures() {
         (ShiftLaw::Wlf([12.0, 70.0]), ShiftLaw::Wlf([17.44, 51.6])),
         (ShiftLaw::Arrhenius(1.2e5), ShiftLaw::Arrhenius(5e4)),
     ];
-    for (truth, start) in laws {
+    let vertical = [None, Some(VerticalLaw::Entropic)];
+    for ((truth, start), vertical) in laws.into_iter().zip(vertical) {
         let shift = Shift {
             temperature: 20.0,
             temperature_range: [-20.0, 60.0],
             law: truth,
+            vertical,
         };
-        let points = at_temperatures(shift);
+        let points = at_temperatures(&shift);
         let mut scene = damped(1e6, 1e4, "");
         if let MaterialTable::Prony { shift: own, .. } = &mut scene.material {
             *own = Some(Shift {

@@ -7,7 +7,7 @@ use anyhow::{Context as _, Result};
 use measurements::moduli::{Shifting, master_curve};
 use numerics::Unwatched;
 use rheology::fit::{Identification, IdentifyOptions, Isotherm, ModulusPoint, identify};
-use rheology::{RelaxationBranch, RelaxationSpectrum, WlfShift};
+use rheology::{KELVIN_AT_ZERO_CELSIUS, RelaxationBranch, RelaxationSpectrum, WlfShift};
 use serde::{Deserialize, Serialize};
 use viscofriction::WrongInput;
 use viscofriction::scene::{Branch, Covariance, MaterialTable, Scene};
@@ -66,6 +66,8 @@ struct Power {
 pub(super) struct Found {
     pub(super) material: String,
     pub(super) isotherms: usize,
+    /// Whether the moduli change with the absolute temperature.
+    pub(super) is_entropic: bool,
     noise_storage: f64,
     noise_loss: f64,
     temperature_scatter_k: f64,
@@ -123,6 +125,7 @@ impl TrueMaterial {
 struct Drawn {
     random: Random,
     isotherms: usize,
+    is_entropic: bool,
     noise: [f64; 2],
     temperature: f64,
     factor: f64,
@@ -134,6 +137,7 @@ impl Experiments {
         let mut random = Random::new(u64::from(number));
         let n_isotherms = self.isotherms[0]
             + (random.uniform() * (self.isotherms[1] - self.isotherms[0] + 1.0)).floor();
+        let n_materials = self.material.len();
         let drawn = Drawn {
             #[expect(
                 clippy::cast_possible_truncation,
@@ -144,9 +148,11 @@ impl Experiments {
             noise: [random.between(self.noise), random.between(self.noise)],
             temperature: random.between(self.temperature),
             factor: random.between(self.factor),
+            // Every other time that it is the turn of a material.
+            is_entropic: (number as usize / n_materials) % 2 == 1,
             random,
         };
-        let material = &self.material[number as usize % self.material.len()];
+        let material = &self.material[number as usize % n_materials];
         let found = self.fitted(material, drawn);
         found.with_context(|| format!("experiment {number}"))
     }
@@ -186,6 +192,7 @@ impl Experiments {
         Ok(Found {
             material: material.name.clone(),
             isotherms: drawn.isotherms,
+            is_entropic: drawn.is_entropic,
             noise_storage: drawn.noise[0],
             noise_loss: drawn.noise[1],
             temperature_scatter_k: drawn.temperature,
@@ -215,6 +222,13 @@ impl Experiments {
             let own = temperature + drawn.temperature * normal(&mut drawn.random);
             let log_factor = LN_10 * law.log10_factor(own)?;
             let factor = 1.0 + drawn.factor * normal(&mut drawn.random);
+            let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
+            let stiffer = if drawn.is_entropic {
+                kelvin(own) / kelvin(WANTED)
+            } else {
+                1.0
+            };
+            let factor = factor * stiffer;
             let places = std::iter::successors(Some(0.0), |k| Some(k + 1.0));
             let points = places.take_while(|k| *k < n_points).map(|k| {
                 let omega = TAU * self.frequency[0] * (ratio * k).exp();
@@ -258,6 +272,7 @@ fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
     let shifting = Shifting {
         reference_temperature: Some(WANTED),
         law: None,
+        vertical: None,
     };
     let curve = master_curve(isotherms, true, shifting)?.master.curve;
     let found = identify(&curve, &IdentifyOptions::default())?;

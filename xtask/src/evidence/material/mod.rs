@@ -68,7 +68,8 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     })
 }
 
-/// All experiments, those of each material, and those of each number of isotherms.
+/// All experiments, those of each material, those of each number of isotherms, and those with and without moduli that change with
+/// temperature.
 fn groups(found: &[Found]) -> Vec<Group> {
     let mut groups = vec![Group::of("all", found.iter())];
     let mut materials: Vec<&str> = found.iter().map(|one| &*one.material).collect();
@@ -86,6 +87,10 @@ fn groups(found: &[Found]) -> Vec<Group> {
     for number in isotherms {
         let of_them = found.iter().filter(|one| one.isotherms == number);
         groups.push(Group::of(&format!("{number} isotherms"), of_them));
+    }
+    for (is_entropic, name) in [(false, "b_T = 1"), (true, "b_T = T/T_r")] {
+        let of_them = found.iter().filter(|one| one.is_entropic == is_entropic);
+        groups.push(Group::of(name, of_them));
     }
     groups
 }

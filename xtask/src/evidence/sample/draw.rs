@@ -8,6 +8,7 @@ use toml::{Table, Value};
 use viscofriction::Files;
 use viscofriction::scene::{
     Branch, Edges, LoadPoint, Model, MotionPoint, Scene, Shift, ShiftLaw, StrokeShape, Term,
+    VerticalLaw,
 };
 use viscofriction::solve::{Body, body, half_space};
 
@@ -194,6 +195,10 @@ impl Sample<'_> {
                 temperature: self.random.between(TEMPERATURES),
                 temperature_range: TEMPERATURES,
                 law,
+                vertical: self
+                    .random
+                    .choice(&[false, true])
+                    .then_some(VerticalLaw::Entropic),
             };
             self.draw("shift", [Value::try_from(shift)?]);
             let other = self.random.between(TEMPERATURES);

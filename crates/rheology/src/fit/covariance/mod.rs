@@ -38,6 +38,9 @@ pub struct ModuliCovariance {
     pub factor: Option<f64>,
     /// Scatter of the temperatures of the isotherms, \[K]; none where it leaves no trace.
     pub temperature: Option<f64>,
+    /// Standard errors of ln a_T and of ln b_T of the isotherms, in their order, by the scatter of points and factors: 0 of the one that
+    /// stays where it is and of what was given; none of a single curve. What an isotherm is off by in temperature is not in it.
+    pub shift_errors: Vec<[f64; 2]>,
 }
 
 impl ModuliCovariance {
@@ -106,6 +109,7 @@ pub(super) fn covariance(
         temperature: joined
             .knows_temperature()
             .then(|| scatter.temperature.sqrt()),
+        shift_errors: joined.shift_errors(&scatter),
     })
 }
 
