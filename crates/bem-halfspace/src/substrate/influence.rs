@@ -4,7 +4,7 @@
 //! K(x, y) = ∬ dA' / |r − r'|   over the rectangle around the origin        (Love 1929)
 //! ```
 
-use crate::substrate::rectangle::{PlaneKernel, integrate, product_asinh};
+use crate::substrate::rectangle::{PlaneKernel, distance, integrate, product_asinh};
 
 /// Distance in units of the longer edge from which the first multipoles are exact to rounding: the next one is below
 /// 0.02 r⁻⁶ of the whole.
@@ -47,7 +47,7 @@ struct Reciprocal;
 
 impl PlaneKernel for Reciprocal {
     fn value(x: f64, y: f64) -> f64 {
-        1.0 / (x * x + y * y).sqrt()
+        1.0 / distance(x, y)
     }
 
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
@@ -68,7 +68,7 @@ fn strip(x: f64, edge: f64, height: f64) -> f64 {
     let (lower, upper) = (x - 0.5 * edge, x + 0.5 * edge);
     if lower > 0.0 {
         // Also right where the height vanishes.
-        return ((upper + upper.hypot(height)) / (lower + lower.hypot(height))).ln();
+        return ((upper + distance(upper, height)) / (lower + distance(lower, height))).ln();
     }
     (upper / height.abs()).asinh() - (lower / height.abs()).asinh()
 }

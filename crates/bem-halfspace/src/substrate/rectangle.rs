@@ -20,6 +20,13 @@ const FOUR: Rule = (
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
     ],
 );
+const FIVE: Rule = (
+    0.568_888_888_888_888_9,
+    &[
+        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    ],
+);
 const SIX: Rule = (
     0.0,
     &[
@@ -40,7 +47,14 @@ const EIGHT: Rule = (
 
 /// Rules, each with the distance in edges from which it errs by less than rounding: with n points the error is below
 /// (1/2·distance)^(2n) of the integrand.
-const RULES: [(f64, Rule); 3] = [(8192.0, TWO), (64.0, FOUR), (FAR, EIGHT)];
+const RULES: [(f64, Rule); 6] = [
+    (8192.0, TWO),
+    (320.0, THREE),
+    (64.0, FOUR),
+    (24.0, FIVE),
+    (12.0, SIX),
+    (FAR, EIGHT),
+];
 /// The same of a smooth part of a kernel, to 1e-12 of the whole on the rectangle itself, which is as many times greater.
 const SMOOTH: [(f64, Rule); 4] = [(250.0, TWO), (25.0, THREE), (8.0, FOUR), (2.5, SIX)];
 
@@ -63,8 +77,8 @@ pub(crate) trait PlaneKernel {
 pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     // How far the singularities of the integrand lie from the edge along x, and along y.
     let clearance = [
-        x.hypot((y - 0.5 * b).max(0.0)),
-        y.hypot((x - 0.5 * a).max(0.0)),
+        distance(x, (y - 0.5 * b).max(0.0)),
+        distance(y, (x - 0.5 * a).max(0.0)),
     ];
     match (rule(&RULES, clearance[0], a), rule(&RULES, clearance[1], b)) {
         (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
@@ -122,6 +136,11 @@ fn gauss(((middle, nodes), centre, edge): (Rule, f64, f64), function: impl Fn(f6
     } else {
         half * pairs
     }
+}
+
+/// √(x² + y²) of lengths in edges of an element, whose squares neither overflow nor underflow.
+pub(crate) fn distance(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// x asinh(y / |x|), continued by 0 to x = 0.

@@ -83,7 +83,7 @@ fn material(poisson_ratio: f64) -> Compressible {
 /// The depth is given, so that the deviation is that of the force.
 #[test]
 fn pressing_agrees_with_an_integral_equation() {
-    for nu in [0.0, 0.3, 0.45, 0.5] {
+    for nu in [0.0, 0.45, 0.5] {
         let bonded = BondedLayer::new(1.0, nu).unwrap();
         for a in [0.05, 1.0, 20.0] {
             let punch = FlatPunch::new(a).unwrap();

@@ -64,7 +64,7 @@ fn bars_of_coarse_grids_hold_finer_cycles() {
         let on = |elements| {
             move_along(&ball(), &rubber(), &motion, Accuracy::Elements(elements)).expect("a cycle")
         };
-        let fine = on(20);
+        let fine = on(16);
         for elements in [8, 12] {
             let coarse = on(elements);
             for (name, coarse, fine) in [

@@ -44,10 +44,14 @@ fn mutated(text: &[u8], (mutation, at, other): (&str, Index, Index)) -> Vec<u8> 
         return Vec::new();
     }
     let place = at.index(text.len());
-    let lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
-    let line = at.index(lines.len());
-    let start: usize = lines[..line].iter().map(|line| line.len()).sum();
-    let end = start + lines[line].len();
+    // All lines, and where one of them stands.
+    let lines = || {
+        let lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
+        let line = at.index(lines.len());
+        let start: usize = lines[..line].iter().map(|line| line.len()).sum();
+        let end = start + lines[line].len();
+        (lines, start..end)
+    };
     let one_of = |texts: &'static str, end: char| {
         let texts: Vec<&str> = texts.split(end).collect();
         texts[other.index(texts.len())].as_bytes()
@@ -57,9 +61,15 @@ fn mutated(text: &[u8], (mutation, at, other): (&str, Index, Index)) -> Vec<u8> 
         "flip" => (place..place + 1, &flipped),
         "insert" => (place..place, one_of(INSERTS, '|')),
         "replace" => (number_at(text, place), one_of(VALUES, ',')),
-        "delete" => (start..end, &[]),
-        "repeat" => (start..start, lines[other.index(lines.len())]),
-        "cut" => (start + other.index(lines[line].len())..end, &[]),
+        "delete" => (lines().1, &[]),
+        "repeat" => {
+            let (lines, line) = lines();
+            (line.start..line.start, lines[other.index(lines.len())])
+        }
+        "cut" => {
+            let (_, line) = lines();
+            (line.start + other.index(line.len())..line.end, &[])
+        }
         _ => (place..text.len(), &[]),
     };
     [&text[..part.start], by, &text[part.end..]].concat()

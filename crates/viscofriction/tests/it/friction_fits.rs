@@ -157,7 +157,7 @@ fn what_friction_does_not_tell_is_not_determined() {
 /// frequencies at which the material was measured.
 #[test]
 fn priors_are_for_measured_frequencies() {
-    let points = measured(&rubber(TRUE, "", LINE), &speeds(1e-4, 5e-3, 6), Some(0.02));
+    let points = measured(&rubber(TRUE, "", LINE), &speeds(1e-4, 5e-3, 4), Some(0.02));
     let fast = |window: &str| {
         let options = FrictionFitOptions {
             prior: FrictionPrior::Relative(0.1),

@@ -34,6 +34,18 @@ pub(super) struct Asked {
     relative_error: f64,
     reference_error: f64,
     step: f64,
+    /// Scenes from which those are taken.
+    pub(super) scenes: usize,
+    quick: Quick,
+    /// Memory of an answer that is differenced, if not as much as of the one that is differentiated.
+    reference_memory: Option<String>,
+}
+
+/// What a quick run has instead.
+#[derive(Debug, Clone, Deserialize)]
+struct Quick {
+    scenes: usize,
+    reference_memory: String,
 }
 
 /// One derivative of the logarithm of a quantity by that of a number.
@@ -188,6 +200,12 @@ fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
 }
 
 impl Asked {
+    /// Asks what a quick run does.
+    pub(super) fn be_quick(&mut self) {
+        self.scenes = self.quick.scenes;
+        self.reference_memory = Some(self.quick.reference_memory.clone());
+    }
+
     fn scene(&self, scene: &Scene, relative_error: f64) -> Scene {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
@@ -198,7 +216,10 @@ impl Asked {
 
     /// The answers around a scene, for differences by a number.
     fn answers(&self, scene: &Scene, parameter: &str) -> Result<Vec<Answer>> {
-        let exact = self.scene(scene, self.reference_error);
+        let mut exact = self.scene(scene, self.reference_error);
+        if self.reference_memory.is_some() {
+            exact.solve.max_memory.clone_from(&self.reference_memory);
+        }
         let solved = |[steps, _]: [f64; 2]| -> Result<Answer> {
             let scene = self.changed(&exact, parameter, steps)?;
             // What was reached is a reference with the error that it has.

@@ -15,8 +15,8 @@ use viscofriction::solve::{Body, body, half_space};
 use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, read};
 use crate::random::Random;
 
-/// Relative errors that are asked for.
-const ERRORS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
+/// Relative error that is asked of a motion on the half space.
+const ERROR_OF_MOTION: f64 = 0.1;
 /// Of materials that know their shift law, \[°C].
 const TEMPERATURES: [f64; 2] = [10.0, 40.0];
 
@@ -239,7 +239,7 @@ impl Sample<'_> {
         if is_round && self.random.uniform() < 0.25 {
             scene.solve.model = Some(Model::Line);
         }
-        scene.solve.relative_error = Some(self.random.choice(&ERRORS));
+        scene.solve.relative_error = Some(self.random.choice(&range.errors));
         scene.solve.max_memory = Some(range.memory.clone());
         let at_depth = self.random.uniform() < range.depths;
         let motion = self.random.choice(&range.motions);
@@ -303,7 +303,7 @@ impl Sample<'_> {
     /// asked for no more than they reach.
     fn move_along(&mut self, scene: &mut Scene, velocity: f64) {
         if scene.solve.model.is_none() {
-            scene.solve.relative_error = Some(ERRORS[0]);
+            scene.solve.relative_error = Some(ERROR_OF_MOTION);
         }
         if self.random.choice(&[false, true]) {
             let stroke = self.contact * 10_f64.powf(self.random.between([-1.5, 0.8]));

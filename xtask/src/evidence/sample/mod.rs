@@ -158,8 +158,15 @@ pub(super) struct Range {
     depths: f64,
     /// Half the decades over which the distances from first touch are spread around three contacts.
     pub(super) distances: f64,
+    /// Relative errors that are asked for.
+    #[serde(default = "errors")]
+    pub(super) errors: Vec<f64>,
     /// Memory of one solution, which bounds the size of a scene.
     pub(super) memory: String,
+}
+
+fn errors() -> Vec<f64> {
+    vec![0.1, 0.05, 0.02, 0.01]
 }
 
 /// What is done with a body; it slides from first touch for a time or over a distance.

@@ -13,7 +13,7 @@
 //! ∂²Φ/∂ξ∂y = ln(ξ + r),   Φ = ξ y ln(ξ + r) − ξ y + ½ ξ² asinh(y/|ξ|) − ½ y r
 //! ```
 
-use crate::substrate::rectangle::{FAR, PlaneKernel, integrate, product_asinh};
+use crate::substrate::rectangle::{FAR, PlaneKernel, distance, integrate, product_asinh};
 
 /// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] leads from its centre to the field point.
 ///
@@ -46,7 +46,7 @@ impl PlaneKernel for Logarithm {
     }
 
     fn corner(x: f64, y: f64) -> f64 {
-        let r = x.hypot(y);
+        let r = distance(x, y);
         // ½ y (|y| − r): with y |y|, which drops out of differences along x, nothing cancels between near corners.
         let bend = if x == 0.0 { 0.0 } else { x / (y.abs() + r) };
         x * (product_logarithm(x, y) - y + 0.5 * (product_asinh(x, y) - y * bend))
@@ -55,7 +55,7 @@ impl PlaneKernel for Logarithm {
 
 /// ln(x + r) without cancellation behind the load.
 fn logarithm(x: f64, y: f64) -> f64 {
-    let r = x.hypot(y);
+    let r = distance(x, y);
     if x >= 0.0 {
         (x + r).ln()
     } else {
@@ -70,7 +70,7 @@ fn logarithm_integral(y: f64) -> f64 {
 
 /// ∫ ln(x + r) dx.
 fn along_x(x: f64, y: f64) -> f64 {
-    x * logarithm(x, y) - x.hypot(y)
+    x * logarithm(x, y) - distance(x, y)
 }
 
 /// ∫ ln(x + r) dy.

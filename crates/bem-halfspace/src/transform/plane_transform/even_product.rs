@@ -73,16 +73,34 @@ fn multiply_turned(
     values: &mut [Complex<f64>],
 ) {
     let length = values.len();
-    let product =
-        |value: Complex<f64>, k: usize| Complex::new(value.re * real[k], value.im * imaginary[k]);
-    values[0] = product(2.0 * values[0], 0);
-    for (k, turn) in turns.iter().enumerate().skip(1) {
-        let [here, there] = [turn * values[k], turn.conj() * values[length - k]];
-        let sum = product(here + there, k);
+    let factors = real.iter().zip(imaginary);
+    let product = |value: Complex<f64>, (real, imaginary): (&f64, &f64)| {
+        Complex::new(value.re * real, value.im * imaginary)
+    };
+    let pair = |turn: Complex<f64>, [here, there]: [Complex<f64>; 2], [one, other]: [_; 2]| {
+        let [here, there] = [turn * here, turn.conj() * there];
+        let sum = product(here + there, one);
         // U_(L−k) is i times the difference, and is transformed back with −i.
-        let difference = product(times_i(here - there), length - k);
-        values[k] = turn.conj() * (sum - times_i(difference));
-        values[length - k] = turn * (sum + times_i(difference));
+        let difference = product(times_i(here - there), other);
+        [
+            turn.conj() * (sum - times_i(difference)),
+            turn * (sum + times_i(difference)),
+        ]
+    };
+    values[0] = product(2.0 * values[0], (&real[0], &imaginary[0]));
+    let (lower, upper) = values[1..].split_at_mut(length / 2);
+    // The other way round from the last but one factor.
+    let opposite = factors.clone().rev().skip(real.len() - length);
+    let places = lower.iter_mut().zip(upper.iter_mut().rev());
+    let both = factors.skip(1).zip(opposite);
+    for ((turn, (here, there)), (one, other)) in turns[1..].iter().zip(places).zip(both) {
+        [*here, *there] = pair(*turn, [*here, *there], [one, other]);
+    }
+    if length.is_multiple_of(2) {
+        // The one in the middle is its own opposite.
+        let middle = length / 2;
+        let both = [(&real[middle], &imaginary[middle]); 2];
+        values[middle] = pair(turns[middle], [values[middle]; 2], both)[1];
     }
 }
 
