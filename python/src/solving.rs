@@ -179,7 +179,8 @@ pub(crate) fn solve_loads<'py>(
                 answer = with_sensitivity(&scene, files, problem, answer, &Unwatched)?;
             }
             if spectral {
-                answer.spectral_sensitivity = Some(spectral_sensitivity(problem, &answer)?);
+                answer.spectral_sensitivity =
+                    Some(spectral_sensitivity(problem, &answer, &Unwatched)?);
             }
             Ok(if fields {
                 with_fields(problem, answer)
