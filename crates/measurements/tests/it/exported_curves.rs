@@ -133,7 +133,10 @@ fn the_halves_of_a_ramp_are_those_of_afm_workshop() {
         &["spring_constant = 0.1", "sensitivity = 2e-8"],
     );
     let missing = read(&text, &CurveOptions::default()).expect_err("no times");
-    assert!(missing.contains("(ramp_rate)"), "{missing}");
+    assert!(
+        missing.contains("--ramp-rate (ramp_rate in Python)"),
+        "{missing}"
+    );
     // The default of 1 says nothing.
     let unknown = head("Light Lever Gain, mV/nm:\t1\n");
     let text = format!("{unknown}{names}{}", rows(true, [3, 4, 5]));

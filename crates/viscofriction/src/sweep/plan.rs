@@ -341,9 +341,12 @@ fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
     Err(SceneError::at(key, problem))
 }
 
+/// What is said of a key that is in no table of the scene.
+const NO_TABLE: &str = "the scene has no such table to vary a key of; a key is given with its tables, as load.velocity";
+
 /// Sets a key; the table it is in must be there.
 fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
-    let missing = || SceneError::at(key, "the scene has no such table to vary a key of");
+    let missing = || SceneError::at(key, NO_TABLE);
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
     let mut inner = table;
     for segment in path.split('.') {
