@@ -15,6 +15,15 @@ pub(crate) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
 #[derive(Debug, Default)]
 struct Told(Mutex<Vec<f64>>);
 
+impl Told {
+    /// More and more was done, and in the end all.
+    fn assert_done(self) {
+        let told = self.0.into_inner().expect("parts");
+        assert!(told.len() > 2 && told.is_sorted(), "{told:?}");
+        assert!((told[told.len() - 1] - 1.0).abs() < 1e-12, "{told:?}");
+    }
+}
+
 impl Watch for Told {
     fn allows(&self, _: usize) -> bool {
         true
@@ -265,9 +274,7 @@ fn derivatives_by_frequencies_are_those_by_the_numbers_of_the_material() {
     let known = known.expect("derivatives");
     let told = Told::default();
     let spectral = spectral_sensitivity(&problem, &answer, &told).expect("derivatives");
-    let told = told.0.into_inner().expect("parts");
-    assert!(told.len() > 2 && told.is_sorted(), "{told:?}");
-    assert!((told[told.len() - 1] - 1.0).abs() < 1e-12, "{told:?}");
+    told.assert_done();
     let ends = spectral.bands.iter().flat_map(|band| band.frequencies);
     let ends: Vec<f64> = ends.collect();
     assert!(ends[0] == 0.0 && ends.contains(&50.0) && ends.contains(&2e3));
