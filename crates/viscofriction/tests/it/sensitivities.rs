@@ -13,7 +13,7 @@ pub(crate) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
 
 /// The parts that were done, as they were told.
 #[derive(Debug, Default)]
-struct Told(Mutex<Vec<f64>>);
+pub(crate) struct Told(pub(crate) Mutex<Vec<f64>>);
 
 impl Told {
     /// More and more was done, and in the end all.
