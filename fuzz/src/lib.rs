@@ -4,8 +4,8 @@ use std::path::Path;
 
 use viscofriction_cli::{InputKind, check_input};
 
-/// Formats of heights that have no lines, or are refused as a whole.
-const WITHOUT_LINES: [&str; 6] = ["asc", "gsf", "npy", "sur", "x3p", "xyz"];
+/// Formats of heights that have no lines.
+const WITHOUT_LINES: [&str; 4] = ["gsf", "npy", "sur", "x3p"];
 
 /// Checks the contents of a file; whether they are accepted.
 ///
@@ -16,16 +16,16 @@ pub fn check(kind: InputKind, file: &Path, contents: &[u8]) -> Result<bool, Stri
         return Ok(true);
     };
     let message = error.to_string();
-    if names_place(kind, &message, file, contents) {
+    if names_place(&message, file, contents) {
         Ok(false)
     } else {
         Err(message)
     }
 }
 
-/// Whether a refusal begins with the file and a line that it has, or the one behind its end. The file is enough of
-/// a format without lines, and of a table that is refused as a whole.
-fn names_place(kind: InputKind, message: &str, file: &Path, contents: &[u8]) -> bool {
+/// Whether a refusal begins with the file and a line that it has, or the one behind its end; of a format without lines the file
+/// is enough.
+fn names_place(message: &str, file: &Path, contents: &[u8]) -> bool {
     let lines = 1 + contents.split(|byte| *byte == b'\n').count();
     let names_line = |rest: &str| {
         let rest = rest.strip_prefix(':').or(rest.strip_prefix(", line "))?;
@@ -34,8 +34,7 @@ fn names_place(kind: InputKind, message: &str, file: &Path, contents: &[u8]) -> 
         ((1..=lines).contains(&line) && !why.trim_matches([':', ',', ' ']).is_empty()).then_some(())
     };
     let extension = file.extension().unwrap_or_default().to_string_lossy();
-    let has_no_lines = WITHOUT_LINES.contains(&extension.as_ref())
-        || matches!(kind, InputKind::Curve | InputKind::Friction);
+    let has_no_lines = WITHOUT_LINES.contains(&extension.as_ref());
     let rest = message.strip_prefix(&file.display().to_string());
     let is_named =
         |rest: &str| has_no_lines && rest.starts_with(": ") || names_line(rest).is_some();

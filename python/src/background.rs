@@ -1,19 +1,22 @@
 //! Work away from the interpreter, which stays free for other threads, shows progress, and can be interrupted.
 
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::ops::ControlFlow;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use std::{mem, process, thread};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use viscofriction::solve::share_memory;
 
 /// Ctrl-C and the progress are looked after so often.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// The results of `work` for 0 to `count` − 1, on `threads` threads of their own or on those of the process, in order.
+///
+/// Those that are computed at the same time share the memory, as [`share_memory`] says.
 ///
 /// What `progress`, called with how many are done and how many there are, or a handler of signals raises is passed on.
 pub(crate) fn all<T: Send + 'static>(
@@ -21,7 +24,7 @@ pub(crate) fn all<T: Send + 'static>(
     count: usize,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl Fn(usize) -> T + Send + Sync + 'static,
+    work: impl Fn(usize, u64) -> Option<T> + Send + Sync + 'static,
 ) -> PyResult<Vec<T>> {
     let mut results = Vec::with_capacity(count);
     each(py, count, threads, work, |finished| {
@@ -42,7 +45,7 @@ pub(crate) fn each<T: Send + 'static>(
     py: Python<'_>,
     count: usize,
     threads: Option<usize>,
-    work: impl Fn(usize) -> T + Send + Sync + 'static,
+    work: impl Fn(usize, u64) -> Option<T> + Send + Sync + 'static,
     mut take: impl FnMut(Vec<(usize, T)>) -> PyResult<()>,
 ) -> PyResult<()> {
     let pool = match threads {
@@ -51,10 +54,12 @@ pub(crate) fn each<T: Send + 'static>(
     };
     let (sender, mut receiver) = channel();
     let compute = move || {
-        // One after the other, so that they are finished nearly in order. Where nobody takes them any more, none begins.
-        let indices = (0..count).into_par_iter().with_max_len(1);
-        let one = |sender: &mut Sender<_>, index| sender.send((index, work(index)));
-        drop(pool.install(|| indices.try_for_each_with(sender, one)));
+        // Where nobody takes them any more, none begins.
+        let send = |index, result| match sender.send((index, result)) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        };
+        pool.install(|| share_memory((0..count).collect(), &work, send));
     };
     thread::Builder::new().spawn(compute).map_err(failed)?;
     let mut taken = 0;

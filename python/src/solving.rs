@@ -6,7 +6,7 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::numerics::Unwatched;
-use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
+use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, SceneError, Source};
 use viscofriction::solve::{
     BodyOfScene, Budget, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
     with_sensitivity,
@@ -32,16 +32,18 @@ struct Scenes {
 }
 
 impl Scenes {
-    fn scene(&self, index: usize) -> Scene {
+    /// With one of so many parts of the memory.
+    fn scene(&self, index: usize, parts: u64) -> Result<Scene, SceneError> {
         let mut scene = self.scene.clone();
         for (column, values) in &self.columns {
             column(&mut scene, values[index]);
         }
-        scene
+        scene.solve.limit_memory(None, parts)?;
+        Ok(scene)
     }
 
-    fn problem(&self, index: usize) -> PyResult<Problem> {
-        let scene = self.scene(index);
+    fn problem(&self, index: usize, parts: u64) -> PyResult<Problem> {
+        let scene = self.scene(index, parts).map_err(wrong)?;
         let problem = match self.surface.as_ref().and_then(copy) {
             Some(body) => Problem::with_body(&scene, body, &self.folder, read_file),
             None => Problem::new(&scene, &self.folder, read_file),
@@ -156,7 +158,7 @@ pub(crate) fn solve_loads<'py>(
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| {
-        let problem = scenes.problem(index)?;
+        let problem = scenes.problem(index, 1)?;
         // A body of many numbers is not kept for each.
         Ok(matches!(problem.body(), Body::Revolution(_)).then_some(problem))
     });
@@ -167,16 +169,18 @@ pub(crate) fn solve_loads<'py>(
         is_closed && problem.history().is_empty()
     };
     let is_quick = count == 1 && problems[0].as_ref().is_some_and(is_quick);
-    let work = move |index: usize| {
+    let has_limit = scenes.scene.solve.max_memory.is_some();
+    let work = move |index: usize, parts: u64| {
         let solve = |problem: &Problem| -> Result<Answer, SolveError> {
             let mut answer = solve(problem)?;
             if sensitivity {
                 let files = (&*scenes.folder, read_file as ReadFile);
-                answer =
-                    with_sensitivity(&scenes.scene(index), files, problem, answer, &Unwatched)?;
+                let scene = scenes.scene(index, parts)?;
+                answer = with_sensitivity(&scene, files, problem, answer, &Unwatched)?;
             }
             if spectral {
-                answer.spectral_sensitivity = Some(spectral_sensitivity(problem, &answer)?);
+                answer.spectral_sensitivity =
+                    Some(spectral_sensitivity(problem, &answer, &Unwatched)?);
             }
             Ok(if fields {
                 with_fields(problem, answer)
@@ -185,20 +189,24 @@ pub(crate) fn solve_loads<'py>(
             })
         };
         match &problems[index] {
-            Some(problem) => Some(solve(problem)),
-            // It was built before.
-            None => scenes.problem(index).ok().map(|problem| solve(&problem)),
+            Some(problem) if parts == 1 || !has_limit => Some(solve(problem)),
+            // With all of the memory it was built before.
+            _ => {
+                let problem = scenes.problem(index, parts).ok()?;
+                let answer = solve(&problem);
+                (parts == 1 || !problem.is_short_of_memory()).then_some(answer)
+            }
         }
     };
     let answers = if is_quick {
         // Sooner done than a thread is begun.
-        vec![py.detach(|| work(0))]
+        py.detach(|| work(0, 1)).into_iter().collect()
     } else {
         background::all(py, count, threads, progress, work)?
     };
     // The curve of a history that came as arrays is asked for as arrays.
     let has_text = count == 1 && loads.history.is_none();
-    to_python(py, answers.into_iter().flatten().collect(), has_text)
+    to_python(py, answers, has_text)
 }
 
 fn to_python(
@@ -443,7 +451,7 @@ pub(crate) fn sweep_points<'py>(
         return Err(wrong(format!("points: there is no point {point}")));
     }
     let count = points.len();
-    let work = move |index: usize| plan.solve(points[index]);
+    let work = move |index: usize, parts| plan.solve_within(points[index], parts);
     background::each(py, count, None, work, |finished| {
         let rows = finished.into_iter().map(|(_, row)| {
             let row = row.map_err(wrong)?;

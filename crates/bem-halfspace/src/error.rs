@@ -251,6 +251,16 @@ pub enum BemError {
         /// The tolerance.
         tolerance: f64,
     },
+    /// The change of the material by one cycle is lost in the rounding of numbers.
+    #[error(
+        "a cycle takes {period:e} s, and the material remembers {slowest:.1e} s: what one cycle changes is lost in rounding"
+    )]
+    CycleTooShort {
+        /// Duration of a cycle, \[s].
+        period: f64,
+        /// The slowest retardation time, \[s].
+        slowest: f64,
+    },
     /// A material that flows has no state long after it was pressed.
     #[error("a material that flows never comes to rest under a load: press it for a duration")]
     NoEquilibrium,

@@ -61,7 +61,12 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         }
         InputKind::Moduli => check_table(file, contents),
         InputKind::Curve => {
-            let curve = indentation_curve(file, contents, &CurveOptions::default());
+            // A table that does not say how stiff its cantilever is needs what the command line says.
+            let options = CurveOptions {
+                spring_constant: Some(1.0),
+                ..CurveOptions::default()
+            };
+            let curve = indentation_curve(file, contents, &options);
             curve.map(drop).map_err(wrong_table)
         }
         InputKind::Friction => {

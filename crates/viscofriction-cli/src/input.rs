@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use viscofriction::WrongInput;
+use viscofriction::indenters::topography::length;
 use viscofriction::numerics::InvalidParameter;
 use viscofriction::scene::Source;
 
@@ -138,6 +139,12 @@ pub(crate) fn half_of_free_memory() -> Option<u64> {
     Some(512 * kilobytes)
 }
 
+/// A length of the command line, in m or with a unit.
+pub(crate) fn metres(text: &str) -> Result<f64, String> {
+    let metres = text.trim().parse().ok().or_else(|| length(text));
+    metres.ok_or_else(|| "a length is needed, in m or with a unit, as \"10 um\"".to_owned())
+}
+
 /// The scene in a file, or on the standard input.
 pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     let contents = if path == Path::new("-") {
@@ -159,4 +166,35 @@ fn read_at_most(most: u64, file: impl Read) -> io::Result<Vec<u8>> {
         return Err(io::Error::other(problem));
     }
     Ok(contents)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::error::ErrorKind;
+
+    use crate::command_line;
+
+    #[test]
+    fn every_option_in_metres_takes_units() {
+        let program = command_line();
+        let mut n_options = 0;
+        for command in program.get_subcommands() {
+            for option in command.get_arguments() {
+                let help = option.get_help().map(ToString::to_string);
+                if !help.is_some_and(|help| help.contains(" in m ") || help.contains(" in m,")) {
+                    continue;
+                }
+                n_options += 1;
+                let name = option.get_long().expect("an option");
+                let count = option.get_num_args().map_or(1, |range| range.min_values());
+                let words = std::iter::once("command".to_owned()).chain([format!("--{name}")]);
+                let words = words.chain(vec!["20mm".to_owned(); count]);
+                let parsed = command.clone().try_get_matches_from(words);
+                // Other arguments are missing.
+                let kind = parsed.err().map(|error| error.kind());
+                assert_eq!(kind, Some(ErrorKind::MissingRequiredArgument), "--{name}");
+            }
+        }
+        assert_eq!(n_options, 6, "options that are lengths");
+    }
 }

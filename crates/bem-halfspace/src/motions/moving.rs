@@ -4,6 +4,8 @@
 //! a step, and forces belong to its end, so that steps are of the second order; `docs/theory/transient-half-space.md` has what
 //! is different on a material without instantaneous compliance.
 
+use std::cell::Cell;
+
 use indenters::{
     Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
     SlidingLoad, Surface,
@@ -29,6 +31,8 @@ pub(crate) const WORK: f64 = 3.0;
 /// Steps of a motion, or of one cycle, after which it is not begun, and cycles after which the search is given up.
 pub(crate) const MOST_STEPS: f64 = 1e5;
 const MOST_CYCLES: usize = 100;
+/// Relative change by a cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
+const ROUNDING_OF_CYCLE: f64 = 1e-14;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
 const PART_OF_CYCLES: f64 = 0.1;
 const TOLERANCE_ON_ELEMENTS: f64 = 1e-3;
@@ -240,10 +244,10 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
     /// The cycle that is like the one before.
     fn cycle(&self, march: &mut March<'_>, follow: &Follow<'_>) -> Result<MotionRecord, BemError> {
         let first = march.memory().to_vec();
-        let pass = |from: &[f64]| {
+        let pass = |from: &[f64], tell: &dyn Fn(f64)| {
             march.memory().copy_from_slice(from);
             march.begin_again();
-            let record = follow.pass(march, None)?;
+            let record = Follow { tell, ..*follow }.pass(march, None)?;
             Ok((record, march.memory().to_vec()))
         };
         let cycles = Cycles {
@@ -273,9 +277,7 @@ impl Follow<'_> {
         let mut rows = Vec::with_capacity(self.steps.len());
         while let Some(row) = march.step()? {
             rows.push((row, march.time_level()));
-            if first.is_some() {
-                (self.tell)(march.part_done());
-            }
+            (self.tell)(march.part_done());
         }
         let mut record = MotionRecord {
             spacing: self.spacing,
@@ -325,17 +327,33 @@ pub(crate) struct Cycles {
 }
 
 impl Cycles {
-    /// The cycle that is like the one before, from what elements remember; a pass gives it, and what they remember at its end.
+    /// The cycle that is like the one before, from what elements remember; a pass gives it, and what they remember at its end, and
+    /// tells which part of it is done.
     pub(crate) fn settle(
         &self,
         first: Vec<f64>,
-        pass: impl FnMut(&[f64]) -> Result<(MotionRecord, Vec<f64>), BemError>,
+        mut pass: impl FnMut(&[f64], &dyn Fn(f64)) -> Result<(MotionRecord, Vec<f64>), BemError>,
         tell: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
         let slowness = -(-self.period / self.slowest).exp_m1().recip();
+        if slowness * ROUNDING_OF_CYCLE > self.tolerance {
+            let (period, slowest) = (self.period, self.slowest);
+            return Err(BemError::CycleTooShort { period, slowest });
+        }
+        // By the cycles that are made, or by how alike they are, whichever is more.
+        let (mut n_cycles, alike) = (0, Cell::new(0.0_f64));
+        let pass = |from: &[f64]| {
+            let begun = f64::from(n_cycles);
+            let cycle = pass(from, &|part| {
+                tell(alike.get().max((begun + part) / MOST_CYCLES as f64));
+            });
+            n_cycles += 1;
+            cycle
+        };
         let left = |now: &mut MotionRecord, before: &MotionRecord| {
             let left = now.rest_after(before, slowness);
-            tell((left.ln() / self.tolerance.ln()).clamp(0.0, 1.0));
+            let part = (left.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
+            alike.set(alike.get().max(part));
             left
         };
         match settle(first, (MOST_CYCLES, self.tolerance), pass, left)? {

@@ -264,7 +264,9 @@ impl CurveOptions {
     /// \[N/m], or what is wrong.
     fn stiffness(&self, reason: &str) -> Result<f64, String> {
         let needed = || {
-            format!("the stiffness of the cantilever (spring_constant) is needed, because {reason}")
+            format!(
+                "the stiffness of the cantilever, --spring-constant in N/m (spring_constant in Python), is needed, because {reason}"
+            )
         };
         self.spring_constant.ok_or_else(needed)
     }
@@ -356,12 +358,14 @@ impl Segment {
         let duration = options.ramp_rate.filter(|_| table.half.is_some());
         if table.find(Time).is_none() && duration.is_none() {
             let of_halves = "or for columns of the two halves of a ramp (_Ex and _Rt, Extend and Retract) the ramps per \
-                             second (ramp_rate)";
+                             second, --ramp-rate (ramp_rate in Python)";
             return Err(missing(&format!("a column t, {of_halves},")));
         }
         let load = table.find(Deflection);
         if load.is_some_and(is_volts) && options.sensitivity.is_none() {
-            return Err(missing("the deflection per volt (sensitivity)"));
+            return Err(missing(
+                "the deflection per volt, --sensitivity in m/V (sensitivity in Python),",
+            ));
         }
         let length = load.filter(|load| !load.unit.ends_with('N'));
         let of_load = length.map_or(Ok(1.0), |load| {

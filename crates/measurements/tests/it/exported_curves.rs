@@ -133,12 +133,15 @@ fn the_halves_of_a_ramp_are_those_of_afm_workshop() {
         &["spring_constant = 0.1", "sensitivity = 2e-8"],
     );
     let missing = read(&text, &CurveOptions::default()).expect_err("no times");
-    assert!(missing.contains("(ramp_rate)"), "{missing}");
+    assert!(
+        missing.contains("--ramp-rate (ramp_rate in Python)"),
+        "{missing}"
+    );
     // The default of 1 says nothing.
     let unknown = head("Light Lever Gain, mV/nm:\t1\n");
     let text = format!("{unknown}{names}{}", rows(true, [3, 4, 5]));
     let missing = read(&text, &options).expect_err("no sensitivity");
-    assert!(missing.contains("(sensitivity)"), "{missing}");
+    assert!(missing.contains("--sensitivity"), "{missing}");
     // The way back alone.
     let text = "t (s),Retract Force (nN),Retract depth (nm)\n0,2,200\n1,1,100\n2,0,0\n";
     let alone = read(text, &CurveOptions::default()).expect_err("no way in");

@@ -17,7 +17,7 @@ use viscofriction::scene::Source;
 use viscofriction::solve::scene_of;
 
 use crate::indentation::row;
-use crate::input::{read_input, read_scene, read_table, wrong_option};
+use crate::input::{metres, read_input, read_scene, read_table, wrong_option};
 use crate::material::wrong_table;
 use crate::output::{Format, OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
@@ -43,8 +43,8 @@ pub(crate) struct FitFriction {
     /// none); a relative standard deviation of all moduli that relax within its valid frequencies; or "none".
     #[arg(long, default_value = "covariance", allow_negative_numbers = true)]
     prior: FrictionPrior,
-    /// Radius of the circular track in m, for rotational speeds in a table without a column of radii.
-    #[arg(long, value_name = "RADIUS")]
+    /// Radius of the circular track in m or with a unit, as "30 mm", for rotational speeds in a table without a column of radii.
+    #[arg(long, value_name = "RADIUS", value_parser = metres)]
     track_radius: Option<f64>,
     /// Time in s at the beginning of every run at constant speed that is left out of its mean, for a table over time; 0 for none.
     #[arg(long, value_name = "SECONDS")]

@@ -17,7 +17,7 @@ use viscofriction::WrongInput;
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
 use viscofriction::numerics::{in_range, positive};
 
-use crate::input::{check_file, read_table, wrong_option};
+use crate::input::{check_file, metres, read_table, wrong_option};
 use crate::material::{prony, wrong_table};
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
@@ -46,8 +46,8 @@ pub(crate) struct FitIndentation {
     /// Poisson ratio.
     #[arg(long, default_value_t = 0.5, value_name = "NU")]
     poisson_ratio: f64,
-    /// Thickness of the sample in m, which is bonded to a rigid base, or "fit" to find it with the material [default: so thick
-    /// that it is a half space].
+    /// Thickness of the sample in m or with a unit, which is bonded to a rigid base, or "fit" to find it with the material
+    /// [default: so thick that it is a half space].
     #[arg(long, value_name = "THICKNESS", value_parser = thickness)]
     thickness: Option<Thickness>,
     /// Stiffness of the cantilever in N/m [default: what the table says].
@@ -75,15 +75,15 @@ pub(crate) struct FitIndentation {
     overwrite: bool,
 }
 
-/// The body, in metres and degrees.
+/// The body; angles are in degrees.
 #[derive(Debug, Args)]
 #[group(required = true, multiple = false)]
 struct Body {
-    /// Sphere of this radius in m.
-    #[arg(long, value_name = "RADIUS")]
+    /// Sphere of this radius in m or with a unit, as "5 um".
+    #[arg(long, value_name = "RADIUS", value_parser = metres)]
     sphere: Option<f64>,
-    /// Paraboloid of this radius of curvature at its tip in m.
-    #[arg(long, value_name = "RADIUS")]
+    /// Paraboloid of this radius of curvature at its tip in m or with a unit.
+    #[arg(long, value_name = "RADIUS", value_parser = metres)]
     paraboloid: Option<f64>,
     /// Cone of this angle between axis and flank in degrees.
     #[arg(long, value_name = "ANGLE")]
@@ -91,8 +91,8 @@ struct Body {
     /// Four-sided pyramid of this angle between axis and face in degrees, as the cone of the same elastic force.
     #[arg(long, value_name = "ANGLE")]
     pyramid: Option<f64>,
-    /// Flat end of this radius in m.
-    #[arg(long, value_name = "RADIUS")]
+    /// Flat end of this radius in m or with a unit.
+    #[arg(long, value_name = "RADIUS", value_parser = metres)]
     flat_punch: Option<f64>,
 }
 
@@ -122,15 +122,13 @@ impl Body {
     }
 }
 
-/// A number, or "fit".
+/// A length, or "fit".
 fn thickness(text: &str) -> Result<Thickness, String> {
     if text == "fit" {
         return Ok(Thickness::Fitted);
     }
-    let number = text
-        .parse()
-        .map_err(|_| "a number in m, or \"fit\", is needed".to_owned());
-    number.map(Thickness::Known)
+    let known = metres(text).map(Thickness::Known);
+    known.map_err(|needed| format!("{needed}; or \"fit\""))
 }
 
 fn boxed(shape: impl Axisymmetric + 'static) -> Box<dyn Axisymmetric> {

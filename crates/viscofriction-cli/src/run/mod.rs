@@ -161,7 +161,7 @@ fn with_derivatives(
     }
     if options.spectral_sensitivity {
         let task = format!("derivatives of {path} by frequencies");
-        match progress::during(task, |_| spectral_sensitivity(problem, &answer)) {
+        match progress::during(task, |watch| spectral_sensitivity(problem, &answer, watch)) {
             Ok(found) => answer.spectral_sensitivity = Some(found),
             Err(error) => return Ok((answer, Some(error.into()))),
         }

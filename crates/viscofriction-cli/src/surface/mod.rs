@@ -9,11 +9,11 @@ use anyhow::Result;
 use clap::Args;
 use viscofriction::WrongInput;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
-use viscofriction::indenters::topography::{Topography, length};
+use viscofriction::indenters::topography::Topography;
 use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError};
 use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
-use crate::input::{half_of_free_memory, protect, read_input};
+use crate::input::{half_of_free_memory, metres, protect, read_input};
 use crate::output::{ABOUT_WARNINGS, OutputFolder, markdown, print_line, print_text, to_csv};
 
 /// Arguments of the command.
@@ -26,7 +26,7 @@ pub(crate) struct Surface {
     /// Heights as asc, gsf, sdf, sur, x3p or xyz; or as CSV or npy as in scenes, with --spacing.
     file: PathBuf,
     /// Distances of neighbouring heights along x and y, of CSV and npy, in m or with a unit, as "10 um".
-    #[arg(long, num_args = 2, value_names = ["DX", "DY"], value_parser = distance)]
+    #[arg(long, num_args = 2, value_names = ["DX", "DY"], value_parser = metres)]
     spacing: Option<Vec<f64>>,
     /// Unit of the heights, in files that do not state it [default: m].
     #[arg(long, value_name = "U")]
@@ -183,12 +183,6 @@ impl Surface {
     fn wrong(&self, problem: impl std::fmt::Display) -> WrongInput {
         WrongInput(format!("{}: {problem}", self.file.display()))
     }
-}
-
-/// A length in m, or with a unit.
-fn distance(text: &str) -> Result<f64, String> {
-    let metres = text.trim().parse().ok().or_else(|| length(text));
-    metres.ok_or_else(|| "a length is needed, in m or with a unit, as \"10 um\"".to_owned())
 }
 
 /// Quantity, symbol, value and unit.

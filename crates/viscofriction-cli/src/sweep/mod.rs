@@ -10,12 +10,12 @@ mod report;
 mod samples;
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
 use anyhow::{Result, bail};
 use clap::Args;
-use rayon::prelude::*;
 use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Shard, SweepRow, Vary, each_once, header};
 
@@ -88,9 +88,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let vary: Vec<Vary> = vary.cloned().collect();
     let mut plan = Plan::new(read_scene(scene)?, &vary, read_input)?;
     plan.sensitivity = options.sensitivity || options.samples.is_some();
-    // As many points are computed at the same time.
-    let at_once = plan.n_points().min(rayon::current_num_threads()) as u64;
-    plan.max_memory = half_of_free_memory().map(|bytes| bytes / at_once);
+    plan.max_memory = half_of_free_memory();
     let threads = plan.validate()?.unwrap_or(0);
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
@@ -232,14 +230,13 @@ fn compute(
         .build()?;
     let bar = progress::bar("sweep", points.len());
     let (finished, rows) = mpsc::channel();
-    // Threads take the points one after the other, so that rows are finished nearly in order; where nobody takes rows any more,
-    // nothing is computed any more.
-    let each = |finished: &mut mpsc::Sender<_>, &point: &usize| {
-        finished.send(plan.solve(point)).map_err(|_| ())
+    // Where nobody takes rows any more, nothing is computed any more.
+    let send = move |row| match finished.send(row) {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
     };
-    let all = || points.iter().par_bridge().try_for_each_with(finished, each);
     let taken = std::thread::scope(|scope| {
-        scope.spawn(|| pool.install(all).ok());
+        scope.spawn(|| pool.install(|| plan.solve_all(points, send)));
         rows.into_iter().try_for_each(|row| {
             take(row?)?;
             bar.inc(1);

@@ -31,9 +31,21 @@ fn with_memory(parts: &str) -> String {
 
 /// The program with as much memory for its data, \[KiB], and with limited processor time.
 fn limited(folder: &Folder, words: &[String], memory: u64) -> Said {
-    let limits = format!("ulimit -d {memory}; ulimit -t {SECONDS}; exec \"$0\" \"$@\"");
+    within(
+        &format!("ulimit -d {memory}; ulimit -t {SECONDS}"),
+        folder,
+        "1",
+        words,
+    )
+}
+
+/// The program on so many threads within limits of the shell.
+fn within(limits: &str, folder: &Folder, threads: &str, words: &[String]) -> Said {
+    let limits = format!("{limits}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
-    command.current_dir(&folder.0).env("RAYON_NUM_THREADS", "1");
+    command
+        .current_dir(&folder.0)
+        .env("RAYON_NUM_THREADS", threads);
     command.args(["-c", &limits, env!("CARGO_BIN_EXE_viscofriction")]);
     said(command.args(words))
 }
@@ -347,4 +359,43 @@ fn no_scene_takes_more_memory_than_it_allows() {
         wrong.extend(wrong_end(&said).map(|why| format!("{file}: {why}")));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// A sweep of a rough elastic surface that is pressed, with so many MiB and 64 MiB beside.
+fn pressed_sweep(folder: &Folder, threads: &str, allowed: u32, parts: [&str; 3]) -> Said {
+    let [body, solution, values] = parts;
+    let solution = format!("duration = 1.0, {solution}, max_memory = \"{allowed} MiB\"");
+    let load = "mean_pressure = 1e4, velocity = 0.0";
+    folder.write(
+        "scene.toml",
+        scene(&format!("{body}; elastic; {load}; {solution}")),
+    );
+    let words = format!("sweep scene.toml --vary load.mean_pressure={values}");
+    let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
+    within(
+        &format!("ulimit -d {}", 1024 * (allowed + 64)),
+        folder,
+        threads,
+        &words,
+    )
+}
+
+/// Each takes about 35 MB.
+#[test]
+fn points_at_the_same_time_share_the_memory() {
+    let folder = Folder::new("shared memory");
+    let said = pressed_sweep(&folder, "8", 111, ["rough", "elements = 512", "1e4:8e4:8"]);
+    assert_eq!(said.status, Some(0), "{said:?}");
+}
+
+/// The usual first grid of this body needs more than 80 MiB.
+const SHORTER_WAVES: &str = "indenter.self-affine = { period = [2.0, 1.0], hurst_exponent = 0.8, rms_slope = 0.1, longest_wavelength = 1.0, shortest_wavelength = 0.05, seed = 3 }";
+
+#[test]
+fn points_whose_grids_depend_on_the_memory_answer_as_alone() {
+    let folder = Folder::new("grids by memory");
+    let parts = [SHORTER_WAVES, "relative_error = 0.1", "1e4:2e4:2"];
+    let [alone, together] = ["1", "2"].map(|threads| pressed_sweep(&folder, threads, 160, parts));
+    assert_eq!(alone.status, Some(0), "{alone:?}");
+    assert_eq!(together.stdout, alone.stdout, "{together:?}");
 }

@@ -77,7 +77,7 @@ fn checked(
                 depth.map(Control::IndentationDepth)?
             }
             _ => {
-                let problem = "either normal_force or indentation_depth is needed";
+                let problem = "either normal_force or indentation_depth is needed, and not both";
                 return Err(SceneError::at(key(index, ""), problem));
             }
         };

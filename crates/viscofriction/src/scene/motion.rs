@@ -184,7 +184,7 @@ impl Place<'_> {
             }
             _ => {
                 return wrong(
-                    "either normal_force or indentation_depth is needed, at all points or at none",
+                    "either normal_force or indentation_depth is needed, and not both, at all points or at none",
                 );
             }
         };

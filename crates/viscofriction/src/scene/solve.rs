@@ -166,6 +166,16 @@ impl Solve {
         whole.ok_or_else(refused).map(Some)
     }
 
+    /// Allows a part, one in so many, of the memory that the scene gives, or of `otherwise` \[bytes] where it gives none.
+    ///
+    /// # Errors
+    /// [`SceneError`] where the scene gives no size.
+    pub fn limit_memory(&mut self, otherwise: Option<u64>, parts: u64) -> Result<(), SceneError> {
+        let whole = self.checked_memory()?.or(otherwise);
+        self.max_memory = whole.map(|bytes| format!("{} B", (bytes / parts).max(1)));
+        Ok(())
+    }
+
     /// Distance slid to the state that is asked for, \[m]; `None` for the stationary state.
     pub(crate) fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
         Ok(match (self.duration, self.sliding_distance) {

@@ -65,7 +65,11 @@ impl Source {
                 .lines()
                 .nth(line_of(self.text.as_bytes(), start) - 1);
             let has_both = line.is_some_and(|line| line.contains('"') && line.contains('\\'));
-            let advice = if has_both { BACKSLASH } else { "" };
+            let advice = match line {
+                _ if has_both => BACKSLASH,
+                Some(line) if is_quantity(line) => NO_UNITS,
+                _ => "",
+            };
             wrong(start, format!("{}{advice}", error.message()))
         })?;
         if let Ok(document) = DeTable::parse(&self.text)
@@ -164,6 +168,18 @@ fn check_quotes(table: &Table) -> Result<(), SceneError> {
 /// What to do about a path of Windows between double quotes.
 const BACKSLASH: &str = "; between double quotes a backslash begins an escape, as \\t a tab: write the path between single quotes, \
     '…', or with / in the place of every backslash";
+/// What to do about a quantity with a unit.
+const NO_UNITS: &str = "; numbers of a scene are in SI units, and stand there without a unit";
+
+/// Whether a line is a key and a number with letters behind a space, as `radius = 5 mm`.
+fn is_quantity(line: &str) -> bool {
+    let value = line.split_once('=').map_or("", |(_, value)| value).trim();
+    let words = value.split_once(' ');
+    words.is_some_and(|(number, unit)| {
+        number.parse::<f64>().is_ok() && unit.trim_start().starts_with(char::is_alphabetic)
+    })
+}
+
 /// Keys whose values are paths.
 const PATHS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
 
@@ -206,7 +222,12 @@ pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Resu
 pub(super) fn problem_of(error: &toml::de::Error) -> String {
     let problem = error.message().trim();
     match problem.rsplit_once(", expected ") {
-        Some((found, "f64")) => format!("{found}, expected a number"),
+        Some((found, "f64")) => {
+            let is_quantity =
+                found.contains("string \"") && found.contains(|c: char| c.is_ascii_digit());
+            let advice = if is_quantity { NO_UNITS } else { "" };
+            format!("{found}, expected a number{advice}")
+        }
         Some((found, "usize" | "u64")) => format!("{found}, expected a whole number"),
         _ => problem.to_owned(),
     }

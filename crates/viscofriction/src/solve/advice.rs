@@ -17,6 +17,8 @@ const LESS_LOAD: &str =
 const NO_WALL: &str =
     "; lower load.normal_force or load.indentation_depth, or give a body without a wall there";
 const LONGER_TRACK: &str = "; give a longer load.track";
+const LOWER_FREQUENCY: &str =
+    "; give a lower load.frequency, or a material of shorter relaxation times";
 const DISTANCE: &str = "; give solve.sliding_distance";
 const DISTANCE_OR_STEADY: &str = "; give solve.method = \"bem-steady\", or solve.sliding_distance";
 const DURATION: &str = "; give solve.duration";
@@ -34,6 +36,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         BemError::NotReached { .. }
         | BemError::TimeNotResolved { .. }
         | BemError::NotPeriodic { .. } => LARGER_ERROR,
+        BemError::CycleTooShort { .. } => LOWER_FREQUENCY,
         BemError::ContactReachesBoundary { .. } => LESS_LOAD,
         BemError::VerticalWall { .. } => NO_WALL,
         BemError::TrackTooShort { .. } => LONGER_TRACK,

@@ -220,15 +220,6 @@ impl SolveError {
             _ => false,
         }
     }
-
-    /// Whether more memory might help.
-    pub(super) fn is_of_memory(&self) -> bool {
-        match self {
-            Self::TooMuchMemory(_) | Self::MemoryReached { .. } => true,
-            Self::NotReached { why, .. } => why.is_of_memory(),
-            _ => false,
-        }
-    }
 }
 
 const fn is_wrong_body(error: &IndenterError) -> bool {

@@ -58,6 +58,7 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     if elements <= most {
         return Ok(());
     }
+    problem.set_short_of_memory();
     let largest = surface.largest_numbers();
     let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
     let told = |shape| surface.told_by(shape);
@@ -126,6 +127,7 @@ fn check(
     if needed <= allowed as f64 {
         return Ok(());
     }
+    problem.set_short_of_memory();
     let shorter = match method {
         BemTransient | MdrTransient => ", a shorter sliding_distance",
         _ => "",

@@ -23,6 +23,7 @@ mod problem;
 mod realisations;
 mod road;
 pub(crate) mod sensitivity;
+mod shared_memory;
 mod validity;
 mod with_fields;
 pub(crate) mod work;
@@ -48,6 +49,7 @@ pub use sensitivity::{
     Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties,
     check_sensitivity, check_spectral_sensitivity, sampled, spectral_sensitivity, with_sensitivity,
 };
+pub use shared_memory::share_memory;
 pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;

@@ -1,6 +1,8 @@
 //! A scene whose numbers are known to be right.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use bem_halfspace::{BemError, Layer};
 use indenters::{Control, HistoryPoint, IndenterError, MovingLoad, PressingLoad, SlidingLoad};
@@ -41,6 +43,8 @@ pub struct Problem {
     model: Model,
     threads: Option<usize>,
     max_memory: Option<u64>,
+    /// Whether the limit of the memory has refused a grid.
+    is_short_of_memory: Arc<AtomicBool>,
     simple: Option<Simple>,
     realisations: Option<Realisations>,
     shortest_wavelength: Option<f64>,
@@ -151,6 +155,7 @@ impl Problem {
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
             threads: scene.solve.checked_threads()?,
             max_memory: files.memory,
+            is_short_of_memory: Arc::default(),
             realisations,
             shortest_wavelength: None,
         };
@@ -202,10 +207,14 @@ impl Problem {
             .indenter
             .realisation(surface)
             .ok_or_else(nothing_random)?;
-        let rest = of.scene.clone();
-        let mut problem = Self::new(&Scene { indenter, ..rest }, &of.folder, of.read)?;
+        let mut scene = of.scene.clone();
+        scene.indenter = indenter;
+        scene.solve.limit_memory(self.max_memory, parts)?;
+        let mut problem = Self::new(&scene, &of.folder, of.read)?;
         problem.accuracy = self.accuracy;
-        problem.max_memory = self.max_memory.map(|bytes| bytes / parts);
+        if parts == 1 {
+            problem.is_short_of_memory = Arc::clone(&self.is_short_of_memory);
+        }
         if let Some(shortest) = self.shortest_wavelength {
             problem = problem.without_waves_below(shortest)?;
         }
@@ -329,6 +338,16 @@ impl Problem {
     /// Memory that one solution may take, \[bytes]; none for as much as it needs.
     pub const fn max_memory(&self) -> Option<u64> {
         self.max_memory
+    }
+
+    /// Whether the limit of the memory has refused a grid, so that the answer may be another one with more.
+    pub fn is_short_of_memory(&self) -> bool {
+        self.is_short_of_memory.load(Ordering::Relaxed)
+    }
+
+    /// Remembers that the limit of the memory has refused a grid.
+    pub(super) fn set_short_of_memory(&self) {
+        self.is_short_of_memory.store(true, Ordering::Relaxed);
     }
 
     /// The material, where it is one of those that have closed forms.

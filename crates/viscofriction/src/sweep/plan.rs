@@ -1,5 +1,7 @@
 //! The points of a sweep, the scene of each, and the row of its answer.
 
+use std::ops::ControlFlow;
+
 use numerics::{Unwatched, whole_part};
 use toml::{Table, Value};
 
@@ -8,7 +10,8 @@ use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::scene::{Scene, SceneError, Source, scene_file, split_index};
 use crate::solve::{
-    Answer, Problem, Uncertainties, check_uncertainties, plan_of, sampled, solve, with_sensitivity,
+    Answer, Problem, Uncertainties, check_uncertainties, plan_of, sampled, share_memory, solve,
+    with_sensitivity,
 };
 use crate::text::WrongInput;
 
@@ -26,7 +29,7 @@ pub struct Plan {
     /// Whether rows, but for those of samples, say what the covariance of the material and the uncertainties of the scene make of
     /// them.
     pub sensitivity: bool,
-    /// Memory that a point may take where the scene does not say, \[bytes].
+    /// Memory that the points which are computed at the same time may take where the scene does not say, \[bytes].
     pub max_memory: Option<u64>,
     read: ReadFile,
 }
@@ -143,20 +146,49 @@ impl Plan {
         }
     }
 
+    /// The rows of points, computed on all threads of the pool within one limit of memory; `take` gets each when it is finished.
+    pub fn solve_all(
+        &self,
+        points: &[usize],
+        take: impl Fn(Result<SweepRow, WrongInput>) -> ControlFlow<()> + Sync,
+    ) {
+        let within = |point, parts| self.solve_within(point, parts);
+        share_memory(points.to_vec(), within, |_, row| take(row));
+    }
+
     /// The row of a point; what a method could not reach is part of it.
     ///
     /// # Errors
     /// [`WrongInput`] as of [`Self::validate`].
     pub fn solve(&self, point: usize) -> Result<SweepRow, WrongInput> {
-        let (scene, problem) = self.scene_and_problem(point)?;
-        let mut answer = solve(&problem);
+        let (scene, problem) = self.scene_and_problem(point, 1)?;
+        self.solve_problem(point, (&scene, &problem))
+    }
+
+    /// The row of a point within one of so many parts of the memory; `None` if that is too little.
+    pub fn solve_within(&self, point: usize, parts: u64) -> Option<Result<SweepRow, WrongInput>> {
+        if parts == 1 {
+            return Some(self.solve(point));
+        }
+        // What the whole memory is too little for says so when the point has it.
+        let (scene, problem) = self.scene_and_problem(point, parts).ok()?;
+        let row = self.solve_problem(point, (&scene, &problem));
+        (!problem.is_short_of_memory()).then_some(row)
+    }
+
+    fn solve_problem(
+        &self,
+        point: usize,
+        (scene, problem): (&Scene, &Problem),
+    ) -> Result<SweepRow, WrongInput> {
+        let mut answer = solve(problem);
         let is_drawn = self.sample(point).is_some_and(|sample| sample > 0.0);
         if self.sensitivity
             && !is_drawn
             && let Ok(alone) = &mut answer
         {
             let files = (self.source.folder(), self.read);
-            match with_sensitivity(&scene, files, &problem, alone.clone(), &Unwatched) {
+            match with_sensitivity(scene, files, problem, alone.clone(), &Unwatched) {
                 Ok(found) => *alone = found,
                 Err(why) => alone.warnings.push(format!("{NO_UNCERTAINTY}{why}")),
             }
@@ -224,10 +256,10 @@ impl Plan {
     /// # Errors
     /// [`WrongInput`] as of [`Self::validate`].
     pub fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
-        self.scene_and_problem(point).map(|(_, problem)| problem)
+        self.scene_and_problem(point, 1).map(|(_, problem)| problem)
     }
 
-    fn scene_and_problem(&self, point: usize) -> Result<(Scene, Problem), WrongInput> {
+    fn scene_and_problem(&self, point: usize, parts: u64) -> Result<(Scene, Problem), WrongInput> {
         let values = self.values(point);
         let mut table = self.table.clone();
         let build = || {
@@ -239,8 +271,9 @@ impl Plan {
                 let sample = whole(SAMPLE, sample)?;
                 scene = sampled(&scene, (self.source.folder(), self.read), sample)?;
             }
+            scene.solve.limit_memory(self.max_memory, parts)?;
             let problem = Problem::new(&scene, self.source.folder(), self.read)?;
-            Ok((scene, problem.or_max_memory(self.max_memory)))
+            Ok((scene, problem))
         };
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);
@@ -308,9 +341,12 @@ fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
     Err(SceneError::at(key, problem))
 }
 
+/// What is said of a key that is in no table of the scene.
+const NO_TABLE: &str = "the scene has no such table to vary a key of; a key is given with its tables, as load.velocity";
+
 /// Sets a key; the table it is in must be there.
 fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
-    let missing = || SceneError::at(key, "the scene has no such table to vary a key of");
+    let missing = || SceneError::at(key, NO_TABLE);
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
     let mut inner = table;
     for segment in path.split('.') {

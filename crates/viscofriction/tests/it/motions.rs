@@ -1,16 +1,21 @@
 //! Scenes that move to and fro, or through points.
 
 use viscofriction::scene::Scene;
-use viscofriction::{Answer, Problem, solve};
+use viscofriction::{Answer, Problem, plan, solve};
+
+use crate::sensitivities::Told;
 
 const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[material.standard-solid]\nequilibrium_modulus = 1e6\n\
     maxwell_modulus = 1e7\nviscosity = 1e5\n";
 
-fn answer(load: &str, solved: &str) -> Result<Answer, String> {
+fn problem(load: &str, solved: &str) -> Result<Problem, String> {
     let text = format!("{BALL}[load]\n{load}\n[solve]\n{solved}\n");
     let scene: Scene = text.parse().map_err(|error| format!("{error:?}"))?;
-    let problem = Problem::try_from(&scene).map_err(|error| error.to_string())?;
-    solve(&problem).map_err(|error| error.to_string())
+    Problem::try_from(&scene).map_err(|error| error.to_string())
+}
+
+fn answer(load: &str, solved: &str) -> Result<Answer, String> {
+    solve(&problem(load, solved)?).map_err(|error| error.to_string())
 }
 
 fn line(load: &str, error: f64) -> Answer {
@@ -228,4 +233,16 @@ fn what_no_motion_of_a_periodic_surface_serves_is_refused_by_name() {
         let refused = rough_answer(load, solved).expect_err(load);
         assert!(refused.contains(said), "{load} with {solved}: {refused}");
     }
+}
+
+/// A cycle takes up to a minute, and may be one of a hundred.
+#[test]
+fn steps_of_a_cycle_tell_how_far_it_is() {
+    let load = "normal_force = 2.0\nstroke = 2e-3\nfrequency = 2.0";
+    let problem = problem(load, "method = \"bem-transient\"\nelements = 8").expect("a problem");
+    let told = Told::default();
+    let solved = plan(&problem).expect("a plan").solve(&told);
+    assert!(solved.is_ok(), "{solved:?}");
+    let n_told = told.0.into_inner().expect("parts").len();
+    assert!(n_told > 100, "{n_told} parts are told");
 }

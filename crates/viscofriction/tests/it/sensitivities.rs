@@ -1,13 +1,37 @@
 //! Derivatives of answers by the numbers of their scenes.
 
 use std::path::Path;
+use std::sync::Mutex;
 
-use numerics::{Estimate, Unwatched};
+use numerics::{Estimate, Unwatched, Watch};
 use viscofriction::solve::{Sensitivity, Source, spectral_sensitivity, with_sensitivity};
 use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
 
 pub(crate) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: no file", path.display())))
+}
+
+/// The parts that were done, as they were told.
+#[derive(Debug, Default)]
+pub(crate) struct Told(pub(crate) Mutex<Vec<f64>>);
+
+impl Told {
+    /// More and more was done, and in the end all.
+    fn assert_done(self) {
+        let told = self.0.into_inner().expect("parts");
+        assert!(told.len() > 2 && told.is_sorted(), "{told:?}");
+        assert!((told[told.len() - 1] - 1.0).abs() < 1e-12, "{told:?}");
+    }
+}
+
+impl Watch for Told {
+    fn allows(&self, _: usize) -> bool {
+        true
+    }
+
+    fn done(&self, part: f64) {
+        self.0.lock().expect("parts").push(part);
+    }
 }
 
 pub(crate) fn answered(text: &str) -> (Answer, Result<Vec<Sensitivity>, SolveError>) {
@@ -248,7 +272,9 @@ fn derivatives_by_frequencies_are_those_by_the_numbers_of_the_material() {
     let problem = Problem::try_from(&scene).expect("a problem");
     let (answer, known) = answered(text);
     let known = known.expect("derivatives");
-    let spectral = spectral_sensitivity(&problem, &answer).expect("derivatives");
+    let told = Told::default();
+    let spectral = spectral_sensitivity(&problem, &answer, &told).expect("derivatives");
+    told.assert_done();
     let ends = spectral.bands.iter().flat_map(|band| band.frequencies);
     let ends: Vec<f64> = ends.collect();
     assert!(ends[0] == 0.0 && ends.contains(&50.0) && ends.contains(&2e3));

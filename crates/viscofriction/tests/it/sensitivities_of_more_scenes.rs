@@ -144,3 +144,16 @@ fn a_method_with_derivatives_takes_the_place_of_one_without() {
         "{refused}"
     );
 }
+
+/// Its neighbours, a part in 10⁵ away, are the number itself.
+#[test]
+fn derivatives_by_a_number_too_small_to_be_changed_are_left_out() {
+    let text = "indenter.superposition.terms = [{ coefficient = 5e-324, exponent = 2.0 }, { coefficient = 1e4, exponent = 4.0 }]\n\
+                material.prony = { equilibrium_modulus = 1e6, branches = [{ modulus = 4e6, relaxation_time = 1e-3 }] }\n\
+                load = { normal_force = 5.0, velocity = 0.02 }\nsolve = { method = \"bem-steady\", elements = 8 }";
+    let (_, known) = answered(text);
+    let known = known.expect("derivatives");
+    let of_smallest = of(&known, "indenter.superposition.terms[0].coefficient");
+    let none = of_smallest.named().map(|(name, _)| (name, None));
+    assert_eq!(of_smallest.named(), none);
+}

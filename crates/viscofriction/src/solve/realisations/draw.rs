@@ -87,7 +87,7 @@ impl<'a> Drawn<'a> {
 
     /// Solves until so many are.
     fn solve(&mut self, count: usize) -> Result<()> {
-        let surfaces = self.answers.len() as u64..count as u64;
+        let surfaces = self.answers.len()..count;
         let found = solve_each(self.problem, surfaces, self.at_once, &mut self.progress);
         self.take(found)
     }

@@ -1,6 +1,7 @@
 //! Many surfaces at the same time, with answers that do not depend on how many at once.
 
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
+use std::sync::{Mutex, PoisonError};
 
 use numerics::{Progress, Watch};
 #[cfg(feature = "rayon")]
@@ -11,6 +12,7 @@ use crate::solve::error::Result;
 use crate::solve::memory::needed;
 use crate::solve::plan::plan;
 use crate::solve::problem::Problem;
+use crate::solve::shared_memory::{share_memory_of, threads};
 
 /// How many surfaces are solved at the same time: as many as there are threads and memory for, if all take what the first did.
 pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
@@ -26,43 +28,51 @@ pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
         .unwrap_or(1)
 }
 
-#[cfg(feature = "rayon")]
-fn threads() -> usize {
-    rayon::current_num_threads()
-}
-
-#[cfg(not(feature = "rayon"))]
-const fn threads() -> usize {
-    1
-}
-
 /// The answers of some of the surfaces, counted from 0, in their order.
 pub(super) fn solve_each(
     problem: &Problem,
-    surfaces: Range<u64>,
+    surfaces: Range<usize>,
     at_once: usize,
     progress: &mut Progress,
 ) -> Vec<Result<Answer>> {
-    let surfaces: Vec<u64> = surfaces.collect();
-    let mut answers = Vec::new();
-    for some in surfaces.chunks(at_once) {
-        let count = some.len() as f64;
-        // Several cannot tell of parts of themselves.
-        let share = progress.share(if some.len() > 1 { 0.0 } else { 1.0 });
-        let one = |surface| solve_one(problem, surface, at_once, &share);
-        answers.extend(on_threads(some, one));
-        progress.add(count);
-    }
-    answers
+    let surfaces: Vec<usize> = surfaces.collect();
+    // Several cannot tell of parts of themselves.
+    let is_alone = at_once.min(surfaces.len()) == 1;
+    let known = Mutex::new((progress, Vec::new()));
+    let within = |surface, parts| {
+        let share = {
+            let known = known.lock().unwrap_or_else(PoisonError::into_inner);
+            known.0.share(if is_alone { 1.0 } else { 0.0 })
+        };
+        solve_one(problem, surface, parts, &share)
+    };
+    let take = |surface, answer| {
+        let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.0.add(1.0);
+        known.1.push((surface, answer));
+        ControlFlow::Continue(())
+    };
+    share_memory_of((surfaces, at_once), within, take);
+    let (_, mut answers) = known.into_inner().unwrap_or_else(PoisonError::into_inner);
+    answers.sort_by_key(|(surface, _)| *surface);
+    answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
-/// A surface for which a part of the memory was too little has all of it.
-fn solve_one(problem: &Problem, surface: u64, at_once: usize, watch: &dyn Watch) -> Result<Answer> {
-    let one = problem.of_surface(surface, at_once as u64)?;
-    match plan(&one)?.solve_one(watch) {
-        Err(why) if at_once > 1 && why.is_of_memory() => solve_one(problem, surface, 1, watch),
-        found => found,
-    }
+/// The answer of a surface within one of so many parts of the memory; `None` if that is too little.
+fn solve_one(
+    problem: &Problem,
+    surface: usize,
+    parts: u64,
+    watch: &dyn Watch,
+) -> Option<Result<Answer>> {
+    let one = match problem.of_surface(surface as u64, parts) {
+        Ok(one) => one,
+        Err(_) if parts > 1 => return None,
+        Err(why) => return Some(Err(why.into())),
+    };
+    let answer = plan(&one).map_err(Into::into);
+    let answer = answer.and_then(|plan| plan.solve_one(watch));
+    (parts == 1 || !one.is_short_of_memory()).then_some(answer)
 }
 
 #[cfg(feature = "rayon")]

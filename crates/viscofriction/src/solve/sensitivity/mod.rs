@@ -166,6 +166,7 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
 }
 
 impl Sensitivity {
+    /// Widens the derivatives, and leaves out those by a number that is too small to have digits.
     fn widen(&mut self, error: f64) {
         let quantities = [
             &mut self.friction_coefficient,
@@ -174,7 +175,8 @@ impl Sensitivity {
             &mut self.contact_area,
         ];
         for known in quantities {
-            *known = known.map(|known| known.widened(error));
+            let is_finite = |known: &Estimate| known.value.is_finite() && known.error.is_finite();
+            *known = known.map(|known| known.widened(error)).filter(is_finite);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::steady::sensitivity::{ByModuli, Change};
-use numerics::Estimate;
+use numerics::{Estimate, Progress, Watch};
 use serde::Serialize;
 
 use super::Sensitivity;
@@ -15,6 +15,8 @@ use crate::solve::problem::{Motion, Problem};
 
 /// Bands in a decade.
 const PER_DECADE: f64 = 10.0;
+/// Bands after which progress is told.
+const BANDS_AT_ONCE: usize = 8;
 /// Lowest frequency that is told from 0, as a part of v/a with the length a of the contact: friction is that of waves far
 /// shorter, and a depth depends on longer ones together.
 const LOWEST: f64 = 0.01;
@@ -44,23 +46,34 @@ pub struct ByFrequency {
 }
 
 /// The derivatives of an answer by the storage and the loss modulus at each frequency; of stationary sliding by boundary
-/// elements.
+/// elements. `watch` is told how far they are.
 ///
 /// # Errors
 /// [`SolveError::NoSpectralSensitivity`] for other methods and motions.
-pub fn spectral_sensitivity(problem: &Problem, answer: &Answer) -> Result<SpectralSensitivity> {
+pub fn spectral_sensitivity(
+    problem: &Problem,
+    answer: &Answer,
+    watch: &dyn Watch,
+) -> Result<SpectralSensitivity> {
     let method = answer.method;
     let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
         return Err(SolveError::NoSpectralSensitivity { method });
     };
     let wave_numbers = wave_numbers(answer).ok_or(SolveError::NoSpectralSensitivity { method })?;
     let ends = wave_numbers.map(|wave_number| load.velocity() * wave_number);
+    // The adjoint loads take about as long as all bands.
+    let mut progress = Progress::new(watch, 2.0);
     let contact = Contact::new(problem, &load, answer)?;
-    let found = contact.by_moduli(&edges(ends, problem.window()))?;
-    let bands: Vec<ByFrequency> = found
-        .into_iter()
-        .map(|band| of_band(answer, band))
-        .collect();
+    progress.add(1.0);
+    let edges = edges(ends, problem.window());
+    let n_bands = edges.len() - 1;
+    let mut bands = Vec::with_capacity(n_bands);
+    for first in (0..n_bands).step_by(BANDS_AT_ONCE) {
+        let last = n_bands.min(first + BANDS_AT_ONCE);
+        let found = contact.by_moduli(&edges[first..=last])?;
+        bands.extend(found.into_iter().map(|band| of_band(answer, band)));
+        progress.add((last - first) as f64 / n_bands as f64);
+    }
     Ok(SpectralSensitivity {
         outside_valid_frequencies: problem.window().map(|window| outside(&bands, window)),
         bands,

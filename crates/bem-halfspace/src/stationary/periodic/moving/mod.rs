@@ -377,9 +377,9 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             tolerance: self.tolerance,
         };
         let start = self.before_cycles(&march.memory, grid.shape());
-        let pass = |from: &[f64]| {
+        let pass = |from: &[f64], tell: &dyn Fn(f64)| {
             march.memory.copy_from_slice(from);
-            let ends = self.pass(&mut march, on_grid, &|_| ())?;
+            let ends = self.pass(&mut march, on_grid, tell)?;
             let record = self.record(ends[ends.len() - 1], &ends, steps);
             Ok((record, march.memory.clone()))
         };
