@@ -67,7 +67,7 @@ impl Source {
             let has_both = line.is_some_and(|line| line.contains('"') && line.contains('\\'));
             let advice = match line {
                 _ if has_both => BACKSLASH,
-                Some(line) if is_quantity(line) => NO_UNITS,
+                Some(line) if line.contains('=') && error.message().contains("expected") => VALUES,
                 _ => "",
             };
             wrong(start, format!("{}{advice}", error.message()))
@@ -171,14 +171,9 @@ const BACKSLASH: &str = "; between double quotes a backslash begins an escape, a
 /// What to do about a quantity with a unit.
 const NO_UNITS: &str = "; numbers of a scene are in SI units, and stand there without a unit";
 
-/// Whether a line is a key and a number with letters behind a space, as `radius = 5 mm`.
-fn is_quantity(line: &str) -> bool {
-    let value = line.split_once('=').map_or("", |(_, value)| value).trim();
-    let words = value.split_once(' ');
-    words.is_some_and(|(number, unit)| {
-        number.parse::<f64>().is_ok() && unit.trim_start().starts_with(char::is_alphabetic)
-    })
-}
+/// What to do about a value that is none of TOML, as `radius = 5 mm`, `velocity = 0,1` or `model = line`.
+const VALUES: &str =
+    "; a number is in SI units, with a point and without a unit, and a text stands between quotes";
 
 /// Keys whose values are paths.
 const PATHS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
