@@ -174,8 +174,9 @@ class Answer(Compared):
 
     @property
     def persson(self) -> dict[str, Values]:
-        """``area_fraction``, ``friction_coefficient`` (2001) and ``friction_coefficient_2006`` of Persson's theory, of periodic surfaces."""
-        names = ("area_fraction", "friction_coefficient", "friction_coefficient_2006")
+        """``area_fraction`` and ``friction_coefficient`` of Persson (2001), ``area_fraction_xu`` of Xu and others (2024) and
+        ``friction_coefficient_2006`` of Persson (2006), of periodic surfaces."""
+        names = ("area_fraction", "area_fraction_xu", "friction_coefficient", "friction_coefficient_2006")
         theory = {name: self._values(f"persson_{name}") for name in names}
         return {name: values for name, values in theory.items() if values is not None}
 

@@ -54,8 +54,8 @@ struct Row {
     area_fraction: Option<f64>,
     area_fraction_error: Option<f64>,
     area_fraction_standard_error: Option<f64>,
-    persson_friction_coefficient: Option<f64>,
-    persson_area_fraction: Option<f64>,
+    persson_friction_coefficient_2006: Option<f64>,
+    persson_area_fraction_xu: Option<f64>,
     persson_friction_of_shorter_waves: Option<f64>,
     warnings: String,
     failure: String,
@@ -167,8 +167,8 @@ fn row(one: &CutOff, all: &CutOff) -> Row {
         area_fraction: area.map(|known| known.value),
         area_fraction_error: area.map(|known| known.error),
         area_fraction_standard_error: area_scatter,
-        persson_friction_coefficient: theory.map(|theory| theory.friction_coefficient),
-        persson_area_fraction: theory.map(|theory| theory.area_fraction),
+        persson_friction_coefficient_2006: theory.map(|theory| theory.friction_coefficient_2006),
+        persson_area_fraction_xu: theory.map(|theory| theory.area_fraction_xu),
         persson_friction_of_shorter_waves: one.still_to_come(all),
         warnings: answer.warnings.join(" | "),
         ..empty
@@ -179,7 +179,7 @@ fn row(one: &CutOff, all: &CutOff) -> Row {
 fn table(rows: &[Row]) -> comfy_table::Table {
     let mut table = markdown(
         "shortest wavelength [m] | rms slope | friction | error | standard error | area fraction | error | standard error | \
-         friction of shorter waves, Persson's theory",
+         friction of shorter waves, estimated",
     );
     for row in rows {
         let number =

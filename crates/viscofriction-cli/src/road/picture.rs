@@ -1,4 +1,5 @@
-//! Friction and area over the cut-off, with bars, and Persson's theory beside them.
+//! Friction and area over the cut-off, with bars, and beside them theories: of friction that of Persson (2006), of the area that of Xu
+//! and others (2024).
 
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
@@ -6,23 +7,23 @@ use super::Row;
 use crate::run::around;
 
 pub(super) fn figure(rows: &[Row]) -> Figure {
-    let friction = chart("friction coefficient μ", rows, |row| {
-        let theory = row.persson_friction_coefficient;
+    let friction = chart(["friction coefficient μ", "Persson (2006)"], rows, |row| {
+        let theory = row.persson_friction_coefficient_2006;
         [
             row.friction_coefficient,
             row.friction_coefficient_error,
             theory,
         ]
     });
-    let area = chart("area fraction", rows, |row| {
-        let theory = row.persson_area_fraction;
+    let area = chart(["area fraction", "Xu (2024)"], rows, |row| {
+        let theory = row.persson_area_fraction_xu;
         [row.area_fraction, row.area_fraction_error, theory]
     });
     Figure::new([friction, area], 2)
 }
 
 /// Value, error and theory of every row.
-fn chart(label: &str, rows: &[Row], of: impl Fn(&Row) -> [Option<f64>; 3]) -> Chart {
+fn chart([label, name]: [&str; 2], rows: &[Row], of: impl Fn(&Row) -> [Option<f64>; 3]) -> Chart {
     let known = |index: usize| {
         let points = rows.iter();
         points
@@ -44,10 +45,7 @@ fn chart(label: &str, rows: &[Row], of: impl Fn(&Row) -> [Option<f64>; 3]) -> Ch
         ..Series::line(points, Line::thin(Dash::Solid), Colour::Blue)
     };
     let theory = Series::line(theory, Line::thin(Dash::Dashed), Colour::Red);
-    let mut series = vec![
-        computed.labelled("computed"),
-        theory.labelled("Persson's theory"),
-    ];
+    let mut series = vec![computed.labelled("computed"), theory.labelled(name)];
     series.retain(|one| one.points.len() > usize::from(one.marker.is_none()));
     let lengths = rows.iter().map(|row| row.shortest_wavelength);
     let x = Axis::decades("shortest wavelength λ [m]", lengths);

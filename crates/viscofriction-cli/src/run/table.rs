@@ -36,15 +36,15 @@ pub(super) fn table(answer: &Answer) -> Table {
     ];
     let of_rough = answer.rough.map(|rough| {
         let theory = rough.persson;
-        let friction = theory.map(|theory| Estimate::exact(theory.friction_coefficient));
-        let area = theory.map(|theory| Estimate::exact(theory.area_fraction));
+        let friction = theory.map(|theory| Estimate::exact(theory.friction_coefficient_2006));
+        let area = theory.map(|theory| Estimate::exact(theory.area_fraction_xu));
         let dissipation = rough.friction_from_dissipation;
         [
             ("friction by dissipation", dissipation, ""),
             ("mean pressure", Some(rough.mean_pressure), "Pa"),
             ("area fraction", Some(rough.area_fraction), ""),
-            ("friction, Persson's theory", friction, ""),
-            ("area fraction, Persson's theory", area, ""),
+            ("friction, Persson (2006)", friction, ""),
+            ("area fraction, Xu (2024)", area, ""),
         ]
     });
     let rows = rows.into_iter().chain(of_rough.into_iter().flatten());

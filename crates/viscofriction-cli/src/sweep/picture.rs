@@ -146,7 +146,8 @@ fn figure(table: &RowTable) -> Result<Figure> {
         values: values(name),
         errors: values(&format!("{name}_error")),
         of_material: values(&format!("{name}_material_error")),
-        theory: values(&format!("persson_{name}")),
+        // The column of a theory of another quantity is not there.
+        theory: values(&format!("persson_{name}_2006")),
     };
     // Over the key that has the most numbers, the first of several.
     let most = (0..keys.len())
@@ -255,7 +256,7 @@ struct Drawn<'a> {
     errors: Vec<Option<f64>>,
     /// What the covariance of the material makes of it.
     of_material: Vec<Option<f64>>,
-    /// The same by Persson's theory, where it is known.
+    /// Friction by Persson's theory of 2006, where it is known.
     theory: Vec<Option<f64>>,
 }
 
@@ -310,7 +311,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
             "" => has_theory.then(|| "computed".to_owned()),
             name => Some(name.to_owned()),
         };
-        theory.label = (curve + 1 == curves.labels.len()).then(|| "Persson's theory".to_owned());
+        theory.label = (curve + 1 == curves.labels.len()).then(|| "Persson (2006)".to_owned());
         let is_seen = |one: &Series| one.points.len() > usize::from(one.marker.is_none());
         series.extend([computed, theory].into_iter().filter(is_seen));
     }

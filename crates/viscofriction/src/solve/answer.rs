@@ -102,8 +102,10 @@ pub struct RoughAnswer {
 /// Persson's theory of the waves of a surface, exact as a sum.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Persson {
-    /// Part of the period in contact.
+    /// Part of the period in contact, as in 2001.
     pub area_fraction: f64,
+    /// The same of Xu and others (2024) with γ = 0.45, in which pressures differ less where less is in contact.
+    pub area_fraction_xu: f64,
     /// Friction coefficient with S = 1, as in 2001.
     pub friction_coefficient: f64,
     /// Friction coefficient with S = (1 + P²)/2, as in 2006.
@@ -264,6 +266,10 @@ impl Answer {
         let others = [
             ("contact_box_error", contact.map(|contact| contact.error)),
             ("persson_area_fraction", theory.map(|one| one.area_fraction)),
+            (
+                "persson_area_fraction_xu",
+                theory.map(|one| one.area_fraction_xu),
+            ),
             ("persson_friction_coefficient", friction),
             ("persson_friction_coefficient_2006", friction_2006),
         ];

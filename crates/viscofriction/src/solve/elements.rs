@@ -270,16 +270,20 @@ pub fn persson(problem: &Problem) -> Result<Option<PerssonSliding>> {
     Ok(Some(persson_of_waves(&waves, problem.material(), load)?))
 }
 
+/// γ of the area of Xu and others (2024), who find 0.42 to 0.45.
+const XU_GAMMA: f64 = 0.45;
+
 impl Persson {
     fn of(problem: &Problem) -> Result<Option<Self>> {
-        let theory = persson(problem)?;
-        Ok(theory.map(|theory| {
-            let friction = |factor| theory.friction_coefficient(factor).value;
-            Self {
-                area_fraction: theory.area_fraction.value,
-                friction_coefficient: friction(EnergyFactor::PERSSON_2001),
-                friction_coefficient_2006: friction(EnergyFactor::PERSSON_2006),
-            }
+        let Some(theory) = persson(problem)? else {
+            return Ok(None);
+        };
+        let friction = |factor| theory.friction_coefficient(factor).value;
+        Ok(Some(Self {
+            area_fraction: theory.area_fraction.value,
+            area_fraction_xu: theory.area_fraction_of_xu(XU_GAMMA)?.value,
+            friction_coefficient: friction(EnergyFactor::PERSSON_2001),
+            friction_coefficient_2006: friction(EnergyFactor::PERSSON_2006),
         }))
     }
 }

@@ -31,11 +31,15 @@ impl CutOff {
         self.known()?.rough?.persson
     }
 
-    /// What the waves that are left out add to the friction by Persson's theory with S = 1, which is mostly above what they do add;
-    /// `all` is the same surface with all its waves.
+    /// What the waves that are left out add to the friction by Persson's theory of 2006, times what was solved of those that are not
+    /// over what it says of them: it knows how friction grows with the waves better than how large it is. `all` is the same surface
+    /// with all its waves.
     pub fn still_to_come(&self, all: &Self) -> Option<f64> {
-        let [all, left] = [all, self].map(|one| one.persson().map(|one| one.friction_coefficient));
-        Some(all? - left?)
+        let theory = |one: &Self| one.persson().map(|one| one.friction_coefficient_2006);
+        let (all, left) = (theory(all)?, theory(self)?);
+        let solved = self.known()?.friction_coefficient?.value;
+        // Waves that rub nothing leave nothing to scale.
+        (left > 0.0).then(|| (all - left) * solved / left)
     }
 }
 

@@ -220,6 +220,7 @@ fn mean_of_theory(surfaces: &[Coarse]) -> Option<Persson> {
         |of: fn(&Persson) -> f64| theories.iter().map(of).sum::<f64>() / theories.len() as f64;
     Some(Persson {
         area_fraction: mean(|one| one.area_fraction),
+        area_fraction_xu: mean(|one| one.area_fraction_xu),
         friction_coefficient: mean(|one| one.friction_coefficient),
         friction_coefficient_2006: mean(|one| one.friction_coefficient_2006),
     })
@@ -279,6 +280,7 @@ fn rough(known: OfAnswer<'_, Estimate>, number: OfAnswer<'_, f64>) -> Option<Rou
     let persson = || {
         Some(Persson {
             area_fraction: theory(|one| one.area_fraction)?,
+            area_fraction_xu: theory(|one| one.area_fraction_xu)?,
             friction_coefficient: theory(|one| one.friction_coefficient)?,
             friction_coefficient_2006: theory(|one| one.friction_coefficient_2006)?,
         })
