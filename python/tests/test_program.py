@@ -85,8 +85,8 @@ def test_moduli_may_change_with_the_absolute_temperature(tmp_path: Path) -> None
         assert np.isclose(shift.modulus_factor, (shift.temperature + 273.15) / 293.15, rtol=1e-12)
         assert shift.modulus_factor_error == 0.0 and shift.log10_factor_error is not None and not shift.placed_by_law
         assert abs(shift.log10_factor - 0.1 * (20.0 - shift.temperature)) < 2e-3
-    warm = fit.at(36.0)
-    assert np.isclose(warm.equilibrium_modulus / fit.material.equilibrium_modulus, 309.15 / 293.15, rtol=1e-12)
+    warm = fit.at(26.0)
+    assert np.isclose(warm.equilibrium_modulus / fit.material.equilibrium_modulus, 299.15 / 293.15, rtol=1e-12)
     free = vf.fit_material(table, vertical="free")
     assert free.vertical == "free" and abs(free.shifts[0].modulus_factor * 293.15 / 273.15 - 1) < 0.02
     with pytest.raises(ValueError, match='vertical must be one of "none", "entropic", "free"'):
