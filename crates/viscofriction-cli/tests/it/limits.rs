@@ -265,7 +265,7 @@ fn every_number_of_a_scene_is_checked_before_memory_is_taken() {
         "spectrum.csv",
         "wave_number,density\n6e2,1e-14\n1e4,2e-19\n3e4,1e-20\n",
     );
-    folder.write("material.toml", "[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e6, relaxation_time = 1e-3 }]\nshift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { wlf = [17.4, 51.6] } }\n");
+    folder.write("material.toml", "[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e6, relaxation_time = 1e-3 }]\nshift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { wlf = [17.4, 51.6] }, vertical = { table = [[0.0, 0.95], [40.0, 1.05]] } }\n");
     let mut tried = BTreeSet::new();
     let mut wrong = Vec::new();
     for [parts] in table::<1>(SCENES) {
