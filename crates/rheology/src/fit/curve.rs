@@ -59,6 +59,8 @@ pub(super) struct JoinedIsotherms {
     pub(super) log_factors: Vec<f64>,
     /// What says where each of them is, each after the one that it was shifted onto; none where that was given.
     pub(super) links: Vec<Link>,
+    /// ln of factors of their moduli that there may be or not; none where that is known.
+    pub(super) undecided: Vec<f64>,
 }
 
 impl JoinedIsotherms {

@@ -215,6 +215,7 @@ fn joined(
         temperatures: shifts.iter().map(|shift| shift.temperature).collect(),
         log_factors: superposed.log_factors,
         links: superposed.links,
+        undecided: superposed.undecided,
     };
     Ok(MasterCurve {
         curve: MeasuredCurve::oscillation(points.clone())?.of_isotherms(&places, isotherms),

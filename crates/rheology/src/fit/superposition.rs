@@ -100,10 +100,12 @@ pub(super) struct Superposed {
     pub(super) links: Vec<Link>,
     pub(super) vertical: VerticalShift,
     pub(super) choice: VerticalChoice,
+    /// ln of the factors of the moduli that would be those of an ideal rubber, where the data do not show whether they are; else none.
+    pub(super) undecided: Vec<f64>,
 }
 
 /// How much likelier, in ln, one kind of b_T without constants must be than the other one before it counts as found.
-const DECIDED: f64 = 2.0;
+const DECIDED: f64 = 3.0;
 /// Free factors within this of the kind without constants are what one instrument makes of one sample from isotherm to isotherm,
 /// and no property of the material: three times the scatter of factors that the covariance of the moduli assumes.
 const BY_INSTRUMENT: f64 = 0.03;
@@ -427,6 +429,15 @@ impl Neighbours<'_> {
             None => self.summed(&placed, |one| one.log_factor),
         };
         let log_moduli = self.summed(&placed, |one| one.log_modulus);
+        let undecided = match choice {
+            VerticalChoice::NotInData => {
+                let reference = self.chain.first().map_or(0, |[fixed, _]| *fixed);
+                let others = 0..self.isotherms.len();
+                let entropic = |one| self.log_modulus(VerticalShift::Entropic, [reference, one]);
+                others.map(entropic).collect()
+            }
+            VerticalChoice::Given | VerticalChoice::FoundInData => Vec::new(),
+        };
         let links = self.chain.iter().zip(placed);
         let link = |([fixed, moved], placed): (&[usize; 2], Placed)| Link {
             fixed: *fixed,
@@ -439,6 +450,7 @@ impl Neighbours<'_> {
             links: links.map(link).collect(),
             vertical,
             choice,
+            undecided,
         }
     }
 }

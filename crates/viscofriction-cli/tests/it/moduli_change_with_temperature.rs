@@ -137,7 +137,11 @@ fn isotherms_that_do_not_lie_on_one_curve_are_a_warning() {
     let folder = Folder::new("pattern");
     let table = isotherms(entropic);
     // Those above 10 °C are nearly elastic: without b_T no series fits them at all.
-    let warm = |line: &str| [",20,", ",30,", ",40,", ",50,"].iter().any(|one| line.contains(one));
+    let warm = |line: &str| {
+        [",20,", ",30,", ",40,", ",50,"]
+            .iter()
+            .any(|one| line.contains(one))
+    };
     let cold: Vec<&str> = table.lines().filter(|line| !warm(line)).collect();
     folder.write("isotherms.csv", cold.join("\n"));
     let command = "fit-material isotherms.csv --reference-temperature 0 --vertical none --out out";

@@ -75,10 +75,13 @@ impl Linear {
         let gain = &self.gain - (&self.gain * &joined.slopes) * &joined.astray;
         let of_factors = &gain * &joined.factors;
         let of_temperatures = &self.gain * &joined.by_temperature;
+        let of_undecided = &gain * &joined.undecided;
         squared(&unknown)
             + squared(&scatter.scaled(&gain))
             + squared(&of_factors) * scatter.factor
             + squared(&of_temperatures) * scatter.temperature
+            // They are there or not, which is equally likely.
+            + squared(&of_undecided) * 0.5
     }
 }
 

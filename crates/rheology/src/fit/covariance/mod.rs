@@ -9,7 +9,8 @@
 //! where directions that the data do not know keep the first term. Σ has the scatter of single points, apart for G' and G'', and
 //! that of a factor common to all moduli of an isotherm; T = 1 − D B says that an isotherm which is shifted onto its
 //! neighbour goes astray by B ε in ln ω, and D what its points are then off by. Added to that is the error of the temperature of
-//! the isotherm that stays where it is, by which all times are off together.
+//! the isotherm that stays where it is, by which all times are off together, and where the isotherms do not show whether their moduli
+//! change with the absolute temperature, half the square of what that makes of the moduli.
 
 mod linear;
 mod scatter;
@@ -38,6 +39,9 @@ pub struct ModuliCovariance {
     pub factor: Option<f64>,
     /// Scatter of the temperatures of the isotherms, \[K]; none where it leaves no trace.
     pub temperature: Option<f64>,
+    /// Whether moduli that change with the absolute temperature, of which the isotherms do not show whether they do, are in it as
+    /// likely as not.
+    pub vertical_is_undecided: bool,
     /// Standard errors of ln a_T and of ln b_T of the isotherms, in their order, by the scatter of points and factors: 0 of the one that
     /// stays where it is and of what was given; none of a single curve. What an isotherm is off by in temperature is not in it.
     pub shift_errors: Vec<[f64; 2]>,
@@ -69,8 +73,13 @@ impl ModuliCovariance {
             format!(", {temperature:.2} K of the temperatures of isotherms (assumed before: {assumed} K)")
         });
         let [factor, temperature] = [factor, temperature].map(Option::unwrap_or_default);
+        let undecided = if self.vertical_is_undecided {
+            ", moduli that change with the absolute temperature as likely as not"
+        } else {
+            ""
+        };
         format!(
-            "propagation of the scatter of the residuals, {noise}{factor}{temperature}; without errors that all points have in common"
+            "propagation of the scatter of the residuals, {noise}{factor}{temperature}{undecided}; without errors that all points have in common"
         )
     }
 }
@@ -109,6 +118,7 @@ pub(super) fn covariance(
         temperature: joined
             .knows_temperature()
             .then(|| scatter.temperature.sqrt()),
+        vertical_is_undecided: joined.undecided.ncols() > 0,
         shift_errors: joined.shift_errors(&scatter),
     })
 }

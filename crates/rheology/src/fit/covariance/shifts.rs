@@ -22,6 +22,8 @@ pub(super) struct Joined {
     pub(super) astray: DMatrix<f64>,
     /// What 1 K of each independent temperature adds to the data as they were joined.
     pub(super) by_temperature: DMatrix<f64>,
+    /// What factors of the moduli add that are as likely as not; without a column where it is known whether they are there.
+    pub(super) undecided: DMatrix<f64>,
     /// How far the isotherms are from a law of temperature, where they were shifted onto one another.
     pub(super) law: Option<Law>,
 }
@@ -62,11 +64,16 @@ impl Joined {
             slopes,
             astray: DMatrix::zeros(2 * n, rows.len()),
             by_temperature: DMatrix::zeros(rows.len(), 0),
+            undecided: DMatrix::zeros(rows.len(), 0),
             law: None,
         };
         if let Some(isotherms) = isotherms {
             joined.know_shifts(fit, rows, &isotherms.links);
             joined.know_temperatures(fit, isotherms);
+            if !isotherms.undecided.is_empty() {
+                let factors = DVector::from_column_slice(&isotherms.undecided);
+                joined.undecided = DMatrix::from_columns(&[&joined.factors * factors]);
+            }
         }
         joined
     }
