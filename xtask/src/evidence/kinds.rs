@@ -21,7 +21,7 @@ const PYTHON_MATERIALS: &str = include_str!("../../../python/viscofriction/_mate
 /// unit of the number that it is about.
 const WITHOUT_UNIT: [&str; 2] = ["coefficient", "uncertainty"];
 /// Numbers that no sweep draws an axis for under a name of their own, so that the key itself labels it.
-const WITHOUT_LABEL: [&str; 14] = [
+const WITHOUT_LABEL: [&str; 15] = [
     "arrhenius",
     "coefficient",
     "period",
@@ -30,6 +30,7 @@ const WITHOUT_LABEL: [&str; 14] = [
     "relative_error",
     "spacing",
     "standard_error",
+    "table",
     "temperature_range",
     "time",
     "time_range",
