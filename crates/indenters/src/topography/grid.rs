@@ -90,6 +90,7 @@ impl Axis {
 }
 
 /// Digits of a number from the first that is not 0 on.
+#[cfg(any(test, feature = "topography"))]
 pub(super) fn significant_digits(cell: &str) -> i32 {
     let (mantissa, _) = cell.split_once(['e', 'E']).unwrap_or((cell, ""));
     let digits = mantissa.bytes().filter(u8::is_ascii_digit);

@@ -29,6 +29,7 @@ use thiserror::Error;
 
 use crate::{HeightMap, IndenterError};
 pub use units::length;
+#[cfg(feature = "topography")]
 use units::metres;
 
 /// The formats that are read, and the ways for others.

@@ -1,6 +1,8 @@
 //! What is no map is refused with its reason, and what heads of files state counts.
 
-use indenters::topography::{LateralUnit, Topography, TopographyError};
+#[cfg(feature = "topography")]
+use indenters::topography::LateralUnit;
+use indenters::topography::{Topography, TopographyError};
 
 const SPACING: [f64; 2] = [2e-6, 3e-6];
 
