@@ -15,7 +15,7 @@ pub enum Colour {
     Magenta,
     /// #000000.
     Black,
-    /// A step of [`STEPS`], for series in an order; steps beyond the last one are the last.
+    /// A step from dark blue (0) to green (8), for series in an order; steps beyond the last one are the last.
     Step(u8),
 }
 
