@@ -24,11 +24,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-// Only for their features: see Cargo.toml.
-use {
-    approx as _, bitflags as _, either as _, matrixmultiply as _, measurements as _,
-    once_cell as _, zerocopy as _,
-};
+// Only for its features: see Cargo.toml.
+use measurements as _;
 
 pub use output::WrongInput;
 

@@ -18,6 +18,13 @@ pub use contacts::{COMPLIANCE, HERTZ_DEPTH, HERTZ_FORCE, deviation, hertz_height
 pub use materials::{model, prony, standard_solid};
 pub use rough::{RoughCase, rough_cases};
 
+// Only for their features: see Cargo.toml.
+use {
+    approx as _, bitflags as _, bytemuck as _, either as _, libc as _, matrixmultiply as _,
+    memchr as _, num_complex as _, num_integer as _, num_traits as _, once_cell as _, serde as _,
+    serde_core as _, zerocopy as _,
+};
+
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed};
 use serde_json::Value;
