@@ -45,14 +45,14 @@ impl Footprint {
     /// # Errors
     /// [`BemError::InvalidParameter`] for a surface that is low everywhere.
     pub fn sliding(
-        surface: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        surface: &dyn Surface,
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let reached = |height| Self::reached(surface, elastomer, height);
         let depth = match load.control() {
             Control::IndentationDepth(depth) => return reached(depth),
-            Control::NormalForce(_) => depth_scale_of_surface(&surface, elastomer, load)?,
+            Control::NormalForce(_) => depth_scale_of_surface(surface, elastomer, load)?,
         };
         let Some(body) = surface.as_axisymmetric() else {
             return reached(HIGHEST * depth);
@@ -69,8 +69,8 @@ impl Footprint {
 
     /// The rectangle that holds every point of a surface that is met where a half space meets those below a height.
     pub(crate) fn reached(
-        surface: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        surface: &dyn Surface,
+        elastomer: &dyn Elastomer,
         height: f64,
     ) -> Result<Self, BemError> {
         Self::below(surface, Self::risen(surface, elastomer, height)?)
@@ -78,8 +78,8 @@ impl Footprint {
 
     /// The height up to which a surface is met where a half space meets it up to a `height`.
     pub(crate) fn risen(
-        surface: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        surface: &dyn Surface,
+        elastomer: &dyn Elastomer,
         height: f64,
     ) -> Result<f64, BemError> {
         let base = elastomer.base();
@@ -101,7 +101,7 @@ impl Footprint {
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere.
-    pub fn below(surface: &(impl Surface + ?Sized), height: f64) -> Result<Self, BemError> {
+    pub fn below(surface: &dyn Surface, height: f64) -> Result<Self, BemError> {
         positive("indentation depth", height)?;
         let [x, y] = surface.extent_below(height);
         if [x, y].into_iter().flatten().all(f64::is_finite) && x[0] < x[1] && y[0] < y[1] {

@@ -132,13 +132,13 @@ pub(crate) fn of_box(spacing: f64) -> f64 {
 }
 
 /// Whether a material has an instantaneous modulus. Without one the pressure is singular at the front.
-pub(crate) fn reacts_at_once(elastomer: &(impl Elastomer + ?Sized)) -> bool {
+pub(crate) fn reacts_at_once(elastomer: &dyn Elastomer) -> bool {
     elastomer.material().creep().instantaneous_compliance() > 0.0
 }
 
 /// Whether the largest pressure is known to have a limit: under a smooth body of revolution on a material that reacts at
 /// once.
-pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &(impl Elastomer + ?Sized)) -> bool {
+pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &dyn Elastomer) -> bool {
     let smooth = surface.as_axisymmetric().is_some_and(|body| {
         let exponent = body.profile_exponent();
         body.kinks().is_empty() && exponent >= 2.0 && exponent.is_finite()

@@ -41,7 +41,7 @@ impl GridPlan {
     /// For a body that slides.
     pub(crate) fn sliding(
         surface: &dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let depth = match load.control() {
@@ -67,7 +67,7 @@ impl GridPlan {
     /// For a body that is pressed into an elastic material.
     pub(crate) fn pressed(
         surface: &dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         control: Control,
     ) -> Result<Self, BemError> {
         let [depth, highest] = match control {
@@ -88,7 +88,7 @@ impl GridPlan {
     /// unless those for a half space are.
     fn risen(
         surface: &dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         depth: f64,
         plan: impl Fn(f64) -> Result<Self, BemError>,
     ) -> Result<Self, BemError> {

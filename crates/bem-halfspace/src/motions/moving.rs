@@ -10,9 +10,7 @@ use indenters::{
     Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
     SlidingLoad, Surface,
 };
-use numerics::{
-    Accuracy, FIRST_ELEMENTS, Goal, KEPT_STATES, Refined, Request, Settled, refine, settle,
-};
+use numerics::{Accuracy, Goal, KEPT_STATES, Refined, Request, Settled, refine, settle};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::elements::footprint::Footprint;
@@ -22,6 +20,9 @@ use crate::motions::indent::footprint_after;
 use crate::motions::slide::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions, Reached};
 
+/// Elements along the contact on which a relative error is first sought. The work grows with the third power of them, and most
+/// strokes reach two per cent on these: `docs/calibration.md` has how far they are from finer ones, in bars.
+const FIRST_ELEMENTS: usize = 8;
 /// Elements along the contact after which a motion is given up; a cycle takes about a minute.
 const LARGEST_GRID: usize = 48;
 /// Order of the error, at least.
@@ -76,13 +77,13 @@ const BYTES_PER_STEP: f64 = 600.0;
 /// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::NoCycle`] to and fro on a material
 /// that flows; [`BemError::NotPeriodic`]; otherwise like [`slide_on_grid`](crate::slide_on_grid).
 pub fn move_along<'w>(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &MovingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, BemError> {
     let request = request.into();
-    let problem = Moving::new(&surface, elastomer, load, request.accuracy)?;
+    let problem = Moving::new(surface, elastomer, load, request.accuracy)?;
     let goal = Goal {
         request,
         first: FIRST_ELEMENTS,
@@ -125,12 +126,11 @@ pub(crate) fn moved(view: &MotionView, refined: Refined<MotionRecord>) -> Result
 /// # Errors
 /// As for [`move_along`], before anything is followed.
 pub fn move_along_memory(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &MovingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let surface: &dyn Surface = &surface;
     let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let options = problem.options(elements);
     let [dx, dy] = options.spacing;
@@ -148,9 +148,9 @@ pub fn move_along_memory(
     Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
 }
 
-struct Moving<'a, M: ?Sized> {
+struct Moving<'a> {
     surface: &'a dyn Surface,
-    elastomer: &'a M,
+    elastomer: &'a dyn Elastomer,
     load: &'a MovingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
@@ -166,10 +166,10 @@ fn steps_of(elements: usize, spacing: f64) -> (usize, f64) {
     )
 }
 
-impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
+impl<'a> Moving<'a> {
     fn new(
         surface: &'a dyn Surface,
-        elastomer: &'a M,
+        elastomer: &'a dyn Elastomer,
         load: &'a MovingLoad,
         accuracy: Accuracy,
     ) -> Result<Self, BemError> {
@@ -227,8 +227,7 @@ impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
             };
             (motion, duration)
         });
-        let (surface, elastomer) = (self.surface, self.elastomer);
-        let mut march = March::again_and_again(surface, elastomer, motions, &options)?;
+        let mut march = March::again_and_again(self.surface, self.elastomer, motions, &options)?;
         let touch = march.step()?;
         let follow = Follow {
             steps: &steps,

@@ -37,8 +37,8 @@ pub(crate) type Chunked<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
 pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     chunks: Range<usize>,
     fields: Chunked<T, N>,
-    work: &(impl Fn(usize, [&mut [T]; N]) -> R + Sync),
-    combine: &(impl Fn(R, R) -> R + Sync),
+    work: &(dyn Fn(usize, [&mut [T]; N]) -> R + Sync),
+    combine: &(dyn Fn(R, R) -> R + Sync),
 ) -> R {
     if chunks.len() <= 1 {
         return work(chunks.start, fields.map(|(field, _)| field));

@@ -23,7 +23,7 @@ impl<'a> March<'a> {
     /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
     pub fn new(
         surface: &'a dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         motions: &[Motion],
         options: &GridOptions,
     ) -> Result<Self, BemError> {
@@ -50,7 +50,7 @@ impl<'a> March<'a> {
     /// [`BemError::SlidingDistanceMissing`]; [`BemError::TooManySteps`]; otherwise like [`new`](Self::new).
     pub fn sliding(
         surface: &'a dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
@@ -60,7 +60,7 @@ impl<'a> March<'a> {
     /// The same in steps of another length \[m].
     pub(crate) fn in_steps(
         surface: &'a dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &GridOptions,
         length: f64,
@@ -94,7 +94,7 @@ impl<'a> March<'a> {
     /// Like [`new`](Self::new).
     pub(crate) fn again_and_again(
         surface: &'a dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         motions: impl Iterator<Item = (Motion, f64)>,
         options: &GridOptions,
     ) -> Result<Self, BemError> {

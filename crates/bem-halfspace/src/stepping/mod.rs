@@ -89,7 +89,7 @@ impl<'a> March<'a> {
     fn on(
         (route, load_path): (Route, LoadPath),
         surface: &'a dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let [along_x, along_y] = surface.mirrors();

@@ -22,7 +22,7 @@ const PERIOD: [usize; 2] = [8, 4];
 /// The compliance 1/|q| gives every octave of long waves the same part, down to those at which the material is elastic.
 pub fn line_spectrum(
     pressure: &[[f64; 2]],
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     velocity: f64,
 ) -> Vec<StressBand> {
     let material = elastomer.material();
@@ -34,11 +34,7 @@ pub fn line_spectrum(
 
 impl PressureField {
     /// The frequencies of a contact that slides along x at a `velocity` \[m/s].
-    pub fn spectrum(
-        &self,
-        elastomer: &(impl Elastomer + ?Sized),
-        velocity: f64,
-    ) -> Vec<StressBand> {
+    pub fn spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let shape = self.grid.shape();
         let period = [0, 1].map(|axis| fast_length(PERIOD[axis] * shape[axis]));
         let step = self.wave_steps(period)[0];
@@ -54,11 +50,7 @@ impl PressureField {
     }
 
     /// The frequencies of the pressure on one period of a surface that slides along x at a `velocity` \[m/s].
-    pub fn periodic_spectrum(
-        &self,
-        elastomer: &(impl Elastomer + ?Sized),
-        velocity: f64,
-    ) -> Vec<StressBand> {
+    pub fn periodic_spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let period = self.grid.shape();
         let step = self.wave_steps(period)[0];
         let lines = self.squares(period, elastomer);
@@ -78,7 +70,7 @@ impl PressureField {
     }
 
     /// Sum over all waves along y of the squared pressure times M/|q|, for the waves 0, 1, 2, … along x.
-    fn squares(&self, period: [usize; 2], elastomer: &(impl Elastomer + ?Sized)) -> Vec<f64> {
+    fn squares(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
         let [rows, columns] = self.grid.shape();
         let plan = PlaneTransform::new(period);
         let n_waves = plan.n_columns();
@@ -117,7 +109,7 @@ impl PressureField {
     fn compliance(
         &self,
         period: [usize; 2],
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
     ) -> impl Fn([usize; 2]) -> f64 {
         let [a, b] = self.wave_steps(period);
         let base = elastomer.base();

@@ -24,7 +24,7 @@ fn a_material_has_the_fields_that_it_needs() {
     // Of nine columns, those in front of the mirror through the fifth.
     let columns = 5;
     for (name, material) in every_kind_of_material() {
-        let march = March::sliding(&body, &*material, &load, &options).expect("a march");
+        let march = March::sliding(&body, &material, &load, &options).expect("a march");
         let creep = material.creep();
         let fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
         assert_eq!(march.n_fields(), fields, "fields of the {name} material");
@@ -116,7 +116,7 @@ fn a_march_stops_when_the_friction_is_stationary() {
         ("elastic", &elastic(1.2), 0.0),
     ];
     for (name, material, error) in materials {
-        let state = slide_to_stationary(&body, material, &load(90.0), &options, &wanted);
+        let state = slide_to_stationary(&body, &material, &load(90.0), &options, &wanted);
         let state = state.expect("a stationary state");
         let (distance, change) = (state.transient.last().sliding_distance, state.change);
         let is_at_rest = distance < 60.0 && change <= wanted.tolerance;

@@ -24,7 +24,7 @@ fn moved(
 ) -> Vec<MotionRow> {
     let under_force = |(time, position)| (time, position, Control::NormalForce(FORCE));
     let motions = motions(path.into_iter().map(under_force));
-    slide_along(&paraboloid(0.5), material, &motions, options).expect("rows")
+    slide_along(&paraboloid(0.5), &material, &motions, options).expect("rows")
 }
 
 fn solid() -> impl Material {

@@ -136,7 +136,7 @@ fn marches_and_stationary_solutions_agree_within_their_bars() {
         ("fluid", moving, &fluid, 40),
     ];
     for (name, (body, load), material, elements) in cases {
-        let march = slide(&body, material, &load, Accuracy::Elements(elements));
+        let march = slide(&body, &material, &load, Accuracy::Elements(elements));
         let march = march.expect("a march");
         let direct = Scene::new(body, material, load).steady(3e-3);
         let (one, other) = (march.friction_coefficient, direct.friction_coefficient);
@@ -170,7 +170,7 @@ fn a_march_over_a_distance_ends_there() {
         for material in [&solid as &dyn Material, &dashpot] {
             let slid = |elements| {
                 let accuracy = Accuracy::Elements(elements);
-                let march = slide(&paraboloid(0.5), material, &load, accuracy);
+                let march = slide(&paraboloid(0.5), &material, &load, accuracy);
                 march.expect("a march")
             };
             let (coarse, fine) = (slid(16), slid(40));

@@ -102,7 +102,7 @@ fn pressing_agrees_with_an_integral_equation() {
                 let material = material(nu);
                 let layer = Layer::new(&material, 1.0).unwrap();
                 let control = Control::IndentationDepth(depth);
-                let found = press(body, &layer, control, asked).unwrap();
+                let found = press(&body, &layer, control, asked).unwrap();
                 let scene = format!("{name}, ν = {nu}, a = {a} t");
                 assert_close(&scene, found.normal_force.value, force, 1e-4);
                 assert_within_bar(&scene, found.normal_force, force);

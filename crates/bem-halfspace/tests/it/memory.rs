@@ -33,18 +33,18 @@ fn stated_memory_is_what_a_solution_takes() {
     let materials = every_kind_of_material().into_iter();
     for (name, material) in materials.filter(|(name, _)| name.starts_with(['e', 'v', 't'])) {
         let material = &*material;
-        let stated = steady_memory(&body, material, &load, 40);
-        let solve = || steady(&body, material, &load, forty);
+        let stated = steady_memory(&body, &material, &load, 40);
+        let solve = || steady(&body, &material, &load, forty);
         check(("steady", name), stated, solve);
-        let stated = steady_memory(&whole, material, &load, 40);
-        let solve = || steady(&whole, material, &load, forty);
+        let stated = steady_memory(&whole, &material, &load, 40);
+        let solve = || steady(&whole, &material, &load, forty);
         check(("whole", name), stated, solve);
-        let stated = indent_memory(&body, material, &pressing, 160);
-        let solve = || indent(&body, material, &pressing, more);
+        let stated = indent_memory(&body, &material, &pressing, 160);
+        let solve = || indent(&body, &material, &pressing, more);
         check(("indent", name), stated, solve);
         let load = after(load, 30.0);
-        let stated = slide_memory(&sharp, material, &load, 12);
-        let solve = || slide(&sharp, material, &load, few);
+        let stated = slide_memory(&sharp, &material, &load, 12);
+        let solve = || slide(&sharp, &material, &load, few);
         check(("slide", name), stated, solve);
     }
 }

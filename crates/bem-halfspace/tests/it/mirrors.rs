@@ -114,8 +114,8 @@ fn compare(
 ) {
     let options = tight(GridOptions::new([0.11, 0.13], footprint));
     let whole = Unmirrored(surface);
-    let mut front = March::new(surface, material, motions, &options).expect("a march");
-    let mut all = March::new(&whole, material, motions, &options).expect("a march");
+    let mut front = March::new(surface, &material, motions, &options).expect("a march");
+    let mut all = March::new(&whole, &material, motions, &options).expect("a march");
     for motion in motions {
         let [got, expected] =
             [&mut front, &mut all].map(|march| march.step().expect("a step").expect("a row"));

@@ -261,7 +261,7 @@ pub(crate) fn slid(
     load: &SlidingLoad,
     options: &GridOptions,
 ) -> Transient {
-    slide_on_grid(body, material, load, options).expect("a transient")
+    slide_on_grid(body, &material, load, options).expect("a transient")
 }
 
 /// Motions to positions \[m] at times \[s].
@@ -362,7 +362,7 @@ pub(crate) fn pressed(
 ) -> Vec<MotionRow> {
     let step = |(time, control)| HistoryPoint { time, control };
     let steps: Vec<HistoryPoint> = path.into_iter().map(step).collect();
-    indent_history_on_grid(body, material, &steps, options).expect("an indentation")
+    indent_history_on_grid(body, &material, &steps, options).expect("an indentation")
 }
 
 /// The depths under a constant force at some times.

@@ -36,7 +36,7 @@ fn judged(
     expected: Estimate,
     part: f64,
 ) -> Result<Row> {
-    let got = steady_refined(body, material, load, &OPTIONS)?;
+    let got = steady_refined(body, &material, load, &OPTIONS)?;
     let tolerance = OPTIONS.relative_error + expected.error / expected.value + part;
     compare!(within tolerance; "friction coefficient" => got.friction_coefficient.value, expected.value)
 }
@@ -155,7 +155,7 @@ pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
     // A force under which the last contact has a radius of about one.
     let force = 1.0 / material.creep_compliance(times[2])?;
     let steps = HistoryPoint::held(Control::NormalForce(force), &times);
-    let got = indent_history_on_grid(&body, material, &steps, &options)?;
+    let got = indent_history_on_grid(&body, &material, &steps, &options)?;
     let step = HistoryPoint::held(Control::NormalForce(1.0), &[1.0]);
     let expected = indent_history_on_grid(&body, &Elastic::new(1.0)?, &step, &options)?;
     // Three solutions, each to the contact tolerance.
@@ -168,7 +168,7 @@ fn marched(material: &dyn Material, time_step: f64, force: f64) -> Result<SlideR
     let body = PowerProfile::paraboloid(0.1)?;
     let options = GridOptions::new([0.1; 2], Footprint::square(3.0));
     let load = SlidingLoad::new(force, 0.1 / time_step)?.after(1.5)?;
-    let march = slide_on_grid(&body, material, &load, &options)?;
+    let march = slide_on_grid(&body, &material, &load, &options)?;
     Ok(march.last().clone())
 }
 

@@ -85,14 +85,14 @@ pub struct IndentCurve {
 /// that never presses, and a jump of the depth on a material that does not react at once; [`BemError::NotReached`] with what
 /// was reached on the finest grid allowed; otherwise like [`indent_history`].
 pub fn indent_along<'w>(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     history: &[HistoryPoint],
     request: impl Into<Request<'w>>,
 ) -> Result<IndentCurve, BemError> {
     let request = request.into();
     let path = Path::new(history, reacts_at_once(elastomer))?;
-    let plan = path.spring(elastomer)?.plan(&surface, path.largest())?;
+    let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(grid(&plan, elements));
@@ -144,17 +144,17 @@ pub fn indent_along<'w>(
 /// # Errors
 /// As for [`indent_along`], before anything is solved.
 pub fn indent_along_memory(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     history: &[HistoryPoint],
     elements: usize,
 ) -> Result<f64, BemError> {
     let path = Path::new(history, reacts_at_once(elastomer))?;
-    let plan = path.spring(elastomer)?.plan(&surface, path.largest())?;
+    let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let creep = elastomer.material().creep();
     let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
     let per_element = BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
-    Ok(per_element * n_followed(&surface, &grid(&plan, elements)))
+    Ok(per_element * n_followed(surface, &grid(&plan, elements)))
 }
 
 /// Nothing slides, and the pressure has no limit that is known.
@@ -225,7 +225,7 @@ impl Path {
 
     /// The elastic contact that reaches at least as far as that of any point: under a force that of the largest one held all
     /// the time, because ∫ J dF ≤ J(t) max F.
-    fn spring(&self, elastomer: &(impl Elastomer + ?Sized)) -> Result<Spring, BemError> {
+    fn spring(&self, elastomer: &dyn Elastomer) -> Result<Spring, BemError> {
         let [duration, _] = self.points[self.points.len() - 1];
         let load = PressingLoad::new(self.largest(), duration)?;
         if self.is_force {

@@ -55,8 +55,8 @@ pub struct IndentHistory {
 /// [`BemError::TimeNotResolved`] when the error asked for is not met with the steps allowed; otherwise like
 /// [`indent_history_on_grid`].
 pub fn indent_history(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     control: impl Fn(f64) -> Control,
     times: &[f64],
     options: &HistoryOptions,
@@ -76,8 +76,8 @@ pub fn indent_history(
 
 /// The same with the error that is reached with the steps allowed.
 pub(super) fn refined(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     control: impl Fn(f64) -> Control,
     times: &[f64],
     options: &HistoryOptions,

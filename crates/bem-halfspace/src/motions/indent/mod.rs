@@ -31,8 +31,8 @@ pub use press::{
 /// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
 /// [`BemError::Material`].
 pub fn indent_history_on_grid(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     steps: &[HistoryPoint],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
@@ -42,7 +42,7 @@ pub fn indent_history_on_grid(
         control: step.control,
     };
     let motions: Vec<Motion> = steps.iter().map(motion).collect();
-    let mut march = March::new(&surface, elastomer, &motions, options)?;
+    let mut march = March::new(surface, elastomer, &motions, options)?;
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
     while let Some(row) = march.advance()? {

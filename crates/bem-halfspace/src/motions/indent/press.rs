@@ -85,13 +85,13 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 /// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`]
 /// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
 pub fn press<'w>(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     control: Control,
     request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::at_rest(elastomer)?;
-    estimate(&surface, &spring, control, request.into())
+    estimate(surface, &spring, control, request.into())
 }
 
 /// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
@@ -113,13 +113,13 @@ pub fn press<'w>(
 /// # Errors
 /// [`BemError::InvalidParameter`] where a depth was held for so long that no force is left; otherwise like [`press`].
 pub fn indent<'w>(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &PressingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::after(elastomer, load)?;
-    estimate(&surface, &spring, load.control(), request.into())
+    estimate(surface, &spring, load.control(), request.into())
 }
 
 /// Memory that [`indent`] takes at most for a number of elements along the contact, \[bytes].
@@ -127,13 +127,13 @@ pub fn indent<'w>(
 /// # Errors
 /// As for [`indent`], before anything is solved.
 pub fn indent_memory(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &PressingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let plan = Spring::after(elastomer, load)?.plan(&surface, load.control())?;
-    Ok(BYTES_PER_ELEMENT * n_followed(&surface, &grid(&plan, elements)))
+    let plan = Spring::after(elastomer, load)?.plan(surface, load.control())?;
+    Ok(BYTES_PER_ELEMENT * n_followed(surface, &grid(&plan, elements)))
 }
 
 /// Elements in front of the mirrors.
@@ -156,12 +156,12 @@ pub(super) fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
 /// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
 /// [`BemError::Material`].
 pub fn press_on_grid(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     control: Control,
     options: &GridOptions,
 ) -> Result<PressSolution, BemError> {
-    Spring::at_rest(elastomer)?.solve(&surface, control, options)
+    Spring::at_rest(elastomer)?.solve(surface, control, options)
 }
 
 /// Like [`indent`], on one grid.
@@ -169,18 +169,18 @@ pub fn press_on_grid(
 /// # Errors
 /// As for [`press_on_grid`], and [`BemError::InvalidParameter`] where a depth was held for so long that no force is left.
 pub fn indent_on_grid(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &PressingLoad,
     options: &GridOptions,
 ) -> Result<PressSolution, BemError> {
-    Spring::after(elastomer, load)?.solve(&surface, load.control(), options)
+    Spring::after(elastomer, load)?.solve(surface, load.control(), options)
 }
 
 /// The rectangle around the contact of a body that was pressed a time ago.
 pub(crate) fn footprint_after(
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PressingLoad,
 ) -> Result<Footprint, BemError> {
     let plan = Spring::after(elastomer, load)?.plan(surface, load.control())?;
@@ -199,7 +199,7 @@ pub(super) struct Spring {
 }
 
 impl Spring {
-    fn at_rest(elastomer: &(impl Elastomer + ?Sized)) -> Result<Self, BemError> {
+    fn at_rest(elastomer: &dyn Elastomer) -> Result<Self, BemError> {
         let material = elastomer.material();
         check_spectra(&material)?;
         let modulus = material.relaxation().equilibrium_modulus();
@@ -211,7 +211,7 @@ impl Spring {
     }
 
     pub(super) fn new(
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         compliance: f64,
         has_pressure: bool,
     ) -> Result<Self, BemError> {
@@ -237,10 +237,7 @@ impl Spring {
         GridPlan::pressed(surface, &self.layer(), self.scaled(control)?)
     }
 
-    pub(super) fn after(
-        elastomer: &(impl Elastomer + ?Sized),
-        load: &PressingLoad,
-    ) -> Result<Self, BemError> {
+    pub(super) fn after(elastomer: &dyn Elastomer, load: &PressingLoad) -> Result<Self, BemError> {
         let material = elastomer.material();
         check_spectra(&material)?;
         let (factor, duration) = (material.half_space_factor(), load.duration());

@@ -59,12 +59,12 @@ pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 /// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
 /// [`slide_on_grid`](super::slide_on_grid).
 pub fn slide<'w>(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SlideEstimate, BemError> {
-    PlannedSlide::new(&surface, elastomer, load, request.into())?.solve()
+    PlannedSlide::new(surface, elastomer, load, request.into())?.solve()
 }
 
 /// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
@@ -72,12 +72,11 @@ pub fn slide<'w>(
 /// # Errors
 /// As for [`slide`], before anything is solved.
 pub fn slide_memory(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let surface: &dyn Surface = &surface;
     let problem = PlannedSlide::new(
         surface,
         elastomer,
@@ -105,9 +104,9 @@ pub fn slide_memory(
 /// One march, the friction at its end, and the error of its extrapolation to the stationary state, where that is asked for.
 type End = (Transient, f64, Option<f64>);
 
-struct PlannedSlide<'a, M: ?Sized> {
+struct PlannedSlide<'a> {
     surface: &'a dyn Surface,
-    elastomer: &'a M,
+    elastomer: &'a dyn Elastomer,
     load: &'a SlidingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
@@ -147,10 +146,10 @@ impl Path {
     }
 }
 
-impl<'a, M: Elastomer + ?Sized> PlannedSlide<'a, M> {
+impl<'a> PlannedSlide<'a> {
     fn new(
         surface: &'a dyn Surface,
-        elastomer: &'a M,
+        elastomer: &'a dyn Elastomer,
         load: &'a SlidingLoad,
         request: Request<'a>,
     ) -> Result<Self, BemError> {
@@ -345,7 +344,7 @@ fn left_to_go(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
 }
 
 /// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
-fn memory_of(elastomer: &(impl Elastomer + ?Sized), load: &SlidingLoad) -> f64 {
+fn memory_of(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     let creep = elastomer.material().creep();
     let elements = creep.elements().iter();
     let times = elements.map(|element| element.retardation_time);

@@ -37,13 +37,13 @@ pub use transient::{SlideRow, Transient};
 /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`] at the end; [`BemError::ContactNotConverged`];
 /// [`BemError::InvalidHeight`]; [`BemError::Material`].
 pub fn slide_on_grid(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &GridOptions,
 ) -> Result<Transient, BemError> {
     slide_over(
-        March::sliding(&surface, elastomer, load, options)?,
+        March::sliding(surface, elastomer, load, options)?,
         load,
         &|_| (),
     )
@@ -71,11 +71,11 @@ fn slide_over(
 /// # Errors
 /// Like [`March::new`] and [`March::step`].
 pub fn slide_along(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     motions: &[Motion],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
-    let mut march = March::new(&surface, elastomer, motions, options)?;
+    let mut march = March::new(surface, elastomer, motions, options)?;
     std::iter::from_fn(|| march.step().transpose()).collect()
 }

@@ -142,13 +142,13 @@ pub struct StationarySlide {
 /// # Errors
 /// [`BemError::NotStationary`] with the change reached; otherwise like [`slide_on_grid`](crate::motions::slide::slide_on_grid).
 pub fn slide_to_stationary(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &GridOptions,
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
-    let march = March::sliding(&surface, elastomer, load, options)?;
+    let march = March::sliding(surface, elastomer, load, options)?;
     settle(march, load, stationary, &|_| ())
 }
 

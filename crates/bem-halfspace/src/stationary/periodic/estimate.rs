@@ -75,7 +75,7 @@ pub struct PeriodicEstimate<S> {
 /// [`steady_on_grid`](super::steady_on_grid).
 pub fn steady<'w>(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
@@ -94,7 +94,7 @@ pub fn steady<'w>(
 /// As of [`steady`].
 pub fn indent<'w>(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     mean_pressure: f64,
     time: f64,
     request: impl Into<Request<'w>>,
@@ -111,7 +111,7 @@ pub fn indent<'w>(
 /// Those of [`steady`] but [`BemError::NotReached`].
 pub fn steady_on_coarse_grid(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
     finer: usize,
 ) -> Result<PeriodicSliding, BemError> {
@@ -125,7 +125,7 @@ pub fn steady_on_coarse_grid(
 /// Those of [`indent`] but [`BemError::NotReached`].
 pub fn indent_on_coarse_grid(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     mean_pressure: f64,
     time: f64,
     finer: usize,
@@ -168,7 +168,7 @@ fn on_coarse_grid(
 /// [`BemError::GridTooLarge`]: also where a march that is fine enough would take longer than about half an hour.
 pub fn slide<'w>(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<PeriodicEstimate<PeriodicTransient>, BemError> {

@@ -28,10 +28,7 @@ pub(super) struct Sliding {
 }
 
 impl Sliding {
-    pub(super) fn new(
-        elastomer: &(impl Elastomer + ?Sized),
-        velocity: f64,
-    ) -> Result<Self, BemError> {
+    pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         if creep.fluidity() > 0.0 {
@@ -51,10 +48,7 @@ impl Sliding {
 
     /// At rest, a time \[s] after a pressure was laid on: as on a spring of the compliance at that time.
     #[cfg(feature = "rough")]
-    pub(super) fn at_rest(
-        elastomer: &(impl Elastomer + ?Sized),
-        time: f64,
-    ) -> Result<Self, BemError> {
+    pub(super) fn at_rest(elastomer: &dyn Elastomer, time: f64) -> Result<Self, BemError> {
         let creep = elastomer.material().creep();
         let spring = CreepSpectrum::new(creep.creep_compliance(time)?, 0.0, Vec::new())?;
         Ok(Self {

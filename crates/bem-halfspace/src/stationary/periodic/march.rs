@@ -70,7 +70,7 @@ pub struct PeriodicTransient {
 pub fn slide_on_grid(
     grid: &Grid,
     heights: &[f64],
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
     options: &ContactOptions,
 ) -> Result<PeriodicTransient, BemError> {
@@ -94,7 +94,7 @@ pub(super) struct Steps<'a> {
 pub(super) fn slide_along(
     grid: &Grid,
     heights: &[f64],
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
     steps: &Steps,
 ) -> Result<PeriodicTransient, BemError> {
@@ -164,7 +164,7 @@ impl<'a> PeriodicMarch<'a> {
     pub(super) fn new(
         grid: &Grid,
         heights: &'a [f64],
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         time_step: f64,
     ) -> Result<Self, BemError> {
         let n = grid.n_elements();

@@ -122,7 +122,7 @@ pub struct PeriodicSliding {
 pub fn steady_on_grid(
     grid: &Grid,
     heights: &[f64],
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
     options: &PeriodicOptions,
 ) -> Result<PeriodicSliding, BemError> {

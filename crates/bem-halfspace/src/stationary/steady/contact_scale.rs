@@ -112,7 +112,7 @@ fn length_of_contact(
 /// D of a surface under a force, \[m].
 pub(crate) fn depth_scale_of_surface(
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
     let creep = SlidingCreep::under(elastomer, load)?;

@@ -40,12 +40,12 @@ const BYTES_PER_ELEMENT: f64 = 900.0;
 /// # Errors
 /// As for [`steady`], before anything is solved.
 pub fn steady_memory(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let plan = plan(&surface, elastomer, load)?;
+    let plan = plan(surface, elastomer, load)?;
     let options = grid(&plan, elements);
     // A mirror halves the unknowns, and saves less of the kernel.
     let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
@@ -70,7 +70,7 @@ fn in_growing_footprint<T>(
 /// The grids of the stationary state, at whichever distance it is seen.
 fn plan(
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<GridPlan, BemError> {
     let endless = SlidingLoad::with(load.control(), load.velocity())?;
@@ -85,13 +85,13 @@ fn plan(
 /// # Errors
 /// As for [`steady`], before anything is solved.
 pub fn steady_grid(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<SteadyOptions, BemError> {
     positive("elements", elements as f64)?;
-    Ok(grid(&plan(&surface, elastomer, load)?, elements))
+    Ok(grid(&plan(surface, elastomer, load)?, elements))
 }
 
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
@@ -134,8 +134,8 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// friction is infinite, or a surface that is low everywhere; on a track [`BemError::NoCycle`] for a material that flows, and
 /// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`](super::steady_on_grid).
 pub fn steady<'w>(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SteadyEstimate, BemError> {
@@ -146,9 +146,9 @@ pub fn steady<'w>(
                 relative_error,
                 ..RefinementOptions::default()
             };
-            refined(&surface, elastomer, load, &options, request.watch)
+            refined(surface, elastomer, load, &options, request.watch)
         }
-        Accuracy::Elements(_) => with_elements(&surface, elastomer, load, request),
+        Accuracy::Elements(_) => with_elements(surface, elastomer, load, request),
     }
 }
 
@@ -157,17 +157,17 @@ pub fn steady<'w>(
 /// # Errors
 /// As for [`steady`].
 pub fn steady_refined(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
-    refined(&surface, elastomer, load, options, &Unwatched)
+    refined(surface, elastomer, load, options, &Unwatched)
 }
 
 fn refined(
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &RefinementOptions,
     watch: &dyn Watch,
@@ -189,7 +189,7 @@ fn refined(
 /// The state on a grid of a given number of elements, compared with grids of fewer.
 fn with_elements(
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
@@ -202,7 +202,7 @@ fn with_elements(
 fn with_elements_in(
     plan: &GridPlan,
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
@@ -277,7 +277,7 @@ pub(super) fn resolution(
 /// exactly 0 under any body: what the elements make of it is rounding.
 fn with_meaning(
     load: &SlidingLoad,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     mut estimate: SteadyEstimate,
 ) -> Result<SteadyEstimate, BemError> {
     if elastomer.material().creep().is_elastic() {

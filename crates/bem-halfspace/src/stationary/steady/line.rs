@@ -106,8 +106,8 @@ const MOST_UNKNOWNS: usize = 2000;
 /// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a half space that flows, and
 /// [`BemError::Indenter`] for a depth, which does not exist on a half space in plane strain.
 pub fn steady_line<'w>(
-    profile: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    profile: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<LineEstimate, BemError> {
@@ -157,7 +157,7 @@ pub fn steady_line<'w>(
 /// Half the length of the contact, about, and where it may occur, \[m].
 fn lengths(
     profile: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<(f64, [f64; 2]), BemError> {
     let creep = SlidingCreep::under(elastomer, load)?;
@@ -171,8 +171,8 @@ fn lengths(
 /// # Errors
 /// As for [`steady_line`], before anything is solved.
 pub fn steady_line_grid(
-    profile: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    profile: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<LineOptions, BemError> {
@@ -207,8 +207,8 @@ fn of_line(known: SteadyEstimate, force: f64) -> LineEstimate {
 /// # Errors
 /// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a half space that flows.
 pub fn steady_line_on_grid(
-    profile: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    profile: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &LineOptions,
 ) -> Result<LineSliding, BemError> {

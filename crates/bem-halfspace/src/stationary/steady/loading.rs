@@ -48,7 +48,7 @@ impl Loading {
     /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
     pub(super) fn new(
         surface: &dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         footprint: &Footprint,
     ) -> Result<Self, BemError> {
@@ -81,7 +81,7 @@ impl Loading {
     /// depth, and a material that flows.
     pub(super) fn per_length(
         profile: &dyn Surface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         [rear, front]: [f64; 2],
     ) -> Result<Self, BemError> {

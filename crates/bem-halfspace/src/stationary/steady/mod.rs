@@ -113,13 +113,13 @@ impl SteadyOptions {
 /// [`BemError::SlopeNotResolved`]; [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`];
 /// [`BemError::SingularContact`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
 pub fn steady_on_grid(
-    surface: &(impl Surface + ?Sized),
-    elastomer: &(impl Elastomer + ?Sized),
+    surface: &dyn Surface,
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    let loading = Loading::new(&surface, elastomer, load, &options.footprint)?;
-    solve(&surface, &loading, options, &mut Reuse::default())
+    let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
+    solve(surface, &loading, options, &mut Reuse::default())
 }
 
 /// What one solution passes on to the next.

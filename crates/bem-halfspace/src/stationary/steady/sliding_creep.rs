@@ -81,10 +81,7 @@ impl Delay {
 
 impl SlidingCreep {
     /// On the track of a load, if it has one; refuses a material that flows there.
-    pub(super) fn under(
-        elastomer: &(impl Elastomer + ?Sized),
-        load: &SlidingLoad,
-    ) -> Result<Self, BemError> {
+    pub(super) fn under(elastomer: &dyn Elastomer, load: &SlidingLoad) -> Result<Self, BemError> {
         let creep = Self {
             track: load.track(),
             ..Self::new(elastomer, load.velocity())?
@@ -95,10 +92,7 @@ impl SlidingCreep {
         Ok(creep)
     }
 
-    pub(super) fn new(
-        elastomer: &(impl Elastomer + ?Sized),
-        velocity: f64,
-    ) -> Result<Self, BemError> {
+    pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         let (material, base) = (elastomer.material(), elastomer.base());
         check_spectra(&material)?;
         let spectrum = material.creep();

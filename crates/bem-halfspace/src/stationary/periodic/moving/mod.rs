@@ -78,7 +78,7 @@ const BYTES_PER_WAVE: f64 = 80.0;
 /// [`slide`](super::slide).
 pub fn move_along<'w>(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &MovingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, BemError> {
@@ -114,7 +114,7 @@ pub fn move_along<'w>(
 /// As for [`move_along`], before anything is followed.
 pub fn move_along_memory(
     surface: &PeriodicSurface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &MovingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
@@ -166,9 +166,9 @@ fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
     wide.zip(rests).map(|(wide, rest)| wide.and(rest)).collect()
 }
 
-struct Moving<'a, M: ?Sized> {
+struct Moving<'a> {
     surface: &'a PeriodicSurface,
-    elastomer: &'a M,
+    elastomer: &'a dyn Elastomer,
     load: &'a MovingLoad,
     spectra: Spectra,
     /// q_x by the number of waves in the period, \[rad/m].
@@ -197,10 +197,10 @@ struct End {
     n_contact: usize,
 }
 
-impl<'a, M: Elastomer + ?Sized> Moving<'a, M> {
+impl<'a> Moving<'a> {
     fn new(
         surface: &'a PeriodicSurface,
-        elastomer: &'a M,
+        elastomer: &'a dyn Elastomer,
         load: &'a MovingLoad,
         accuracy: Accuracy,
     ) -> Result<Self, BemError> {

@@ -102,7 +102,7 @@ impl PeriodicSensitivity {
     /// one that is not twice one on which all waves fit.
     pub fn new(
         surface: &PeriodicSurface,
-        elastomer: &(impl Elastomer + ?Sized),
+        elastomer: &dyn Elastomer,
         load: &PeriodicLoad,
         pressure: &PressureField,
     ) -> Result<Self, BemError> {
@@ -149,7 +149,7 @@ impl PeriodicSensitivity {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        let [from, to] = [0, 1].map(|end| Sliding::new(materials[end], velocities[end]));
+        let [from, to] = [0, 1].map(|end| Sliding::new(&materials[end], velocities[end]));
         let ends = [from?, to?];
         self.change(|state| state.between_materials(ends.each_ref()))
     }

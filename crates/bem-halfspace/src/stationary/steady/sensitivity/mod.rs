@@ -137,13 +137,13 @@ impl SteadySensitivity {
     /// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] at a depth on a half space that
     /// flows, which belongs to a distance.
     pub fn new(
-        surface: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        surface: &dyn Surface,
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        let loading = loading(&surface, elastomer, load, options)?;
-        Self::of(&surface, &loading, options, &PHASES)
+        let loading = loading(surface, elastomer, load, options)?;
+        Self::of(surface, &loading, options, &PHASES)
     }
 
     /// The same in plane strain, as of [`steady_line`](super::steady_line()), on elements of a quarter of the length.
@@ -151,8 +151,8 @@ impl SteadySensitivity {
     /// # Errors
     /// As for [`steady_line_on_grid`](super::steady_line_on_grid).
     pub fn of_line(
-        profile: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        profile: &dyn Surface,
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &LineOptions,
     ) -> Result<Self, BemError> {
@@ -315,19 +315,14 @@ impl SensitivityOnGrid {
     /// # Errors
     /// As for [`SteadySensitivity::new`].
     pub fn new(
-        surface: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        surface: &dyn Surface,
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        let loading = loading(&surface, elastomer, load, options)?;
+        let loading = loading(surface, elastomer, load, options)?;
         let phases = [options.phase];
-        Self::of(
-            &surface,
-            &loading,
-            options,
-            (&phases, &mut Reuse::default()),
-        )
+        Self::of(surface, &loading, options, (&phases, &mut Reuse::default()))
     }
 
     /// The same in plane strain, on a grid such as [`steady_line_grid`](super::steady_line_grid) makes.
@@ -335,8 +330,8 @@ impl SensitivityOnGrid {
     /// # Errors
     /// As for [`SteadySensitivity::of_line`].
     pub fn of_line(
-        profile: &(impl Surface + ?Sized),
-        elastomer: &(impl Elastomer + ?Sized),
+        profile: &dyn Surface,
+        elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &LineOptions,
     ) -> Result<Self, BemError> {
@@ -404,7 +399,7 @@ impl SensitivityOnGrid {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Apart>, BemError> {
-        let [from, to] = [0, 1].map(|end| SlidingCreep::new(materials[end], velocities[end]));
+        let [from, to] = [0, 1].map(|end| SlidingCreep::new(&materials[end], velocities[end]));
         let ends = [from?, to?];
         self.mean_of(|state| state.between_materials(ends.each_ref()))
     }
@@ -421,7 +416,7 @@ impl SensitivityOnGrid {
 /// A load under which the contact has derivatives.
 fn loading(
     surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<Loading, BemError> {
