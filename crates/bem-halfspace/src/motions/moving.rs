@@ -21,7 +21,7 @@ use crate::motions::slide::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions, Reached};
 
 /// Elements along the contact on which a relative error is first sought. The work grows with the third power of them, and most
-/// strokes reach two per cent on these: `docs/calibration.md` has how far they are from finer ones, in bars.
+/// strokes reach two per cent on these (docs/theory/transient-half-space.md).
 const FIRST_ELEMENTS: usize = 8;
 /// Elements along the contact after which a motion is given up; a cycle takes about a minute.
 const LARGEST_GRID: usize = 48;

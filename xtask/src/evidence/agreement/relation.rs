@@ -378,12 +378,16 @@ fn other_name<T: Serialize + DeserializeOwned>(of: &T, names: &Table) -> Result<
 /// What a file of a material holds, at a temperature.
 fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable> {
     let mut material = of_file.clone();
-    let exponent = match (of_file.shift(), temperature) {
-        (Some(shift), Some(temperature)) => shift.log10_factor(temperature).ok()?,
-        _ => 0.0,
+    let [exponent, of_moduli] = match (of_file.shift(), temperature) {
+        (Some(shift), Some(temperature)) => [
+            shift.log10_factor(temperature).ok()?,
+            shift.modulus_factor(temperature).ok()?,
+        ],
+        _ => [0.0, 1.0],
     };
     let factor = 10_f64.powf(exponent);
     if let MaterialTable::Prony {
+        equilibrium_modulus,
         branches,
         viscosity,
         valid_frequencies,
@@ -391,6 +395,11 @@ fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable
         ..
     } = &mut material
     {
+        for branch in branches.iter_mut() {
+            branch.modulus *= of_moduli;
+        }
+        *equilibrium_modulus *= of_moduli;
+        *viscosity *= of_moduli;
         let times = branches.iter_mut().map(|one| &mut one.relaxation_time);
         times.chain([viscosity]).for_each(|time| *time *= factor);
         let window = valid_frequencies.iter_mut().flatten();

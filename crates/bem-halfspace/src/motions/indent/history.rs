@@ -9,6 +9,13 @@ use rheology::{CreepSpectrum, Material as _};
 use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
+/// Part of a change by halving the steps that the next one is assumed to be at least: that of errors of the first order.
+const FASTEST: f64 = 0.5;
+/// The same where only one change is known; it makes the error twice that change.
+const UNKNOWN: f64 = 2.0 / 3.0;
+/// The same at most: changes that hardly fall say nothing of their sum, and nine of them are more than any error asked for.
+const SLOWEST: f64 = 0.9;
+
 /// How exactly a history is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HistoryOptions {
@@ -40,8 +47,8 @@ impl HistoryOptions {
 pub struct IndentHistory {
     /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
     pub rows: Vec<MotionRow>,
-    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the last
-    /// change by halving them, or the largest effect of elements that yield within a step.
+    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the sum of the
+    /// changes by halving them that are still to come, or the largest effect of elements that yield within a step.
     pub time_error: f64,
     /// Steps made between two rows.
     pub steps_per_row: usize,
@@ -89,14 +96,16 @@ pub(super) fn refined(
     };
     let creep = elastomer.material().creep();
     let (mut coarse, mut before): (Option<Vec<MotionRow>>, Option<Vec<MotionRow>>) = (None, None);
-    let (mut n, mut error) = (1, 1.0);
+    let (mut n, mut error, mut change_before) = (1, 1.0, None);
     loop {
         let last = 2 * n > options.max_steps;
         match run(n) {
             Ok(fine) => {
                 let rows = coarse.map(|coarse| extrapolated(&coarse, &fine));
                 if let Some((before, rows)) = before.zip(rows.as_ref()) {
-                    error = difference(&before, rows).max(unresolved(&creep, times, n)?);
+                    let change = difference(&before, rows);
+                    error = still_to_come(change, change_before).max(unresolved(&creep, times, n)?);
+                    change_before = Some(change);
                 }
                 (before, coarse) = (rows, Some(fine));
             }
@@ -113,6 +122,20 @@ pub(super) fn refined(
         }
         n *= 2;
     }
+}
+
+/// Sum of all changes by halving the steps after the last one, if each of them is the same part of the one before; where there
+/// was none before the last one, and where they fall faster than the second order lets them, with parts that are assumed.
+///
+/// Where a material relaxes over many decades within one interval, changes fall slower than the order of the steps until its
+/// fast elements are resolved.
+fn still_to_come(change: f64, before: Option<f64>) -> f64 {
+    let part = match before {
+        Some(before) if before > 0.0 => (change / before).clamp(FASTEST, SLOWEST),
+        Some(_) => FASTEST,
+        None => UNKNOWN,
+    };
+    change * part / (1.0 - part)
 }
 
 /// From each of the times, and zero, to the next.
@@ -172,4 +195,25 @@ fn difference(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
         if change > 0.0 { change / largest } else { 0.0 }
     };
     of(|row| row.normal_force).max(of(|row| row.indentation_depth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::still_to_come;
+    use approx::assert_relative_eq;
+
+    /// Changes of errors that are each the same part of the one before add up to the last error; those that fall faster than the
+    /// first order count as of the first.
+    #[test]
+    fn changes_that_fall_slowly_are_summed() {
+        let errors = |part: f64| [1.0, part, part * part];
+        for (part, expected) in [(0.7, 0.49), (0.5, 0.25), (0.3, 0.21)] {
+            let [first, second, third] = errors(part);
+            let changes = [first - second, second - third];
+            let rest = still_to_come(changes[1], Some(changes[0]));
+            assert_relative_eq!(rest, expected, max_relative = 1e-12);
+        }
+        assert_relative_eq!(still_to_come(1.0, None), 2.0, max_relative = 1e-12);
+        assert!(still_to_come(1.0, Some(0.5)) < 10.0, "it grows");
+    }
 }
