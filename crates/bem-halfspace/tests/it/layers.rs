@@ -85,7 +85,7 @@ fn material(poisson_ratio: f64) -> Compressible {
 fn pressing_agrees_with_an_integral_equation() {
     for nu in [0.0, 0.45, 0.5] {
         let bonded = BondedLayer::new(1.0, nu).unwrap();
-        for a in [0.05, 1.0, 20.0] {
+        for a in [0.05, 1.0, 10.0] {
             let punch = FlatPunch::new(a).unwrap();
             let bodies: [(&str, &dyn Axisymmetric, f64); 3] = [
                 ("paraboloid", &paraboloid(1.0), 2e-4),
@@ -217,7 +217,7 @@ fn a_thick_layer_is_a_half_space() {
     let dashpot = viscous(1.0);
     let flowing = |thickness: f64| {
         let layer = Layer::new(&dashpot, thickness).unwrap();
-        steady(&body, &layer, &load, 3e-5).unwrap()
+        steady(&body, &layer, &load, 1e-4).unwrap()
     };
     let [half_space, thinner, thicker] = [f64::INFINITY, 6.0, 12.0].map(flowing);
     let friction = half_space.friction_coefficient.value;

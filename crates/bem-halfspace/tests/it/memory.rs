@@ -29,21 +29,21 @@ fn stated_memory_is_what_a_solution_takes() {
     let pressing = PressingLoad::new(pressing, 1.0).expect("a valid load");
     let [body, sharp] = [paraboloid(0.3), cone(0.3)];
     let whole = Unmirrored(&body);
-    let [few, forty, more] = [12, 40, 160].map(Accuracy::Elements);
+    let [few, some, more] = [8, 28, 96].map(Accuracy::Elements);
     let materials = every_kind_of_material().into_iter();
     for (name, material) in materials.filter(|(name, _)| name.starts_with(['e', 'v', 't'])) {
         let material = &*material;
-        let stated = steady_memory(&body, &material, &load, 40);
-        let solve = || steady(&body, &material, &load, forty);
+        let stated = steady_memory(&body, &material, &load, 28);
+        let solve = || steady(&body, &material, &load, some);
         check(("steady", name), stated, solve);
-        let stated = steady_memory(&whole, &material, &load, 40);
-        let solve = || steady(&whole, &material, &load, forty);
+        let stated = steady_memory(&whole, &material, &load, 28);
+        let solve = || steady(&whole, &material, &load, some);
         check(("whole", name), stated, solve);
-        let stated = indent_memory(&body, &material, &pressing, 160);
+        let stated = indent_memory(&body, &material, &pressing, 96);
         let solve = || indent(&body, &material, &pressing, more);
         check(("indent", name), stated, solve);
         let load = after(load, 30.0);
-        let stated = slide_memory(&sharp, &material, &load, 12);
+        let stated = slide_memory(&sharp, &material, &load, 8);
         let solve = || slide(&sharp, &material, &load, few);
         check(("slide", name), stated, solve);
     }

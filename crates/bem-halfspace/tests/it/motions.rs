@@ -56,16 +56,16 @@ fn a_long_path_ends_in_steady_sliding() {
 #[test]
 fn bars_of_coarse_grids_hold_finer_cycles() {
     for (length, frequency, control) in [
-        (5e-3, 2.0, Control::NormalForce(FORCE)),
+        (3e-3, 2.0, Control::NormalForce(FORCE)),
         (5e-4, 10.0, Control::NormalForce(FORCE)),
-        (2e-3, 5.0, Control::IndentationDepth(1e-4)),
+        (1.5e-3, 5.0, Control::IndentationDepth(1e-4)),
     ] {
         let motion = to_and_fro(length, frequency, control);
         let on = |elements| {
             move_along(&ball(), &rubber(), &motion, Accuracy::Elements(elements)).expect("a cycle")
         };
-        let fine = on(16);
-        for elements in [8, 12] {
+        let fine = on(12);
+        for elements in [8, 10] {
             let coarse = on(elements);
             for (name, coarse, fine) in [
                 (

@@ -123,7 +123,7 @@ fn bars_of_coarse_grids_hold_finer_cycles() {
         (0.1, 0.02, Shape::Sinusoidal),
         (0.1, 0.5, Shape::Triangular),
         (0.3, 0.5, Shape::Sinusoidal),
-        (0.8, 3.0, Shape::Sinusoidal),
+        (0.8, 2.5, Shape::Sinusoidal),
     ] {
         let stroke = Stroke {
             length,
@@ -135,7 +135,7 @@ fn bars_of_coarse_grids_hold_finer_cycles() {
             let accuracy = Accuracy::Elements(elements);
             periodic::move_along(&surface, &rubber(), &load, accuracy).expect("a cycle")
         };
-        let [coarse, fine] = [40, 56].map(on);
+        let [coarse, fine] = [32, 48].map(on);
         let what = (mean_pressure, stroke);
         assert_bars_agree(what, coarse.friction_coefficient, fine.friction_coefficient);
         assert_bars_agree(what, coarse.peak_friction, fine.peak_friction);

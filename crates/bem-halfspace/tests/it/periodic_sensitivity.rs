@@ -268,7 +268,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
     let ones = [1.0; 9];
     let near = {
         let (surface, material) = (case.surface(&ones), case.material(&ones));
-        PeriodicSensitivity::new(&surface, &material, &case.load(&ones), &start([256; 2]))
+        PeriodicSensitivity::new(&surface, &material, &case.load(&ones), &start([192; 2]))
     };
     let near = near.expect("derivatives");
     let area = |factors: &Factors| {
@@ -277,7 +277,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
             &surface,
             &material,
             &case.load(factors),
-            Accuracy::Elements(512),
+            Accuracy::Elements(384),
         );
         let [length, width] = surface.period();
         found.expect("an answer").area_fraction * (length * width)

@@ -345,7 +345,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(fixed_cases(1000))]
+        #![proptest_config(fixed_cases(400))]
 
         /// After a higher pressure the contact is no smaller than if the lower one had been there for all the time (Li, Brenner
         /// and Frérot 2025), on any surface and any linear viscoelastic material.

@@ -599,9 +599,9 @@ mod tests {
             };
             let load = MovingLoad::reciprocating(Control::NormalForce(0.2), stroke);
             let load = load.expect("a motion");
-            let [coarse, fine] = [24, 48].map(|elements| heat(&load, elements));
+            let [coarse, fine] = [20, 40].map(|elements| heat(&load, elements));
             let heat = Estimate::new(2.0 * fine - coarse, (fine - coarse).abs());
-            let cycle = move_along(&surface(), &rubber(), &load, Accuracy::Elements(48));
+            let cycle = move_along(&surface(), &rubber(), &load, Accuracy::Elements(36));
             let energy = cycle.expect("a cycle").dissipated_energy.expect("energy");
             let (apart, bars) = ((energy.value - heat.value).abs(), energy.error + heat.error);
             assert!(apart <= bars, "{stroke:?}: {energy:?}, {heat:?}");
