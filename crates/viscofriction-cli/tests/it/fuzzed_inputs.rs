@@ -193,7 +193,7 @@ fn mutated_tables_are_accepted_or_refused_with_file_and_line() {
         (InputKind::Friction, &[friction], 0.06..=0.9),
     ] {
         let check = |file: &Path, contents: &[u8]| oracle::check(kind, file, contents);
-        fuzz(&format!("{kind:?}"), files, cases(4_000), usual, check);
+        fuzz(&format!("{kind:?}"), files, cases(2_000), usual, check);
     }
 }
 

@@ -154,20 +154,24 @@ fn derivatives_are_the_slopes_between_answers() {
             "indenter.sphere.radius = 5e-3\nlayer.thickness = 2e-3\nmaterial.standard-solid = {{ equilibrium_modulus = 1e6, \
              maxwell_modulus = {:?}, viscosity = 1e4 }}\nload = {{ {load} = {value:?}, velocity = 0.05 }}\n{}",
             number * 1e7,
-            "solve.relative_error = 1e-3"
+            "solve.relative_error = 2e-3"
         )
     };
     for (load, value) in [("normal_force", 2.0), ("indentation_depth", 5e-5)] {
         let factor = STEP.exp();
-        for (parameter, ends) in [
+        let start = answered(&scene(load, 1.0, value));
+        for (parameter, end) in [
             (
                 "material.standard-solid.maxwell_modulus",
-                [[1.0, 1.0], [factor, 1.0]],
+                scene(load, factor, value),
             ),
-            (&format!("load.{load}")[..], [[1.0, 1.0], [1.0, factor]]),
+            (
+                &format!("load.{load}")[..],
+                scene(load, 1.0, factor * value),
+            ),
         ] {
-            let found = ends
-                .map(|[modulus, load_factor]| answered(&scene(load, modulus, load_factor * value)));
+            let end = answered(&end);
+            let found = [&start, &end];
             let quantities: [fn(&Answer) -> Estimate; 2] = [
                 |answer| answer.friction_coefficient.expect("a friction"),
                 |answer| match answer.indentation_depth {
@@ -176,10 +180,10 @@ fn derivatives_are_the_slopes_between_answers() {
                 },
             ];
             for (index, quantity) in quantities.into_iter().enumerate() {
-                let [from, to] = found.each_ref().map(|(answer, _)| quantity(answer));
+                let [from, to] = found.map(|(answer, _)| quantity(answer));
                 let slope = (to.value / from.value).ln() / STEP;
                 let of_answers = (from.error / from.value + to.error / to.value) / STEP;
-                let derivatives = found.each_ref().map(|(_, known)| {
+                let derivatives = found.map(|(_, known)| {
                     let one = of(known.as_ref().expect("derivatives"), parameter);
                     let other = one.indentation_depth.or(one.normal_force);
                     [one.friction_coefficient, other][index].expect("a derivative")
