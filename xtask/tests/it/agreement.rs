@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use crate::support::Evidence;
 
-/// The command fails where a relation that holds to rounding does not, or bars hold too seldom.
+/// The command fails where a relation that holds to rounding does not, or bars hold too seldom. The seed has all kinds of scenes, and
+/// none that takes long.
 #[test]
 fn answers_do_not_contradict_each_other() {
-    let evidence = Evidence::quick("agreement", "agreement");
+    let evidence = Evidence::quick("agreement", "agreement --seed 3");
     let rows = evidence.rows("agreement");
     let column = |name: &str| {
         rows.iter()

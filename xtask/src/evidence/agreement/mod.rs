@@ -24,6 +24,8 @@ const SCENES: usize = 5000;
 const QUICK_SCENES: usize = 30;
 /// Half the decades of the distances from first touch in a quick run.
 const QUICK_DISTANCES: f64 = 0.2;
+/// Memory of one solution in a quick run, which bounds the size of its scenes.
+const QUICK_MEMORY: &str = "16 MiB";
 /// Errors that are asked for in a quick run: smaller ones refine further, in the same way.
 const QUICK_ERRORS: [f64; 1] = [0.1];
 /// Part of the comparisons that may be outside the sum of the bars, and by how many of these sums at most.
@@ -40,6 +42,7 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
     if quick {
         source.range.distances = QUICK_DISTANCES;
         source.range.errors = QUICK_ERRORS.into();
+        QUICK_MEMORY.clone_into(&mut source.range.memory);
     }
     let file = out.join("agreement.csv");
     let rows = file.exists().then(|| read_csv(&file)).transpose()?;

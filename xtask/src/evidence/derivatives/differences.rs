@@ -37,6 +37,8 @@ pub(super) struct Asked {
     /// Scenes from which those are taken.
     pub(super) scenes: usize,
     quick: Quick,
+    /// Memory of an answer, if not as much as the scene allows.
+    memory: Option<String>,
     /// Memory of an answer that is differenced, if not as much as of the one that is differentiated.
     reference_memory: Option<String>,
 }
@@ -45,6 +47,7 @@ pub(super) struct Asked {
 #[derive(Debug, Clone, Deserialize)]
 struct Quick {
     scenes: usize,
+    memory: Option<String>,
     reference_memory: String,
 }
 
@@ -203,6 +206,7 @@ impl Asked {
     /// Asks what a quick run does.
     pub(super) fn be_quick(&mut self) {
         self.scenes = self.quick.scenes;
+        self.memory.clone_from(&self.quick.memory);
         self.reference_memory = Some(self.quick.reference_memory.clone());
     }
 
@@ -211,6 +215,9 @@ impl Asked {
         scene.solve.method = Some(self.method);
         scene.solve.model = Some(self.model);
         scene.solve.relative_error = Some(relative_error);
+        if self.memory.is_some() {
+            scene.solve.max_memory.clone_from(&self.memory);
+        }
         scene
     }
 
