@@ -22,7 +22,7 @@ use crate::{BemError, Elastomer, GridOptions, Reached};
 
 /// Elements along the contact on which a relative error is first sought. The work grows with the third power of them, and most
 /// strokes reach two per cent on these (docs/theory/transient-half-space.md).
-const FIRST_ELEMENTS: usize = 8;
+const FIRST_ELEMENTS_OF_MOTION: usize = 8;
 /// Elements along the contact after which a motion is given up; a cycle takes about a minute.
 const LARGEST_GRID: usize = 48;
 /// Order of the error, at least.
@@ -86,7 +86,7 @@ pub fn move_along<'w>(
     let problem = Moving::new(surface, elastomer, load, request.accuracy)?;
     let goal = Goal {
         request,
-        first: FIRST_ELEMENTS,
+        first: FIRST_ELEMENTS_OF_MOTION,
         largest: LARGEST_GRID,
         order: order_of_friction(problem.plan.apex_exponent, ORDER),
         work: WORK,

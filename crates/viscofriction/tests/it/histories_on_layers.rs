@@ -114,3 +114,23 @@ fn a_thick_layer_is_the_half_space() {
         }
     }
 }
+
+/// Relaxation times over six decades within the one interval of a history, in which errors by the steps in time fall more slowly
+/// than their order says; scene 36 of `cargo xtask evidence agreement --seed 20261213`.
+#[test]
+fn the_bar_of_a_springpot_holds_on_few_steps() {
+    let text = "indenter.cone.slope = 0.029189057825337362\n\
+        layer.thickness = 140730742.01693648\nsolve.relative_error = 0.1\n\
+        [material.springpot]\ncoefficient = 1.760994856448425e-15\nexponent = 0.38212923088485745\n\
+        equilibrium_modulus = 8.391053445477731e-17\ntime_range = [548.8869871669446, 548886987.1669445]\n\
+        poisson_ratio = -0.11694634620543654\n\
+        [load]\nhistory = [{ time = 0.0, indentation_depth = 0.0 }, { time = 329939.44005375425, indentation_depth = 1847119.4930112348 }]";
+    let scene: Scene = text.parse().expect("a scene");
+    let [theory, elements] =
+        [None, Some(Method::BemTransient)].map(|method| solved(&scene, method).normal_force);
+    let off = (theory.value - elements.value).abs();
+    assert!(
+        off <= theory.error + elements.error,
+        "{theory:?} and {elements:?}"
+    );
+}

@@ -9,12 +9,14 @@ use rheology::{CreepSpectrum, Material as _};
 use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Part of a change by halving the steps that the next one is assumed to be at least: that of errors of the first order.
-const FASTEST: f64 = 0.5;
-/// The same where only one change is known; it makes the error twice that change.
-const UNKNOWN: f64 = 2.0 / 3.0;
-/// The same at most: changes that hardly fall say nothing of their sum, and nine of them are more than any error asked for.
-const SLOWEST: f64 = 0.9;
+/// Ratio of two changes by halving the steps where the error is of the first order in their length. Smaller ratios count as this
+/// one, because two changes may agree by chance.
+const RATIO_OF_FIRST_ORDER: f64 = 0.5;
+/// Ratio that is assumed where only one change is known; the error is then twice that change.
+const ASSUMED_RATIO: f64 = 2.0 / 3.0;
+/// Larger ratios count as this one; the error is then nine times the last change. Changes no longer fall where they are those that
+/// the tolerance of the contact leaves.
+const LARGEST_RATIO: f64 = 0.9;
 
 /// How exactly a history is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -124,18 +126,20 @@ pub(super) fn refined(
     }
 }
 
-/// Sum of all changes by halving the steps after the last one, if each of them is the same part of the one before; where there
-/// was none before the last one, and where they fall faster than the second order lets them, with parts that are assumed.
+/// Sum of the changes by halving the steps that are still to come after the last one, as a geometric series whose ratio is that of
+/// the last change to the one before it.
 ///
-/// Where a material relaxes over many decades within one interval, changes fall slower than the order of the steps until its
-/// fast elements are resolved.
+/// Where a material relaxes over many decades within one interval, changes fall more slowly than the order of the steps says,
+/// until its fast elements are resolved.
 fn still_to_come(change: f64, before: Option<f64>) -> f64 {
-    let part = match before {
-        Some(before) if before > 0.0 => (change / before).clamp(FASTEST, SLOWEST),
-        Some(_) => FASTEST,
-        None => UNKNOWN,
+    let ratio = match before {
+        Some(before) if before > 0.0 => {
+            (change / before).clamp(RATIO_OF_FIRST_ORDER, LARGEST_RATIO)
+        }
+        Some(_) => RATIO_OF_FIRST_ORDER,
+        None => ASSUMED_RATIO,
     };
-    change * part / (1.0 - part)
+    change * ratio / (1.0 - ratio)
 }
 
 /// From each of the times, and zero, to the next.
@@ -214,6 +218,6 @@ mod tests {
             assert_relative_eq!(rest, expected, max_relative = 1e-12);
         }
         assert_relative_eq!(still_to_come(1.0, None), 2.0, max_relative = 1e-12);
-        assert!(still_to_come(1.0, Some(0.5)) < 10.0, "it grows");
+        assert_relative_eq!(still_to_come(1.0, Some(0.5)), 9.0, max_relative = 1e-12);
     }
 }
