@@ -16,7 +16,7 @@ use crate::figures;
 use cargo::Cargo;
 pub(crate) use dependencies::{Dependencies, write as write_dependencies};
 pub(crate) use release::release;
-use workspace::{Workspace, check_lengths};
+use workspace::Workspace;
 
 /// What is published.
 const PACKAGES: &str = "--workspace --exclude xtask --exclude benches --exclude casebook --exclude viscofriction-python";
@@ -33,7 +33,6 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
     let workspace = Workspace::read()?;
     let all = "--release --workspace --all-features";
     step("format", || cargo.run("fmt --all --check"))?;
-    step("length of files", check_lengths)?;
     step("dependencies", || dependencies::check(&workspace))?;
     step("clippy", || {
         cargo.run(&format!("clippy {all} --all-targets -- --deny=warnings"))

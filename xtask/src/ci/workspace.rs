@@ -1,16 +1,11 @@
-//! What `cargo metadata` says about the workspace, and how long its files are.
+//! What `cargo metadata` says about the workspace.
 
-use std::fs;
 use std::path::PathBuf;
-use std::process::Command;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 use serde::Deserialize;
 
-use super::cargo::{cargo_output, workspace_root};
-
-/// Files are split before they get longer; their unit tests do not count.
-const MOST_LINES: usize = 500;
+use super::cargo::cargo_output;
 
 /// The published crates of the workspace, as cargo knows them.
 #[derive(Debug, Deserialize)]
@@ -90,22 +85,4 @@ impl Package {
         let optional = names(|own| own.optional);
         format!("| `{}` | {ours} | {tests} | {optional} |\n", self.name)
     }
-}
-
-/// Checks how long files are; the error lists all that are too long.
-pub(super) fn check_lengths() -> Result<()> {
-    let mut git = Command::new("git");
-    git.args(["ls-files", "*.rs"]).current_dir(workspace_root());
-    let files = String::from_utf8(git.output().context("git ls-files")?.stdout)?;
-    let mut long = String::new();
-    for file in files.lines() {
-        let text = fs::read_to_string(workspace_root().join(file)).context(file.to_owned())?;
-        let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-        let lines = code.lines().count();
-        if lines > MOST_LINES {
-            long += &format!("\n{file} has {lines} lines without unit tests");
-        }
-    }
-    ensure!(long.is_empty(), "{long}");
-    Ok(())
 }
