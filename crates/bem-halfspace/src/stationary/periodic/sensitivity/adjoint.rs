@@ -4,7 +4,9 @@ use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
 use crate::elements::area;
-use crate::elements::rim::{Measure, RATIO, Rim, RimField};
+use crate::elements::contact_boundary::{
+    BoundaryDerivatives, BoundaryField, ContactBoundary, LOAD_GAP_RATIO,
+};
 use crate::parallel::reductions::dot;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
@@ -93,7 +95,7 @@ impl Adjoint<'_> {
 
     /// The logarithm of the area by the pressures in contact and the gaps beside it, and by the bend of the kernel along each
     /// axis.
-    fn area(&mut self) -> Measure {
+    fn area(&mut self) -> BoundaryDerivatives {
         let kernel = &mut self.equations.kernel;
         let [mut moved, mut heights] = [0; 2].map(|_| vec![0.0; self.pressure.len()]);
         kernel.displace(&self.pressure, &mut moved);
@@ -108,23 +110,25 @@ impl Adjoint<'_> {
             _ => gap - sum / n,
         });
         let [dx, dy] = self.grid.spacing();
-        let field = RimField {
+        let field = BoundaryField {
             shape: self.grid.shape(),
-            wraps: true,
+            is_periodic: true,
             aspect: dy / dx,
             values: values.collect(),
             inside,
         };
         kernel.displace(&first_of(self.pressure.len()), &mut moved);
         let bend = [0, 1].map(|axis| dot(&moved, &self.bend(axis)));
-        let mut measure = Rim::new(&field, |side| RATIO / bend[side.axis]).area;
+        let mut measure =
+            ContactBoundary::new(&field, |side| LOAD_GAP_RATIO / bend[side.axis]).area;
         let area =
             area::of_period(field.shape[1], &self.pressure).area * self.pressure.len() as f64;
         measure
             .by_values
             .iter_mut()
             .for_each(|value| *value /= area);
-        measure.by_bend = [0, 1].map(|axis| measure.by_bend[axis] / (area * bend[axis]));
+        measure.by_second_difference =
+            [0, 1].map(|axis| measure.by_second_difference[axis] / (area * bend[axis]));
         measure
     }
 
@@ -144,7 +148,7 @@ impl Adjoint<'_> {
     /// The derivatives of the area, and those by what the bend of the kernel is made of.
     fn of_area(
         &mut self,
-        measure: &Measure,
+        measure: &BoundaryDerivatives,
         shares: &[f64],
         lifted: &[f64],
         total: f64,
@@ -166,7 +170,7 @@ impl Adjoint<'_> {
         let mut area = self.gradient([by_gaps, by_pressures], lifted, total)?;
         let [along_x, along_y] = [0, 1].map(|axis| self.bend(axis));
         let pairs = along_x.iter().zip(&along_y);
-        let [by_x, by_y] = measure.by_bend;
+        let [by_x, by_y] = measure.by_second_difference;
         let bend: Vec<f64> = pairs.map(|(x, y)| by_x * x + by_y * y).collect();
         let by_bend = self.by_heights(&turned(&bend, self.grid));
         let lifted = self.lifted(&first_of(bend.len()));

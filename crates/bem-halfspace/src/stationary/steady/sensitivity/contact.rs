@@ -33,7 +33,7 @@ pub(super) struct Adjoint {
     pub(super) friction: Vec<f64>,
     /// For a unit depth.
     pub(super) depth: Vec<f64>,
-    /// For the derivatives of the area and of the growth, see [`crate::elements::rim`]; none under a body with edges.
+    /// For the derivatives of the area and of the growth, see [`crate::elements::contact_boundary`]; none under a body with edges.
     pub(super) measures: Vec<Vec<f64>>,
 }
 

@@ -20,7 +20,7 @@
 //! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dG/dθ)/(∂G/∂ln λ)
 //! ```
 //!
-//! with a measure G of how much the rim moves, weighted as what is left undone there is, `elements/rim.rs`. The area is a sum over the
+//! with a measure G of how much the rim moves, weighted as what is left undone there is, `elements/contact_boundary.rs`. The area is a sum over the
 //! rim, too, whose derivative is divided by that of the dilation and multiplied by 2. Then all derivatives add up in units of length, as
 //! they do in those of stress and time without it.
 

@@ -1,8 +1,10 @@
-//! The rim of a contact by its elements, see [`crate::elements::rim`].
+//! The rim of a contact by its elements, see [`crate::elements::contact_boundary`].
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
-use crate::elements::rim::{Measure, RATIO, Rim, RimField, Side};
+use crate::elements::contact_boundary::{
+    BoundaryDerivatives, BoundaryField, BoundaryPair, ContactBoundary, LOAD_GAP_RATIO,
+};
 use crate::stationary::steady::filter::Product;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
@@ -51,19 +53,19 @@ impl ContactRim {
         let bounds = around.bounds();
         let field = around.field(&bounds, loads, gaps.collect());
         let bend = [0, 1].map(|axis| mesh.bend(axis));
-        let usual = |side: Side| RATIO / bend[side.axis];
+        let usual = |side: BoundaryPair| LOAD_GAP_RATIO / bend[side.axis];
         let rim = if mesh.loading.is_strip {
             // Each end has but one element on either side, which a ratio of others would misplace.
             let lowered = around.lowered(plans, &bounds)?;
-            Rim::new(&field, |side| {
-                let ratio = lowered[side.inside] / lowered[side.beside];
+            ContactBoundary::new(&field, |side| {
+                let ratio = lowered[side.inside] / lowered[side.outside];
                 if ratio > 0.0 { ratio } else { usual(side) }
             })
         } else {
-            Rim::new(&field, usual)
+            ContactBoundary::new(&field, usual)
         };
-        let [area, growth] =
-            [rim.area, rim.growth].map(|measure| around.of_elements(&bounds, measure, bend));
+        let [area, growth] = [rim.area, rim.boundary_weight]
+            .map(|measure| around.of_elements(&bounds, measure, bend));
         Ok(Self {
             beside: around.beside,
             area,
@@ -123,10 +125,10 @@ impl<'a> Surroundings<'a> {
         Bounds::of(places).unwrap_or(Bounds::EMPTY)
     }
 
-    fn field(&self, bounds: &Bounds, loads: &[f64], gaps: Vec<f64>) -> RimField {
-        let mut field = RimField {
+    fn field(&self, bounds: &Bounds, loads: &[f64], gaps: Vec<f64>) -> BoundaryField {
+        let mut field = BoundaryField {
             shape: bounds.shape(),
-            wraps: false,
+            is_periodic: false,
             aspect: self.mesh.aspect(),
             inside: vec![false; bounds.n_elements()],
             values: vec![f64::NAN; bounds.n_elements()],
@@ -152,7 +154,12 @@ impl<'a> Surroundings<'a> {
         Ok(self.field(bounds, &loads, falls).values)
     }
 
-    fn of_elements(&self, bounds: &Bounds, measure: Measure, bend: [f64; 2]) -> OfElements {
+    fn of_elements(
+        &self,
+        bounds: &Bounds,
+        measure: BoundaryDerivatives,
+        bend: [f64; 2],
+    ) -> OfElements {
         let of = |elements: &[usize]| -> Vec<f64> {
             let place = |&element: &usize| bounds.place(self.mesh.places(element)[0]);
             let values = elements.iter().map(|one| measure.by_values[place(one)]);
@@ -161,7 +168,7 @@ impl<'a> Surroundings<'a> {
         OfElements {
             by_loads: of(self.contact),
             by_gaps: of(&self.beside),
-            by_bend: [0, 1].map(|axis| measure.by_bend[axis] / bend[axis]),
+            by_bend: [0, 1].map(|axis| measure.by_second_difference[axis] / bend[axis]),
         }
     }
 }
