@@ -93,7 +93,7 @@ impl Footprint {
         let length = half_length(height)?;
         // In front of a wall no length is left for the rim.
         let exponent = (LN_2 / (half_length(2.0 * height)? / length).ln()).min(8.0);
-        Ok(base.rise(length, exponent) * height)
+        Ok(base.pile_up_factor(length, exponent) * height)
     }
 
     /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends

@@ -17,7 +17,7 @@ use numerics::{InvalidParameter, in_range, positive};
 use rheology::Material;
 
 use crate::influence;
-use crate::substrate::correction::{Correction, SHORTEST_WAVE};
+use crate::substrate::correction::{Correction, MAX_WAVE_NUMBER};
 use crate::substrate::rectangle::integrate_smooth;
 
 /// What a surface is pressed into: every [`Material`] stands for a half space, and [`Layer`](crate::Layer) puts a layer of it
@@ -54,18 +54,18 @@ pub trait Substrate: Debug + Send + Sync {
     fn compliance_ratio(&self, s: f64, poisson_ratio: f64) -> f64;
 
     /// M − 1; to be given where that cancels and more than 1e-12 of the displacement is wanted.
-    fn excess(&self, s: f64, poisson_ratio: f64) -> f64 {
+    fn compliance_excess(&self, s: f64, poisson_ratio: f64) -> f64 {
         self.compliance_ratio(s, poisson_ratio) - 1.0
     }
 
     /// Limit of t M(s)/s for long waves, in the unit in which the thickness t is given here: by how much the mean pressure
     /// moves the surface, times E*/2. Infinite, as it is by default, unless the whole rests on something rigid.
-    fn mean(&self, _thickness: f64, _poisson_ratio: f64) -> f64 {
+    fn uniform_compliance(&self, _thickness: f64, _poisson_ratio: f64) -> f64 {
         f64::INFINITY
     }
 
     /// Distance beyond which a load moves nothing, in thicknesses; infinite by default, with which all is right but slower.
-    fn reach(&self) -> f64 {
+    fn influence_radius(&self) -> f64 {
         f64::INFINITY
     }
 }
@@ -73,43 +73,43 @@ pub trait Substrate: Debug + Send + Sync {
 /// What the material of a surface lies on: itself, as a half space, which is the default, or a [`Substrate`], with the
 /// table of its potential, which is made when it is first needed and shared by all clones.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Base(Option<Finite>);
+pub struct Base(Option<LayeredBase>);
 
 /// A substrate, with the thickness of the layer on it in the unit of the lengths of a grid.
 #[derive(Debug, Clone)]
-struct Finite {
+struct LayeredBase {
     thickness: f64,
-    known: Arc<Known>,
+    shared: Arc<TabulatedSubstrate>,
 }
 
 #[derive(Debug)]
-struct Known {
+struct TabulatedSubstrate {
     substrate: Box<dyn Substrate>,
     poisson_ratio: f64,
     correction: OnceLock<Correction>,
 }
 
-impl PartialEq for Finite {
+impl PartialEq for LayeredBase {
     fn eq(&self, other: &Self) -> bool {
         let is_as_thick = self.thickness.total_cmp(&other.thickness).is_eq();
-        is_as_thick && Arc::ptr_eq(&self.known, &other.known)
+        is_as_thick && Arc::ptr_eq(&self.shared, &other.shared)
     }
 }
 
-impl Finite {
-    fn ratio(&self, s: f64) -> f64 {
-        self.known
+impl LayeredBase {
+    fn compliance_ratio(&self, s: f64) -> f64 {
+        self.shared
             .substrate
-            .compliance_ratio(s, self.known.poisson_ratio)
+            .compliance_ratio(s, self.shared.poisson_ratio)
     }
 
-    fn mean(&self) -> f64 {
-        let Known {
+    fn uniform_compliance(&self) -> f64 {
+        let TabulatedSubstrate {
             substrate,
             poisson_ratio,
             ..
-        } = &*self.known;
-        substrate.mean(self.thickness, *poisson_ratio)
+        } = &*self.shared;
+        substrate.uniform_compliance(self.thickness, *poisson_ratio)
     }
 }
 
@@ -128,34 +128,34 @@ impl Base {
             let ratio = substrate.compliance_ratio(f64::from(power).exp2(), poisson_ratio);
             positive("compliance ratio of a wave", ratio)?;
         }
-        let short = substrate.compliance_ratio(SHORTEST_WAVE, poisson_ratio);
+        let short = substrate.compliance_ratio(MAX_WAVE_NUMBER, poisson_ratio);
         let allowed = "1 within 1e-12 for waves of a quarter of the thickness (s = 24)";
         let is_half_space = (short - 1.0).abs() <= 1e-12;
         in_range("compliance ratio of a wave", short, is_half_space, allowed)?;
-        let known = Known {
+        let shared = TabulatedSubstrate {
             substrate: Box::new(substrate),
             poisson_ratio,
             correction: OnceLock::new(),
         };
-        Ok(Self(Some(Finite {
+        Ok(Self(Some(LayeredBase {
             thickness,
-            known: Arc::new(known),
+            shared: Arc::new(shared),
         })))
     }
 
     /// The same with lengths in edges of an element; refuses a layer that is thinner by far.
     pub(crate) fn in_units_of(&self, edge: f64) -> Result<Self, InvalidParameter> {
-        let Some(finite) = self.0.clone() else {
+        let Some(layered) = self.0.clone() else {
             return Ok(Self(None));
         };
-        let is_resolved = finite.thickness >= edge / LONGEST_EDGE;
+        let is_resolved = layered.thickness >= edge / MAX_EDGE_OVER_THICKNESS;
         let allowed = "at least 1/32 of the edge of an element (below about 1/150 of the contact a layer is a Winkler \
                        foundation, or where it is incompressible a film)";
-        in_range("thickness", finite.thickness, is_resolved, allowed)?;
-        let thickness = finite.thickness / edge;
-        Ok(Self(Some(Finite {
+        in_range("thickness", layered.thickness, is_resolved, allowed)?;
+        let thickness = layered.thickness / edge;
+        Ok(Self(Some(LayeredBase {
             thickness,
-            ..finite
+            ..layered
         })))
     }
 
@@ -174,44 +174,49 @@ impl Base {
     pub(crate) fn is_rigid(&self) -> bool {
         self.0
             .as_ref()
-            .is_some_and(|finite| finite.mean().is_finite())
+            .is_some_and(|layered| layered.uniform_compliance().is_finite())
     }
 
     /// Thickness of the layer of the material; infinite for a half space.
     pub(crate) fn thickness(&self) -> f64 {
         self.0
             .as_ref()
-            .map_or(f64::INFINITY, |finite| finite.thickness)
+            .map_or(f64::INFINITY, |layered| layered.thickness)
     }
 
     /// M(s) for a wave of the wave number s over the thickness.
-    pub(crate) fn ratio(&self, s: f64) -> f64 {
-        self.0.as_ref().map_or(1.0, |finite| finite.ratio(s))
+    pub(crate) fn compliance_ratio(&self, s: f64) -> f64 {
+        self.0
+            .as_ref()
+            .map_or(1.0, |layered| layered.compliance_ratio(s))
     }
 
     /// |q|/M(|q|t), the |q| > 0 of the wave that a half space would resist as much.
     pub(crate) fn stiffness(&self, wave_number: f64) -> f64 {
-        self.0.as_ref().map_or(wave_number, |finite| {
-            wave_number / finite.ratio(wave_number * finite.thickness)
+        self.0.as_ref().map_or(wave_number, |layered| {
+            wave_number / layered.compliance_ratio(wave_number * layered.thickness)
         })
     }
 
     /// The same, and for waves longer than about the thickness that of a wave as long: what an incompressible layer resists in
     /// longer ones depends on the load around, which it is squeezed out under.
     pub(crate) fn local_stiffness(&self, wave_number: f64) -> f64 {
-        let longest = self.0.as_ref().map_or(0.0, |finite| 2.0 / finite.thickness);
+        let longest = self
+            .0
+            .as_ref()
+            .map_or(0.0, |layered| 2.0 / layered.thickness);
         self.stiffness(wave_number.max(longest))
     }
 
     /// M/|q| of the mean: by how much a layer on a rigid base gives way under a load that is the same everywhere; 0 where
     /// displacements are measured from their mean because that would be infinite.
-    pub(crate) fn mean(&self) -> f64 {
-        let mean = self.0.as_ref().map(Finite::mean);
+    pub(crate) fn uniform_compliance(&self) -> f64 {
+        let mean = self.0.as_ref().map(LayeredBase::uniform_compliance);
         mean.filter(|mean| mean.is_finite()).unwrap_or(0.0)
     }
 
     /// By how much softer than a half space the base is under a load of about that length.
-    pub(crate) fn softness(&self, length: f64) -> f64 {
+    pub(crate) fn compliance_ratio_under_punch(&self, length: f64) -> f64 {
         // A Winkler foundation gives way under a flat punch of that radius by as much.
         let wave_number = FRAC_PI_4.recip() / length;
         wave_number / self.stiffness(wave_number)
@@ -220,28 +225,28 @@ impl Base {
     /// Where contact may occur over about that length from the middle of a body h ∼ r^p, as a multiple of the heights where a
     /// half space may be touched: a thin layer that hardly shrinks rises around the contact, and meets the body up to the
     /// height (1 + p/2) d where it does not shrink at all.
-    pub(crate) fn rise(&self, half_length: f64, exponent: f64) -> f64 {
-        self.0.as_ref().map_or(1.0, |finite| {
-            let slenderness = (half_length / finite.thickness / SLENDER).min(1.0);
-            let shrinks = (10.0 * (0.5 - finite.known.poisson_ratio)).clamp(0.0, 1.0);
-            1.0 + slenderness * (ROOM + 0.5 * exponent * (1.0 - shrinks))
+    pub(crate) fn pile_up_factor(&self, half_length: f64, exponent: f64) -> f64 {
+        self.0.as_ref().map_or(1.0, |layered| {
+            let slenderness = (half_length / layered.thickness / THIN_LAYER_RATIO).min(1.0);
+            let shrinks = (10.0 * (0.5 - layered.shared.poisson_ratio)).clamp(0.0, 1.0);
+            1.0 + slenderness * (PILE_UP_MARGIN + 0.5 * exponent * (1.0 - shrinks))
         })
     }
 
     /// Distance beyond which nothing moves.
-    pub(crate) fn reach(&self) -> f64 {
-        self.0.as_ref().map_or(f64::INFINITY, |finite| {
-            finite.known.substrate.reach() * finite.thickness
+    pub(crate) fn influence_radius(&self) -> f64 {
+        self.0.as_ref().map_or(f64::INFINITY, |layered| {
+            layered.shared.substrate.influence_radius() * layered.thickness
         })
     }
 
     /// Displacement by a uniformly loaded rectangle, as [`influence`].
     pub(crate) fn influence(&self, offset: [f64; 2], edges: [f64; 2]) -> f64 {
-        let Some(finite) = &self.0 else {
+        let Some(layered) = &self.0 else {
             return influence(offset, edges);
         };
         // Of the rectangle only what is not too far to move anything.
-        let reach = self.reach();
+        let reach = self.influence_radius();
         let [mut centre, mut seen] = [offset, edges];
         for axis in 0..2 {
             let half = 0.5 * edges[axis];
@@ -256,15 +261,15 @@ impl Base {
                 (centre[axis], seen[axis]) = (0.5 * (first + last), last - first);
             }
         }
-        let unit = finite.thickness;
-        let Known {
+        let unit = layered.thickness;
+        let TabulatedSubstrate {
             substrate,
             poisson_ratio,
             correction,
-        } = &*finite.known;
+        } = &*layered.shared;
         let table = correction.get_or_init(|| Correction::new(&**substrate, *poisson_ratio));
         let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
-        let smooth = integrate_smooth(SINGULAR, (offset, edges), &|x, y| {
+        let smooth = integrate_smooth(SINGULARITY_DISTANCE, (offset, edges), &|x, y| {
             table.at((x * x + y * y).sqrt())
         });
         influence(centre, seen) + unit * smooth
@@ -272,12 +277,12 @@ impl Base {
 }
 
 /// Edge of an element in thicknesses, at most.
-const LONGEST_EDGE: f64 = 32.0;
+const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
 /// From how many thicknesses on a layer is thin, and how much more room there is at its rim than that.
-const SLENDER: f64 = 5.0;
-const ROOM: f64 = 0.2;
+const THIN_LAYER_RATIO: f64 = 5.0;
+const PILE_UP_MARGIN: f64 = 0.2;
 /// Distance from 0 at which c is singular, along the imaginary axis.
-pub(super) const SINGULAR: f64 = 2.0;
+pub(super) const SINGULARITY_DISTANCE: f64 = 2.0;
 
 #[cfg(test)]
 mod tests {

@@ -17,71 +17,71 @@ use std::f64::consts::PI;
 use numerics::{LobattoRule, lobatto_rule, whole_part};
 
 use crate::Substrate;
-use crate::substrate::base::SINGULAR;
+use crate::substrate::base::SINGULARITY_DISTANCE;
 
 /// Where 1/ρ + c of a layer on a rigid base is below 1e-15 of 1; from here on c is found from long waves.
-pub(super) const REACH: f64 = 44.0;
+pub(super) const RIGID_BASE_INFLUENCE_RADIUS: f64 = 44.0;
 /// Where 1 − M is.
-pub(super) const SHORTEST_WAVE: f64 = 24.0;
+pub(super) const MAX_WAVE_NUMBER: f64 = 24.0;
 /// Panels and points of the integral over s: as many as follow J₀(sρ) up to the reach.
-const WAVE_PANELS: u8 = 8;
-const WAVE_POINTS: usize = 96;
+const NEAR_WAVE_PANELS: u8 = 8;
+const POINTS_PER_WAVE_PANEL: usize = 96;
 /// Length in distances to the singularities of the panels of ρ on which c is integrated, and of those on which it is kept;
 /// with as many coefficients as give 1e-12.
-const PANEL: f64 = 0.5;
-const TERMS: usize = 16;
-const SHORT_PANEL: f64 = 0.0625;
-const FEW_TERMS: usize = 6;
+const PANEL_OVER_SINGULARITY_DISTANCE: f64 = 0.5;
+const LONG_PANEL_TERMS: usize = 16;
+const SHORT_PANEL_LENGTH: f64 = 0.0625;
+const SHORT_PANEL_TERMS: usize = 6;
 
 /// Where the rest of c, like ρ^−3, is below rounding.
-const FARTHEST: f64 = 1e5;
-/// A and n, with which the last term and the transform of the window itself are below 1e-12, and the panels of u with [`WAVE_POINTS`] points each up to where the factor is below rounding.
-const WINDOW: f64 = 120.0;
+const TABLE_END: f64 = 1e5;
+/// A and n, with which the last term and the transform of the window itself are below 1e-12, and the panels of u with [`POINTS_PER_WAVE_PANEL`] points each up to where the factor is below rounding.
+const WINDOW_WAVE_NUMBER: f64 = 120.0;
 const WINDOW_POWER: i32 = 6;
-const FAR_PANELS: u8 = 9;
-const FAR_WAVE: f64 = 220.0;
+const FAR_WAVE_PANELS: u8 = 9;
+const FAR_MAX_WAVE_NUMBER: f64 = 220.0;
 
 /// c(ρ): on short panels of the same length up to the reach, then on longer and longer ones, and by its limit beyond.
 #[derive(Debug)]
 pub(super) struct Correction {
-    near: Vec<Panel<FEW_TERMS>>,
-    far: Vec<Panel<TERMS>>,
+    near: Vec<Panel<SHORT_PANEL_TERMS>>,
+    far: Vec<Panel<LONG_PANEL_TERMS>>,
     /// M(0) − 1.
     limit: f64,
 }
 
 impl Correction {
     pub(super) fn new(substrate: &dyn Substrate, poisson_ratio: f64) -> Self {
-        let waves: Vec<[f64; 2]> = wave_rule(WAVE_PANELS, SHORTEST_WAVE)
-            .map(|[s, weight]| [s, weight * substrate.excess(s, poisson_ratio)])
+        let waves: Vec<[f64; 2]> = wave_rule(NEAR_WAVE_PANELS, MAX_WAVE_NUMBER)
+            .map(|[s, weight]| [s, weight * substrate.compliance_excess(s, poisson_ratio)])
             .collect();
         let integral = |rho: f64| -> f64 {
             let waves = waves.iter().map(|[s, weight]| weight * libm::j0(s * rho));
             waves.sum()
         };
-        let panels = growing_panels([0.0, REACH], integral);
+        let panels = growing_panels([0.0, RIGID_BASE_INFLUENCE_RADIUS], integral);
         let value = |rho: f64| {
             let panel = panels.partition_point(|panel| panel.start <= rho);
             panels[panel.max(1) - 1].at(rho)
         };
-        let starts = (0..).map(|index| SHORT_PANEL * f64::from(index));
-        let starts = starts.take_while(|start| *start < REACH);
+        let starts = (0..).map(|index| SHORT_PANEL_LENGTH * f64::from(index));
+        let starts = starts.take_while(|start| *start < RIGID_BASE_INFLUENCE_RADIUS);
         Self {
             near: starts
-                .map(|start| Panel::new([start, SHORT_PANEL], value))
+                .map(|start| Panel::new([start, SHORT_PANEL_LENGTH], value))
                 .collect(),
             far: far_panels(substrate, poisson_ratio),
-            limit: substrate.excess(0.0, poisson_ratio),
+            limit: substrate.compliance_excess(0.0, poisson_ratio),
         }
     }
 
     pub(super) fn at(&self, rho: f64) -> f64 {
-        if let Some(panel) = self.near.get(whole_part(rho / SHORT_PANEL)) {
+        if let Some(panel) = self.near.get(whole_part(rho / SHORT_PANEL_LENGTH)) {
             return panel.at(rho);
         }
         let panel = self.far.partition_point(|panel| panel.start <= rho);
         let rest = match panel.checked_sub(1).map(|index| &self.far[index]) {
-            Some(panel) if rho < FARTHEST => panel.at(rho),
+            Some(panel) if rho < TABLE_END => panel.at(rho),
             _ => 0.0,
         };
         rho.recip() * self.limit + rest
@@ -89,27 +89,28 @@ impl Correction {
 }
 
 /// c(ρ) − [M(0) − 1]/ρ beyond the reach; nothing where the substrate has an end to its reach.
-fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<TERMS>> {
-    if substrate.reach() <= REACH {
+fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_PANEL_TERMS>> {
+    if substrate.influence_radius() <= RIGID_BASE_INFLUENCE_RADIUS {
         return Vec::new();
     }
-    let limit = substrate.excess(0.0, poisson_ratio);
-    let waves: Vec<[f64; 2]> = wave_rule(FAR_PANELS, FAR_WAVE)
+    let limit = substrate.compliance_excess(0.0, poisson_ratio);
+    let waves: Vec<[f64; 2]> = wave_rule(FAR_WAVE_PANELS, FAR_MAX_WAVE_NUMBER)
         .map(|[u, weight]| {
-            let window = (-(u / WINDOW).powi(WINDOW_POWER)).exp();
+            let window = (-(u / WINDOW_WAVE_NUMBER).powi(WINDOW_POWER)).exp();
             [u, weight * window * libm::j0(u)]
         })
         .collect();
-    growing_panels([REACH, FARTHEST], |rho| {
-        let wave =
-            |&[u, weight]: &[f64; 2]| weight * (substrate.excess(u / rho, poisson_ratio) - limit);
+    growing_panels([RIGID_BASE_INFLUENCE_RADIUS, TABLE_END], |rho| {
+        let wave = |&[u, weight]: &[f64; 2]| {
+            weight * (substrate.compliance_excess(u / rho, poisson_ratio) - limit)
+        };
         waves.iter().map(wave).sum::<f64>() / rho
     })
 }
 
 /// Points and weights of an integral from 0 to an end, in panels.
 fn wave_rule(panels: u8, end: f64) -> impl Iterator<Item = [f64; 2]> {
-    let LobattoRule { nodes, weights } = lobatto_rule(WAVE_POINTS);
+    let LobattoRule { nodes, weights } = lobatto_rule(POINTS_PER_WAVE_PANEL);
     let half = 0.5 * end / f64::from(panels);
     (0..panels).flat_map(move |panel| {
         let middle = half * f64::from(2 * panel + 1);
@@ -119,10 +120,13 @@ fn wave_rule(panels: u8, end: f64) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Panels that are a part of the distance to the singularities of c long.
-fn growing_panels([mut start, end]: [f64; 2], function: impl Fn(f64) -> f64) -> Vec<Panel<TERMS>> {
+fn growing_panels(
+    [mut start, end]: [f64; 2],
+    function: impl Fn(f64) -> f64,
+) -> Vec<Panel<LONG_PANEL_TERMS>> {
     let mut panels = Vec::new();
     while start < end {
-        let length = PANEL * f64::hypot(start, SINGULAR);
+        let length = PANEL_OVER_SINGULARITY_DISTANCE * f64::hypot(start, SINGULARITY_DISTANCE);
         panels.push(Panel::new([start, length], &function));
         start += length;
     }

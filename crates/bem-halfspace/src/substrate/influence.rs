@@ -8,7 +8,7 @@ use crate::substrate::rectangle::{PlaneKernel, distance, integrate, product_asin
 
 /// Distance in units of the longer edge from which the first multipoles are exact to rounding: the next one is below
 /// 0.02 r⁻⁶ of the whole.
-const MULTIPOLES_FROM: f64 = 256.0;
+const MULTIPOLE_DISTANCE: f64 = 256.0;
 
 /// Integral of 1/r over a rectangle, \[m].
 ///
@@ -20,7 +20,7 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     let unit = edges[0].max(edges[1]);
     let [offset, edges] = [offset, edges].map(|lengths| lengths.map(|length| length.abs() / unit));
     let [x, y] = offset;
-    if x * x + y * y >= MULTIPOLES_FROM * MULTIPOLES_FROM {
+    if x * x + y * y >= MULTIPOLE_DISTANCE * MULTIPOLE_DISTANCE {
         return unit * multipoles(offset, edges);
     }
     unit * integrate::<Reciprocal>(offset, edges)
@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn multipoles_continue_the_integral() {
         for edges in [[1.0, 1.0], [1.0, 0.5], [1.0, 1e-6], [0.3, 1.0]] {
-            for distance in [MULTIPOLES_FROM, 3e3, 1e6] {
+            for distance in [MULTIPOLE_DISTANCE, 3e3, 1e6] {
                 for degrees in [0.0, 17.0, 45.0, 80.0, 90.0] {
                     let (sine, cosine) = f64::to_radians(degrees).sin_cos();
                     let offset = [distance * cosine, distance * sine];

@@ -5,7 +5,7 @@
 use numerics::{InvalidParameter, in_range};
 use rheology::{Material, layer_deficit, layer_factor};
 
-use crate::substrate::correction::REACH;
+use crate::substrate::correction::RIGID_BASE_INFLUENCE_RADIUS;
 use crate::{Base, Elastomer, Substrate};
 
 /// A layer of a material on a rigid base, or on a [`Substrate`] of one's own.
@@ -25,7 +25,7 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
         if thickness.is_infinite() {
             return Ok(Self::over(material, Base::default()));
         }
-        Self::on(material, Rigid { thickness })
+        Self::on(material, RigidBase { thickness })
     }
 
     /// A layer of the thickness that a substrate gives, on this substrate.
@@ -58,11 +58,11 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
 
 /// A rigid base under a layer of a thickness.
 #[derive(Debug)]
-struct Rigid {
+struct RigidBase {
     thickness: f64,
 }
 
-impl Substrate for Rigid {
+impl Substrate for RigidBase {
     fn thickness(&self) -> f64 {
         self.thickness
     }
@@ -71,15 +71,15 @@ impl Substrate for Rigid {
         layer_factor(s, poisson_ratio)
     }
 
-    fn excess(&self, s: f64, poisson_ratio: f64) -> f64 {
+    fn compliance_excess(&self, s: f64, poisson_ratio: f64) -> f64 {
         -layer_deficit(s, poisson_ratio)
     }
 
-    fn mean(&self, thickness: f64, poisson_ratio: f64) -> f64 {
+    fn uniform_compliance(&self, thickness: f64, poisson_ratio: f64) -> f64 {
         0.5 * thickness * (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio).powi(2)
     }
 
-    fn reach(&self) -> f64 {
-        REACH
+    fn influence_radius(&self) -> f64 {
+        RIGID_BASE_INFLUENCE_RADIUS
     }
 }

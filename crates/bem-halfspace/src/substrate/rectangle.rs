@@ -6,28 +6,28 @@
 //! per direction, so that slender rectangles are as accurate as squares.
 
 /// From this many edges on the Gauss rule errs by less than (1/16)^16 of the integrand.
-pub(crate) const FAR: f64 = 8.0;
+pub(crate) const EIGHT_POINT_DISTANCE: f64 = 8.0;
 
 /// A Gauss–Legendre rule on [−1, 1] (NIST DLMF 3.5): the weight of the middle, and positive nodes with their weights.
 type Rule = (f64, &'static [(f64, f64)]);
 
-const TWO: Rule = (0.0, &[(0.577_350_269_189_625_8, 1.0)]);
-const THREE: Rule = (8.0 / 9.0, &[(0.774_596_669_241_483_4, 5.0 / 9.0)]);
-const FOUR: Rule = (
+const TWO_POINTS: Rule = (0.0, &[(0.577_350_269_189_625_8, 1.0)]);
+const THREE_POINTS: Rule = (8.0 / 9.0, &[(0.774_596_669_241_483_4, 5.0 / 9.0)]);
+const FOUR_POINTS: Rule = (
     0.0,
     &[
         (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
     ],
 );
-const FIVE: Rule = (
+const FIVE_POINTS: Rule = (
     0.568_888_888_888_888_9,
     &[
         (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
         (0.906_179_845_938_664, 0.236_926_885_056_189_1),
     ],
 );
-const SIX: Rule = (
+const SIX_POINTS: Rule = (
     0.0,
     &[
         (0.238_619_186_083_196_9, 0.467_913_934_572_691),
@@ -35,7 +35,7 @@ const SIX: Rule = (
         (0.932_469_514_203_152, 0.171_324_492_379_170_35),
     ],
 );
-const EIGHT: Rule = (
+const EIGHT_POINTS: Rule = (
     0.0,
     &[
         (0.183_434_642_495_649_8, 0.362_683_783_378_362),
@@ -47,16 +47,21 @@ const EIGHT: Rule = (
 
 /// Rules, each with the distance in edges from which it errs by less than rounding: with n points the error is below
 /// (1/2·distance)^(2n) of the integrand.
-const RULES: [(f64, Rule); 6] = [
-    (8192.0, TWO),
-    (320.0, THREE),
-    (64.0, FOUR),
-    (24.0, FIVE),
-    (12.0, SIX),
-    (FAR, EIGHT),
+const SINGULAR_KERNEL_RULES: [(f64, Rule); 6] = [
+    (8192.0, TWO_POINTS),
+    (320.0, THREE_POINTS),
+    (64.0, FOUR_POINTS),
+    (24.0, FIVE_POINTS),
+    (12.0, SIX_POINTS),
+    (EIGHT_POINT_DISTANCE, EIGHT_POINTS),
 ];
 /// The same of a smooth part of a kernel, to 1e-12 of the whole on the rectangle itself, which is as many times greater.
-const SMOOTH: [(f64, Rule); 4] = [(250.0, TWO), (25.0, THREE), (8.0, FOUR), (2.5, SIX)];
+const SMOOTH_KERNEL_RULES: [(f64, Rule); 4] = [
+    (250.0, TWO_POINTS),
+    (25.0, THREE_POINTS),
+    (8.0, FOUR_POINTS),
+    (2.5, SIX_POINTS),
+];
 
 /// A kernel on the plane, singular on the axis y = 0 only, and its antiderivatives.
 pub(crate) trait PlaneKernel {
@@ -80,7 +85,10 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         distance(x, (y - 0.5 * b).max(0.0)),
         distance(y, (x - 0.5 * a).max(0.0)),
     ];
-    match (rule(&RULES, clearance[0], a), rule(&RULES, clearance[1], b)) {
+    match (
+        rule(&SINGULAR_KERNEL_RULES, clearance[0], a),
+        rule(&SINGULAR_KERNEL_RULES, clearance[1], b),
+    ) {
         (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
             gauss((along_y, y, b), |y| K::value(x, y))
         }),
@@ -103,7 +111,10 @@ pub(crate) fn integrate_smooth(
     let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
     let clearance = (beside * beside + above * above + singular * singular).sqrt();
     let part = |centre, edges| integrate_smooth(singular, (centre, edges), function);
-    match (rule(&SMOOTH, clearance, a), rule(&SMOOTH, clearance, b)) {
+    match (
+        rule(&SMOOTH_KERNEL_RULES, clearance, a),
+        rule(&SMOOTH_KERNEL_RULES, clearance, b),
+    ) {
         (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
             gauss((along_y, y, b), |y| function(x, y))
         }),

@@ -28,7 +28,7 @@ pub fn line_spectrum(
     let material = elastomer.material();
     let base = elastomer.base();
     material.creep().bands_along(pressure, velocity, |wave| {
-        base.ratio(wave * base.thickness()) / wave
+        base.compliance_ratio(wave * base.thickness()) / wave
     })
 }
 
@@ -121,7 +121,7 @@ impl PressureField {
             } else {
                 inverse_of_longest
             };
-            base.ratio(base.thickness() / inverse) * inverse
+            base.compliance_ratio(base.thickness() / inverse) * inverse
         }
     }
 }

@@ -86,7 +86,7 @@ impl Sliding {
 
     /// How deep the mean pressure 1 \[Pa] presses a layer that is given time, \[m/Pa].
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
-        Ok(self.compliances(&[0.0])?[0].re * self.base.mean())
+        Ok(self.compliances(&[0.0])?[0].re * self.base.uniform_compliance())
     }
 
     /// (1 − ν) [J' + i J''] of every row, before any shift.

@@ -13,7 +13,9 @@
 //! ∂²Φ/∂ξ∂y = ln(ξ + r),   Φ = ξ y ln(ξ + r) − ξ y + ½ ξ² asinh(y/|ξ|) − ½ y r
 //! ```
 
-use crate::substrate::rectangle::{FAR, PlaneKernel, distance, integrate, product_asinh};
+use crate::substrate::rectangle::{
+    EIGHT_POINT_DISTANCE, PlaneKernel, distance, integrate, product_asinh,
+};
 
 /// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] leads from its centre to the field point.
 ///
@@ -21,7 +23,7 @@ use crate::substrate::rectangle::{FAR, PlaneKernel, distance, integrate, product
 pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     let [x, y] = [offset[0], offset[1].abs()];
     let [a, b] = edges;
-    if x < -0.5 * a && y < FAR * b {
+    if x < -0.5 * a && y < EIGHT_POINT_DISTANCE * b {
         // In the rut behind the load: ln(−s + r) = 2 ln|y| − ln(s + r), singular at y = 0.
         let rut = 2.0 * a * (logarithm_integral(y + 0.5 * b) - logarithm_integral(y - 0.5 * b));
         return rut - wake_influence([-x, y], edges);

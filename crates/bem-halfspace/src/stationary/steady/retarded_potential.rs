@@ -131,7 +131,7 @@ impl RetardedPotential {
         let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
         let mut end = self.position;
-        let felt = 1.0 + self.base.reach();
+        let felt = 1.0 + self.base.influence_radius();
         while slowest * (end - self.position) < LARGEST_EXPONENT && end < felt.min(1e150) {
             end *= GROWTH;
             ends.push(end);

@@ -159,7 +159,7 @@ impl SlidingCreep {
         let memory = self.velocity * times.fold(0.0, f64::max);
         let memory = memory.min(self.track.unwrap_or(f64::INFINITY));
         if self.spectrum.fluidity() > 0.0 && self.base.is_rigid() {
-            memory.max(self.base.reach())
+            memory.max(self.base.influence_radius())
         } else {
             memory
         }
@@ -201,7 +201,7 @@ impl SlidingCreep {
         }
         let compliance = self.half_space_factor * total(&parts);
         let compliance = positive("compliance over a length", compliance)?;
-        Ok(compliance * self.base.softness(length))
+        Ok(compliance * self.base.compliance_ratio_under_punch(length))
     }
 
     /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].

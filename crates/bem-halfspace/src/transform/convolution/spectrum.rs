@@ -37,7 +37,7 @@ impl Convolution {
                 * if q > 0.0 {
                     self.base.stiffness(q).recip()
                 } else {
-                    self.base.mean()
+                    self.base.uniform_compliance()
                 }
         })
     }

@@ -348,7 +348,8 @@ impl<'a> Moving<'a> {
         let found = self
             .closed_on(on_grid)
             .cycle(&on_grid.waves, &self.wave_numbers);
-        let yielded = factor * self.spectra.creep.equilibrium_compliance() * base.mean();
+        let yielded =
+            factor * self.spectra.creep.equilibrium_compliance() * base.uniform_compliance();
         let end = |stress: &f64| End {
             tangential_force: stress * area,
             normal_force,

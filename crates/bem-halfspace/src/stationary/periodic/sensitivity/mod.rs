@@ -356,7 +356,7 @@ impl State {
 
     /// How deep the mean pressure presses a layer with another compliance at rest.
     fn sunk(&self, compliance: Complex<f64>) -> f64 {
-        compliance.re * self.sliding.base().mean() * self.mean_pressure
+        compliance.re * self.sliding.base().uniform_compliance() * self.mean_pressure
     }
 
     fn of_each(&self, of: impl Fn(&Gradient) -> f64) -> Quantities {

@@ -82,7 +82,7 @@ impl Waves<'_> {
     /// k̂ without its factor along x, at the distance of each column.
     fn along_y(&self, q: f64, columns: usize) -> Vec<f64> {
         let half = 0.5 * self.aspect;
-        if columns == 0 && half >= self.base.reach() {
+        if columns == 0 && half >= self.base.influence_radius() {
             // In plane strain elements are longer than anything is felt.
             return vec![TAU / self.base.stiffness(q)];
         }
@@ -119,7 +119,8 @@ impl Waves<'_> {
                 2.0 * half
             };
             let first = if u > 0.0 { 2.0 } else { 1.0 };
-            let weight = first * step * breadth * (self.base.ratio(whole * thickness) - 1.0);
+            let weight =
+                first * step * breadth * (self.base.compliance_ratio(whole * thickness) - 1.0);
             // The cosines of multiples of one angle.
             let twice = 2.0 * (across * self.aspect).cos();
             let [mut before, mut here] = [0.5 * twice, 1.0];
