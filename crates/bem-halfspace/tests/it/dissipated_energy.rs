@@ -55,7 +55,7 @@ impl Springs {
         let grid = Grid::new(shape, [spacing; 2]).expect("a grid");
         let n_elements = elastomer.material().creep().elements().len();
         Self {
-            convolution: Convolution::on(elastomer, &grid),
+            convolution: Convolution::for_elastomer(elastomer, &grid),
             carried: vec![vec![0.0; grid.n_elements()]; n_elements],
             grid,
         }

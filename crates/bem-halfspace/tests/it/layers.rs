@@ -246,7 +246,7 @@ fn a_periodic_layer_moves_by_its_factor() {
     let mean = thickness * 0.4 / (2.0 * 0.25 * 0.7);
     assert_close("depth", state.mean_depth, mean, 1e-9);
     // The same by a convolution.
-    let convolution = Convolution::periodic_on(&layer, &grid);
+    let convolution = Convolution::periodic_for_elastomer(&layer, &grid);
     let pressure: Vec<f64> = heights.iter().map(|height| 1.0 + height).collect();
     let (mut moved, mut workspace) = (heights.clone(), convolution.workspace());
     convolution.apply(&mut workspace, &pressure, &mut moved);

@@ -122,7 +122,7 @@ fn a_coating_moves_under_a_smooth_pressure_as_quadrature_has_it() {
             let squares = |k: usize| place(k / n).powi(2) + place(k % n).powi(2);
             let pressure: Vec<f64> = (0..n * n).map(|k| (-squares(k)).exp()).collect();
             let grid = Grid::new([n; 2], [edge; 2]).expect("a grid");
-            let convolution = Convolution::on(&layer, &grid);
+            let convolution = Convolution::for_elastomer(&layer, &grid);
             let mut moved = vec![0.0; n * n];
             let mut workspace = convolution.workspace();
             convolution.apply(&mut workspace, &pressure, &mut moved);

@@ -171,7 +171,7 @@ impl<'a> PeriodicMarch<'a> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let step = ExponentialStep::creep(&creep, time_step)?;
-        let convolution = Convolution::periodic_on(elastomer, grid);
+        let convolution = Convolution::periodic_for_elastomer(elastomer, grid);
         Ok(Self {
             given: heights,
             creep,

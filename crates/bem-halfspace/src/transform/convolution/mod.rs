@@ -66,7 +66,7 @@ impl Convolution {
 
     /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
     /// grid.
-    pub fn on(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
+    pub fn for_elastomer(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
         Self::free(grid, elastomer.base())
     }
 
@@ -87,9 +87,9 @@ impl Convolution {
         Self::repeated(grid, Base::default())
     }
 
-    /// The same on what is given, see [`on`](Self::on). A layer gives way to the mean pressure too, and its displacements are
+    /// The same on what is given, see [`for_elastomer`](Self::for_elastomer). A layer gives way to the mean pressure too, and its displacements are
     /// those from the surface at rest.
-    pub fn periodic_on(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
+    pub fn periodic_for_elastomer(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
         Self::repeated(grid, elastomer.base())
     }
 
