@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use viscofriction::numerics::Unwatched;
+use viscofriction::numerics::SilentProgress;
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, SceneError, Source};
 use viscofriction::solve::{
     BodyOfScene, Budget, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
@@ -176,11 +176,11 @@ pub(crate) fn solve_loads<'py>(
             if sensitivity {
                 let files = (&*scenes.folder, read_file as ReadFile);
                 let scene = scenes.scene(index, parts)?;
-                answer = with_sensitivity(&scene, files, problem, answer, &Unwatched)?;
+                answer = with_sensitivity(&scene, files, problem, answer, &SilentProgress)?;
             }
             if spectral {
                 answer.spectral_sensitivity =
-                    Some(spectral_sensitivity(problem, &answer, &Unwatched)?);
+                    Some(spectral_sensitivity(problem, &answer, &SilentProgress)?);
             }
             Ok(if fields {
                 with_fields(problem, answer)

@@ -56,7 +56,9 @@ pub use invalid_parameter::{
     positive,
 };
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
-pub use progress::{AtMost, NoFiner, Progress, Share, Unwatched, Watch};
+pub use progress::{
+    CappedProgress, MaxElements, PartialProgress, Progress, SilentProgress, WorkProgress,
+};
 pub use quadrature::{integrate, integrate_from_ends};
 pub use refinement::{
     Accuracy, FIRST_ELEMENTS, Goal, NotReached, Quantity, Refined, Request, refine,

@@ -1,123 +1,127 @@
-//! How far a computation on finer and finer resolutions is, for whoever waits for it.
+//! Progress reports of a computation on finer and finer resolutions, and the permission to refine further.
 
 use std::fmt;
 
-/// Follows a computation, and may end it.
-pub trait Watch: fmt::Debug + Sync {
-    /// Whether a resolution with so many elements may be begun because those before it do not have the error asked for.
-    fn allows(&self, elements: usize) -> bool;
+/// Receiver of the progress of a computation, which may also stop its refinement.
+pub trait Progress: fmt::Debug + Sync {
+    /// Whether a resolution with this number of elements may be begun, if the coarser ones miss the requested error.
+    fn may_refine(&self, elements: usize) -> bool;
 
-    /// So much of the work that is expected is done, from 0 to 1; less than before where more turns out to be needed.
-    fn done(&self, part: f64);
+    /// Reports the completed fraction of the expected work, from 0 to 1. It decreases when more work turns out to be needed.
+    fn report(&self, fraction: f64);
 }
 
-/// Nobody follows.
+/// Progress that is not reported and allows every resolution.
 #[derive(Debug)]
-pub struct Unwatched;
+pub struct SilentProgress;
 
-impl Watch for Unwatched {
-    fn allows(&self, _: usize) -> bool {
+impl Progress for SilentProgress {
+    fn may_refine(&self, _: usize) -> bool {
         true
     }
 
-    fn done(&self, _: f64) {}
+    fn report(&self, _: f64) {}
 }
 
-/// Nobody follows, and resolutions with more elements than this are not begun.
+/// Progress that is not reported and allows resolutions of at most this number of elements.
 #[derive(Debug, Clone, Copy)]
-pub struct AtMost(pub usize);
+pub struct MaxElements(pub usize);
 
-impl Watch for AtMost {
-    fn allows(&self, elements: usize) -> bool {
+impl Progress for MaxElements {
+    fn may_refine(&self, elements: usize) -> bool {
         elements <= self.0
     }
 
-    fn done(&self, _: f64) {}
+    fn report(&self, _: f64) {}
 }
 
-/// Follows as another does, and resolutions with more elements than so many are not begun.
+/// Progress that is passed on to `watch`, with an upper limit on the number of elements.
 #[derive(Debug, Clone, Copy)]
-pub struct NoFiner<'a> {
-    /// Is told what this one is told, and may end it earlier.
-    pub watch: &'a dyn Watch,
-    /// Most elements of a resolution that may be begun.
-    pub than: usize,
+pub struct CappedProgress<'a> {
+    /// Receiver of all reports, which may stop the refinement earlier.
+    pub watch: &'a dyn Progress,
+    /// Largest number of elements of a resolution that may be begun.
+    pub max_elements: usize,
 }
 
-impl Watch for NoFiner<'_> {
-    fn allows(&self, elements: usize) -> bool {
-        elements <= self.than && self.watch.allows(elements)
+impl Progress for CappedProgress<'_> {
+    fn may_refine(&self, elements: usize) -> bool {
+        elements <= self.max_elements && self.watch.may_refine(elements)
     }
 
-    fn done(&self, part: f64) {
-        self.watch.done(part);
+    fn report(&self, fraction: f64) {
+        self.watch.report(fraction);
     }
 }
 
-/// Tells of a piece of work as a part of all.
+/// Progress of one part of the work, reported as a fraction of all work; from [`WorkProgress::part`].
 #[derive(Debug)]
-pub struct Share<'a> {
-    watch: &'a dyn Watch,
-    from: f64,
-    part: f64,
+pub struct PartialProgress<'a> {
+    watch: &'a dyn Progress,
+    /// Fraction of all work that is completed before this part begins.
+    start: f64,
+    /// Fraction of all work that this part is.
+    extent: f64,
 }
 
-impl Watch for Share<'_> {
-    fn allows(&self, elements: usize) -> bool {
-        self.watch.allows(elements)
+impl Progress for PartialProgress<'_> {
+    fn may_refine(&self, elements: usize) -> bool {
+        self.watch.may_refine(elements)
     }
 
-    fn done(&self, part: f64) {
-        self.watch.done((self.from + part * self.part).min(1.0));
+    fn report(&self, fraction: f64) {
+        self.watch
+            .report((self.start + fraction * self.extent).min(1.0));
     }
 }
 
-/// Work that is done and expected, in a unit of one's own.
+/// Completed and expected work, in a unit that the caller chooses.
 #[derive(Debug)]
-pub struct Progress<'a> {
-    watch: &'a dyn Watch,
-    done: f64,
+pub struct WorkProgress<'a> {
+    watch: &'a dyn Progress,
+    completed: f64,
     expected: f64,
 }
 
-impl<'a> Progress<'a> {
-    /// Nothing is done of what is expected.
-    pub const fn new(watch: &'a dyn Watch, expected: f64) -> Self {
-        let done = 0.0;
+impl<'a> WorkProgress<'a> {
+    /// The beginning of work of which `expected` is the total amount.
+    pub const fn new(watch: &'a dyn Progress, expected: f64) -> Self {
         Self {
             watch,
-            done,
+            completed: 0.0,
             expected,
         }
     }
 
-    /// So much is left.
-    pub const fn expect(&mut self, work: f64) {
-        self.expected = self.done + work;
+    /// Replaces the expected work by the completed one and this remaining one.
+    pub const fn set_remaining_work(&mut self, work: f64) {
+        self.expected = self.completed + work;
     }
 
-    /// Does a piece of work that tells which part of it is done.
-    pub fn during<T>(&mut self, work: f64, task: impl FnOnce(&dyn Fn(f64)) -> T) -> T {
-        let (watch, done, expected) = (self.watch, self.done, self.expected);
-        let tell = |part: f64| watch.done(((done + part * work) / expected).min(1.0));
-        let value = task(&tell);
+    /// Runs a task of the given work, which reports the completed fraction of itself through its argument.
+    pub fn run<T>(&mut self, work: f64, task: impl FnOnce(&dyn Fn(f64)) -> T) -> T {
+        let (watch, completed, expected) = (self.watch, self.completed, self.expected);
+        let report =
+            |fraction: f64| watch.report(((completed + fraction * work) / expected).min(1.0));
+        let value = task(&report);
         self.add(work);
         value
     }
 
-    /// Follows a piece of work that is done elsewhere; work 0 tells nothing of itself.
-    pub fn share(&self, work: f64) -> Share<'a> {
-        Share {
+    /// Progress for a part of the given work, which begins here and is added by the caller when it is completed. A part of no
+    /// work reports a constant fraction.
+    pub fn part(&self, work: f64) -> PartialProgress<'a> {
+        PartialProgress {
             watch: self.watch,
-            from: self.done / self.expected,
-            part: work / self.expected,
+            start: self.completed / self.expected,
+            extent: work / self.expected,
         }
     }
 
-    /// A piece of work is done.
+    /// Adds completed work, and reports it.
     pub fn add(&mut self, work: f64) {
-        self.done += work;
-        self.watch.done((self.done / self.expected).min(1.0));
+        self.completed += work;
+        self.watch.report((self.completed / self.expected).min(1.0));
     }
 }
 
@@ -130,26 +134,26 @@ mod tests {
     #[derive(Debug, Default)]
     struct Recorder(Mutex<Vec<f64>>);
 
-    impl Watch for Recorder {
-        fn allows(&self, elements: usize) -> bool {
+    impl Progress for Recorder {
+        fn may_refine(&self, elements: usize) -> bool {
             elements < 8
         }
 
-        fn done(&self, part: f64) {
-            self.0.lock().expect("a list").push(part);
+        fn report(&self, fraction: f64) {
+            self.0.lock().expect("a list").push(fraction);
         }
     }
 
     #[test]
-    fn a_share_tells_of_itself_as_a_part_of_all() {
+    fn a_part_reports_itself_as_a_fraction_of_all_work() {
         let recorder = Recorder::default();
-        let mut progress = Progress::new(&recorder, 4.0);
+        let mut progress = WorkProgress::new(&recorder, 4.0);
         progress.add(1.0);
-        let share = progress.share(2.0);
-        share.done(0.5);
-        progress.share(0.0).done(1.0);
-        assert!(share.allows(7) && !share.allows(8));
-        let told = recorder.0.into_inner().expect("a list");
-        assert_eq!(told, [0.25, 0.5, 0.25]);
+        let part = progress.part(2.0);
+        part.report(0.5);
+        progress.part(0.0).report(1.0);
+        assert!(part.may_refine(7) && !part.may_refine(8));
+        let reported = recorder.0.into_inner().expect("a list");
+        assert_eq!(reported, [0.25, 0.5, 0.25]);
     }
 }

@@ -8,7 +8,7 @@
 
 use thiserror::Error;
 
-use crate::progress::{Progress, Unwatched, Watch};
+use crate::progress::{Progress, SilentProgress, WorkProgress};
 use crate::{ErrorParts, Estimate};
 
 /// How well a result is asked for.
@@ -34,7 +34,7 @@ pub struct Request<'a> {
     /// A relative error, or a number of elements.
     pub accuracy: Accuracy,
     /// Is told how far it is, and may end it.
-    pub watch: &'a dyn Watch,
+    pub watch: &'a dyn Progress,
 }
 
 /// Nobody follows.
@@ -42,7 +42,7 @@ impl From<Accuracy> for Request<'_> {
     fn from(accuracy: Accuracy) -> Self {
         Self {
             accuracy,
-            watch: &Unwatched,
+            watch: &SilentProgress,
         }
     }
 }
@@ -179,10 +179,10 @@ pub fn refine<T, E>(
         Accuracy::Elements(elements) => (elements, None),
         Accuracy::RelativeError(error) => (goal.first, Some(error)),
     };
-    let mut progress = Progress::new(watch, goal.work_before(elements));
-    let on = |eighths: usize, elements: usize, progress: &mut Progress| {
+    let mut progress = WorkProgress::new(watch, goal.work_before(elements));
+    let on = |eighths: usize, elements: usize, progress: &mut WorkProgress| {
         let elements = eighths.saturating_mul(elements).div_ceil(8);
-        progress.during(goal.work_on(elements as f64), |tell| solve(elements, tell))
+        progress.run(goal.work_on(elements as f64), |tell| solve(elements, tell))
     };
     let mut half = quantities(&on(4, elements, &mut progress)?);
     let mut three_eighths = None;
@@ -193,20 +193,20 @@ pub fn refine<T, E>(
         let three_quarters = quantities(&on(6, elements, &mut progress)?);
         let value = on(8, elements, &mut progress)?;
         let fine = quantities(&value);
-        let is_last = || elements >= goal.largest || !watch.allows(2 * elements);
+        let is_last = || elements >= goal.largest || !watch.may_refine(2 * elements);
         let weight = asked.map_or(1.0, |_| goal.selection);
         let grids = [&fine, &three_quarters, &half];
         let eighths = three_eighths.as_deref();
         let mut parts = parts_of_elements([goal.order, weight], grids, eighths);
         if not_reached(asked, &fine, &parts, elements).is_none() || is_last() {
             let work = goal.others * goal.work_on(elements as f64);
-            let others = progress.during(work, |tell| others(&value, tell))?;
+            let others = progress.run(work, |tell| others(&value, tell))?;
             for (part, other) in parts.iter_mut().zip(others) {
                 *part = part.and(other);
             }
         }
         match not_reached(asked, &fine, &parts, elements) {
-            Some(missed) if !is_last() => progress.expect(goal.work_after(&missed)),
+            Some(missed) if !is_last() => progress.set_remaining_work(goal.work_after(&missed)),
             missed => {
                 return Ok(Refined {
                     error: errors(&fine, &parts),
@@ -368,13 +368,13 @@ mod tests {
     #[derive(Debug)]
     struct Recorder(Mutex<Vec<f64>>, usize);
 
-    impl Watch for Recorder {
-        fn allows(&self, elements: usize) -> bool {
+    impl Progress for Recorder {
+        fn may_refine(&self, elements: usize) -> bool {
             elements <= self.1
         }
 
-        fn done(&self, part: f64) {
-            self.0.lock().expect("one thread").push(part);
+        fn report(&self, fraction: f64) {
+            self.0.lock().expect("one thread").push(fraction);
         }
     }
 

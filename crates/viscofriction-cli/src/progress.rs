@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
-use viscofriction::Watch;
+use viscofriction::Progress;
 
 /// A bar over `steps` steps of a task, with the time that is left.
 pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
@@ -13,7 +13,7 @@ pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
 }
 
 /// Does one task with a sign of life, and with the time that is left where it tells how far it is.
-pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Watch) -> T) -> T {
+pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Progress) -> T) -> T {
     let bar = ProgressBar::new(WHOLE).with_message(task);
     let bar = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
     let value = work(&bar);
@@ -27,7 +27,7 @@ pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -
     let told = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
     let value = work(&|message, part| {
         told.0.set_message(message);
-        told.done(part);
+        told.report(part);
     });
     told.0.finish_and_clear();
     value
@@ -59,8 +59,8 @@ const WHOLE: u64 = 10_000;
 #[derive(Debug)]
 struct Told(ProgressBar);
 
-impl Watch for Told {
-    fn allows(&self, _: usize) -> bool {
+impl Progress for Told {
+    fn may_refine(&self, _: usize) -> bool {
         true
     }
 
@@ -69,7 +69,7 @@ impl Watch for Told {
         clippy::cast_sign_loss,
         reason = "a part is between 0 and 1"
     )]
-    fn done(&self, part: f64) {
+    fn report(&self, part: f64) {
         self.0.set_position((part * WHOLE as f64) as u64);
     }
 }

@@ -51,7 +51,7 @@ struct ReadMe;
 
 pub use bem_halfspace::slide::PressureField;
 pub use files::{Files, ReadFile};
-pub use numerics::{ErrorParts, Estimate, Watch};
+pub use numerics::{ErrorParts, Estimate, Progress};
 pub use scene::Scene;
 pub use solve::{
     Answer, Body, ContactBox, Fields, HistoryRow, Motion, NotOffered, Omission, Plan, Problem,

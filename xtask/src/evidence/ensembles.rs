@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
-use numerics::{AtMost, Estimate};
+use numerics::{Estimate, MaxElements};
 use serde::Serialize;
 use viscofriction::scene::{Indenter, Scene};
 use viscofriction::solve::{Answer, Problem, Scatter, SolveError, plan};
@@ -121,7 +121,7 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
             surface.standard_error = Some(ASKED[at]);
         }
         let problem = Problem::try_from(&given)?;
-        match plan(&problem)?.solve(&AtMost(ELEMENTS)) {
+        match plan(&problem)?.solve(&MaxElements(ELEMENTS)) {
             Err(SolveError::NotReached { answer, .. }) => Ok(*answer),
             found => Ok(found?),
         }

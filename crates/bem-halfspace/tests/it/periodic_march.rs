@@ -58,7 +58,7 @@ fn a_march_ends_in_the_stationary_state() {
     use crate::support::{assert_near, within};
     use bem_halfspace::periodic::{slide, steady};
     use indenters::rough::SelfAffine;
-    use numerics::AtMost;
+    use numerics::MaxElements;
     let surface = SelfAffine {
         period: [1.0; 2],
         hurst_exponent: 0.8,
@@ -74,10 +74,15 @@ fn a_march_ends_in_the_stationary_state() {
         (prony([1.0, 0.0], &[(49.0, 1.0), (50.0, 0.1)]), [1.0, 0.02]),
     ] {
         let pressed = PeriodicLoad::new(load[0], load[1]).expect("a load");
-        let exact = steady(&surface, &material, &pressed, within(1e-3, &AtMost(512)));
+        let exact = steady(
+            &surface,
+            &material,
+            &pressed,
+            within(1e-3, &MaxElements(512)),
+        );
         let exact = exact.expect("a stationary state");
         let way = pressed.after(1.0).expect("a distance");
-        let march = |error| slide(&surface, &material, &way, within(error, &AtMost(128)));
+        let march = |error| slide(&surface, &material, &way, within(error, &MaxElements(128)));
         let slid = march(0.07).expect("a march");
         let bar = slid.friction_coefficient;
         assert_near(load, bar.value, exact.friction_coefficient.value, bar.error);

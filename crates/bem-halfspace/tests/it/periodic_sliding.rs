@@ -310,7 +310,7 @@ fn every_contact_on_a_small_grid_is_found() {
 #[test]
 fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
     use bem_halfspace::periodic::steady;
-    use numerics::AtMost;
+    use numerics::MaxElements;
 
     use crate::support::within;
     let surface = SelfAffine {
@@ -330,7 +330,7 @@ fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
             &surface,
             &material,
             &load,
-            within(relative_error, &AtMost(256)),
+            within(relative_error, &MaxElements(256)),
         )
     };
     let light = under(1.0, 0.05);

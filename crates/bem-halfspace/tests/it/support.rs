@@ -14,7 +14,7 @@ pub(crate) use casebook::{Formula, prony};
 use indenters::rough::{PeriodicSurface, SelfAffine};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 #[cfg(feature = "rough")]
-use numerics::AtMost;
+use numerics::MaxElements;
 use numerics::{Estimate, Request};
 use rayon::ThreadPoolBuilder;
 use rheology::{Compressible, Elastic, Material, Prony, Viscous};
@@ -418,7 +418,7 @@ pub(crate) fn every_kind_of_material() -> Vec<(&'static str, Box<dyn Material>)>
 
 #[cfg(feature = "rough")]
 /// A relative error, sought with at most so many elements along the length that is resolved.
-pub(crate) fn within(relative_error: f64, elements: &AtMost) -> Request<'_> {
+pub(crate) fn within(relative_error: f64, elements: &MaxElements) -> Request<'_> {
     Request {
         accuracy: relative_error.into(),
         watch: elements,

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use indenters::{MotionRecord, MotionView, Moved, MovingLoad, RigidLine};
-use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Request, Watch, positive, refine};
+use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Progress, Request, positive, refine};
 use rheology::Material;
 
 use crate::MdrError;
@@ -139,7 +139,7 @@ pub fn move_along<'w>(
 /// the friction is not told from none.
 #[derive(Debug)]
 struct LimitedWork<'a> {
-    watch: &'a dyn Watch,
+    watch: &'a dyn Progress,
     load: &'a MovingLoad,
     /// Of the contact, \[m].
     length: f64,
@@ -168,8 +168,8 @@ impl LimitedWork<'_> {
     }
 }
 
-impl Watch for LimitedWork<'_> {
-    fn allows(&self, elements: usize) -> bool {
+impl Progress for LimitedWork<'_> {
+    fn may_refine(&self, elements: usize) -> bool {
         let before = elements / 2;
         if before >= ELEMENTS_OF_A_FRICTION && self.is_lost(before) {
             return false;
@@ -177,11 +177,11 @@ impl Watch for LimitedWork<'_> {
         let n_cycles = self.solved(before).map_or(1, |(_, n_cycles)| n_cycles) as f64;
         let allowed = MOST_WORK / (n_cycles * elements as f64);
         let spacing = self.length / elements as f64;
-        self.load.n_steps(elements, spacing, allowed).is_ok() && self.watch.allows(elements)
+        self.load.n_steps(elements, spacing, allowed).is_ok() && self.watch.may_refine(elements)
     }
 
-    fn done(&self, part: f64) {
-        self.watch.done(part);
+    fn report(&self, fraction: f64) {
+        self.watch.report(fraction);
     }
 }
 

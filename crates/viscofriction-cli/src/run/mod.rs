@@ -17,7 +17,7 @@ use viscofriction::solve::{
     Answer, Omission, Plan, Problem, SolveError, check_sensitivity, check_spectral_sensitivity,
     plan_of, problem_of, scene_of, spectral_sensitivity, with_fields, with_sensitivity,
 };
-use viscofriction::{Watch, WrongInput};
+use viscofriction::{Progress, WrongInput};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{ABOUT_WARNINGS, Format, OutputFolder, print_line, say};
@@ -173,7 +173,7 @@ fn with_derivatives(
 const CHEAPEST: &str = ", the cheapest that answers the scene";
 
 /// Solves on as many threads as the scene says, or on all.
-fn in_pool(plan: Plan<'_>, threads: Option<usize>, watch: &dyn Watch) -> Result<Answer> {
+fn in_pool(plan: Plan<'_>, threads: Option<usize>, watch: &dyn Progress) -> Result<Answer> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
         .build()?;

@@ -10,7 +10,7 @@ use bem_halfspace::steady::sensitivity::SensitivityOnGrid;
 use bem_halfspace::steady::{steady, steady_grid, steady_line, steady_line_grid};
 use indenters::{Control, Cylinder, SlidingLoad, Surface};
 use measurements::friction::{FrictionModel, FrictionPoint, ModelledPoint};
-use numerics::{Estimate, Unwatched};
+use numerics::{Estimate, SilentProgress};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 use rheology::Material;
@@ -244,7 +244,7 @@ impl<'a> Model<'a> {
         let simple = simple(material)?;
         let closed = closed_line(simple.as_ref(), body, *load);
         let answer = match closed.ok().filter(|_| self.track.is_none()) {
-            Some(closed) => closed(&Unwatched)?,
+            Some(closed) => closed(&SilentProgress)?,
             None => mdr::stationary(&**body, material, load, EXACT)?,
         };
         let friction = answer.friction_coefficient.map(|friction| friction.value);

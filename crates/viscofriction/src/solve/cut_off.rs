@@ -2,7 +2,7 @@
 
 use bem_halfspace::{BemError, PeriodicEstimate, PeriodicSliding, Reached};
 use indenters::rough::PeriodicSurface;
-use numerics::{Accuracy, Estimate, NoFiner, Request};
+use numerics::{Accuracy, CappedProgress, Estimate, Request};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
@@ -43,9 +43,9 @@ impl WithoutShortestOctave {
         };
         let request = Request {
             accuracy: relative_error.into(),
-            watch: &NoFiner {
+            watch: &CappedProgress {
                 watch: request.watch,
-                than: finest[0].max(finest[1]),
+                max_elements: finest[0].max(finest[1]),
             },
         };
         let found = match solve(&left, request) {
@@ -153,7 +153,7 @@ mod tests {
         let request = Accuracy::Elements(128).into();
         let without = WithoutShortestOctave::of(&surface, request, [128, 64], |left, request| {
             assert_eq!(left.waves().len(), 1);
-            asked.extend([64, 128, 129].map(|elements| request.watch.allows(elements)));
+            asked.extend([64, 128, 129].map(|elements| request.watch.may_refine(elements)));
             Err(BemError::FlowsUnderWaves)
         });
         assert_eq!((without, asked), (None, vec![true, true, false]));

@@ -7,7 +7,7 @@ use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::st
 use indenters::rough::PeriodicSurface;
 use indenters::{EquivalentLine, Surface};
 use mdr_core::elements_of_motion;
-use numerics::{FIRST_ELEMENTS, Watch, whole_part};
+use numerics::{FIRST_ELEMENTS, Progress, whole_part};
 
 use super::body::Body;
 use super::error::{Result, SolveError};
@@ -146,12 +146,12 @@ fn check(
 pub(super) struct Limited<'a> {
     problem: &'a Problem,
     method: Method,
-    watch: &'a dyn Watch,
+    watch: &'a dyn Progress,
     refused: OnceLock<SolveError>,
 }
 
 impl<'a> Limited<'a> {
-    pub(super) const fn new(problem: &'a Problem, method: Method, watch: &'a dyn Watch) -> Self {
+    pub(super) const fn new(problem: &'a Problem, method: Method, watch: &'a dyn Progress) -> Self {
         Self {
             problem,
             method,
@@ -172,15 +172,15 @@ impl<'a> Limited<'a> {
     }
 }
 
-impl Watch for Limited<'_> {
-    fn allows(&self, elements: usize) -> bool {
+impl Progress for Limited<'_> {
+    fn may_refine(&self, elements: usize) -> bool {
         let fits = check(self.problem, self.method, elements, OTHERWISE);
         let fits = fits.map_err(|refused| drop(self.refused.set(refused)));
-        fits.is_ok() && self.watch.allows(elements)
+        fits.is_ok() && self.watch.may_refine(elements)
     }
 
-    fn done(&self, part: f64) {
-        self.watch.done(part);
+    fn report(&self, fraction: f64) {
+        self.watch.report(fraction);
     }
 }
 

@@ -60,14 +60,14 @@ use self::work::rough;
 use crate::scene::{Method, Model};
 use bem_halfspace::BemError;
 use mdr_core::MdrError;
-use numerics::{Unwatched, Watch};
+use numerics::{Progress, SilentProgress};
 
 /// Asks the method of the scene, or the cheapest that answers it.
 ///
 /// # Errors
 /// [`SolveError`] where no method answers the scene, or what was asked for was not reached; it says what was.
 pub fn solve(problem: &Problem) -> Result<Answer> {
-    plan(problem)?.solve(&Unwatched)
+    plan(problem)?.solve(&SilentProgress)
 }
 
 impl Plan<'_> {
@@ -75,13 +75,13 @@ impl Plan<'_> {
     ///
     /// # Errors
     /// [`SolveError`] where what was asked for was not reached; it says what was.
-    pub fn solve(self, watch: &dyn Watch) -> Result<Answer> {
+    pub fn solve(self, watch: &dyn Progress) -> Result<Answer> {
         let problem = self.problem;
         realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
     /// The answer of the surface that the problem holds.
-    fn solve_one(self, watch: &dyn Watch) -> Result<Answer> {
+    fn solve_one(self, watch: &dyn Progress) -> Result<Answer> {
         let Self {
             problem,
             method,

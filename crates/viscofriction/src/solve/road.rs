@@ -1,6 +1,6 @@
 //! A rough surface without its shortest waves, octave by octave.
 
-use numerics::Watch;
+use numerics::Progress;
 
 use super::answer::{Answer, Persson};
 use super::body::Body;
@@ -51,7 +51,7 @@ impl CutOff {
 pub fn cut_offs(
     mut problem: Problem,
     count: usize,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
     mut done: impl FnMut(&CutOff),
 ) -> Result<Vec<CutOff>, SceneError> {
     let mut found = Vec::new();

@@ -4,7 +4,7 @@ use bem_halfspace::PeriodicLoad;
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::rough::PeriodicSurface;
 use indenters::{Axisymmetric, Cylinder, MovingLoad, SlidingLoad, Surface};
-use numerics::{Request, Watch};
+use numerics::{Progress, Request};
 
 use super::analytic::{cylinder_pressed, without_friction};
 use super::answer::Answer;
@@ -19,7 +19,7 @@ use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, M
 use crate::scene::{Accuracy, Control, Model};
 
 /// What one method computes, with all that it needs.
-pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + Send + 'a>;
+pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a>;
 /// Or why it does not.
 pub(crate) type Offer<'a> = Result<Work<'a>, Refusal>;
 
@@ -108,7 +108,7 @@ fn has_front(body: &Body) -> bool {
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
-fn ready<'a>(answer: impl FnOnce(&dyn Watch) -> Result<Answer> + Send + 'a) -> Offer<'a> {
+fn ready<'a>(answer: impl FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a) -> Offer<'a> {
     Ok(Box::new(answer))
 }
 

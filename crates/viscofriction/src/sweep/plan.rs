@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use numerics::{Unwatched, whole_part};
+use numerics::{SilentProgress, whole_part};
 use toml::{Table, Value};
 
 use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
@@ -188,7 +188,7 @@ impl Plan {
             && let Ok(alone) = &mut answer
         {
             let files = (self.source.folder(), self.read);
-            match with_sensitivity(scene, files, problem, alone.clone(), &Unwatched) {
+            match with_sensitivity(scene, files, problem, alone.clone(), &SilentProgress) {
                 Ok(found) => *alone = found,
                 Err(why) => alone.warnings.push(format!("{NO_UNCERTAINTY}{why}")),
             }

@@ -1,6 +1,6 @@
 //! A contact that grows once and shrinks once on a layer is answered by theory, any other one by boundary elements.
 
-use viscofriction::numerics::Unwatched;
+use viscofriction::numerics::SilentProgress;
 use viscofriction::scene::Method;
 use viscofriction::solve::{Answer, plan};
 use viscofriction::{Problem, Scene};
@@ -24,7 +24,7 @@ fn solved(scene: &Scene, method: Option<Method>) -> Answer {
     scene.solve.method = method;
     let problem = Problem::try_from(&scene).expect("a problem");
     let plan = plan(&problem).expect("a plan");
-    plan.solve(&Unwatched).expect("an answer")
+    plan.solve(&SilentProgress).expect("an answer")
 }
 
 /// Both methods share the factor M(s) and no solution.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Mutex;
 
-use numerics::{Estimate, Unwatched, Watch};
+use numerics::{Estimate, Progress, SilentProgress};
 use viscofriction::solve::{Sensitivity, Source, spectral_sensitivity, with_sensitivity};
 use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
 
@@ -24,12 +24,12 @@ impl Told {
     }
 }
 
-impl Watch for Told {
-    fn allows(&self, _: usize) -> bool {
+impl Progress for Told {
+    fn may_refine(&self, _: usize) -> bool {
         true
     }
 
-    fn done(&self, part: f64) {
+    fn report(&self, part: f64) {
         self.0.lock().expect("parts").push(part);
     }
 }
@@ -39,7 +39,7 @@ pub(crate) fn answered(text: &str) -> (Answer, Result<Vec<Sensitivity>, SolveErr
     let problem = Problem::try_from(&scene).expect("a problem");
     let answer = solve(&problem).expect("an answer");
     let files = (Path::new(""), no_file as _);
-    let known = with_sensitivity(&scene, files, &problem, answer.clone(), &Unwatched);
+    let known = with_sensitivity(&scene, files, &problem, answer.clone(), &SilentProgress);
     (answer, known.map(|answer| answer.sensitivity))
 }
 
@@ -335,7 +335,7 @@ fn a_budget_adds_up_its_sources() {
         let problem = Problem::try_from(&scene).expect("a problem");
         let files = (Path::new(""), no_file as _);
         let answer = solve(&problem).expect("an answer");
-        with_sensitivity(&scene, files, &problem, answer, &Unwatched).expect("derivatives")
+        with_sensitivity(&scene, files, &problem, answer, &SilentProgress).expect("derivatives")
     };
     // 1e6 ± 30 % and 3e6 ∓ 10 % have the sum 4e6, and as independent ones 4e6 ± 0.424e6.
     let uncertainty = "uncertainty.\"load.normal_force\" = 0.02";

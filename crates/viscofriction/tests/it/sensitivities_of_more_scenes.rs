@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use numerics::{Estimate, Unwatched};
+use numerics::{Estimate, SilentProgress};
 use viscofriction::scene::Method;
 use viscofriction::solve::with_sensitivity;
 use viscofriction::{Answer, Problem, Scene, WrongInput, solve};
@@ -48,7 +48,7 @@ fn derivatives_by_the_spacing_of_a_height_map_are_those_of_answers() {
         let middle = scene([1.0; 2]);
         let files = (Path::new(""), bumps as _);
         let answer = solved([1.0; 2]);
-        let known = with_sensitivity(&middle, files, &problem(&middle), answer, &Unwatched);
+        let known = with_sensitivity(&middle, files, &problem(&middle), answer, &SilentProgress);
         let known = known.expect("derivatives").sensitivity;
         for axis in 0..2 {
             let one = of(&known, &format!("indenter.height-map.spacing[{axis}]"));
@@ -128,8 +128,8 @@ fn a_method_with_derivatives_takes_the_place_of_one_without() {
     let answer = solve(&problem).expect("an answer");
     assert_eq!(answer.method, Method::Analytic, "the cheapest");
     let files = (Path::new(""), no_file as _);
-    let known =
-        with_sensitivity(&scene, files, &problem, answer.clone(), &Unwatched).expect("derivatives");
+    let known = with_sensitivity(&scene, files, &problem, answer.clone(), &SilentProgress)
+        .expect("derivatives");
     assert_eq!(known.method, Method::BemSteady, "one with derivatives");
     let frictions = [answer, known].map(|answer| answer.friction_coefficient.expect("a friction"));
     let off = (frictions[0].value - frictions[1].value).abs();

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use viscofriction::numerics::Unwatched;
+use viscofriction::numerics::SilentProgress;
 use viscofriction::scene::{Method, Source};
 use viscofriction::{Answer, Estimate, Problem, WrongInput, plan_of, problem_of, with_fields};
 
@@ -37,7 +37,7 @@ fn solve(line: &str, folder: &Path) -> Result<Solved, (u8, String)> {
     let problem = problem.or_max_memory(Some(MEMORY));
     let plan = plan_of(&source, &problem).map_err(wrong)?;
     let answer = plan
-        .solve(&Unwatched)
+        .solve(&SilentProgress)
         .map_err(|error| (1, error.to_string()))?;
     let answer = with_fields(&problem, answer);
     Ok(Solved { problem, answer })

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
-use numerics::Unwatched;
+use numerics::SilentProgress;
 use toml::Value;
 use viscofriction::Estimate;
 use viscofriction::WrongInput;
@@ -36,7 +36,7 @@ pub(super) fn sums(first: Answered) -> Result<Vec<Sum>> {
     let problem = case.problem(first.folder)?;
     let answer = first.answer.clone();
     let files = (Path::new(""), no_file as _);
-    let known = match with_sensitivity(&case.scene, files, &problem, answer, &Unwatched) {
+    let known = match with_sensitivity(&case.scene, files, &problem, answer, &SilentProgress) {
         Ok(answer) => answer.sensitivity,
         Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
         Err(error) => return Err(error.into()),

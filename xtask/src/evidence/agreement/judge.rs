@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
 use viscofriction::scene::Method;
 use viscofriction::solve::{Answer, SolveError, plan};
-use viscofriction::{Estimate, Watch};
+use viscofriction::{Estimate, Progress};
 
 use super::derivatives;
 use super::relation::{Answered, Derived, Relation, has_powers};
@@ -203,14 +203,14 @@ struct Patience {
     has_ended: AtomicBool,
 }
 
-impl Watch for Patience {
-    fn allows(&self, _: usize) -> bool {
+impl Progress for Patience {
+    fn may_refine(&self, _: usize) -> bool {
         let is_early = Instant::now() < self.until;
         self.has_ended.fetch_or(!is_early, Ordering::Relaxed);
         is_early
     }
 
-    fn done(&self, _: f64) {}
+    fn report(&self, _: f64) {}
 }
 
 /// The answer, or the sentence that says why there is none.

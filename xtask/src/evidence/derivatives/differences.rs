@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
-use numerics::Unwatched;
+use numerics::SilentProgress;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 use viscofriction::scene::{Method, Model, Scene};
@@ -121,7 +121,7 @@ pub(super) fn compared(
     }
     let answer = solve(&problem)?;
     let files = (Path::new(""), no_file as _);
-    let known = match with_sensitivity(&scene, files, &problem, answer, &Unwatched) {
+    let known = match with_sensitivity(&scene, files, &problem, answer, &SilentProgress) {
         Ok(answer) => answer.sensitivity,
         Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
         Err(error) => return Err(error.into()),

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result};
 use measurements::moduli::{Shifting, master_curve};
-use numerics::Unwatched;
+use numerics::SilentProgress;
 use rheology::fit::{Identification, IdentifyOptions, Isotherm, ModulusPoint, identify};
 use rheology::{KELVIN_AT_ZERO_CELSIUS, RelaxationBranch, RelaxationSpectrum, WlfShift};
 use serde::{Deserialize, Serialize};
@@ -326,6 +326,6 @@ fn answered(scene: &Scene, with_derivatives: bool) -> Result<Answer> {
         (Path::new(""), no_file),
         &problem,
         answer,
-        &Unwatched,
+        &SilentProgress,
     )?)
 }

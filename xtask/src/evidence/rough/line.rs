@@ -10,7 +10,7 @@
 use anyhow::Result;
 use bem_halfspace::{BemError, Layer, PeriodicLoad, periodic};
 use indenters::rough::{PeriodicSurface, Wave};
-use numerics::{AtMost, Request};
+use numerics::{MaxElements, Request};
 use rheology::{Compressible, Material};
 
 /// How many periods of the surface the line is long, so that its waves are rounded to whole numbers by a thirtieth at most.
@@ -20,7 +20,7 @@ const THIN: f64 = 1e-5;
 /// Of the friction.
 const RELATIVE_ERROR: f64 = 0.05;
 /// Along the line.
-const MOST_ELEMENTS: AtMost = AtMost(1 << 17);
+const MOST_ELEMENTS: MaxElements = MaxElements(1 << 17);
 
 /// The length of the line that carries the force on its square.
 #[derive(Clone, Copy)]

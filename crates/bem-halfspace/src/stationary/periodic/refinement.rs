@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use indenters::rough::PeriodicSurface;
-use numerics::{Accuracy, Estimate, Progress, Request, between_zero_and_one};
+use numerics::{Accuracy, Estimate, Request, WorkProgress, between_zero_and_one};
 
 use crate::stationary::periodic::equations::{NUMBERS_OF_FEW, NUMBERS_PER_ELEMENT_OF_FEW};
 use crate::stationary::periodic::unseen::Unseen;
@@ -107,7 +107,7 @@ pub(super) fn first_shape(
     let along = |first: [usize; 2]| THREE_GRIDS * first[0].max(first[1]);
     let fits = match request.accuracy {
         Accuracy::RelativeError(_) => {
-            last_elements(usual) <= USUAL_GRID && request.watch.allows(along(usual))
+            last_elements(usual) <= USUAL_GRID && request.watch.may_refine(along(usual))
         }
         Accuracy::Elements(elements) => elements >= along(usual),
     };
@@ -227,7 +227,7 @@ where
     goal.check_size(shape, THREE_GRIDS as f64)?;
     let first = goal.work_on(shape);
     let all = first + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
-    let mut progress = Progress::new(goal.request.watch, all);
+    let mut progress = WorkProgress::new(goal.request.watch, all);
     let (mut grids, mut tolerance) = (Vec::new(), TOLERANCE);
     let mut best: Option<(Known, PeriodicEstimate<S>)> = None;
     loop {
@@ -236,7 +236,7 @@ where
             heights,
             has_all_waves,
         } = OnGrid::of(surface, shape)?;
-        let solved = progress.during(goal.work_on(shape), |tell| {
+        let solved = progress.run(goal.work_on(shape), |tell| {
             solve(&grid, &heights, tolerance, tell)
         });
         let is_lost = matches!(solved, Err(BemError::ContactNotConverged { .. }));
@@ -263,7 +263,7 @@ where
                 return Err(known.missed(missed, bars.into()));
             }
             goal.check_march(excess, finer)?;
-            progress.expect(goal.work_after(excess, finer));
+            progress.set_remaining_work(goal.work_after(excess, finer));
         }
         shape = finer;
         tolerance *= 0.5;
@@ -334,7 +334,7 @@ impl Goal<'_> {
         let may_reach = is_usual || excess <= self.friction.as_a_rule.powi(-2);
         may_reach
             && self.check_size(shape, 1.0).is_ok()
-            && self.request.watch.allows(shape[0].max(shape[1]))
+            && self.request.watch.may_refine(shape[0].max(shape[1]))
     }
 
     /// Half an hour is not spent on a march in vain: no error falls faster than with the second order.

@@ -2,7 +2,8 @@
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{
-    Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Request, Unwatched, Watch, positive,
+    Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Progress, Request, SilentProgress,
+    positive,
 };
 use rheology::Material as _;
 
@@ -162,7 +163,7 @@ pub fn steady_refined(
     load: &SlidingLoad,
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
-    refined(surface, elastomer, load, options, &Unwatched)
+    refined(surface, elastomer, load, options, &SilentProgress)
 }
 
 fn refined(
@@ -170,7 +171,7 @@ fn refined(
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &RefinementOptions,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
 ) -> Result<SteadyEstimate, BemError> {
     in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
         let problem = SteadyProblem {

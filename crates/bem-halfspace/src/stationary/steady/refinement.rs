@@ -9,7 +9,9 @@
 use std::ops::Range;
 
 use indenters::Surface;
-use numerics::{ErrorParts, Estimate, Progress, Watch, between_zero_and_one, in_range, positive};
+use numerics::{
+    ErrorParts, Estimate, Progress, WorkProgress, between_zero_and_one, in_range, positive,
+};
 
 use crate::BemError;
 use crate::Reached;
@@ -97,7 +99,7 @@ pub(super) struct SteadyProblem<'a> {
     pub(super) plan: &'a GridPlan,
     /// Whether the largest pressure is known to have a limit.
     pub(super) has_peak: bool,
-    pub(super) watch: &'a dyn Watch,
+    pub(super) watch: &'a dyn Progress,
 }
 
 /// Refines until friction and force have the error asked for; `finish` makes of the estimate what is returned, also where
@@ -114,7 +116,7 @@ pub(super) fn refine<E: Into<Reached>>(
         options,
         order: order_of_friction(problem.plan.apex_exponent)?,
         reuse: Reuse::default(),
-        progress: Progress::new(problem.watch, work_of(0..FEWEST)),
+        progress: WorkProgress::new(problem.watch, work_of(0..FEWEST)),
     };
     let (mut index, mut finest) = grids.coarsest(0)?;
     let mut refinements = vec![finest.averages];
@@ -202,7 +204,7 @@ struct Grids<'a> {
     /// Order of the error of the averages.
     order: f64,
     reuse: Reuse,
-    progress: Progress<'a>,
+    progress: WorkProgress<'a>,
 }
 
 /// Each refinement has twice as many elements as the one before.
@@ -217,7 +219,8 @@ impl Grids<'_> {
         let needed = 2.0 * excess.log2() / self.order;
         let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(most)));
         let ahead = ahead.unwrap_or(1).max(FEWEST - 1 - index);
-        self.progress.expect(work_of(index + 1..index + 1 + ahead));
+        self.progress
+            .set_remaining_work(work_of(index + 1..index + 1 + ahead));
     }
 
     /// The limit of averages with what is left of their scatter, and under a body with edges with what it would be if the order
@@ -371,7 +374,7 @@ impl Grids<'_> {
         refinement < MAX_REFINEMENTS
             && self.n_elements(refinement) <= self.most_elements()
             && 2 * before.unknowns <= self.options.max_unknowns
-            && watch.allows(plan.elements(refinement))
+            && watch.may_refine(plan.elements(refinement))
     }
 
     /// Elements of the footprint.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use numerics::{Progress, Watch};
+use numerics::{Progress, WorkProgress};
 
 use super::coarse::{self, Coarse, FINER, has_coarse_grids};
 use super::each::{at_once, on_threads, solve_each};
@@ -15,7 +15,7 @@ use crate::solve::problem::Problem;
 /// The surfaces that were drawn.
 pub(super) struct Drawn<'a> {
     problem: &'a Problem,
-    progress: Progress<'a>,
+    progress: WorkProgress<'a>,
     at_once: usize,
     /// Of the first ones, with error bars.
     pub(super) answers: Vec<Answer>,
@@ -43,8 +43,8 @@ impl<'a> Drawn<'a> {
     /// With the answer of the first surface, which tells how much memory one takes.
     pub(super) fn new(
         problem: &'a Problem,
-        watch: &'a dyn Watch,
-        first: impl FnOnce(&dyn Watch) -> Result<Answer>,
+        watch: &'a dyn Progress,
+        first: impl FnOnce(&dyn Progress) -> Result<Answer>,
     ) -> Result<Self> {
         let count = match problem.standard_error() {
             Some(_) => FEWEST.min(most(problem)),
@@ -52,13 +52,13 @@ impl<'a> Drawn<'a> {
         };
         let mut drawn = Self {
             problem,
-            progress: Progress::new(watch, count as f64),
+            progress: WorkProgress::new(watch, count as f64),
             at_once: 1,
             answers: Vec::new(),
             coarse: Vec::new(),
             missed: None,
         };
-        let first = first(&drawn.progress.share(1.0));
+        let first = first(&drawn.progress.part(1.0));
         drawn.take([first])?;
         drawn.progress.add(1.0);
         drawn.at_once = at_once(problem, &drawn.answers[0]);
@@ -123,7 +123,7 @@ impl<'a> Drawn<'a> {
             let solved = self.answers.len();
             let wanted = self.counts(&[], asked, most, 1.0).coarse;
             self.progress
-                .expect(wanted.saturating_sub(solved).max(1) as f64);
+                .set_remaining_work(wanted.saturating_sub(solved).max(1) as f64);
             self.solve(most.min(solved + self.at_once))?;
             let enough = |Sample { fine, .. }: Sample| first_enough(fine, solved + 1, asked);
             let enough = self.with(&[], enough).flatten();
@@ -153,7 +153,7 @@ impl<'a> Drawn<'a> {
                 wanted.coarse.max(coarse) - now.coarse,
             ];
             self.progress
-                .expect(fine_left as f64 + part * coarse_left as f64);
+                .set_remaining_work(fine_left as f64 + part * coarse_left as f64);
             self.solve(fine)?;
             // Every surface has an answer, if not on this grid.
             let Some(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {

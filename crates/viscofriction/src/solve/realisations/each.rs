@@ -3,7 +3,7 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::{Mutex, PoisonError};
 
-use numerics::{Progress, Watch};
+use numerics::{Progress, WorkProgress};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
@@ -33,7 +33,7 @@ pub(super) fn solve_each(
     problem: &Problem,
     surfaces: Range<usize>,
     at_once: usize,
-    progress: &mut Progress,
+    progress: &mut WorkProgress,
 ) -> Vec<Result<Answer>> {
     let surfaces: Vec<usize> = surfaces.collect();
     // Several cannot tell of parts of themselves.
@@ -42,7 +42,7 @@ pub(super) fn solve_each(
     let within = |surface, parts| {
         let share = {
             let known = known.lock().unwrap_or_else(PoisonError::into_inner);
-            known.0.share(if is_alone { 1.0 } else { 0.0 })
+            known.0.part(if is_alone { 1.0 } else { 0.0 })
         };
         solve_one(problem, surface, parts, &share)
     };
@@ -63,7 +63,7 @@ fn solve_one(
     problem: &Problem,
     surface: usize,
     parts: u64,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
 ) -> Option<Result<Answer>> {
     let one = match problem.of_surface(surface as u64, parts) {
         Ok(one) => one,

@@ -9,7 +9,7 @@ mod draw;
 mod each;
 mod sample;
 
-use numerics::{ErrorParts, Estimate, Watch};
+use numerics::{ErrorParts, Estimate, Progress};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -108,8 +108,8 @@ impl Answer {
 /// The mean of all answers, of which `first` solves one; that itself where there is one surface.
 pub(super) fn mean(
     problem: &Problem,
-    first: impl FnOnce(&dyn Watch) -> Result<Answer>,
-    watch: &dyn Watch,
+    first: impl FnOnce(&dyn Progress) -> Result<Answer>,
+    watch: &dyn Progress,
 ) -> Result<Answer> {
     if problem.realisations() == 1 {
         return first(watch);

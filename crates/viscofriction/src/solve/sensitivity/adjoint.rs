@@ -4,7 +4,7 @@ use bem_halfspace::Elastomer;
 use bem_halfspace::periodic::sensitivity::PeriodicSensitivity;
 use bem_halfspace::steady::sensitivity::{ByModuli, Change, SteadySensitivity};
 use indenters::{SlidingLoad, Surface};
-use numerics::{Estimate, Progress};
+use numerics::{Estimate, WorkProgress};
 use rheology::Material;
 
 use super::Sensitivity;
@@ -27,7 +27,7 @@ pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
     (load, answer): (&SlidingLoad, &Answer),
-    mut progress: Progress,
+    mut progress: WorkProgress,
 ) -> Result<Vec<Sensitivity>> {
     let contact = Contact::new(problem, load, answer)?;
     let of = |number: &Number| {

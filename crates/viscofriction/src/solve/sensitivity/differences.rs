@@ -1,6 +1,6 @@
 //! Differences of answers of closed forms: exact to rounding, or series that end after a few terms.
 
-use numerics::{Estimate, Progress, Unwatched};
+use numerics::{Estimate, SilentProgress, WorkProgress};
 
 use super::Sensitivity;
 use super::parameters::{Number, Numbers};
@@ -50,7 +50,7 @@ pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     values: Values,
     answer: &Answer,
-    mut progress: Progress,
+    mut progress: WorkProgress,
 ) -> Result<Vec<Sensitivity>> {
     let of = |number: &Number| {
         let found = sensitivity(numbers, number, values, answer);
@@ -125,5 +125,5 @@ fn solved(numbers: &Numbers, number: &Number, method: Method, value: f64) -> Res
         method,
         work,
     }
-    .solve(&Unwatched)
+    .solve(&SilentProgress)
 }

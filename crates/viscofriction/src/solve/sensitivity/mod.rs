@@ -9,7 +9,7 @@ mod spectral;
 
 use std::path::Path;
 
-use numerics::{Estimate, Progress, Watch};
+use numerics::{Estimate, Progress, WorkProgress};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::answer::Answer;
@@ -67,7 +67,7 @@ pub fn with_sensitivity(
     (folder, read): (&Path, ReadFile),
     problem: &Problem,
     answer: Answer,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
 ) -> Result<Answer> {
     let numbers = Numbers::new(scene, folder, read)?;
     let all = numbers.all().into_iter();
@@ -100,9 +100,9 @@ fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
     answer: &Answer,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
 ) -> Result<Vec<Sensitivity>> {
-    let progress = Progress::new(watch, all.len() as f64);
+    let progress = WorkProgress::new(watch, all.len() as f64);
     let method = answer.method;
     let asked = answer.requested_quantity();
     let is_exact = asked.error <= EXACT * asked.value.abs();
@@ -129,7 +129,7 @@ fn sensitivities(
 fn answer_with_derivatives(
     problem: &Problem,
     cheaper: Method,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
 ) -> Option<Result<Answer>> {
     let method = Method::BemSteady;
     let is_free = problem.method().is_none() && cheaper != method;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::steady::sensitivity::{ByModuli, Change};
-use numerics::{Estimate, Progress, Watch};
+use numerics::{Estimate, Progress, WorkProgress};
 use serde::Serialize;
 
 use super::Sensitivity;
@@ -53,7 +53,7 @@ pub struct ByFrequency {
 pub fn spectral_sensitivity(
     problem: &Problem,
     answer: &Answer,
-    watch: &dyn Watch,
+    watch: &dyn Progress,
 ) -> Result<SpectralSensitivity> {
     let method = answer.method;
     let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
@@ -62,7 +62,7 @@ pub fn spectral_sensitivity(
     let wave_numbers = wave_numbers(answer).ok_or(SolveError::NoSpectralSensitivity { method })?;
     let ends = wave_numbers.map(|wave_number| load.velocity() * wave_number);
     // The adjoint loads take about as long as all bands.
-    let mut progress = Progress::new(watch, 2.0);
+    let mut progress = WorkProgress::new(watch, 2.0);
     let contact = Contact::new(problem, &load, answer)?;
     progress.add(1.0);
     let edges = edges(ends, problem.window());
