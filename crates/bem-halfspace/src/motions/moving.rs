@@ -30,7 +30,7 @@ pub(crate) const ORDER: f64 = 1.0;
 /// Of the elements of a path in as many steps as it has along it.
 pub(crate) const WORK: f64 = 3.0;
 /// Steps of a motion, or of one cycle, after which it is not begun, and cycles after which the search is given up.
-pub(crate) const MOST_STEPS: f64 = 1e5;
+pub(crate) const MAX_STEPS: f64 = 1e5;
 const MOST_CYCLES: usize = 100;
 /// Relative change by a cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
 const ROUNDING_OF_CYCLE: f64 = 1e-14;
@@ -135,7 +135,7 @@ pub fn move_along_memory(
     let options = problem.options(elements);
     let [dx, dy] = options.spacing;
     let (per_contact, length) = steps_of(elements, dx);
-    let n_steps = load.n_steps(per_contact, length, MOST_STEPS)?;
+    let n_steps = load.n_steps(per_contact, length, MAX_STEPS)?;
     // One field more for the last load.
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0) + 1;
     let [rear, front] = load.range();
@@ -208,7 +208,7 @@ impl<'a> Moving<'a> {
 
     fn steps(&self, elements: usize, spacing: f64) -> Result<Vec<MovingStep>, BemError> {
         let (per_contact, length) = steps_of(elements, spacing);
-        Ok(self.load.steps(per_contact, length, MOST_STEPS)?)
+        Ok(self.load.steps(per_contact, length, MAX_STEPS)?)
     }
 
     fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
@@ -227,7 +227,7 @@ impl<'a> Moving<'a> {
             };
             (motion, duration)
         });
-        let mut march = March::again_and_again(self.surface, self.elastomer, motions, &options)?;
+        let mut march = March::cyclic(self.surface, self.elastomer, motions, &options)?;
         let touch = march.step()?;
         let follow = Follow {
             steps: &steps,
@@ -242,12 +242,12 @@ impl<'a> Moving<'a> {
 
     /// The cycle that is like the one before.
     fn cycle(&self, march: &mut March<'_>, follow: &Follow<'_>) -> Result<MotionRecord, BemError> {
-        let first = march.memory().to_vec();
+        let first = march.history_variables_mut().to_vec();
         let pass = |from: &[f64], tell: &dyn Fn(f64)| {
-            march.memory().copy_from_slice(from);
-            march.begin_again();
+            march.history_variables_mut().copy_from_slice(from);
+            march.return_to_first_step();
             let record = Follow { tell, ..*follow }.pass(march, None)?;
-            Ok((record, march.memory().to_vec()))
+            Ok((record, march.history_variables_mut().to_vec()))
         };
         let cycles = Cycles {
             period: self.load.duration(),
@@ -276,7 +276,7 @@ impl Follow<'_> {
         let mut rows = Vec::with_capacity(self.steps.len());
         while let Some(row) = march.step()? {
             rows.push((row, march.time_level()));
-            (self.tell)(march.part_done());
+            (self.tell)(march.fraction_done());
         }
         let mut record = MotionRecord {
             spacing: self.spacing,

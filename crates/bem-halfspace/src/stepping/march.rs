@@ -3,13 +3,13 @@
 use indenters::{SlidingLoad, Surface};
 use numerics::positive;
 
-use super::{LoadPath, March, MeanSlopes, Motion, MotionRow, Route};
+use super::{LoadInterpolation, March, MeanSlopes, Motion, MotionRow, Schedule};
 use crate::elements::grid::whole;
 use crate::{BemError, Elastomer, GridOptions};
 
 /// Steps after which a march is not begun.
-const MOST_STEPS: f64 = 1e5;
-const MARCH_ENDS: &str = "a march over a half space ends after a distance";
+const MAX_STEPS: f64 = 1e5;
+const DISTANCE_NEEDED: &str = "a march over a half space ends after a distance";
 
 impl<'a> March<'a> {
     /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
@@ -34,13 +34,18 @@ impl<'a> March<'a> {
             before = motion.time;
             (motion, time_step)
         });
-        let route = Route::through(timed, spacing)?;
-        Self::on((route, LoadPath::Held), surface, elastomer, options)
+        let schedule = Schedule::new(timed, spacing)?;
+        Self::from_schedule(
+            (schedule, LoadInterpolation::Held),
+            surface,
+            elastomer,
+            options,
+        )
     }
 
     /// Part of the steps that are done.
-    pub(crate) fn part_done(&self) -> f64 {
-        self.steps_done as f64 / self.route.legs.len() as f64
+    pub(crate) fn fraction_done(&self) -> f64 {
+        self.steps_done as f64 / self.schedule.steps.len() as f64
     }
 
     /// The march of [`slide_on_grid`](crate::motions::slide::slide_on_grid), over the sliding distance of the load, in steps of one
@@ -54,11 +59,11 @@ impl<'a> March<'a> {
         load: &SlidingLoad,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
-        Self::in_steps(surface, elastomer, load, options, options.spacing[0])
+        Self::sliding_in_steps(surface, elastomer, load, options, options.spacing[0])
     }
 
     /// The same in steps of another length \[m].
-    pub(crate) fn in_steps(
+    pub(crate) fn sliding_in_steps(
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
@@ -68,7 +73,9 @@ impl<'a> March<'a> {
         load.require_fresh_ground()?;
         let spacing = positive("spacing along x", options.spacing[0])?;
         let distance = load.sliding_distance();
-        let distance = distance.ok_or(BemError::SlidingDistanceMissing { why: MARCH_ENDS })?;
+        let distance = distance.ok_or(BemError::SlidingDistanceMissing {
+            why: DISTANCE_NEEDED,
+        })?;
         let (n_steps, last) = steps_of(distance, length)?;
         let motions = (1..=n_steps).map(|step| {
             let [position, length] = if step == n_steps {
@@ -83,8 +90,13 @@ impl<'a> March<'a> {
             };
             (motion, length / load.velocity())
         });
-        let route = Route::through(motions, spacing)?;
-        Self::on((route, LoadPath::Held), surface, elastomer, options)
+        let schedule = Schedule::new(motions, spacing)?;
+        Self::from_schedule(
+            (schedule, LoadInterpolation::Held),
+            surface,
+            elastomer,
+            options,
+        )
     }
 
     /// A march through motions that each take a time \[s], the first of them once and the others again and again, with loads
@@ -92,25 +104,30 @@ impl<'a> March<'a> {
     ///
     /// # Errors
     /// Like [`new`](Self::new).
-    pub(crate) fn again_and_again(
+    pub(crate) fn cyclic(
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
         motions: impl Iterator<Item = (Motion, f64)>,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
-        let route = Route::through(motions, spacing)?.repeated();
-        Self::on((route, LoadPath::Linear), surface, elastomer, options)
+        let schedule = Schedule::new(motions, spacing)?.repeated();
+        Self::from_schedule(
+            (schedule, LoadInterpolation::Linear),
+            surface,
+            elastomer,
+            options,
+        )
     }
 
     /// Goes back to the end of the first motion, where it comes from the last one.
-    pub(crate) const fn begin_again(&mut self) {
+    pub(crate) const fn return_to_first_step(&mut self) {
         self.steps_done = 1;
     }
 
     /// What all elements remember.
-    pub(crate) fn memory(&mut self) -> &mut [f64] {
-        self.window.whole_memory()
+    pub(crate) fn history_variables_mut(&mut self) -> &mut [f64] {
+        self.history.variables_mut()
     }
 
     /// Makes the next step; none after the last.
@@ -123,7 +140,7 @@ impl<'a> March<'a> {
         let Some(mut row) = self.advance()? else {
             return Ok(None);
         };
-        self.means = MeanSlopes::over(self, &self.route.legs[self.steps_done - 1])?;
+        self.means = MeanSlopes::over(self, &self.schedule.steps[self.steps_done - 1])?;
         row.tangential_force = row.normal_force * self.means.met;
         row.tangential_force_end_of_step = row.normal_force * self.means.end;
         Ok(Some(row))
@@ -145,18 +162,18 @@ impl<'a> March<'a> {
     }
 
     /// Friction coefficient if all slopes were uphill, which says what rounding is.
-    pub(crate) fn steepness(&self) -> f64 {
-        self.means.steepness
+    pub(crate) fn mean_slope_modulus(&self) -> f64 {
+        self.means.mean_slope_modulus
     }
 }
 
 /// Number of steps of a length over a distance, and the length of the last, of a half to one and a half of the others.
 fn steps_of(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
     let steps = distance / length;
-    if steps > MOST_STEPS {
+    if steps > MAX_STEPS {
         return Err(BemError::TooManySteps {
             steps,
-            limit: MOST_STEPS,
+            limit: MAX_STEPS,
         });
     }
     let before = (steps - 0.5).ceil().max(1.0) - 1.0;

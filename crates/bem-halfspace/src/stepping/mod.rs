@@ -10,11 +10,11 @@
 //! mirror are followed. Inside, heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
 
 mod march;
+mod material_history;
 mod motion;
-mod press;
-mod route;
+mod schedule;
 mod slopes;
-mod window;
+mod step_contact;
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -29,21 +29,21 @@ use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
 use crate::{BemError, Elastomer, GridOptions};
+use material_history::MaterialHistory;
 pub use motion::{Motion, MotionRow};
-use route::{Leg, Route};
+use schedule::{Schedule, ScheduledStep};
 use slopes::MeanSlopes;
-use window::Window;
 
 /// The load within a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LoadPath {
+pub(crate) enum LoadInterpolation {
     /// That of its end from its beginning on.
     Held,
     /// [Linear](ExponentialStep::creep_linear) from that of its beginning, as far as the material lets it.
     Linear,
 }
 
-impl LoadPath {
+impl LoadInterpolation {
     fn step(self, creep: &CreepSpectrum, time_step: f64) -> Result<ExponentialStep, RheologyError> {
         match self {
             Self::Held => ExponentialStep::creep(creep, time_step),
@@ -58,24 +58,24 @@ pub struct March<'a> {
     options: GridOptions,
     layout: Layout,
     creep: CreepSpectrum,
-    /// Whether the body sinks without limit, as it does not into a layer.
-    pub(crate) sinks: bool,
+    /// Whether the body sinks_without_limit without limit, as it does not into a layer.
+    pub(crate) sinks_without_limit: bool,
     /// 2 (1 − ν).
     half_space_factor: f64,
-    route: Route,
+    schedule: Schedule,
     steps_done: usize,
-    load_path: LoadPath,
-    step: ExponentialStep,
+    interpolation: LoadInterpolation,
+    creep_step: ExponentialStep,
     time_step: f64,
     /// Heights of the indenter over the followed elements of the footprint, and the offset for which they were sampled.
     heights: Vec<f64>,
     sampled_offset: f64,
     /// Heights plus displacement without load.
-    separation: Vec<f64>,
-    window: Window,
+    initial_gap: Vec<f64>,
+    history: MaterialHistory,
     contact_box: ContactBox,
     /// Unit of heights, \[m].
-    scale: f64,
+    height_scale: f64,
     means: MeanSlopes,
 }
 
@@ -86,63 +86,64 @@ impl fmt::Debug for March<'_> {
 }
 
 impl<'a> March<'a> {
-    fn on(
-        (route, load_path): (Route, LoadPath),
+    fn from_schedule(
+        (schedule, interpolation): (Schedule, LoadInterpolation),
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let [along_x, along_y] = surface.mirrors();
-        let layout = options.layout([along_x && route.rests(), along_y])?;
+        let layout = options.layout([along_x && schedule.rests(), along_y])?;
         let [dx, dy] = options.spacing;
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
-        let time_step = route.legs[0].time_step;
-        let step = load_path.step(&creep, time_step)?;
-        let route = match step.n_fields() {
-            0 => route.without_memory(),
-            _ => route,
+        let time_step = schedule.steps[0].time_step;
+        let creep_step = interpolation.step(&creep, time_step)?;
+        let schedule = match creep_step.n_fields() {
+            0 => schedule.without_memory(),
+            _ => schedule,
         };
         let base = elastomer.base().in_units_of(dx)?;
         base.check_flow(creep.fluidity())?;
-        let sinks = creep.fluidity() > 0.0 && base.is_half_space();
-        let n_rows = route.rows_from(0, layout.followed()[0]).end;
-        let window = Window::new(n_rows, &layout, dy / dx, (step.n_fields(), base))?;
+        let sinks_without_limit = creep.fluidity() > 0.0 && base.is_half_space();
+        let n_rows = schedule.rows_from(0, layout.followed()[0]).end;
+        let history =
+            MaterialHistory::new(n_rows, &layout, dy / dx, (creep_step.n_fields(), base))?;
         let mut march = Self {
             surface,
             options: *options,
             layout,
-            scale: 0.0,
-            sinks,
+            height_scale: 0.0,
+            sinks_without_limit,
             creep,
             half_space_factor: elastomer.material().half_space_factor(),
-            route,
+            schedule,
             steps_done: 0,
-            load_path,
-            step,
+            interpolation,
+            creep_step,
             time_step,
             heights: Vec::new(),
             sampled_offset: f64::NAN,
-            separation: vec![0.0; layout.followed().iter().product()],
-            contact_box: ContactBox::of(&window.convolution, Bounds::around([0; 2]))?,
-            window,
+            initial_gap: vec![0.0; layout.followed().iter().product()],
+            contact_box: ContactBox::of(&history.convolution, Bounds::around([0; 2]))?,
+            history,
             means: MeanSlopes::default(),
         };
-        march.scale = march.height_scale()?;
-        march.sample(march.route.legs[0].offset)?;
-        march.contact_box = march.box_at_lowest(&march.heights)?;
+        march.height_scale = march.find_height_scale()?;
+        march.sample_heights(march.schedule.steps[0].offset)?;
+        march.contact_box = march.box_at_lowest_point(&march.heights)?;
         Ok(march)
     }
 
     /// Number of values in the memory of an element: one per retardation element of the material, one more for free
     /// flow, and one more for the last load where it is linear over a step; none for an elastic material.
     pub const fn n_fields(&self) -> usize {
-        self.window.n_fields
+        self.history.n_fields
     }
 
     /// Number of elements of the half space that are followed.
     pub fn n_elements(&self) -> usize {
-        self.window.convolution.grid().n_elements()
+        self.history.convolution.grid().n_elements()
     }
 
     /// Elements of the footprint in front of the mirrors with load in the last step, and their loads there, of which only
@@ -171,12 +172,12 @@ impl<'a> March<'a> {
     /// # Errors
     /// None after a step that succeeded.
     pub fn pressure(&self) -> Result<PressureField, BemError> {
-        let unit = 4.0 * PI * self.scale / self.options.spacing[0] / self.compliance();
+        let unit = 4.0 * PI * self.height_scale / self.options.spacing[0] / self.compliance();
         let bounds = self.contact_bounds();
         let spacing = self.options.spacing;
         let origin = [
-            self.along(bounds.lower[0], self.sampled_offset) * spacing[0],
-            self.across(bounds.lower[1]),
+            self.x_in_elements(bounds.lower[0], self.sampled_offset) * spacing[0],
+            self.y_of_column(bounds.lower[1]),
         ];
         let images = |(element, load)| {
             let images = self.layout.images_of(element);
@@ -190,8 +191,8 @@ impl<'a> March<'a> {
     pub(crate) fn contact_edges(&self) -> [[f64; 2]; 2] {
         let bounds = self.contact_bounds();
         let [dx, dy] = self.options.spacing;
-        let x = |row: usize| (self.along(row, self.sampled_offset) - 0.5) * dx;
-        let y = |column: usize| self.across(column) - 0.5 * dy;
+        let x = |row: usize| (self.x_in_elements(row, self.sampled_offset) - 0.5) * dx;
+        let y = |column: usize| self.y_of_column(column) - 0.5 * dy;
         [
             [bounds.lower[0], bounds.upper[0]].map(x),
             [bounds.lower[1], bounds.upper[1]].map(y),
@@ -208,45 +209,45 @@ impl<'a> March<'a> {
 
     /// The compliance of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
-        self.half_space_factor * self.step.response()
+        self.half_space_factor * self.creep_step.response()
     }
 
     /// Goes to the end of the next step, without the forces along x; none after the last.
     pub(crate) fn advance(&mut self) -> Result<Option<MotionRow>, BemError> {
-        let leg = self.route.legs.get(self.steps_done).copied();
-        leg.map(|leg| self.follow(&leg)).transpose()
+        let step = self.schedule.steps.get(self.steps_done).copied();
+        step.map(|step| self.solve_step(&step)).transpose()
     }
 
     /// Goes to the end of the first step, which every march has.
     pub(crate) fn first(&mut self) -> Result<MotionRow, BemError> {
-        let leg = self.route.legs[0];
-        self.follow(&leg)
+        let step = self.schedule.steps[0];
+        self.solve_step(&step)
     }
 
-    fn follow(&mut self, leg: &Leg) -> Result<MotionRow, BemError> {
-        self.set_time_step(leg.time_step)?;
-        self.sample(leg.offset)?;
-        self.set_separation(leg.row);
-        let row = match self.depth_without_contact(leg.end.control) {
-            Some(depth) => self.free(leg, depth)?,
-            None => self.press(leg)?,
+    fn solve_step(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
+        self.set_time_step(step.time_step)?;
+        self.sample_heights(step.offset)?;
+        self.update_initial_gap(step.row);
+        let row = match self.depth_without_contact(step.end.control) {
+            Some(depth) => self.step_without_contact(step, depth)?,
+            None => self.solve_contact(step)?,
         };
-        self.window
-            .remember(&self.step, self.rows_needed(self.steps_done));
+        self.history
+            .advance(&self.creep_step, self.rows_needed(self.steps_done));
         self.steps_done += 1;
         Ok(row)
     }
 
-    /// The state at the end of a leg, but for depth and forces.
-    fn row(&self, leg: &Leg) -> MotionRow {
+    /// The state at the end of a step, but for depth and forces.
+    fn motion_row(&self, step: &ScheduledStep) -> MotionRow {
         let [dx, dy] = self.options.spacing;
         let loaded = self.loaded_elements();
         let images = loaded.map(|(element, _)| self.layout.n_images_of(element));
         let n_contact = images.sum();
         let edges = (n_contact > 0).then(|| self.contact_edges());
         MotionRow {
-            time: leg.end.time,
-            position: leg.end.position,
+            time: step.end.time,
+            position: step.end.position,
             indentation_depth: 0.0,
             normal_force: 0.0,
             tangential_force: 0.0,
@@ -260,18 +261,18 @@ impl<'a> March<'a> {
     }
 
     fn rows_needed(&self, step: usize) -> Range<usize> {
-        self.route.rows_from(step, self.layout.followed()[0])
+        self.schedule.rows_from(step, self.layout.followed()[0])
     }
 
     fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
         if time_step.total_cmp(&self.time_step).is_eq() {
             return Ok(());
         }
-        let before = self.step.response();
-        self.step = self.load_path.step(&self.creep, time_step)?;
+        let before = self.creep_step.response();
+        self.creep_step = self.interpolation.step(&self.creep, time_step)?;
         self.time_step = time_step;
         // The same pressure is another load now.
-        let ratio = self.step.response() / before;
+        let ratio = self.creep_step.response() / before;
         for load in self.contact_box.state.pressure_mut() {
             *load *= ratio;
         }
@@ -279,26 +280,27 @@ impl<'a> March<'a> {
     }
 
     /// Position of a row of the footprint in the frame of the indenter, in elements.
-    fn along(&self, row: usize, offset: f64) -> f64 {
+    fn x_in_elements(&self, row: usize, offset: f64) -> f64 {
         row as f64 - self.layout.apex[0] as f64 - offset
     }
 
     /// Position of a column of the footprint across, \[m].
-    fn across(&self, column: usize) -> f64 {
+    fn y_of_column(&self, column: usize) -> f64 {
         (column as f64 - self.layout.apex[1] as f64) * self.options.spacing[1]
     }
 
     /// Samples the heights with the lowest point `offset` elements ahead of the centre of its element.
-    fn sample(&mut self, offset: f64) -> Result<(), BemError> {
+    fn sample_heights(&mut self, offset: f64) -> Result<(), BemError> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
         }
         let ([rows, columns], [first_row, first_column]) = (self.layout.shape, self.layout.first());
-        let mut heights = Vec::with_capacity(self.separation.len());
+        let mut heights = Vec::with_capacity(self.initial_gap.len());
         for row in first_row..rows {
-            let x = self.along(row, offset) * self.options.spacing[0];
+            let x = self.x_in_elements(row, offset) * self.options.spacing[0];
             for column in first_column..columns {
-                heights.push(self.surface.height([x, self.across(column)]) / self.scale);
+                heights
+                    .push(self.surface.height([x, self.y_of_column(column)]) / self.height_scale);
             }
         }
         let field = (&heights[..], columns - first_column);
@@ -308,12 +310,12 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
+    fn box_at_lowest_point(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let [_, columns] = self.layout.followed();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let index = lowest.unwrap_or(0);
         let element = Bounds::around([index / columns, index % columns]);
-        ContactBox::of(&self.window.convolution, self.with_margin(&element))
+        ContactBox::of(&self.history.convolution, self.with_margin(&element))
     }
 
     /// With room for a growing contact.
@@ -321,44 +323,51 @@ impl<'a> March<'a> {
         bounds.with_margin(self.layout.followed(), self.layout.mirrors)
     }
 
-    fn set_separation(&mut self, first_row: usize) {
-        self.window
-            .history(&self.step, first_row, &mut self.separation);
-        for (separation, height) in self.separation.iter_mut().zip(&self.heights) {
+    fn update_initial_gap(&mut self, first_row: usize) {
+        self.history
+            .displacement_without_load(&self.creep_step, first_row, &mut self.initial_gap);
+        for (separation, height) in self.initial_gap.iter_mut().zip(&self.heights) {
             *separation += height;
         }
     }
 
     /// The depth of an indenter that is not pressed, or held above the surface; nothing when there is contact.
     fn depth_without_contact(&self, control: Control) -> Option<f64> {
-        let separation = self.separation.iter().copied();
+        let separation = self.initial_gap.iter().copied();
         let lowest = separation.fold(f64::INFINITY, f64::min);
         match control {
-            Control::NormalForce(force) => (force == 0.0).then_some(lowest * self.scale),
-            Control::IndentationDepth(depth) => (depth / self.scale <= lowest).then_some(depth),
+            Control::NormalForce(force) => (force == 0.0).then_some(lowest * self.height_scale),
+            Control::IndentationDepth(depth) => {
+                (depth / self.height_scale <= lowest).then_some(depth)
+            }
         }
     }
 
-    fn free(&mut self, leg: &Leg, indentation_depth: f64) -> Result<MotionRow, BemError> {
+    fn step_without_contact(
+        &mut self,
+        step: &ScheduledStep,
+        indentation_depth: f64,
+    ) -> Result<MotionRow, BemError> {
         if self.loaded_bounds().is_some() {
-            self.contact_box = self.box_at_lowest(&self.separation)?;
+            self.contact_box = self.box_at_lowest_point(&self.initial_gap)?;
         }
-        self.window.release(self.rows_needed(self.steps_done));
+        self.history
+            .clear_increment(self.rows_needed(self.steps_done));
         Ok(MotionRow {
             indentation_depth,
-            ..self.row(leg)
+            ..self.motion_row(step)
         })
     }
 
     /// A height that the scene has: F α / (4 Δx), which is F_N/(4ηv) on a dashpot, or a depth that is given.
-    fn height_scale(&self) -> Result<f64, BemError> {
+    fn find_height_scale(&self) -> Result<f64, BemError> {
         let spacing = self.options.spacing[0];
         let mut scale = 0.0_f64;
-        for leg in &self.route.legs {
-            let height = match leg.end.control {
+        for step in &self.schedule.steps {
+            let height = match step.end.control {
                 Control::IndentationDepth(depth) => depth.abs(),
                 Control::NormalForce(force) => {
-                    let step = ExponentialStep::creep(&self.creep, leg.time_step)?;
+                    let step = ExponentialStep::creep(&self.creep, step.time_step)?;
                     0.25 * force * self.half_space_factor * step.response() / spacing
                 }
             };

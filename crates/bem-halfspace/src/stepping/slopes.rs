@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use numerics::in_range;
 
 use crate::BemError;
-use crate::stepping::{Leg, March};
+use crate::stepping::{March, ScheduledStep};
 
 /// Slopes of the loaded elements, weighted with their pressure; zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,16 +26,16 @@ pub(super) struct MeanSlopes {
     /// Mean of ∂h/∂x at the end of the step.
     pub(super) end: f64,
     /// Mean of the modulus of the slope.
-    pub(super) steepness: f64,
+    pub(super) mean_slope_modulus: f64,
     /// Largest slope.
     pub(super) largest: f64,
 }
 
 impl MeanSlopes {
     /// Over the step that has been made.
-    pub(super) fn over(march: &March<'_>, leg: &Leg) -> Result<Self, BemError> {
-        let time_level = time_level(march, leg)?;
-        let chord = Chord::new(time_level, leg);
+    pub(super) fn over(march: &March<'_>, step: &ScheduledStep) -> Result<Self, BemError> {
+        let time_level = time_level(march, step)?;
+        let chord = Chord::new(time_level, step);
         let mut sum = Self {
             time_level,
             ..Self::default()
@@ -49,7 +49,7 @@ impl MeanSlopes {
                 sum.met += load * met;
                 sum.end += load * end;
             }
-            sum.steepness += load * met.abs();
+            sum.mean_slope_modulus += load * met.abs();
             sum.largest = sum.largest.max(if has_image { met.abs() } else { met });
             normal += load;
         }
@@ -59,7 +59,7 @@ impl MeanSlopes {
         Ok(Self {
             met: sum.met / normal,
             end: sum.end / normal,
-            steepness: sum.steepness / normal,
+            mean_slope_modulus: sum.mean_slope_modulus / normal,
             ..sum
         })
     }
@@ -72,8 +72,8 @@ fn slopes_at(
     [row, column]: [usize; 2],
 ) -> Result<[f64; 2], BemError> {
     let spacing = march.options.spacing[0];
-    let here = march.along(row, march.sampled_offset);
-    let y = march.across(column);
+    let here = march.x_in_elements(row, march.sampled_offset);
+    let y = march.y_of_column(column);
     let height = |place: f64| march.surface.height([place * spacing, y]);
     let met = chord.rise(here, height) / spacing;
     let x = here * spacing;
@@ -86,17 +86,17 @@ fn slopes_at(
 }
 
 /// θ, from 0 at the end of the step to ½ in its middle.
-fn time_level(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
-    let held = 1.0 - march.step.linear_share();
+fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
+    let held = 1.0 - march.creep_step.linear_share();
     if held == 0.0 {
         return Ok(0.0);
     }
-    Ok(0.5 * held * (1.0 - elastic_share(march, leg)?))
+    Ok(0.5 * held * (1.0 - elastic_share(march, step)?))
 }
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
-fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
-    let (creep, advance, time_step) = (&march.creep, leg.advance, leg.time_step);
+fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
+    let (creep, advance, time_step) = (&march.creep, step.advance, step.time_step);
     let mut elastic = creep.instantaneous_compliance();
     let n_rows = march.contact_bounds().shape()[0];
     let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);
@@ -121,11 +121,11 @@ struct Chord {
 }
 
 impl Chord {
-    fn new(time_level: f64, leg: &Leg) -> Self {
+    fn new(time_level: f64, step: &ScheduledStep) -> Self {
         Self {
-            centre: time_level * leg.advance,
+            centre: time_level * step.advance,
             // The mean over the way of a dashpot; the element alone for a spring.
-            length: (2.0 * time_level * leg.advance.abs()).max(1.0),
+            length: (2.0 * time_level * step.advance.abs()).max(1.0),
         }
     }
 

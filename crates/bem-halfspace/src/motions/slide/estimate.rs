@@ -238,7 +238,7 @@ impl<'a> PlannedSlide<'a> {
         let (control, distance) = (self.load.control(), self.load.sliding_distance());
         let march = |load| {
             let step = self.path.step / elements as f64;
-            March::in_steps(self.surface, self.elastomer, load, &options, step)
+            March::sliding_in_steps(self.surface, self.elastomer, load, &options, step)
         };
         let (transient, friction, truncation) = match (control, distance) {
             (Control::NormalForce(_), None) => {

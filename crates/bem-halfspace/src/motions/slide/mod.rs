@@ -59,7 +59,7 @@ fn slide_over(
     while let Some(row) = march.step()? {
         // At a depth there may be no contact for a while, under a force there always is.
         rows.extend(SlideRow::of(&row));
-        tell(march.part_done());
+        tell(march.fraction_done());
     }
     Transient::of(&march, load, rows)
 }

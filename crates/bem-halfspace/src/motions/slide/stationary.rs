@@ -161,14 +161,14 @@ pub(super) fn settle(
 ) -> Result<StationarySlide, BemError> {
     between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
-    let flows = march.sinks;
+    let flows = march.sinks_without_limit;
     let mut rows = Vec::new();
     let mut limits = Limits::default();
     let mut change = 1.0;
     while let Some(row) = march.step()? {
         rows.extend(SlideRow::of(&row));
-        tell(march.part_done());
-        let noise = NOISE * march.tolerance() * march.steepness();
+        tell(march.fraction_done());
+        let noise = NOISE * march.tolerance() * march.mean_slope_modulus();
         limits.push(&rows, flows);
         change = limits.change(stationary.over_distance, noise);
         if change <= stationary.tolerance {

@@ -18,7 +18,7 @@ use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::motions::moving::{
-    Cycles, MOST_STEPS, ORDER, TOUCH, WORK, moved, slowest, tolerance_of_cycles,
+    Cycles, MAX_STEPS, ORDER, TOUCH, WORK, moved, slowest, tolerance_of_cycles,
 };
 use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::nested::interpolated;
@@ -272,7 +272,7 @@ impl<'a> Moving<'a> {
     fn spacing_and_most_steps(&self, shape: [usize; 2]) -> [f64; 2] {
         let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
         let spacing = self.surface.period()[0] / shape[0] as f64;
-        [spacing, MOST_STEPS.min(MOST_WORK / n_elements)]
+        [spacing, MAX_STEPS.min(MOST_WORK / n_elements)]
     }
 
     /// The largest number of elements in the sequence of twice as many that has not too many steps.

@@ -11,7 +11,7 @@ use crate::elements::grid::whole;
 
 /// One step of the path, seen from the elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Leg {
+pub(crate) struct ScheduledStep {
     /// What is given at the end.
     pub(crate) end: Motion,
     /// Duration, \[s].
@@ -25,26 +25,26 @@ pub(crate) struct Leg {
 }
 
 /// All steps, and which rows those to come pass.
-pub(crate) struct Route {
-    pub(crate) legs: Vec<Leg>,
-    /// Lowest and highest row under the lowest point from each leg on.
+pub(crate) struct Schedule {
+    pub(crate) steps: Vec<ScheduledStep>,
+    /// Lowest and highest row under the lowest point from each step on.
     spans: Vec<[usize; 2]>,
 }
 
-impl Route {
+impl Schedule {
     /// The path through the ends of motions, each with its duration \[s], from a centre of an element at time and position
     /// zero. Refuses what [`March::new`](crate::motions::slide::March::new) does.
-    pub(crate) fn through(
+    pub(crate) fn new(
         motions: impl Iterator<Item = (Motion, f64)>,
         spacing: f64,
     ) -> Result<Self, BemError> {
-        let (mut legs, mut cells) = (Vec::new(), Vec::new());
+        let (mut steps, mut cells) = (Vec::new(), Vec::new());
         let (mut cell_before, mut offset_before) = (0.0, 0.0);
         for (end, time_step) in motions {
             let time_step = positive("time step", time_step)?;
             let [cell, offset] = place(end.position, spacing)?;
             check_control(end.control)?;
-            legs.push(Leg {
+            steps.push(ScheduledStep {
                 end,
                 time_step,
                 row: 0,
@@ -54,19 +54,19 @@ impl Route {
             cells.push(cell);
             (cell_before, offset_before) = (cell, offset);
         }
-        positive("number of steps", legs.len() as f64)?;
+        positive("number of steps", steps.len() as f64)?;
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);
-        for (leg, cell) in legs.iter_mut().zip(cells) {
-            leg.row = whole(cell - lowest)?;
+        for (step, cell) in steps.iter_mut().zip(cells) {
+            step.row = whole(cell - lowest)?;
         }
-        let spans = spans(&legs);
-        Ok(Self { legs, spans })
+        let spans = spans(&steps);
+        Ok(Self { steps, spans })
     }
 
     /// Whether the indenter never moves.
     pub(crate) fn rests(&self) -> bool {
-        let mut legs = self.legs.iter();
-        legs.all(|leg| leg.advance == 0.0 && leg.offset == 0.0)
+        let mut steps = self.steps.iter();
+        steps.all(|step| step.advance == 0.0 && step.offset == 0.0)
     }
 
     /// The same path again and again, so that every step may still pass all rows.
@@ -79,26 +79,26 @@ impl Route {
 
     /// The same path over a half space without memory, so that the elements may move with the indenter.
     pub(crate) fn without_memory(mut self) -> Self {
-        for leg in &mut self.legs {
-            leg.row = 0;
+        for step in &mut self.steps {
+            step.row = 0;
         }
         self.spans.fill([0; 2]);
         self
     }
 
-    /// Rows that footprints of `n_rows` rows cover from leg number `first` on; none after the last.
+    /// Rows that footprints of `n_rows` rows cover from step number `first` on; none after the last.
     pub(crate) fn rows_from(&self, first: usize, n_rows: usize) -> Range<usize> {
         let span = self.spans.get(first);
         span.map_or(0..0, |[low, high]| *low..high + n_rows)
     }
 }
 
-/// Lowest and highest row from each leg on.
-fn spans(legs: &[Leg]) -> Vec<[usize; 2]> {
-    let mut spans: Vec<[usize; 2]> = legs.iter().map(|leg| [leg.row; 2]).collect();
-    for leg in (1..spans.len()).rev() {
-        let [low, high] = spans[leg];
-        let before = &mut spans[leg - 1];
+/// Lowest and highest row from each step on.
+fn spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
+    let mut spans: Vec<[usize; 2]> = steps.iter().map(|step| [step.row; 2]).collect();
+    for step in (1..spans.len()).rev() {
+        let [low, high] = spans[step];
+        let before = &mut spans[step - 1];
         *before = [before[0].min(low), before[1].max(high)];
     }
     spans

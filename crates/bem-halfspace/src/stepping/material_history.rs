@@ -14,18 +14,18 @@ use crate::elements::resolution::Layout;
 use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid, Rows};
 
 /// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.
-pub(super) struct Window {
+pub(super) struct MaterialHistory {
     pub(super) convolution: Convolution,
     workspace: ConvolutionWorkspace,
     load: Vec<f64>,
     /// Displacement by the load of the present step.
     increment: Vec<f64>,
     /// [row][field][column], so that the rows of a step lie together.
-    memory: Vec<f64>,
+    variables: Vec<f64>,
     pub(super) n_fields: usize,
 }
 
-impl Window {
+impl MaterialHistory {
     pub(super) fn new(
         n_rows: usize,
         layout: &Layout,
@@ -40,7 +40,7 @@ impl Window {
             workspace: convolution.workspace(),
             load: vec![0.0; n_elements],
             increment: vec![0.0; n_elements],
-            memory: vec![0.0; n_fields * n_elements],
+            variables: vec![0.0; n_fields * n_elements],
             n_fields,
             convolution,
         })
@@ -55,27 +55,32 @@ impl Window {
         &self.increment[rows.start * self.columns()..rows.end * self.columns()]
     }
 
-    fn memory(&self, rows: Range<usize>) -> &[f64] {
+    fn row_variables(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
-        &self.memory[rows.start * per_row..rows.end * per_row]
+        &self.variables[rows.start * per_row..rows.end * per_row]
     }
 
     /// What all elements remember.
-    pub(super) fn whole_memory(&mut self) -> &mut [f64] {
-        &mut self.memory
+    pub(super) fn variables_mut(&mut self) -> &mut [f64] {
+        &mut self.variables
     }
 
     /// Displacement at the end of a step without load, from `first_row` on.
-    pub(super) fn history(&self, step: &ExponentialStep, first_row: usize, history: &mut [f64]) {
+    pub(super) fn displacement_without_load(
+        &self,
+        step: &ExponentialStep,
+        first_row: usize,
+        history: &mut [f64],
+    ) {
         let columns = self.columns();
         for (row, history) in (first_row..).zip(history.chunks_exact_mut(columns)) {
-            step.history(self.memory(row..row + 1), history);
+            step.history(self.row_variables(row..row + 1), history);
         }
     }
 
     /// Presses with loads on the elements of a footprint that begins at `first_row`, and finds how far the rows
     /// `wanted` give way.
-    pub(super) fn press(
+    pub(super) fn apply_load(
         &mut self,
         loaded: impl Iterator<Item = ([usize; 2], f64)>,
         (first_row, rows): (usize, Range<usize>),
@@ -97,13 +102,13 @@ impl Window {
     }
 
     /// A step without load.
-    pub(super) fn release(&mut self, wanted: Range<usize>) {
+    pub(super) fn clear_increment(&mut self, wanted: Range<usize>) {
         let columns = self.columns();
         self.increment[wanted.start * columns..wanted.end * columns].fill(0.0);
     }
 
     /// Ends the step in the rows that are still needed.
-    pub(super) fn remember(&mut self, step: &ExponentialStep, wanted: Range<usize>) {
+    pub(super) fn advance(&mut self, step: &ExponentialStep, wanted: Range<usize>) {
         if self.n_fields == 0 {
             return;
         }
@@ -112,7 +117,7 @@ impl Window {
         let compliance = step.response();
         let increments = self.increment[wanted.start * columns..wanted.end * columns]
             .chunks_exact_mut(columns)
-            .zip(self.memory[wanted.start * per_row..].chunks_exact_mut(per_row));
+            .zip(self.variables[wanted.start * per_row..].chunks_exact_mut(per_row));
         for (increment, memory) in increments {
             // From here on the load potential that caused the displacement, times 2 (1 − ν).
             for value in &mut *increment {

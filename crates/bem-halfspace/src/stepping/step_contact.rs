@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use indenters::Control;
 
-use super::{Leg, March, MotionRow};
+use super::{March, MotionRow, ScheduledStep};
 use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::images;
@@ -15,18 +15,19 @@ const NEEDED_PART: f64 = 0.75;
 
 impl March<'_> {
     /// Solves the contact at the end of a step, on a box that grows until the indenter penetrates nowhere outside.
-    pub(super) fn press(&mut self, leg: &Leg) -> Result<MotionRow, BemError> {
+    pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
-            let separation = (&self.separation[..], self.layout.followed()[1]);
+            let separation = (&self.initial_gap[..], self.layout.followed()[1]);
             let bounds = self.contact_box.bounds;
             bounds.cut(separation, &mut self.contact_box.separation);
-            let control = self.scaled(leg.end.control);
+            let control = self.scaled_control(step.end.control);
             let accuracy = (&self.options.contact).into();
             let solved = self.contact_box.solve(control, &accuracy)?;
-            self.find_increment(leg.row);
+            self.update_increment(step.row);
             let contact = self.loaded_bounds();
-            if let Some(outside) = self.penetration(leg.row, solved.indentation_depth) {
+            if let Some(outside) = self.penetration_outside_box(step.row, solved.indentation_depth)
+            {
                 let mut bounds = contact.map_or(outside, |contact| contact.union(&outside));
                 bounds = self.with_margin(&bounds);
                 if enlarged {
@@ -37,17 +38,17 @@ impl March<'_> {
                 continue;
             }
             if let Some(contact) = contact {
-                self.check_footprint(&self.layout.unfolded(&contact), leg.end.position)?;
-                self.tighten(&contact)?;
+                self.check_footprint(&self.layout.unfolded(&contact), step.end.position)?;
+                self.shrink_box(&contact)?;
             }
             return Ok(MotionRow {
-                indentation_depth: solved.indentation_depth * self.scale,
-                normal_force: match leg.end.control {
+                indentation_depth: solved.indentation_depth * self.height_scale,
+                normal_force: match step.end.control {
                     Control::NormalForce(force) => force,
                     Control::IndentationDepth(_) => solved.total_load / self.load_per_force(),
                 },
                 iterations: solved.iterations,
-                ..self.row(leg)
+                ..self.motion_row(step)
             });
         }
     }
@@ -56,36 +57,38 @@ impl March<'_> {
     ///
     /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
-        let compliance = self.compliance() / self.scale;
+        let compliance = self.compliance() / self.height_scale;
         compliance / (4.0 * PI * self.options.spacing[1]) / images(self.layout.mirrors)
     }
 
-    fn scaled(&self, control: Control) -> Control {
+    fn scaled_control(&self, control: Control) -> Control {
         match control {
             Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),
-            Control::IndentationDepth(depth) => Control::IndentationDepth(depth / self.scale),
+            Control::IndentationDepth(depth) => {
+                Control::IndentationDepth(depth / self.height_scale)
+            }
         }
     }
 
-    fn find_increment(&mut self, first_row: usize) {
+    fn update_increment(&mut self, first_row: usize) {
         let wanted = self.rows_needed(self.steps_done);
         if self.loaded_bounds().is_none() {
-            self.window.release(wanted);
+            self.history.clear_increment(wanted);
             return;
         }
         let rows = self.contact_box.bounds.rows();
         let loaded = self.contact_box.loaded_elements();
-        self.window.press(loaded, (first_row, rows), wanted);
+        self.history.apply_load(loaded, (first_row, rows), wanted);
     }
 
     /// Elements outside the box that the indenter penetrates.
-    fn penetration(&self, first_row: usize, depth: f64) -> Option<Bounds> {
+    fn penetration_outside_box(&self, first_row: usize, depth: f64) -> Option<Bounds> {
         let [rows, columns] = self.layout.followed();
-        let increment = self.window.increment(first_row..first_row + rows);
+        let increment = self.history.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
         // The box and the window round differently, so the box's own tolerance would be too sharp here.
         let allowed = -2.0 * self.options.contact.tolerance * deflection;
-        let gaps = self.separation.iter().zip(increment).enumerate();
+        let gaps = self.initial_gap.iter().zip(increment).enumerate();
         let outside = gaps
             .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
             .map(|(index, _)| [index / columns, index % columns])
@@ -103,7 +106,7 @@ impl March<'_> {
     }
 
     /// Goes on with a smaller box when the contact has left most of it.
-    fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
+    fn shrink_box(&mut self, contact: &Bounds) -> Result<(), BemError> {
         let shape = self.contact_box.bounds.shape();
         let needed = self.with_margin(contact);
         let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));
