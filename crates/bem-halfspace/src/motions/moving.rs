@@ -24,26 +24,26 @@ use crate::{BemError, Elastomer, GridOptions, Reached};
 /// strokes reach two per cent on these (docs/theory/transient-half-space.md).
 const FIRST_ELEMENTS_OF_MOTION: usize = 8;
 /// Elements along the contact after which a motion is given up; a cycle takes about a minute.
-const LARGEST_GRID: usize = 48;
+const MAX_ELEMENTS_OF_MOTION: usize = 48;
 /// Order of the error, at least.
-pub(crate) const ORDER: f64 = 1.0;
+pub(crate) const MIN_ORDER_OF_MOTION: f64 = 1.0;
 /// Of the elements of a path in as many steps as it has along it.
 pub(crate) const WORK: f64 = 3.0;
 /// Steps of a motion, or of one cycle, after which it is not begun, and cycles after which the search is given up.
 pub(crate) const MAX_STEPS: f64 = 1e5;
-const MOST_CYCLES: usize = 100;
+const MAX_CYCLES: usize = 100;
 /// Relative change by a cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
-const ROUNDING_OF_CYCLE: f64 = 1e-14;
+const CYCLE_ROUNDING: f64 = 1e-14;
 /// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
-const PART_OF_CYCLES: f64 = 0.1;
-const TOLERANCE_ON_ELEMENTS: f64 = 1e-3;
+const CYCLE_TOLERANCE_FRACTION: f64 = 0.1;
+const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
 /// Steps in which the body passes an element at its largest speed. With three the errors of steps are about those of elements
 /// (docs/theory/transient-half-space.md has both for some strokes).
 const STEPS_PER_ELEMENT: usize = 3;
 /// Duration of the first touch, at rest, relative to that of the first step.
-pub(crate) const TOUCH: f64 = 1e-3;
+pub(crate) const TOUCH_DURATION_RATIO: f64 = 1e-3;
 /// Times of the slowest element after which a body that is pressed rests.
-const MEMORIES: f64 = 30.0;
+const REST_OVER_RETARDATION_TIME: f64 = 30.0;
 /// Memory for an element that is followed, but for what it remembers, and for a step, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 150.0;
 const BYTES_PER_STEP: f64 = 600.0;
@@ -83,12 +83,12 @@ pub fn move_along<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, BemError> {
     let request = request.into();
-    let problem = Moving::new(surface, elastomer, load, request.accuracy)?;
+    let problem = MovingBody::new(surface, elastomer, load, request.accuracy)?;
     let goal = Goal {
         request,
         first: FIRST_ELEMENTS_OF_MOTION,
-        largest: LARGEST_GRID,
-        order: order_of_friction(problem.plan.apex_exponent, ORDER),
+        largest: MAX_ELEMENTS_OF_MOTION,
+        order: order_of_friction(problem.plan.apex_exponent, MIN_ORDER_OF_MOTION),
         work: WORK,
         others: 0.0,
         selection: 1.0,
@@ -99,15 +99,18 @@ pub fn move_along<'w>(
     };
     let refined = refine(
         &goal,
-        |elements, tell: &dyn Fn(f64)| problem.on(elements, tell),
+        |elements, report: &dyn Fn(f64)| problem.solve_on_grid(elements, report),
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(view.rests(record)),
     )?;
-    moved(&view, refined)
+    moved_if_reached(&view, refined)
 }
 
 /// The motion of the finest resolution, or what was reached of it.
-pub(crate) fn moved(view: &MotionView, refined: Refined<MotionRecord>) -> Result<Moved, BemError> {
+pub(crate) fn moved_if_reached(
+    view: &MotionView,
+    refined: Refined<MotionRecord>,
+) -> Result<Moved, BemError> {
     let found = view.moved(refined.value, &refined.error, refined.parts[0]);
     let Some(missed) = refined.missed else {
         return Ok(found);
@@ -131,7 +134,7 @@ pub fn move_along_memory(
     load: &MovingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
+    let problem = MovingBody::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let options = problem.options(elements);
     let [dx, dy] = options.spacing;
     let (per_contact, length) = steps_of(elements, dx);
@@ -148,7 +151,7 @@ pub fn move_along_memory(
     Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
 }
 
-struct Moving<'a> {
+struct MovingBody<'a> {
     surface: &'a dyn Surface,
     elastomer: &'a dyn Elastomer,
     load: &'a MovingLoad,
@@ -166,7 +169,7 @@ fn steps_of(elements: usize, spacing: f64) -> (usize, f64) {
     )
 }
 
-impl<'a> Moving<'a> {
+impl<'a> MovingBody<'a> {
     fn new(
         surface: &'a dyn Surface,
         elastomer: &'a dyn Elastomer,
@@ -181,7 +184,7 @@ impl<'a> Moving<'a> {
         let fastest = SlidingLoad::with(control, load.fastest())?;
         let mut plan = GridPlan::sliding(surface, elastomer, &fastest)?;
         if let Control::NormalForce(_) = control {
-            let memory = MEMORIES * slowest(&creep);
+            let memory = REST_OVER_RETARDATION_TIME * slowest_retardation_time(&creep);
             let pressed = if load.is_cycle() { memory } else { 0.0 };
             let duration = if pressed > 0.0 {
                 pressed
@@ -189,7 +192,7 @@ impl<'a> Moving<'a> {
                 load.duration()
             };
             let rest = footprint_after(surface, elastomer, &PressingLoad::new(control, duration)?)?;
-            plan.footprint = around(plan.footprint, rest);
+            plan.footprint = bounding_footprint(plan.footprint, rest);
         }
         Ok(Self {
             surface,
@@ -197,7 +200,7 @@ impl<'a> Moving<'a> {
             load,
             creep,
             plan,
-            tolerance: tolerance_of_cycles(accuracy),
+            tolerance: cycle_tolerance(accuracy),
         })
     }
 
@@ -211,12 +214,16 @@ impl<'a> Moving<'a> {
         Ok(self.load.steps(per_contact, length, MAX_STEPS)?)
     }
 
-    fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+    fn solve_on_grid(
+        &self,
+        elements: usize,
+        report: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
         let options = self.options(elements);
         let [spacing, _] = options.spacing;
         let steps = self.steps(elements, spacing)?;
         let start = self.load.stages()[0].start;
-        let touch = TOUCH * steps[0].duration;
+        let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let first = (start, touch);
         let all = steps.iter().map(|step| (step.end, step.duration));
         let motions = std::iter::once(first).chain(all).map(|(point, duration)| {
@@ -229,46 +236,50 @@ impl<'a> Moving<'a> {
         });
         let mut march = March::cyclic(self.surface, self.elastomer, motions, &options)?;
         let touch = march.step()?;
-        let follow = Follow {
+        let pass = MotionPass {
             steps: &steps,
             spacing,
-            tell,
+            report,
         };
         if self.load.is_cycle() {
-            return self.cycle(&mut march, &follow);
+            return self.find_limit_cycle(&mut march, &pass);
         }
-        follow.pass(&mut march, touch.as_ref())
+        pass.run(&mut march, touch.as_ref())
     }
 
     /// The cycle that is like the one before.
-    fn cycle(&self, march: &mut March<'_>, follow: &Follow<'_>) -> Result<MotionRecord, BemError> {
+    fn find_limit_cycle(
+        &self,
+        march: &mut March<'_>,
+        motion: &MotionPass<'_>,
+    ) -> Result<MotionRecord, BemError> {
         let first = march.history_variables_mut().to_vec();
-        let pass = |from: &[f64], tell: &dyn Fn(f64)| {
+        let pass = |from: &[f64], report: &dyn Fn(f64)| {
             march.history_variables_mut().copy_from_slice(from);
             march.return_to_first_step();
-            let record = Follow { tell, ..*follow }.pass(march, None)?;
+            let record = MotionPass { report, ..*motion }.run(march, None)?;
             Ok((record, march.history_variables_mut().to_vec()))
         };
-        let cycles = Cycles {
+        let limit_cycle = LimitCycle {
             period: self.load.duration(),
-            slowest: slowest(&self.creep),
+            slowest: slowest_retardation_time(&self.creep),
             tolerance: self.tolerance,
         };
-        cycles.settle(first, pass, follow.tell)
+        limit_cycle.find(first, pass, motion.report)
     }
 }
 
 /// All steps of a motion, or of one cycle.
-struct Follow<'a> {
+struct MotionPass<'a> {
     steps: &'a [MovingStep],
     /// Length of an element, \[m].
     spacing: f64,
-    tell: &'a dyn Fn(f64),
+    report: &'a dyn Fn(f64),
 }
 
-impl Follow<'_> {
+impl MotionPass<'_> {
     /// Makes all steps, from the state with `first`, or from that of their end.
-    fn pass(
+    fn run(
         &self,
         march: &mut March<'_>,
         first: Option<&MotionRow>,
@@ -276,7 +287,7 @@ impl Follow<'_> {
         let mut rows = Vec::with_capacity(self.steps.len());
         while let Some(row) = march.step()? {
             rows.push((row, march.time_level()));
-            (self.tell)(march.fraction_done());
+            (self.report)(march.fraction_done());
         }
         let mut record = MotionRecord {
             spacing: self.spacing,
@@ -287,7 +298,7 @@ impl Follow<'_> {
         };
         for (step, (row, time_level)) in self.steps.iter().zip(&rows) {
             add_work(&mut record, step, [before, row], *time_level);
-            record.steps.push(step_of(step, row));
+            record.steps.push(motion_step(step, row));
             before = row;
         }
         Ok(record)
@@ -316,7 +327,7 @@ fn add_work(
 }
 
 /// When two cycles are alike.
-pub(crate) struct Cycles {
+pub(crate) struct LimitCycle {
     /// \[s].
     pub(crate) period: f64,
     /// The slowest retardation time, \[s].
@@ -325,26 +336,26 @@ pub(crate) struct Cycles {
     pub(crate) tolerance: f64,
 }
 
-impl Cycles {
+impl LimitCycle {
     /// The cycle that is like the one before, from what elements remember; a pass gives it, and what they remember at its end, and
     /// tells which part of it is done.
-    pub(crate) fn settle(
+    pub(crate) fn find(
         &self,
         first: Vec<f64>,
         mut pass: impl FnMut(&[f64], &dyn Fn(f64)) -> Result<(MotionRecord, Vec<f64>), BemError>,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
         let slowness = -(-self.period / self.slowest).exp_m1().recip();
-        if slowness * ROUNDING_OF_CYCLE > self.tolerance {
+        if slowness * CYCLE_ROUNDING > self.tolerance {
             let (period, slowest) = (self.period, self.slowest);
             return Err(BemError::CycleTooShort { period, slowest });
         }
         // By the cycles that are made, or by how alike they are, whichever is more.
-        let (mut n_cycles, alike) = (0, Cell::new(0.0_f64));
+        let (mut n_cycles, similarity) = (0, Cell::new(0.0_f64));
         let pass = |from: &[f64]| {
             let begun = f64::from(n_cycles);
             let cycle = pass(from, &|part| {
-                tell(alike.get().max((begun + part) / MOST_CYCLES as f64));
+                report(similarity.get().max((begun + part) / MAX_CYCLES as f64));
             });
             n_cycles += 1;
             cycle
@@ -352,13 +363,13 @@ impl Cycles {
         let left = |now: &mut MotionRecord, before: &MotionRecord| {
             let left = now.rest_after(before, slowness);
             let part = (left.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
-            alike.set(alike.get().max(part));
+            similarity.set(similarity.get().max(part));
             left
         };
-        match settle(first, (MOST_CYCLES, self.tolerance), pass, left)? {
+        match settle(first, (MAX_CYCLES, self.tolerance), pass, left)? {
             Settled::Found(record, n_cycles) => Ok(MotionRecord { n_cycles, ..record }),
             Settled::Missed(change) => Err(BemError::NotPeriodic {
-                cycles: MOST_CYCLES,
+                cycles: MAX_CYCLES,
                 change,
                 tolerance: self.tolerance,
             }),
@@ -367,15 +378,15 @@ impl Cycles {
 }
 
 /// Relative error by which cycles may differ.
-pub(crate) const fn tolerance_of_cycles(accuracy: Accuracy) -> f64 {
+pub(crate) const fn cycle_tolerance(accuracy: Accuracy) -> f64 {
     match accuracy {
-        Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
-        Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
+        Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_FRACTION * asked,
+        Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ONE_GRID,
     }
 }
 
 /// Force and depth are those at the end of a step.
-fn step_of(step: &MovingStep, row: &MotionRow) -> MotionStep {
+fn motion_step(step: &MovingStep, row: &MotionRow) -> MotionStep {
     MotionStep {
         stage: step.stage,
         time: step.end.time,
@@ -389,7 +400,7 @@ fn step_of(step: &MovingStep, row: &MotionRow) -> MotionStep {
 }
 
 /// The slowest retardation time, \[s]; 0 without any.
-pub(crate) fn slowest(creep: &CreepSpectrum) -> f64 {
+pub(crate) fn slowest_retardation_time(creep: &CreepSpectrum) -> f64 {
     let times = creep
         .elements()
         .iter()
@@ -398,7 +409,7 @@ pub(crate) fn slowest(creep: &CreepSpectrum) -> f64 {
 }
 
 /// The rectangle around two.
-fn around(a: Footprint, b: Footprint) -> Footprint {
+fn bounding_footprint(a: Footprint, b: Footprint) -> Footprint {
     let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
     Footprint {
         x: both(a.x, b.x),

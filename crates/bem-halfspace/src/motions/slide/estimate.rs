@@ -7,29 +7,29 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
-use crate::motions::slide::stationary::settle;
+use crate::motions::slide::stationary::slide_until_stationary;
 use crate::motions::slide::{
-    March, PressureField, SlideRow, StationaryOptions, Transient, slide_over,
+    March, PressureField, SlideRow, StationaryOptions, Transient, follow_march,
 };
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
-const LARGEST_GRID: usize = 32;
+const MAX_ELEMENTS_OF_SLIDE: usize = 32;
 /// Order of the error under a smooth body, that of a step in time.
-const ORDER: f64 = 1.0;
+const ORDER_OF_SLIDE: f64 = 1.0;
 /// Of the elements of a contact in as many steps as it has along it.
 const WORK: f64 = 3.0;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
-const LENGTHS: f64 = 24.0;
-const DRIFT: f64 = 0.05;
+const FLOW_CONTACT_LENGTHS: f64 = 24.0;
+const MAX_DRIFT: f64 = 0.05;
 /// Distances v λ of the slowest element until a solid counts as stationary.
-const MEMORIES: f64 = 12.0;
+const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;
 /// Of a contact: over a shorter distance elements are not made as short as a step.
-const SHORT: f64 = 2.0 / 3.0;
+const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
 /// Contact lengths after which a march to the stationary state is not begun.
-const LONGEST: f64 = 500.0;
+const MAX_CONTACT_LENGTHS: f64 = 500.0;
 /// Change of the friction by which a solid counts as stationary, relative to the error asked for.
-const SETTLED: f64 = 0.1;
+const CHANGE_OVER_ERROR: f64 = 0.1;
 
 /// Memory for an element that is followed, but for what it remembers, and for a step of a march, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 150.0;
@@ -86,7 +86,7 @@ pub fn slide_memory(
     let options = problem.options(elements);
     let (spacing, footprint) = (options.spacing, options.footprint);
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
-    let Path { distance, step, .. } = problem.path;
+    let PlannedDistance { distance, step, .. } = problem.distance;
     let steps = distance / step * elements as f64;
     // A material without memory needs no more elements than the footprint has.
     let behind = if n_fields > 0 {
@@ -110,13 +110,13 @@ struct PlannedSlide<'a> {
     load: &'a SlidingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
-    path: Path,
+    distance: PlannedDistance,
     request: Request<'a>,
 }
 
 /// The distance that is slid, and on what elements and steps, so that it is a whole number of both on all grids.
 #[derive(Clone, Copy)]
-struct Path {
+struct PlannedDistance {
     /// \[m], the longest for a stationary state.
     distance: f64,
     /// Length of an element times the elements along the contact, \[m].
@@ -125,11 +125,12 @@ struct Path {
     step: f64,
 }
 
-impl Path {
+impl PlannedDistance {
     fn new(plan: &GridPlan, load: &SlidingLoad, memory: f64) -> Self {
         let length = plan.length();
         let Some(distance) = load.sliding_distance() else {
-            let lengths = LENGTHS + (MEMORIES * memory / length).ceil();
+            let lengths =
+                FLOW_CONTACT_LENGTHS + (MAX_DISTANCE_OVER_MEMORY * memory / length).ceil();
             return Self {
                 distance: lengths * length,
                 length,
@@ -137,7 +138,11 @@ impl Path {
             };
         };
         let step = distance / (distance / length).round().max(1.0);
-        let length = if step < SHORT * length { length } else { step };
+        let length = if step < MIN_DISTANCE_FOR_WHOLE_ELEMENTS * length {
+            length
+        } else {
+            step
+        };
         Self {
             distance,
             length,
@@ -157,7 +162,7 @@ impl<'a> PlannedSlide<'a> {
         let plan = GridPlan::sliding(surface, elastomer, load)?;
         let creep = elastomer.material().creep();
         Ok(Self {
-            path: Path::new(&plan, load, memory_of(elastomer, load)),
+            distance: PlannedDistance::new(&plan, load, memory_length(elastomer, load)),
             plan,
             creep,
             surface,
@@ -172,8 +177,8 @@ impl<'a> PlannedSlide<'a> {
             goal: Goal {
                 request: self.request,
                 first: FIRST_ELEMENTS,
-                largest: LARGEST_GRID,
-                order: bars::order_of_friction(self.plan.apex_exponent, ORDER),
+                largest: MAX_ELEMENTS_OF_SLIDE,
+                order: bars::order_of_friction(self.plan.apex_exponent, ORDER_OF_SLIDE),
                 work: WORK,
                 others: 0.0,
                 selection: 2.0,
@@ -188,22 +193,22 @@ impl<'a> PlannedSlide<'a> {
             has_peak: peak_has_limit(self.surface, self.elastomer),
             better: 0.0,
         };
-        let march = |elements, tell: &dyn Fn(f64)| self.march(elements, tell);
+        let march = |elements, report: &dyn Fn(f64)| self.march(elements, report);
         bars::resolve(&resolution, march, |mut estimate: SlideEstimate| {
             if self.creep.is_elastic() {
                 estimate.friction_coefficient = Estimate::exact(0.0);
                 estimate.error_parts = ErrorParts::NONE;
             }
             if self.load.sliding_distance().is_none() {
-                self.with_what_is_left(&mut estimate);
+                self.widen_by_remaining_change(&mut estimate);
             }
             Ok(estimate)
         })
     }
 
     /// Depth, area and ends of the contact come to rest more slowly than friction, by which a march ends.
-    fn with_what_is_left(&self, estimate: &mut SlideEstimate) {
-        let left = |of: &dyn Fn(&SlideRow) -> f64| left_to_go(&estimate.finest.rows, of);
+    fn widen_by_remaining_change(&self, estimate: &mut SlideEstimate) {
+        let left = |of: &dyn Fn(&SlideRow) -> f64| remaining_change(&estimate.finest.rows, of);
         let [depth, area] = [
             left(&|row| row.indentation_depth),
             left(&|row| row.contact_area),
@@ -221,7 +226,7 @@ impl<'a> PlannedSlide<'a> {
 
     /// At a depth the body reaches the boundary of its footprint.
     fn options(&self, elements: usize) -> GridOptions {
-        let spacing = self.path.length / elements as f64;
+        let spacing = self.distance.length / elements as f64;
         let footprint = match self.load.control() {
             Control::NormalForce(_) => self.plan.footprint,
             Control::IndentationDepth(_) => self.plan.footprint.widened(spacing),
@@ -232,21 +237,21 @@ impl<'a> PlannedSlide<'a> {
     fn march(
         &self,
         elements: usize,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<OnGrid<Transient, GridOptions>, BemError> {
         let options = self.options(elements);
         let (control, distance) = (self.load.control(), self.load.sliding_distance());
         let march = |load| {
-            let step = self.path.step / elements as f64;
+            let step = self.distance.step / elements as f64;
             March::sliding_in_steps(self.surface, self.elastomer, load, &options, step)
         };
         let (transient, friction, truncation) = match (control, distance) {
             (Control::NormalForce(_), None) => {
-                self.check_memory()?;
-                let load = self.load.after(self.path.distance)?;
-                self.to_stationary(march(&load)?, &load, tell)?
+                self.check_memory_length()?;
+                let load = self.load.after(self.distance.distance)?;
+                self.march_to_stationary(march(&load)?, &load, report)?
             }
-            _ => over_distance(march(self.load)?, self.load, tell)?,
+            _ => slide_over_distance(march(self.load)?, self.load, report)?,
         };
         let last = transient.last();
         let quantities = Quantities {
@@ -273,64 +278,64 @@ impl<'a> PlannedSlide<'a> {
     }
 
     /// Refuses a material that remembers the first touch for too long.
-    fn check_memory(&self) -> Result<(), BemError> {
+    fn check_memory_length(&self) -> Result<(), BemError> {
         let contact_length = self.plan.length();
-        if self.path.distance <= LONGEST * contact_length {
+        if self.distance.distance <= MAX_CONTACT_LENGTHS * contact_length {
             return Ok(());
         }
         Err(BemError::MemoryTooLong {
-            memory: memory_of(self.elastomer, self.load),
+            memory: memory_length(self.elastomer, self.load),
             contact_length,
-            limit: LONGEST,
+            limit: MAX_CONTACT_LENGTHS,
         })
     }
 
-    fn to_stationary(
+    fn march_to_stationary(
         &self,
         march: March<'_>,
         load: &SlidingLoad,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<End, BemError> {
-        let memory = memory_of(self.elastomer, load);
+        let memory = memory_length(self.elastomer, load);
         if memory > 0.0 {
-            return self.until_forgotten(memory, march, load, tell);
+            return self.march_until_settled(memory, march, load, report);
         }
-        let end = over_distance(march, load, tell)?;
+        let end = slide_over_distance(march, load, report)?;
         if self.creep.is_elastic() {
             return Ok(end);
         }
-        let state = end.0.stationary(DRIFT)?;
+        let state = end.0.stationary(MAX_DRIFT)?;
         let (friction, error) = (state.friction_coefficient, state.distance_error);
         Ok((end.0, friction, Some(error)))
     }
 
     /// Slides until a material that recovers has forgotten the first touch.
-    fn until_forgotten(
+    fn march_until_settled(
         &self,
         memory: f64,
         march: March<'_>,
         load: &SlidingLoad,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<End, BemError> {
         let stationary = StationaryOptions {
             tolerance: match self.request.accuracy {
-                Accuracy::RelativeError(error) => SETTLED * error,
-                Accuracy::Elements(_) => SETTLED * DRIFT,
+                Accuracy::RelativeError(error) => CHANGE_OVER_ERROR * error,
+                Accuracy::Elements(_) => CHANGE_OVER_ERROR * MAX_DRIFT,
             },
             over_distance: 2.0 * self.plan.length() + memory,
         };
-        let end = settle(march, load, &stationary, tell)?;
+        let end = slide_until_stationary(march, load, &stationary, report)?;
         let friction = end.friction_coefficient;
         Ok((end.transient, friction, Some(end.rest * friction.abs())))
     }
 }
 
-fn over_distance(
+fn slide_over_distance(
     march: March<'_>,
     load: &SlidingLoad,
-    tell: &dyn Fn(f64),
+    report: &dyn Fn(f64),
 ) -> Result<End, BemError> {
-    let transient = slide_over(march, load, tell)?;
+    let transient = follow_march(march, load, report)?;
     let friction = transient.last().friction_coefficient;
     Ok((transient, friction, None))
 }
@@ -338,13 +343,13 @@ fn over_distance(
 /// What is left of a quantity's way to the stationary state, at most: twice its change over the second half of a march. The track
 /// behind the body misses what is beyond its beginning, which is felt in inverse proportion to the distance, so that as much
 /// is left as has changed; on a material that flows the front comes to rest more slowly.
-fn left_to_go(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
+fn remaining_change(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
     let [last, half] = [rows.len(), rows.len().div_ceil(2)].map(|count| &rows[count - 1]);
     2.0 * (of(last) - of(half)).abs()
 }
 
 /// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
-fn memory_of(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
+fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     let creep = elastomer.material().creep();
     let elements = creep.elements().iter();
     let times = elements.map(|element| element.retardation_time);

@@ -42,7 +42,7 @@ pub fn slide_on_grid(
     load: &SlidingLoad,
     options: &GridOptions,
 ) -> Result<Transient, BemError> {
-    slide_over(
+    follow_march(
         March::sliding(surface, elastomer, load, options)?,
         load,
         &|_| (),
@@ -50,18 +50,18 @@ pub fn slide_on_grid(
 }
 
 /// Tells which part of the march is done.
-fn slide_over(
+fn follow_march(
     mut march: March<'_>,
     load: &SlidingLoad,
-    tell: &dyn Fn(f64),
+    report: &dyn Fn(f64),
 ) -> Result<Transient, BemError> {
     let mut rows = Vec::new();
     while let Some(row) = march.step()? {
         // At a depth there may be no contact for a while, under a force there always is.
-        rows.extend(SlideRow::of(&row));
-        tell(march.fraction_done());
+        rows.extend(SlideRow::in_contact(&row));
+        report(march.fraction_done());
     }
-    Transient::of(&march, load, rows)
+    Transient::from_march(&march, load, rows)
 }
 
 /// Takes `surface` through `motions` over an undeformed half space.

@@ -15,7 +15,7 @@ use crate::motions::slide::{March, SlideRow, Transient};
 use crate::{BemError, Elastomer, GridOptions};
 
 /// So many have a last quarter.
-const FEWEST_STEPS: usize = 4;
+const MIN_STEPS: usize = 4;
 
 /// The limit of the friction coefficient for an infinite sliding distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,14 +60,14 @@ impl Transient {
             friction_coefficient: value,
             tolerance: drift_tolerance,
         };
-        if n < FEWEST_STEPS {
+        if n < MIN_STEPS {
             return Err(not_stationary(1.0));
         }
-        let points = halvings(&self.rows);
+        let points = halving_points(&self.rows);
         let drift = ((value - points[1].1) / value).abs();
         if drift <= drift_tolerance {
             return Ok(StationaryFriction {
-                friction_coefficient: value_at_zero(&points),
+                friction_coefficient: extrapolate_to_zero(&points),
                 distance_error: 0.5 * spread_of_limits(&self.rows),
                 drift,
             });
@@ -79,9 +79,9 @@ impl Transient {
 /// By how much the limits differ to which the steps of the last two fifths of the distance extrapolate.
 fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
-    let first = (3 * rows.len() / 5).max(FEWEST_STEPS);
+    let first = (3 * rows.len() / 5).max(MIN_STEPS);
     for count in first..=rows.len() {
-        let limit = value_at_zero(&halvings(&rows[..count]));
+        let limit = extrapolate_to_zero(&halving_points(&rows[..count]));
         lowest = limit.min(lowest);
         highest = limit.max(highest);
     }
@@ -89,7 +89,7 @@ fn spread_of_limits(rows: &[SlideRow]) -> f64 {
 }
 
 /// The last row and those at a half and a quarter of its distance, as (reciprocal distance, friction coefficient).
-fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
+fn halving_points(rows: &[SlideRow]) -> [(f64, f64); 3] {
     let n = rows.len();
     [n, n / 2, n / 4].map(|count| {
         let step = &rows[count - 1];
@@ -98,7 +98,7 @@ fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
 }
 
 /// Value at zero of the polynomial through the points (Lagrange).
-fn value_at_zero(points: &[(f64, f64)]) -> f64 {
+fn extrapolate_to_zero(points: &[(f64, f64)]) -> f64 {
     let term = |&(position, value): &(f64, f64)| {
         let others = points.iter().map(|&(other, _)| other);
         let others = others.filter(|other| other.total_cmp(&position).is_ne());
@@ -149,36 +149,36 @@ pub fn slide_to_stationary(
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
     let march = March::sliding(surface, elastomer, load, options)?;
-    settle(march, load, stationary, &|_| ())
+    slide_until_stationary(march, load, stationary, &|_| ())
 }
 
 /// Tells which part of the longest distance allowed is done.
-pub(super) fn settle(
+pub(super) fn slide_until_stationary(
     mut march: March,
     load: &SlidingLoad,
     stationary: &StationaryOptions,
-    tell: &dyn Fn(f64),
+    report: &dyn Fn(f64),
 ) -> Result<StationarySlide, BemError> {
     between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
     let flows = march.sinks_without_limit;
     let mut rows = Vec::new();
-    let mut limits = Limits::default();
+    let mut limits = ExtrapolatedFriction::default();
     let mut change = 1.0;
     while let Some(row) = march.step()? {
-        rows.extend(SlideRow::of(&row));
-        tell(march.fraction_done());
-        let noise = NOISE * march.tolerance() * march.mean_slope_modulus();
+        rows.extend(SlideRow::in_contact(&row));
+        report(march.fraction_done());
+        let noise = PRESSURE_ERROR_OVER_TOLERANCE * march.tolerance() * march.mean_slope_modulus();
         limits.push(&rows, flows);
         change = limits.change(stationary.over_distance, noise);
         if change <= stationary.tolerance {
             let friction_coefficient = limits.last();
-            let transient = Transient::of(&march, load, rows)?;
+            let transient = Transient::from_march(&march, load, rows)?;
             return Ok(StationarySlide {
                 transient,
                 friction_coefficient,
                 change,
-                rest: limits.change(0.5 * stationary.over_distance, noise) / CHANGE_OVER_REST,
+                rest: limits.change(0.5 * stationary.over_distance, noise) / CHANGE_OVER_REMAINDER,
             });
         }
     }
@@ -191,21 +191,21 @@ pub(super) fn settle(
 }
 
 /// √e − 1: what falls at least e-fold over a distance changes so many times over the second half of it as it may still do.
-const CHANGE_OVER_REST: f64 = 0.6487;
+const CHANGE_OVER_REMAINDER: f64 = 0.6487;
 /// The pressure is accurate to about this many contact tolerances.
-const NOISE: f64 = 1e3;
+const PRESSURE_ERROR_OVER_TOLERANCE: f64 = 1e3;
 
 /// The friction coefficients for an infinite distance that the steps so far extrapolate to, with their distances.
 #[derive(Debug, Default)]
-struct Limits(Vec<[f64; 2]>);
+struct ExtrapolatedFriction(Vec<[f64; 2]>);
 
-impl Limits {
+impl ExtrapolatedFriction {
     fn push(&mut self, rows: &[SlideRow], flows: bool) {
         let Some(last) = rows.last() else {
             return;
         };
         let limit = match rows.len() {
-            4.. if flows => value_at_zero(&halvings(rows)),
+            4.. if flows => extrapolate_to_zero(&halving_points(rows)),
             _ => last.friction_coefficient,
         };
         self.0.push([last.sliding_distance, limit]);

@@ -39,7 +39,7 @@ pub struct SlideRow {
 
 impl SlideRow {
     /// The row of a step with a force; none without one, because there is no coefficient.
-    pub(super) fn of(row: &MotionRow) -> Option<Self> {
+    pub(super) fn in_contact(row: &MotionRow) -> Option<Self> {
         let (Some(contact_x), Some(contact_y)) = (row.contact_x, row.contact_y) else {
             return None;
         };
@@ -75,7 +75,7 @@ pub struct Transient {
 
 impl Transient {
     /// The rows of a march under a load, if its last contact is resolved.
-    pub(super) fn of(
+    pub(super) fn from_march(
         march: &March<'_>,
         load: &SlidingLoad,
         rows: Vec<SlideRow>,

@@ -18,7 +18,8 @@ use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::motions::moving::{
-    Cycles, MAX_STEPS, ORDER, TOUCH, WORK, moved, slowest, tolerance_of_cycles,
+    LimitCycle, MAX_STEPS, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, WORK, cycle_tolerance,
+    moved_if_reached, slowest_retardation_time,
 };
 use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::nested::interpolated;
@@ -90,7 +91,7 @@ pub fn move_along<'w>(
         request,
         first,
         largest: problem.largest(first),
-        order: ORDER,
+        order: MIN_ORDER_OF_MOTION,
         work: WORK,
         others: 0.0,
         selection: 1.0,
@@ -105,7 +106,7 @@ pub fn move_along<'w>(
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(others(&view, record)),
     )?;
-    moved(&view, refined)
+    moved_if_reached(&view, refined)
 }
 
 /// Memory that [`move_along`] takes at most for a number of elements along the edge of the period that has more of them, \[bytes].
@@ -224,7 +225,7 @@ impl<'a> Moving<'a> {
             load,
             spectra: Spectra { relaxation, creep },
             wave_numbers: numbers.map(|number| number as f64 * unit).collect(),
-            tolerance: tolerance_of_cycles(accuracy),
+            tolerance: cycle_tolerance(accuracy),
             settled: RefCell::default(),
         };
         if let Accuracy::Elements(elements) = accuracy {
@@ -364,7 +365,7 @@ impl<'a> Moving<'a> {
 
     fn march(&self, on_grid: &OnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
         let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
-        let touch = TOUCH * steps[0].duration;
+        let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
         let first = self.step(&mut march, (touch, start), &on_grid.waves.states[0])?;
@@ -372,9 +373,9 @@ impl<'a> Moving<'a> {
             let ends = self.pass(&mut march, on_grid, tell)?;
             return Ok(self.record(first, &ends, steps));
         }
-        let cycles = Cycles {
+        let limit_cycle = LimitCycle {
             period: self.load.duration(),
-            slowest: slowest(&self.spectra.creep),
+            slowest: slowest_retardation_time(&self.spectra.creep),
             tolerance: self.tolerance,
         };
         let start = self.before_cycles(&march.memory, grid.shape());
@@ -384,7 +385,7 @@ impl<'a> Moving<'a> {
             let record = self.record(ends[ends.len() - 1], &ends, steps);
             Ok((record, march.memory.clone()))
         };
-        let record = cycles.settle(start, pass, tell)?;
+        let record = limit_cycle.find(start, pass, tell)?;
         self.settled.replace(Some((grid.shape(), march.memory)));
         Ok(record)
     }
@@ -559,7 +560,7 @@ mod tests {
         let creep = &problem.spectra.creep;
         let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
         let mut moved = vec![0.0; heights.len()];
-        let count = MEMORIES * slowest(creep) / load.duration() + 2.0;
+        let count = MEMORIES * slowest_retardation_time(creep) / load.duration() + 2.0;
         let mut heat = 0.0;
         for _ in 0..numerics::whole_part(count) {
             heat = 0.0;
