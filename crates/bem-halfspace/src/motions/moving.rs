@@ -18,6 +18,7 @@ use crate::estimate::bars::order_of_friction;
 use crate::estimate::plan::GridPlan;
 use crate::motions::indent::footprint_after;
 use crate::motions::slide::{March, Motion, MotionRow};
+use crate::stepping::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, Elastomer, GridOptions, Reached};
 
 /// Elements along the contact on which a relative error is first sought. The work grows with the third power of them, and most
@@ -27,10 +28,7 @@ const FIRST_ELEMENTS_OF_MOTION: usize = 8;
 const MAX_ELEMENTS_OF_MOTION: usize = 48;
 /// Order of the error, at least.
 pub(crate) const MIN_ORDER_OF_MOTION: f64 = 1.0;
-/// Of the elements of a path in as many steps as it has along it.
-pub(crate) const WORK: f64 = 3.0;
-/// Steps of a motion, or of one cycle, after which it is not begun, and cycles after which the search is given up.
-pub(crate) const MAX_STEPS: f64 = 1e5;
+/// Cycles after which the search for the limit cycle is given up.
 const MAX_CYCLES: usize = 100;
 /// Relative change by a cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
 const CYCLE_ROUNDING: f64 = 1e-14;
@@ -44,10 +42,6 @@ const STEPS_PER_ELEMENT: usize = 3;
 pub(crate) const TOUCH_DURATION_RATIO: f64 = 1e-3;
 /// Times of the slowest element after which a body that is pressed rests.
 const REST_OVER_RETARDATION_TIME: f64 = 30.0;
-/// Memory for an element that is followed, but for what it remembers, and for a step, \[bytes].
-const BYTES_PER_ELEMENT: f64 = 150.0;
-const BYTES_PER_STEP: f64 = 600.0;
-
 /// Moves `surface` over an undeformed half space or layer: through the points of a motion, or to and fro until two cycles are
 /// alike; to an error of the mean friction coefficient relative to its value, or with a number of elements along the contact.
 ///
@@ -89,7 +83,7 @@ pub fn move_along<'w>(
         first: FIRST_ELEMENTS_OF_MOTION,
         largest: MAX_ELEMENTS_OF_MOTION,
         order: order_of_friction(problem.plan.apex_exponent, MIN_ORDER_OF_MOTION),
-        work: WORK,
+        work: MARCH_WORK_EXPONENT,
         others: 0.0,
         selection: 1.0,
     };
@@ -147,7 +141,7 @@ pub fn move_along_memory(
     let passed = (front - rear) / dx * across;
     let n_elements = followed * (options.footprint.n_elements(options.spacing) + passed);
     let copies = if load.is_cycle() { KEPT_STATES } else { 1 };
-    let per_element = BYTES_PER_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
+    let per_element = BYTES_PER_FOLLOWED_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
     Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
 }
 

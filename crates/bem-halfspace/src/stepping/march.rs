@@ -7,8 +7,15 @@ use super::{LoadInterpolation, March, MeanSlopes, Motion, MotionRow, Schedule};
 use crate::elements::grid::whole;
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Steps after which a march is not begun.
-const MAX_STEPS: f64 = 1e5;
+/// Number of steps above which a march, or one cycle of it, is refused; chosen.
+pub(crate) const MAX_STEPS: f64 = 1e5;
+/// Power of the elements along the contact with which the work of a march grows: elements along x and y, times as many steps.
+pub(crate) const MARCH_WORK_EXPONENT: f64 = 3.0;
+/// Memory per followed element without its history variables, \[bytes].
+pub(crate) const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
+/// Memory per step of a march, \[bytes].
+pub(crate) const BYTES_PER_STEP: f64 = 600.0;
+
 const DISTANCE_NEEDED: &str = "a march over a half space ends after a distance";
 
 impl<'a> March<'a> {

@@ -29,6 +29,9 @@ use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
 use crate::{BemError, Elastomer, GridOptions};
+pub(crate) use march::{
+    BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS,
+};
 use material_history::MaterialHistory;
 pub use motion::{Motion, MotionRow};
 use schedule::{Schedule, ScheduledStep};

@@ -11,14 +11,13 @@ use crate::motions::slide::stationary::slide_until_stationary;
 use crate::motions::slide::{
     March, PressureField, SlideRow, StationaryOptions, Transient, follow_march,
 };
+use crate::stepping::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT};
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
 const MAX_ELEMENTS_OF_SLIDE: usize = 32;
 /// Order of the error under a smooth body, that of a step in time.
 const ORDER_OF_SLIDE: f64 = 1.0;
-/// Of the elements of a contact in as many steps as it has along it.
-const WORK: f64 = 3.0;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
 const FLOW_CONTACT_LENGTHS: f64 = 24.0;
 const MAX_DRIFT: f64 = 0.05;
@@ -30,10 +29,6 @@ const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
 const MAX_CONTACT_LENGTHS: f64 = 500.0;
 /// Change of the friction by which a solid counts as stationary, relative to the error asked for.
 const CHANGE_OVER_ERROR: f64 = 0.1;
-
-/// Memory for an element that is followed, but for what it remembers, and for a step of a march, \[bytes].
-const BYTES_PER_ELEMENT: f64 = 150.0;
-const BYTES_PER_STEP: f64 = 600.0;
 
 /// The end of a march with its error bars: after the sliding distance, or in the stationary state.
 pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
@@ -97,7 +92,7 @@ pub fn slide_memory(
     let across = (footprint.y[1] - footprint.y[0]) / spacing[1];
     let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
     let n_elements = followed * (footprint.n_elements(spacing) + behind * across);
-    let per_element = BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    let per_element = BYTES_PER_FOLLOWED_ELEMENT + (n_fields * size_of::<f64>()) as f64;
     Ok(per_element * n_elements + BYTES_PER_STEP * steps)
 }
 
@@ -179,7 +174,7 @@ impl<'a> PlannedSlide<'a> {
                 first: FIRST_ELEMENTS,
                 largest: MAX_ELEMENTS_OF_SLIDE,
                 order: bars::order_of_friction(self.plan.apex_exponent, ORDER_OF_SLIDE),
-                work: WORK,
+                work: MARCH_WORK_EXPONENT,
                 others: 0.0,
                 selection: 2.0,
             },

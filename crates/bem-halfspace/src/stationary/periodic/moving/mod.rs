@@ -18,12 +18,13 @@ use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::motions::moving::{
-    LimitCycle, MAX_STEPS, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, WORK, cycle_tolerance,
-    moved_if_reached, slowest_retardation_time,
+    LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, cycle_tolerance, moved_if_reached,
+    slowest_retardation_time,
 };
 use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::waves::Waves;
+use crate::stepping::{MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 use full_contact::{Closed, of_row};
 use stresses::{Spectra, WaveMotion, WaveStates};
@@ -92,7 +93,7 @@ pub fn move_along<'w>(
         first,
         largest: problem.largest(first),
         order: MIN_ORDER_OF_MOTION,
-        work: WORK,
+        work: MARCH_WORK_EXPONENT,
         others: 0.0,
         selection: 1.0,
     };
