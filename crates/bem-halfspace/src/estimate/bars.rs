@@ -58,9 +58,9 @@ pub(crate) struct OnGrid<S, O> {
     /// Friction coefficient from the dissipated power, of stationary states.
     pub(crate) dissipated: Option<f64>,
     /// Parts of the error of the target that all grids have in common, and hence do not show.
-    pub(crate) other_error: ErrorParts,
+    pub(crate) common_error: ErrorParts,
     /// Least error of the elements for the target, relative, which some grids have in common by chance.
-    pub(crate) least: f64,
+    pub(crate) min_relative_error: f64,
     /// Edge of an element, the longer one of two, \[m].
     pub(crate) spacing: f64,
     pub(crate) state: S,
@@ -73,7 +73,7 @@ impl<S, O> OnGrid<S, O> {
         let quantity = |(name, value): (Name, f64)| Quantity {
             drives: name == driven || name == Name::Force,
             least: if name == driven {
-                self.least * value.abs()
+                self.min_relative_error * value.abs()
             } else {
                 0.0
             },
@@ -107,7 +107,7 @@ pub(crate) struct Resolution<'w> {
     /// Whether the largest pressure is known to have a limit.
     pub(crate) has_peak: bool,
     /// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken.
-    pub(crate) better: f64,
+    pub(crate) max_dissipation_error_ratio: f64,
 }
 
 impl Resolution<'_> {
@@ -127,12 +127,12 @@ pub(crate) fn order_of_friction(apex_exponent: f64, smooth: f64) -> f64 {
 }
 
 /// Error of the ends of a contact on elements whose longer edge is `spacing`, \[m].
-pub(crate) fn of_box(spacing: f64) -> f64 {
+pub(crate) fn contact_box_error(spacing: f64) -> f64 {
     ELEMENTS_AT_END * spacing
 }
 
 /// Whether a material has an instantaneous modulus. Without one the pressure is singular at the front.
-pub(crate) fn reacts_at_once(elastomer: &dyn Elastomer) -> bool {
+pub(crate) fn has_instantaneous_compliance(elastomer: &dyn Elastomer) -> bool {
     elastomer.material().creep().instantaneous_compliance() > 0.0
 }
 
@@ -143,7 +143,7 @@ pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &dyn Elastomer) -
         let exponent = body.profile_exponent();
         body.kinks().is_empty() && exponent >= 2.0 && exponent.is_finite()
     });
-    smooth && reacts_at_once(elastomer)
+    smooth && has_instantaneous_compliance(elastomer)
 }
 
 /// Solves with the number of elements asked for, or with more and more until normal force and target have the error asked
@@ -157,8 +157,8 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let quantities = |contact: &OnGrid<S, O>| contact.driven_by(driven);
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
         let mut others = vec![ErrorParts::NONE; DISSIPATED + 1];
-        others[driven.place()] = contact.other_error;
-        others[DISSIPATED] = contact.other_error;
+        others[driven.place()] = contact.common_error;
+        others[DISSIPATED] = contact.common_error;
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
@@ -169,7 +169,7 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let mut error_parts = refined.parts[driven.place()];
     if let Some(dissipated) = refined.value.dissipated {
         let error = errors[DISSIPATED];
-        if error < resolution.better * friction.error {
+        if error < resolution.max_dissipation_error_ratio * friction.error {
             friction = Estimate::new(dissipated, error);
             error_parts = refined.parts[DISSIPATED];
         }
@@ -182,16 +182,16 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
         indentation_depth: Some(given_depth.unwrap_or(known.indentation_depth)),
         contact_area: known.contact_area,
         peak_pressure: resolution.has_peak.then_some(known.peak_pressure),
-        contact_box_error: of_box(refined.value.spacing),
+        contact_box_error: contact_box_error(refined.value.spacing),
         refinements: Vec::new(),
         finest: refined.value.state,
         options: refined.value.options,
     })?;
-    refused(refined.missed, estimate)
+    reached_or_error(refined.missed, estimate)
 }
 
 /// What was found, or the error that holds it where something was missed.
-pub(crate) fn refused<E: Into<Reached>>(
+pub(crate) fn reached_or_error<E: Into<Reached>>(
     missed: Option<NotReached>,
     found: E,
 ) -> Result<E, BemError> {

@@ -9,7 +9,7 @@ use super::history::refined;
 use super::press::{BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
-use crate::estimate::bars::{reacts_at_once, refused};
+use crate::estimate::bars::{has_instantaneous_compliance, reached_or_error};
 use crate::estimate::quantities::{Name, Quantities};
 use crate::{BemError, Elastomer, GridOptions};
 
@@ -91,7 +91,7 @@ pub fn indent_along<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<IndentCurve, BemError> {
     let request = request.into();
-    let path = Path::new(history, reacts_at_once(elastomer))?;
+    let path = Path::new(history, has_instantaneous_compliance(elastomer))?;
     let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
     let solve = |elements: usize, _: &dyn Fn(f64)| {
@@ -136,7 +136,7 @@ pub fn indent_along<'w>(
         n_steps: found.rows.len() * found.steps_per_row,
         options,
     };
-    refused(fine.missed, found)
+    reached_or_error(fine.missed, found)
 }
 
 /// Memory that [`indent_along`] takes at most for a number of elements along the largest contact, \[bytes].
@@ -149,7 +149,7 @@ pub fn indent_along_memory(
     history: &[HistoryPoint],
     elements: usize,
 ) -> Result<f64, BemError> {
-    let path = Path::new(history, reacts_at_once(elastomer))?;
+    let path = Path::new(history, has_instantaneous_compliance(elastomer))?;
     let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let creep = elastomer.material().creep();
     let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);

@@ -328,7 +328,7 @@ fn estimate(
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
-        better: 0.0,
+        max_dissipation_error_ratio: 0.0,
     };
     let punch = surface.as_axisymmetric().and_then(radius_of_punch);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
@@ -407,11 +407,11 @@ impl PressSolution {
                 peak_pressure: self.pressure.as_ref().map_or(0.0, PressureField::largest),
             },
             dissipated: None,
-            other_error: ErrorParts {
+            common_error: ErrorParts {
                 iteration: Some(options.contact.tolerance * error),
                 ..ErrorParts::NONE
             },
-            least: LEAST * (self.n_contact as f64).powf(-0.75),
+            min_relative_error: LEAST * (self.n_contact as f64).powf(-0.75),
             spacing: options.spacing[0],
             state: self,
             options,

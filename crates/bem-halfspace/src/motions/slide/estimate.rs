@@ -186,7 +186,7 @@ impl<'a> PlannedSlide<'a> {
                 Target::Friction
             },
             has_peak: peak_has_limit(self.surface, self.elastomer),
-            better: 0.0,
+            max_dissipation_error_ratio: 0.0,
         };
         let march = |elements, report: &dyn Fn(f64)| self.march(elements, report);
         bars::resolve(&resolution, march, |mut estimate: SlideEstimate| {
@@ -260,12 +260,12 @@ impl<'a> PlannedSlide<'a> {
         Ok(OnGrid {
             quantities,
             dissipated: None,
-            other_error: ErrorParts {
+            common_error: ErrorParts {
                 iteration: (!self.creep.is_elastic()).then(iteration),
                 truncation,
                 ..ErrorParts::NONE
             },
-            least: 0.0,
+            min_relative_error: 0.0,
             spacing: options.spacing[0],
             state: transient,
             options,

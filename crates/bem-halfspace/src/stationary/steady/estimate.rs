@@ -210,7 +210,10 @@ fn with_elements_in(
     let has_peak = peak_has_limit(surface, elastomer);
     let mut resolution = resolution(request, load.control(), ORDER, has_peak);
     if plan.kinks > SHARP || plan.shows_cells {
-        (resolution.goal.order, resolution.better) = (ORDER_AT_EDGE, f64::INFINITY);
+        (
+            resolution.goal.order,
+            resolution.max_dissipation_error_ratio,
+        ) = (ORDER_AT_EDGE, f64::INFINITY);
     } else {
         resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
     }
@@ -270,7 +273,7 @@ pub(super) fn resolution(
         control,
         target: Target::Friction,
         has_peak,
-        better: BETTER,
+        max_dissipation_error_ratio: BETTER,
     }
 }
 

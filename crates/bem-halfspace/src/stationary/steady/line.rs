@@ -127,7 +127,7 @@ pub fn steady_line<'w>(
         surface: &strip,
         loading,
         plan: &plan,
-        has_peak: bars::reacts_at_once(elastomer),
+        has_peak: bars::has_instantaneous_compliance(elastomer),
         watch: request.watch,
     };
     let is_elastic = elastomer.material().creep().is_elastic();
@@ -195,7 +195,7 @@ fn of_line(known: SteadyEstimate, force: f64) -> LineEstimate {
         indentation_depth: known.indentation_depth,
         contact_area: known.contact_area,
         peak_pressure: known.peak_pressure,
-        contact_box_error: bars::of_box(known.options.spacing[0]),
+        contact_box_error: bars::contact_box_error(known.options.spacing[0]),
         refinements: known.refinements,
         finest: LineSliding::of(&known.finest),
         options: LineOptions::of(&known.options),

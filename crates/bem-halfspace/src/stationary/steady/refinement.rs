@@ -341,7 +341,7 @@ impl Grids<'_> {
             indentation_depth: self.depth(&refinements),
             contact_area: self.limit(&refinements, AREA_ORDER, |r| r.contact_area),
             peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
-            contact_box_error: bars::of_box(dx.max(dy)),
+            contact_box_error: bars::contact_box_error(dx.max(dy)),
             refinements,
             finest: finest.state,
             options: finest.options,

@@ -83,11 +83,11 @@ impl SteadySliding {
                 peak_pressure: self.pressure.largest(),
             },
             dissipated: Some(self.friction_from_dissipation),
-            other_error: ErrorParts {
+            common_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::of_elements(unresolved)
             },
-            least: 0.0,
+            min_relative_error: 0.0,
             spacing: options.spacing[0],
             state: self,
             options,
