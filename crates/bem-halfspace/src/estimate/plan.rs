@@ -12,7 +12,7 @@ const COARSEST: f64 = 5.0;
 /// Edge of the coarsest elements in thicknesses of a layer; twice as long ones are refused.
 const THICKNESSES: f64 = 16.0;
 /// Jumps of the slope above this part of it, squared, decide how fast errors fall; the small ones of a table do not.
-pub(crate) const SHARP: f64 = 0.01;
+pub(crate) const NEGLIGIBLE_KINKS: f64 = 0.01;
 /// Cells of a height map along the contact and one beyond either end of it; more of them are small, and their edges with them.
 const MANY_CELLS: f64 = 8.0;
 /// Jump of the slope between two cells, as a part of the slope at the end of the contact, that is an edge.
@@ -57,7 +57,7 @@ impl GridPlan {
         })?;
         plan.kinks = kinks(surface, depth, &footprint)?;
         plan.shows_cells = shows_cells(surface, depth);
-        if plan.kinks > SHARP {
+        if plan.kinks > NEGLIGIBLE_KINKS {
             // Each is as sharp as a cone.
             plan.apex_exponent = plan.apex_exponent.min(1.0);
         }

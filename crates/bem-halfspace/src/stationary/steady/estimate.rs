@@ -8,7 +8,7 @@ use numerics::{
 use rheology::Material as _;
 
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
-use crate::estimate::plan::{GridPlan, SHARP};
+use crate::estimate::plan::{GridPlan, NEGLIGIBLE_KINKS};
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::patches::LEAST_ACROSS;
 use crate::stationary::steady::refinement::{SteadyProblem, refine};
@@ -209,7 +209,7 @@ fn with_elements_in(
 ) -> Result<SteadyEstimate, BemError> {
     let has_peak = peak_has_limit(surface, elastomer);
     let mut resolution = resolution(request, load.control(), ORDER, has_peak);
-    if plan.kinks > SHARP || plan.shows_cells {
+    if plan.kinks > NEGLIGIBLE_KINKS || plan.shows_cells {
         (
             resolution.goal.order,
             resolution.max_dissipation_error_ratio,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{in_range, positive};
 
-use crate::estimate::plan::{SHARP, kinks};
+use crate::estimate::plan::{NEGLIGIBLE_KINKS, kinks};
 use crate::stationary::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
 use crate::stationary::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Elastomer, Footprint};
@@ -67,7 +67,7 @@ impl Loading {
             }
         };
         Ok(Self {
-            has_edges: kinks(surface, depth_scale, footprint)? > SHARP,
+            has_edges: kinks(surface, depth_scale, footprint)? > NEGLIGIBLE_KINKS,
             may_have_patches: surface.as_axisymmetric().is_none(),
             creep,
             depth_scale,
