@@ -24,8 +24,9 @@ pub(super) fn solve_loads(
     accuracy: &Accuracy,
 ) -> Result<Solved, BemError> {
     let shape = problem.convolution.grid().shape();
-    let loaded =
-        |load: &[f64]| Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
+    let loaded = |load: &[f64]| {
+        Bounds::enclosing_where(shape, |[row, column]| load[row * shape[1] + column] > 0.0)
+    };
     let mut bounds = loaded(&state.load);
     if bounds.is_none() {
         start_from_coarser(problem, state);
@@ -96,7 +97,7 @@ fn check_around(
         let index = element[0] * columns + element[1];
         problem.separation[index] + displacement[index] < highest && !bounds.contains(element)
     };
-    let Some(outside) = Bounds::of_field([rows, columns], penetrates) else {
+    let Some(outside) = Bounds::enclosing_where([rows, columns], penetrates) else {
         return Ok(solved);
     };
     let bounds = bounds.union(&outside);

@@ -138,7 +138,7 @@ impl ContactBox {
         let mut moved = Self::of(&self.convolution, bounds)?;
         for (element, load) in self.loaded_elements() {
             if bounds.contains(element) {
-                moved.state.load[bounds.place(element)] = load;
+                moved.state.load[bounds.index_of(element)] = load;
             }
         }
         Ok(moved)
@@ -147,8 +147,8 @@ impl ContactBox {
     /// Copies what lies inside the bounds from fields with `columns` columns, the load as a first guess.
     pub(super) fn take_from(&mut self, [separation, load]: [&[f64]; 2], columns: usize) {
         let bounds = self.bounds;
-        bounds.cut((separation, columns), &mut self.separation);
-        bounds.cut((load, columns), &mut self.state.load);
+        bounds.extract(separation, columns, &mut self.separation);
+        bounds.extract(load, columns, &mut self.state.load);
     }
 
     pub(super) fn give_load_to(&self, field: &mut [f64], columns: usize) {

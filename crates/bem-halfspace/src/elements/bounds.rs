@@ -20,7 +20,7 @@ impl Bounds {
         upper: [0; 2],
     };
 
-    pub(crate) const fn around(element: [usize; 2]) -> Self {
+    pub(crate) const fn single(element: [usize; 2]) -> Self {
         Self {
             lower: element,
             upper: [element[0] + 1, element[1] + 1],
@@ -28,13 +28,13 @@ impl Bounds {
     }
 
     /// The smallest box that holds all elements; none without any.
-    pub(crate) fn of(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
-        let boxes = elements.map(Self::around);
+    pub(crate) fn enclosing(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
+        let boxes = elements.map(Self::single);
         boxes.reduce(|bounds, element| bounds.union(&element))
     }
 
     /// The smallest box that holds the elements of a field, as [row, column], for which `is` is true.
-    pub(crate) fn of_field(
+    pub(crate) fn enclosing_where(
         shape: [usize; 2],
         is: impl Fn([usize; 2]) -> bool + Sync,
     ) -> Option<Self> {
@@ -42,7 +42,7 @@ impl Bounds {
         let in_band = |band| {
             let elements = bands.elements(band);
             let elements = elements.map(|index| [index / shape[1], index % shape[1]]);
-            Self::of(elements.filter(|element| is(*element)))
+            Self::enclosing(elements.filter(|element| is(*element)))
         };
         let both = |left: Option<Self>, right: Option<Self>| match (left, right) {
             (Some(left), Some(right)) => Some(left.union(&right)),
@@ -80,12 +80,12 @@ impl Bounds {
     }
 
     /// Position of an element of the field in the box, row-major.
-    pub(crate) const fn place(&self, [row, column]: [usize; 2]) -> usize {
+    pub(crate) const fn index_of(&self, [row, column]: [usize; 2]) -> usize {
         (row - self.lower[0]) * self.shape()[1] + column - self.lower[1]
     }
 
     /// Copies what lies inside the box from a field with `columns` columns.
-    pub(crate) fn cut(&self, (field, columns): (&[f64], usize), part: &mut [f64]) {
+    pub(crate) fn extract(&self, field: &[f64], columns: usize, part: &mut [f64]) {
         for_each_row(part, self.shape()[1], |row, part| {
             let start = (self.lower[0] + row) * columns;
             part.copy_from_slice(&field[start..][self.columns()]);

@@ -30,7 +30,7 @@ impl PressureField {
         let grid = Grid::new(bounds.shape(), spacing)?;
         let mut pressure = vec![0.0; grid.n_elements()];
         for (element, value) in loaded {
-            pressure[bounds.place(element)] += value;
+            pressure[bounds.index_of(element)] += value;
         }
         Ok(Self {
             grid,

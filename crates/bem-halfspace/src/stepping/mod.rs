@@ -128,7 +128,7 @@ impl<'a> March<'a> {
             heights: Vec::new(),
             sampled_offset: f64::NAN,
             initial_gap: vec![0.0; layout.followed().iter().product()],
-            contact_box: ContactBox::of(&history.convolution, Bounds::around([0; 2]))?,
+            contact_box: ContactBox::of(&history.convolution, Bounds::single([0; 2]))?,
             history,
             means: MeanSlopes::default(),
         };
@@ -159,7 +159,7 @@ impl<'a> March<'a> {
 
     /// The box of the footprint around all loaded elements; the element under the lowest point without any.
     fn contact_bounds(&self) -> Bounds {
-        let lowest = Bounds::around(self.layout.apex);
+        let lowest = Bounds::single(self.layout.apex);
         let loaded = self.loaded_bounds();
         loaded.map_or(lowest, |loaded| self.layout.unfolded(&loaded))
     }
@@ -167,7 +167,7 @@ impl<'a> March<'a> {
     /// The box around the loaded elements in front of the mirrors, counted from there.
     fn loaded_bounds(&self) -> Option<Bounds> {
         let loaded = self.contact_box.loaded_elements();
-        Bounds::of(loaded.map(|(element, _)| element))
+        Bounds::enclosing(loaded.map(|(element, _)| element))
     }
 
     /// Pressure in the last step; a single element without pressure where there is no contact.
@@ -317,7 +317,7 @@ impl<'a> March<'a> {
         let [_, columns] = self.layout.followed();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let index = lowest.unwrap_or(0);
-        let element = Bounds::around([index / columns, index % columns]);
+        let element = Bounds::single([index / columns, index % columns]);
         ContactBox::of(&self.history.convolution, self.with_margin(&element))
     }
 

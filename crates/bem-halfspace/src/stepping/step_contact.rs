@@ -18,9 +18,9 @@ impl March<'_> {
     pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
-            let separation = (&self.initial_gap[..], self.layout.followed()[1]);
+            let columns = self.layout.followed()[1];
             let bounds = self.contact_box.bounds;
-            bounds.cut(separation, &mut self.contact_box.separation);
+            bounds.extract(&self.initial_gap, columns, &mut self.contact_box.separation);
             let control = self.scaled_control(step.end.control);
             let accuracy = (&self.options.contact).into();
             let solved = self.contact_box.solve(control, &accuracy)?;
@@ -93,7 +93,7 @@ impl March<'_> {
             .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
             .map(|(index, _)| [index / columns, index % columns])
             .filter(|element| !self.contact_box.bounds.contains(*element));
-        Bounds::of(outside)
+        Bounds::enclosing(outside)
     }
 
     fn check_footprint(&self, bounds: &Bounds, position: f64) -> Result<(), BemError> {

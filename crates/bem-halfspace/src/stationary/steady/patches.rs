@@ -41,7 +41,7 @@ fn patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     // Loads by place in the box, 0 where there is none left.
     let mut left = vec![0.0; bounds.n_elements()];
     for (element, load) in loaded {
-        left[bounds.place(*element)] = *load;
+        left[bounds.index_of(*element)] = *load;
     }
     let mut patches = Vec::new();
     for (first, _) in loaded {
@@ -68,7 +68,7 @@ fn take(element: [usize; 2], left: &mut [f64], bounds: &Bounds, patch: &mut Vec<
     if !bounds.contains(element) {
         return;
     }
-    let load = std::mem::take(&mut left[bounds.place(element)]);
+    let load = std::mem::take(&mut left[bounds.index_of(element)]);
     if load > 0.0 {
         patch.push((element, load));
     }
@@ -89,7 +89,8 @@ mod tests {
                 })
             })
             .collect();
-        let bounds = Bounds::of(loaded.iter().map(|(element, _)| *element)).expect("a contact");
+        let bounds =
+            Bounds::enclosing(loaded.iter().map(|(element, _)| *element)).expect("a contact");
         match check_patches(&loaded, &bounds) {
             Ok(()) => None,
             Err(BemError::GridTooCoarse { elements, needed }) => {

@@ -13,8 +13,8 @@ pub(super) struct Region {
 impl Region {
     /// Elements at some places, each with its image.
     pub(super) fn around(elements: impl Iterator<Item = [[usize; 2]; 2]> + Clone) -> Self {
-        let bounds = Bounds::of(elements.clone().flatten()).unwrap_or(Bounds::EMPTY);
-        let place = |place| bounds.place(place);
+        let bounds = Bounds::enclosing(elements.clone().flatten()).unwrap_or(Bounds::EMPTY);
+        let place = |place| bounds.index_of(place);
         Self {
             shape: bounds.shape(),
             places: elements.map(|places| places.map(place)).collect(),

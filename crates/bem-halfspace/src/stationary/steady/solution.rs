@@ -185,7 +185,7 @@ fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
 
 /// The box around the loaded elements, if that is inside the footprint and covers enough elements.
 fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, BemError> {
-    let bounds = Bounds::of(loaded.iter().map(|(element, _)| *element));
+    let bounds = Bounds::enclosing(loaded.iter().map(|(element, _)| *element));
     let bounds = bounds.unwrap_or(Bounds::EMPTY);
     if bounds != Bounds::EMPTY && !mesh.holds(&bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));

@@ -54,7 +54,7 @@ impl<'mesh> Contact<'mesh> {
         let places = elements.iter().flat_map(|&element| mesh.places(element));
         Ok(Self {
             total: mesh.total_load(solution.loads.iter().copied()),
-            bounds: Bounds::of(places).unwrap_or(Bounds::EMPTY),
+            bounds: Bounds::enclosing(places).unwrap_or(Bounds::EMPTY),
             mesh,
             elements,
             loads,

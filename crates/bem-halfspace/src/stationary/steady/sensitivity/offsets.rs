@@ -24,7 +24,7 @@ impl Field {
         let shape = bounds.shape();
         let mut values = vec![0.0; shape[0] * shape[1]];
         for (element, load) in loads {
-            values[bounds.place(element)] = load;
+            values[bounds.index_of(element)] = load;
         }
         Self { shape, values }
     }

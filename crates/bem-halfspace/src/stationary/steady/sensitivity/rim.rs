@@ -122,7 +122,7 @@ impl<'a> Surroundings<'a> {
     fn bounds(&self) -> Bounds {
         let all = self.contact.iter().chain(&self.beside);
         let places = all.flat_map(|&element| self.mesh.places(element));
-        Bounds::of(places).unwrap_or(Bounds::EMPTY)
+        Bounds::enclosing(places).unwrap_or(Bounds::EMPTY)
     }
 
     fn field(&self, bounds: &Bounds, loads: &[f64], gaps: Vec<f64>) -> BoundaryField {
@@ -137,7 +137,7 @@ impl<'a> Surroundings<'a> {
         let values = loads.iter().copied().chain(gaps);
         for (index, (&element, value)) in all.zip(values).enumerate() {
             for place in self.mesh.places(element) {
-                let place = bounds.place(place);
+                let place = bounds.index_of(place);
                 field.inside[place] = index < self.contact.len();
                 field.values[place] = value;
             }
@@ -161,7 +161,7 @@ impl<'a> Surroundings<'a> {
         bend: [f64; 2],
     ) -> OfElements {
         let of = |elements: &[usize]| -> Vec<f64> {
-            let place = |&element: &usize| bounds.place(self.mesh.places(element)[0]);
+            let place = |&element: &usize| bounds.index_of(self.mesh.places(element)[0]);
             let values = elements.iter().map(|one| measure.by_values[place(one)]);
             values.collect()
         };
