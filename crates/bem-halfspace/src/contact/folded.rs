@@ -9,7 +9,7 @@ use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
 use crate::contact::{Accuracy, ContactState, Solved, map_force};
-use crate::elements::mirror::{Mirror, NO_MIRRORS, images};
+use crate::elements::mirror::{Mirror, NO_MIRRORS, n_images};
 use crate::parallel::bands::Bands;
 use crate::parallel::chunks::in_pool;
 use crate::transform::convolution::{Convolution, Surroundings};
@@ -33,7 +33,7 @@ pub(super) fn solve_in_front_of_mirrors(
     let whole = convolution.grid().shape();
     front.take_from([problem.separation, &state.load], whole[1]);
     MirrorWeights::of(&front.convolution).apply(&mut front.state.load);
-    let images = images(mirrors);
+    let images = n_images(mirrors);
     let control = map_force(problem.control, |total| total / images);
     let ContactBox {
         convolution,

@@ -84,11 +84,11 @@ impl Grid {
 /// Number of elements that covers a length; infinite and huge ratios are left to [`Grid::new`] to refuse.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
     // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
-    whole((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
+    whole_elements((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
 }
 
 /// A whole number of elements as an integer, 0 for negative ones; refuses one that is beyond any grid, and what is none.
-pub(crate) fn whole(elements: f64) -> Result<usize, BemError> {
+pub(crate) fn whole_elements(elements: f64) -> Result<usize, BemError> {
     if elements > MAX_ELEMENTS || elements.is_nan() {
         return Err(BemError::GridTooLarge {
             elements,

@@ -48,7 +48,7 @@ impl Mirror {
 }
 
 /// How often the loads in front of mirrors count.
-pub(crate) fn images(mirrors: [Mirror; 2]) -> f64 {
+pub(crate) fn n_images(mirrors: [Mirror; 2]) -> f64 {
     let count = |mirror: Mirror| if mirror.is_none() { 1.0 } else { 2.0 };
     mirrors.into_iter().map(count).product()
 }

@@ -61,14 +61,14 @@ impl GridOptions {
 
 impl Layout {
     /// Number of elements in front of the mirrors.
-    pub(crate) fn followed(&self) -> [usize; 2] {
+    pub(crate) fn folded_shape(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.mirrors[axis].part_of(self.shape[axis]))
     }
 
     /// The first element in front of the mirrors.
     pub(crate) fn first(&self) -> [usize; 2] {
-        let followed = self.followed();
-        [0, 1].map(|axis| self.shape[axis] - followed[axis])
+        let folded = self.folded_shape();
+        [0, 1].map(|axis| self.shape[axis] - folded[axis])
     }
 
     /// An element of the footprint and its images; one through which a mirror passes appears once for either half.

@@ -3,7 +3,7 @@
 use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
 
 use crate::elements::footprint::{Footprint, HIGHEST};
-use crate::elements::grid::whole;
+use crate::elements::grid::whole_elements;
 use crate::stationary::steady::depth_scale_of_surface;
 use crate::{BemError, Elastomer};
 
@@ -142,7 +142,7 @@ impl GridPlan {
 
     /// Elements along the contact, about, after so many refinements.
     pub(crate) fn elements(&self, refinement: i32) -> usize {
-        whole((self.length() / self.spacing(refinement)).ceil()).unwrap_or(usize::MAX)
+        whole_elements((self.length() / self.spacing(refinement)).ceil()).unwrap_or(usize::MAX)
     }
 
     /// Contact length, about, \[m].

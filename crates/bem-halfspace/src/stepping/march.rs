@@ -4,7 +4,7 @@ use indenters::{SlidingLoad, Surface};
 use numerics::positive;
 
 use super::{LoadInterpolation, March, MeanSlopes, Motion, MotionRow, Schedule};
-use crate::elements::grid::whole;
+use crate::elements::grid::whole_elements;
 use crate::{BemError, Elastomer, GridOptions};
 
 /// Number of steps above which a march, or one cycle of it, is refused; chosen.
@@ -188,5 +188,5 @@ fn steps_of(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
     // A whole step must not become another one by rounding, or results would depend on the unit of length.
     let is_whole = (rest - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
     let last = if is_whole { length } else { rest * length };
-    Ok((whole(before)? + 1, last))
+    Ok((whole_elements(before)? + 1, last))
 }

@@ -32,7 +32,7 @@ impl MaterialHistory {
         aspect: f64,
         (n_fields, base): (usize, Base),
     ) -> Result<Self, BemError> {
-        let grid = Grid::new([n_rows, layout.followed()[1]], [1.0, aspect])?;
+        let grid = Grid::new([n_rows, layout.folded_shape()[1]], [1.0, aspect])?;
         let n_elements = grid.n_elements();
         let whole = Convolution::free(&grid.unfolded(layout.mirrors), base);
         let convolution = whole.folded(layout.mirrors);

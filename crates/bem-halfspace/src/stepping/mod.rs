@@ -109,7 +109,7 @@ impl<'a> March<'a> {
         let base = elastomer.base().in_units_of(dx)?;
         base.check_flow(creep.fluidity())?;
         let sinks_without_limit = creep.fluidity() > 0.0 && base.is_half_space();
-        let n_rows = schedule.rows_from(0, layout.followed()[0]).end;
+        let n_rows = schedule.rows_from(0, layout.folded_shape()[0]).end;
         let history =
             MaterialHistory::new(n_rows, &layout, dy / dx, (creep_step.n_fields(), base))?;
         let mut march = Self {
@@ -127,7 +127,7 @@ impl<'a> March<'a> {
             time_step,
             heights: Vec::new(),
             sampled_offset: f64::NAN,
-            initial_gap: vec![0.0; layout.followed().iter().product()],
+            initial_gap: vec![0.0; layout.folded_shape().iter().product()],
             contact_box: ContactBox::of(&history.convolution, Bounds::single([0; 2]))?,
             history,
             means: MeanSlopes::default(),
@@ -264,7 +264,7 @@ impl<'a> March<'a> {
     }
 
     fn rows_needed(&self, step: usize) -> Range<usize> {
-        self.schedule.rows_from(step, self.layout.followed()[0])
+        self.schedule.rows_from(step, self.layout.folded_shape()[0])
     }
 
     fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
@@ -314,7 +314,7 @@ impl<'a> March<'a> {
     }
 
     fn box_at_lowest_point(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
-        let [_, columns] = self.layout.followed();
+        let [_, columns] = self.layout.folded_shape();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let index = lowest.unwrap_or(0);
         let element = Bounds::single([index / columns, index % columns]);
@@ -323,7 +323,7 @@ impl<'a> March<'a> {
 
     /// With room for a growing contact.
     fn with_margin(&self, bounds: &Bounds) -> Bounds {
-        bounds.with_margin(self.layout.followed(), self.layout.mirrors)
+        bounds.with_margin(self.layout.folded_shape(), self.layout.mirrors)
     }
 
     fn update_initial_gap(&mut self, first_row: usize) {

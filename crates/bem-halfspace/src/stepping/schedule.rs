@@ -7,7 +7,7 @@ use numerics::{finite, positive};
 use super::Motion;
 use crate::BemError;
 use crate::contact::check_control;
-use crate::elements::grid::whole;
+use crate::elements::grid::whole_elements;
 
 /// One step of the path, seen from the elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +57,7 @@ impl Schedule {
         positive("number of steps", steps.len() as f64)?;
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);
         for (step, cell) in steps.iter_mut().zip(cells) {
-            step.row = whole(cell - lowest)?;
+            step.row = whole_elements(cell - lowest)?;
         }
         let spans = spans(&steps);
         Ok(Self { steps, spans })

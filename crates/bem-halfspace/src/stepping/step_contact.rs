@@ -7,7 +7,7 @@ use indenters::Control;
 use super::{March, MotionRow, ScheduledStep};
 use crate::BemError;
 use crate::elements::bounds::Bounds;
-use crate::elements::mirror::images;
+use crate::elements::mirror::n_images;
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
 /// solver would take a smaller box of its own.
@@ -18,7 +18,7 @@ impl March<'_> {
     pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
-            let columns = self.layout.followed()[1];
+            let columns = self.layout.folded_shape()[1];
             let bounds = self.contact_box.bounds;
             bounds.extract(&self.initial_gap, columns, &mut self.contact_box.separation);
             let control = self.scaled_control(step.end.control);
@@ -58,7 +58,7 @@ impl March<'_> {
     /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
         let compliance = self.compliance() / self.height_scale;
-        compliance / (4.0 * PI * self.options.spacing[1]) / images(self.layout.mirrors)
+        compliance / (4.0 * PI * self.options.spacing[1]) / n_images(self.layout.mirrors)
     }
 
     fn scaled_control(&self, control: Control) -> Control {
@@ -83,7 +83,7 @@ impl March<'_> {
 
     /// Elements outside the box that the indenter penetrates.
     fn penetration_outside_box(&self, first_row: usize, depth: f64) -> Option<Bounds> {
-        let [rows, columns] = self.layout.followed();
+        let [rows, columns] = self.layout.folded_shape();
         let increment = self.history.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
         // The box and the window round differently, so the box's own tolerance would be too sharp here.
