@@ -45,7 +45,7 @@ impl Contact {
     /// Pressure of the element at a position, over the mean of the contact.
     pub(super) fn pressure(&self, position: [f64; 2]) -> f64 {
         let position = position.map(|coordinate| coordinate * self.contact_length);
-        self.solution.pressure.at(position) / self.mean_pressure
+        self.solution.pressure.pressure_at(position) / self.mean_pressure
     }
 }
 

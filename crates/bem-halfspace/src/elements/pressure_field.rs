@@ -22,9 +22,10 @@ pub struct PressureField {
 
 impl PressureField {
     /// The sum of the pressures of elements in a box, of which the first has its centre at `origin`.
-    pub(crate) fn over(
+    pub(crate) fn from_elements(
         bounds: &Bounds,
-        (spacing, origin): ([f64; 2], [f64; 2]),
+        spacing: [f64; 2],
+        origin: [f64; 2],
         loaded: impl Iterator<Item = ([usize; 2], f64)>,
     ) -> Result<Self, BemError> {
         let grid = Grid::new(bounds.shape(), spacing)?;
@@ -56,7 +57,7 @@ impl PressureField {
     }
 
     /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
-    pub fn at(&self, position: [f64; 2]) -> f64 {
+    pub fn pressure_at(&self, position: [f64; 2]) -> f64 {
         let [rows, columns] = self.grid.shape();
         let index =
             |axis: usize| (position[axis] - self.origin[axis]) / self.grid.spacing()[axis] + 0.5;

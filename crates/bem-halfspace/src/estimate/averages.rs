@@ -11,7 +11,7 @@ pub struct Average {
 }
 
 impl Average {
-    pub(crate) fn of<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
+    pub(crate) fn over_shifts<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
         let count = states.len() as f64;
         let value = states.iter().map(&quantity).sum::<f64>() / count;
         let squares = states.iter().map(|state| (quantity(state) - value).powi(2));
@@ -22,9 +22,12 @@ impl Average {
     }
 
     /// Of shifts of which the second half lies between the first half: each half alone leaves twice as long waves.
-    pub(crate) fn of_halves<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
+    pub(crate) fn over_interleaved_shifts<State>(
+        states: &[State],
+        quantity: impl Fn(&State) -> f64,
+    ) -> Self {
         let (first, second) = states.split_at(states.len() / 2);
-        let [first, second] = [first, second].map(|half| Self::of(half, &quantity).value);
+        let [first, second] = [first, second].map(|half| Self::over_shifts(half, &quantity).value);
         Self {
             value: 0.5 * (first + second),
             scatter: 0.5 * (first - second).abs(),

@@ -187,7 +187,7 @@ impl<'a> March<'a> {
             images.map(move |image| (image, load * unit))
         };
         let loaded = self.loaded_elements().flat_map(images);
-        PressureField::over(&bounds, (spacing, origin), loaded)
+        PressureField::from_elements(&bounds, spacing, origin, loaded)
     }
 
     /// Ends along x and y of the box of the footprint around all loaded elements, relative to the lowest point, \[m].

@@ -155,7 +155,7 @@ fn heat_of_cycle(layer: &impl Elastomer, load: &MovingLoad, grids: Grids) -> f64
         let pressure = places.map(|[row, column]| {
             let x = (row as f64 - margin as f64 + rear.floor()) * spacing;
             let y = (column as f64 - margin as f64) * spacing;
-            field.at([x - motion.position, y])
+            field.pressure_at([x - motion.position, y])
         });
         let pressure: Vec<f64> = pressure.collect();
         let time = motion.time - before;

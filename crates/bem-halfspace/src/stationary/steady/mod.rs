@@ -177,7 +177,12 @@ fn solve_on_mesh(
 /// The loaded elements of another solution, seen on this mesh.
 fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
     let unit = mesh.loading.pressure_unit();
-    let load = |element| (element, other.pressure.at(mesh.position(element)) / unit);
+    let load = |element| {
+        (
+            element,
+            other.pressure.pressure_at(mesh.position(element)) / unit,
+        )
+    };
     let loads = (0..mesh.n_elements()).map(load);
     loads.filter(|(_, load)| *load > 0.0).collect()
 }

@@ -419,7 +419,8 @@ impl Grids<'_> {
         }
         let distance = self.problem.loading.sliding_distance;
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
-        let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
+        let average =
+            |quantity: &dyn Fn(&SteadySliding) -> f64| Average::over_shifts(&states, quantity);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
         let creep = &self.problem.loading.creep;
         let unresolved = states
@@ -429,8 +430,10 @@ impl Grids<'_> {
         let averages = Refinement {
             hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
             spacing: spacings.sum::<f64>() / states.len() as f64,
-            friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),
-            friction_from_dissipation: Average::of_halves(&states, |state| {
+            friction_coefficient: Average::over_interleaved_shifts(&states, |state| {
+                state.friction_coefficient
+            }),
+            friction_from_dissipation: Average::over_interleaved_shifts(&states, |state| {
                 state.friction_from_dissipation
             }),
             unresolved: unresolved.fold(0.0, f64::max),

@@ -128,7 +128,7 @@ impl SteadySliding {
         let origin = [0, 1].map(|axis| mesh.centre(axis, bounds.lower[axis]));
         let unit = mesh.loading.pressure_unit();
         let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
-        let pressure = PressureField::over(&bounds, (spacing, origin), pressures)?;
+        let pressure = PressureField::from_elements(&bounds, spacing, origin, pressures)?;
         let [friction_coefficient, mean_slope, dissipating_slope] =
             mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
