@@ -1,5 +1,7 @@
-//! Generalised conjugate residuals (Eisenstat, Elman & Schultz 1983), so that solution and residual are known after every
-//! step.
+//! Generalised conjugate residuals, GCR (Eisenstat, Elman & Schultz 1983): minimal residuals for operators that need not be
+//! symmetric, with the solution and the residual known after every step.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Periodic surfaces".
 
 use std::collections::VecDeque;
 
@@ -8,198 +10,246 @@ use numerics::transforms::Real;
 use crate::parallel::bands::{Bands, copies};
 use crate::parallel::reductions::{add, sum};
 
-/// Part of the sum of squares of the residual below which what a step takes off counts as nothing; up to 0.05 it hardly matters.
-const LEAST_REDUCTION: f64 = 0.01;
-/// Part of what a direction adds to the residual below which what is left of it beside earlier ones is their rounding.
-const ROUNDING: f64 = 1e-7;
+/// Relative drop of ‖r‖² below which a step stagnates: the next direction is then built from the last A p instead of r (Young & Jea
+/// 1980). Values up to 0.05 hardly matter.
+const STAGNATION_REDUCTION: f64 = 0.01;
+/// Breakdown: ratio of ‖A p‖ after to ‖A p‖ before orthogonalisation below which the rest is rounding error.
+const BREAKDOWN_TOLERANCE: f64 = 1e-7;
 
-/// Moves `solution` by directions until `find` finds none for the `residual`, at most `most` times.
+/// Size of the Krylov basis and length of the iteration.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GcrLimits {
+    pub(crate) max_steps: usize,
+    /// Directions against whose images A p a new one is orthogonalised; older directions are dropped.
+    pub(crate) truncation_depth: usize,
+}
+
+/// The state from which the next direction is built.
+pub(crate) struct GcrState<'a, T> {
+    /// Weighted sum of squares of the residual.
+    pub(crate) residual_square: f64,
+    pub(crate) residual: &'a [T],
+    /// Vector to which the preconditioner is applied: the residual, or after stagnation the last A p, scaled to the norm of the
+    /// residual.
+    pub(crate) source: &'a [T],
+}
+
+/// Minimises the norm of `residual` = A `solution` − b over a Krylov space, and updates both.
 ///
-/// `find` is given the sum of squares of the residual, the residual, and the list from which it takes a direction: the residual
-/// too, or, where the step before took nothing off and the residual would lead to it again, what that step added (Young & Jea
-/// 1980), made as large as the residual. It writes the direction and what this adds to the residual, and says whether there is
-/// one; of what they add, so many `earlier` ones are made orthogonal. Sums of squares and products have the `weights`, which are 1
-/// where there are none. By the rounding of its numbers, relative to the first residual, the solution misses the residual that is
-/// known. A direction that adds nothing new to the residual is the last.
-pub(crate) fn minimise<T: Real>(
-    [solution, residual]: [&mut [T]; 2],
+/// `find_direction` writes a direction p and its image A p, or returns `false` to end the iteration. Norms and inner products are
+/// weighted with `weights`, or with 1 if `None`. The iteration also ends on breakdown, when A p depends linearly on the basis.
+///
+/// The residual is updated, not recomputed: relative to the first residual, it drifts from that of the solution by rounding.
+pub(crate) fn gcr<T: Real>(
+    solution: &mut [T],
+    residual: &mut [T],
     weights: Option<&[T]>,
-    [most, earlier]: [usize; 2],
-    mut find: impl FnMut(f64, [&[T]; 2], [&mut [T]; 2]) -> bool,
+    limits: GcrLimits,
+    mut find_direction: impl FnMut(GcrState<'_, T>, &mut [T], &mut [T]) -> bool,
 ) {
-    let mut kept: VecDeque<Kept<T>> = VecDeque::new();
-    let mut oldest: Option<Kept<T>> = None;
-    let mut added: Option<Vec<T>> = None;
-    let mut size = product(weights, residual, residual);
-    let lengths = [solution.len(), residual.len()];
-    for _ in 0..most {
-        let mut found = oldest.take().unwrap_or_else(|| Kept::new(lengths));
-        let from = added.as_deref().unwrap_or(residual);
-        let places = [&mut found.direction[..], &mut found.image];
-        if !find(size, [residual, from], places) {
+    let [solution_bands, residual_bands] = [bands(solution), bands(residual)];
+    let mut basis: VecDeque<BasisVector<T>> = VecDeque::new();
+    let mut recycled: Option<BasisVector<T>> = None;
+    let mut stagnant_image: Option<Vec<T>> = None;
+    let mut residual_square = inner_product(weights, residual, residual);
+    for _ in 0..limits.max_steps {
+        // Ask for a direction and its image.
+        let mut new = recycled
+            .take()
+            .unwrap_or_else(|| BasisVector::new(solution.len(), residual.len()));
+        let state = GcrState {
+            residual_square,
+            residual,
+            source: stagnant_image.as_deref().unwrap_or(residual),
+        };
+        if !find_direction(state, &mut new.direction, &mut new.image) {
             return;
         }
-        let (factors, [square, along, taken]) =
-            make_orthogonal(&mut found.image, (residual, weights), &kept);
-        if square <= ROUNDING * ROUNDING * (square + taken) || square.is_nan() {
+
+        // Orthogonalise the image against the basis; test for breakdown.
+        let (factors, products) = orthogonalise(&mut new.image, residual, weights, &basis);
+        new.image_square = products.square;
+        let square_before = products.square + products.removed_square;
+        if products.square <= BREAKDOWN_TOLERANCE * BREAKDOWN_TOLERANCE * square_before
+            || products.square.is_nan()
+        {
             return;
         }
-        let step = -along / square;
-        added = (step * step * square < LEAST_REDUCTION * size).then(|| {
-            // What a preconditioner makes larger each time would not be a number in the end.
-            let scale = T::of((size / square).sqrt());
-            found.image.iter().map(|value| scale * *value).collect()
+
+        // Find the step that minimises the residual; keep the image if it hardly reduces it.
+        let step = -products.with_residual / products.square;
+        let stagnates = step * step * products.square < STAGNATION_REDUCTION * residual_square;
+        stagnant_image = stagnates.then(|| {
+            // Scaled, because a preconditioner that amplifies it in every step would overflow.
+            let scale = T::of((residual_square / products.square).sqrt());
+            new.image.iter().map(|value| scale * *value).collect()
         });
-        advance(
-            [&mut *solution, &mut found.direction],
-            step,
-            (&factors, &kept),
+
+        // Give the direction the same combination of the basis as its image, and move the solution.
+        solution_bands.for_each(
+            [&mut *solution, &mut new.direction],
+            |band, [solution, direction]| {
+                let elements = solution_bands.elements(band);
+                for (factor, vector) in factors.iter().zip(&basis) {
+                    add(direction, *factor, &vector.direction[elements.clone()]);
+                }
+                add(solution, T::of(step), direction);
+            },
         );
-        size = move_on(residual, step, (&found.image, weights));
-        found.square = square;
-        kept.push_back(found);
-        if kept.len() > earlier {
-            oldest = kept.pop_front();
+
+        // Move the residual.
+        residual_square = residual_bands.fold(
+            [(&mut *residual, residual_bands.starts_of_blocks(1))],
+            |band, [part]| {
+                let elements = residual_bands.elements(band);
+                add(part, T::of(step), &new.image[elements.clone()]);
+                product_of_parts(weights.map(|weights| &weights[elements]), part, part)
+            },
+            |left, right| left + right,
+        );
+
+        // Extend the basis; beyond its depth the oldest vector makes room.
+        basis.push_back(new);
+        if basis.len() > limits.truncation_depth {
+            recycled = basis.pop_front();
         }
     }
 }
 
-/// A direction and what it adds to the residual, and the sum of squares of that.
-struct Kept<T> {
+/// A direction p and its image A p, orthogonal to the other images of the basis.
+struct BasisVector<T> {
     direction: Vec<T>,
     image: Vec<T>,
-    square: f64,
+    /// ‖A p‖², weighted.
+    image_square: f64,
 }
 
-impl<T: Real> Kept<T> {
-    fn new([of_solution, of_residual]: [usize; 2]) -> Self {
+impl<T: Real> BasisVector<T> {
+    fn new(n_unknowns: usize, n_equations: usize) -> Self {
         Self {
-            direction: copies(T::default(), of_solution),
-            image: copies(T::default(), of_residual),
-            square: 0.0,
+            direction: copies(T::default(), n_unknowns),
+            image: copies(T::default(), n_equations),
+            image_square: 0.0,
         }
     }
 }
 
-/// Takes what earlier directions add out of what a direction adds, one after the other. The factors by which they take part in
-/// the direction, and the products of what is left with itself and with the residual, and of what was taken out with itself.
-fn make_orthogonal<T: Real>(
+/// Inner products of an orthogonalised image A p.
+struct ImageProducts {
+    /// ‖A p‖².
+    square: f64,
+    /// (A p, r) with the residual r.
+    with_residual: f64,
+    /// ‖·‖² of the components that were removed.
+    removed_square: f64,
+}
+
+/// Orthogonalises an image against those of the basis by modified Gram–Schmidt, and returns the factors of the basis vectors in
+/// the result.
+fn orthogonalise<T: Real>(
     image: &mut [T],
-    (residual, weights): (&[T], Option<&[T]>),
-    kept: &VecDeque<Kept<T>>,
-) -> (Vec<T>, [f64; 3]) {
-    let mut factors = Vec::with_capacity(kept.len());
-    let mut taken = 0.0;
-    let of = bands(image);
-    for (index, one) in kept.iter().enumerate() {
-        let before = index.checked_sub(1);
-        let before = before.map(|index| (factors[index], &kept[index].image[..]));
-        let along = of.fold(
-            [(&mut *image, of.starts_of_blocks(1))],
+    residual: &[T],
+    weights: Option<&[T]>,
+    basis: &VecDeque<BasisVector<T>>,
+) -> (Vec<T>, ImageProducts) {
+    let mut factors = Vec::with_capacity(basis.len());
+    let mut removed_square = 0.0;
+    let bands = bands(image);
+    // One pass over memory per vector: remove the component along the vector before, and project onto this one.
+    for (index, vector) in basis.iter().enumerate() {
+        let before = index
+            .checked_sub(1)
+            .map(|index| (factors[index], &basis[index].image[..]));
+        let projection = bands.fold(
+            [(&mut *image, bands.starts_of_blocks(1))],
             |band, [part]| {
-                let elements = of.elements(band);
+                let elements = bands.elements(band);
                 if let Some((factor, image)) = before {
                     add(part, factor, &image[elements.clone()]);
                 }
                 let weights = weights.map(|weights| &weights[elements.clone()]);
-                part_of_product(weights, part, &one.image[elements])
+                product_of_parts(weights, part, &vector.image[elements])
             },
-            sum_of,
+            |left, right| left + right,
         );
-        let component = along / one.square;
-        taken += component * along;
+        let component = projection / vector.image_square;
+        removed_square += component * projection;
         factors.push(T::of(-component));
     }
-    let last = factors.last().zip(kept.back());
-    let [square, along] = of.fold(
-        [(image, of.starts_of_blocks(1))],
+    // Remove the last component, and form the products of the result.
+    let last = factors.last().zip(basis.back());
+    let [square, with_residual] = bands.fold(
+        [(image, bands.starts_of_blocks(1))],
         |band, [part]| {
-            let elements = of.elements(band);
-            if let Some((factor, one)) = last {
-                add(part, *factor, &one.image[elements.clone()]);
+            let elements = bands.elements(band);
+            if let Some((factor, vector)) = last {
+                add(part, *factor, &vector.image[elements.clone()]);
             }
             let weights = weights.map(|weights| &weights[elements.clone()]);
-            [&*part, &residual[elements]].map(|other| part_of_product(weights, part, other))
+            [&*part, &residual[elements]].map(|other| product_of_parts(weights, part, other))
         },
         |left, right| [left[0] + right[0], left[1] + right[1]],
     );
-    (factors, [square, along, taken])
+    let products = ImageProducts {
+        square,
+        with_residual,
+        removed_square,
+    };
+    (factors, products)
 }
 
-/// Takes the parts of earlier directions out of a direction, and moves the solution along it.
-fn advance<T: Real>(lists: [&mut [T]; 2], step: f64, (factors, kept): (&[T], &VecDeque<Kept<T>>)) {
-    let of = bands(lists[0]);
-    of.for_each(lists, |band, [solution, direction]| {
-        let elements = of.elements(band);
-        for (factor, one) in factors.iter().zip(kept) {
-            add(direction, *factor, &one.direction[elements.clone()]);
-        }
-        add(solution, T::of(step), direction);
-    });
+/// Euclidean norm of a vector.
+pub(crate) fn norm<T: Real>(vector: &[T]) -> f64 {
+    inner_product(None, vector, vector).sqrt()
 }
 
-/// Adds what a step adds to the residual, of which the sum of squares comes back.
-fn move_on<T: Real>(residual: &mut [T], step: f64, (image, weights): (&[T], Option<&[T]>)) -> f64 {
-    let of = bands(residual);
-    of.fold(
-        [(residual, of.starts_of_blocks(1))],
-        |band, [part]| {
-            let elements = of.elements(band);
-            add(part, T::of(step), &image[elements.clone()]);
-            part_of_product(weights.map(|weights| &weights[elements]), part, part)
-        },
-        sum_of,
-    )
-}
-
-/// Euclidean norm of a list.
-pub(crate) fn norm<T: Real>(list: &[T]) -> f64 {
-    product(None, list, list).sqrt()
-}
-
-fn product<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
-    let of = bands(left);
-    of.sum(|band| {
-        let elements = of.elements(band);
+/// Inner product of two vectors, weighted if there are weights.
+fn inner_product<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
+    let bands = bands(left);
+    bands.sum(|band| {
+        let elements = bands.elements(band);
         let weights = weights.map(|weights| &weights[elements.clone()]);
-        part_of_product(weights, &left[elements.clone()], &right[elements])
+        product_of_parts(weights, &left[elements.clone()], &right[elements])
     })
 }
 
-fn part_of_product<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
+/// The contribution of one band to an inner product.
+fn product_of_parts<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
     match weights {
         None => sum([left, right], |[left, right]| left * right).into(),
         Some(weights) => {
-            let lists = [weights, left, right];
-            sum(lists, |[weight, left, right]| weight * left * right).into()
+            let vectors = [weights, left, right];
+            sum(vectors, |[weight, left, right]| weight * left * right).into()
         }
     }
 }
 
-fn sum_of(left: f64, right: f64) -> f64 {
-    left + right
-}
-
-const fn bands<T>(list: &[T]) -> Bands {
-    Bands::new([list.len(), 1])
+/// Bands of a vector, seen as a column of elements.
+const fn bands<T>(vector: &[T]) -> Bands {
+    Bands::new([vector.len(), 1])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::minimise;
+    use super::{GcrLimits, gcr};
 
-    /// A quarter turn adds to the residual what is orthogonal to it, so that the residual alone leads nowhere.
+    const TWO_STEPS: GcrLimits = GcrLimits {
+        max_steps: 2,
+        truncation_depth: 2,
+    };
+
+    /// For a rotation by a quarter turn, A r is orthogonal to r, so that the residual alone leads nowhere.
     #[test]
-    fn a_step_that_takes_nothing_off_is_not_the_last() {
+    fn a_stagnating_step_is_not_the_last() {
         let [mut solution, mut residual] = [[0.0; 2], [3.0, -4.0]];
-        let unknowns = [&mut solution[..], &mut residual[..]];
-        minimise::<f64>(
-            unknowns,
+        gcr::<f64>(
+            &mut solution,
+            &mut residual,
             None,
-            [2, 2],
-            |_, [_, from], [direction, image]| {
-                direction.copy_from_slice(from);
-                image.copy_from_slice(&[-from[1], from[0]]);
+            TWO_STEPS,
+            |state, direction, image| {
+                direction.copy_from_slice(state.source);
+                image.copy_from_slice(&[-state.source[1], state.source[0]]);
                 true
             },
         );
@@ -210,18 +260,19 @@ mod tests {
         assert!(residual[0].hypot(residual[1]) < 1e-14, "{residual:?}");
     }
 
-    /// A step that takes nothing off leads to another one, which is then as much longer.
+    /// A stagnating step leads to a direction that this preconditioner makes 1e15 times as long.
     #[test]
-    fn directions_that_grow_remain_numbers() {
+    fn directions_that_grow_do_not_overflow() {
         let [mut solution, mut residual] = [[0.0_f32; 2], [3.0, -4.0]];
-        let unknowns = [&mut solution[..], &mut residual[..]];
-        minimise(
-            unknowns,
+        gcr(
+            &mut solution,
+            &mut residual,
             None,
-            [2, 2],
-            |_, [_, from], [direction, image]| {
-                direction.copy_from_slice(&[1e15 * from[0], 1e15 * from[1]]);
-                image.copy_from_slice(&[-1e15 * from[1], 1e15 * from[0]]);
+            TWO_STEPS,
+            |state, direction, image| {
+                let [x, y] = [1e15 * state.source[0], 1e15 * state.source[1]];
+                direction.copy_from_slice(&[x, y]);
+                image.copy_from_slice(&[-y, x]);
                 true
             },
         );

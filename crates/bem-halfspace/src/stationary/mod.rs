@@ -1,8 +1,10 @@
-//! Stationary sliding, solved directly.
+//! Stationary sliding, solved directly: single bodies and profiles ([`steady`]), and periodic surfaces ([`periodic`]).
+//!
+//! Theory: docs/theory/stationary-half-space.md.
 
 mod conjugate_residuals;
+mod exchange_rule;
 pub mod periodic;
-mod pivots;
 mod search;
 pub mod steady;
 

@@ -1,112 +1,134 @@
-//! Search of the active set of a moving contact: solve the equations of a contact, take elements in tension out of it and those
-//! that penetrate into it.
+//! Active-set search for the contact of a moving body: block principal pivoting (Júdice & Pires 1994) with inexact inner solves.
 //!
-//! The equations are solved to a part of the residual that the change of the contact has left, to less where it has left more
-//! than the change before, and to a part of the heights, which is smaller after each contact in vain; penetrations are told from
-//! what is left of the residual, on average, before tension is taken away: that moves soft waves, and with them all that is far
-//! from the contact.
+//! ```text
+//! p ≥ 0,   g ≥ 0,   p g = 0   with   g = h + K p − d        (KKT conditions of the unilateral contact)
+//! ```
+//!
+//! Each update of the active set
+//!
+//! 1. solves g = 0 on the active set, to a tolerance that follows the residual left by the last exchange (inexact Newton);
+//! 2. collects the KKT violations: p < 0 on the set, g < 0 outside it. The gaps are those of the solution with its tension: projecting
+//!    the tension away moves soft waves, and with them everything far from the contact;
+//! 3. exchanges all violating elements, or fewer while the search does not improve (`exchange_rule.rs`);
+//! 4. projects the pressure onto p ≥ 0, and tests for convergence.
+//!
+//! The operator K of a moving contact is not symmetric, so that there is no energy to descend; that the search ends rests on the
+//! exchange rule.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" for bodies and "Periodic surfaces" for rough ones.
 
 use crate::BemError;
 use crate::parallel::reductions::larger;
-use crate::stationary::pivots::{Pivots, Violation};
+use crate::stationary::exchange_rule::{ExchangeRule, Violation};
 
-/// Factor by which the residual that any contact may have is smaller after one in vain, up to so many of them.
-const FINER: f64 = 0.3;
-const FINEST: i32 = 4;
-/// Penetrations beside the contact below so many root mean squares of the residual in it are not told from it; with 2 or 5 there
-/// are as many products.
-const NOISE: f64 = 3.0;
-/// Likewise far from it, as a part of the largest residual.
-const HIDING_RESIDUAL: f64 = 0.3;
-/// Part of the force above which tension is taken away before anything comes into the contact: the gaps beside it say little then. Of
-/// light contacts of dashpots on 128² elements, whose moduli grow up to a million times with the frequency, one in seven is not
-/// found in 3000 products without it, and others take three times as many; with a quarter of it there are as many products.
-const TENSE: f64 = 0.2;
-/// Part of the tolerance to which the equations are solved.
-const PART_OF_TOLERANCE: f64 = 0.5;
-/// Units in the last place of the depth that a residual may have, whatever tolerance is asked for: after a long memory a line has
-/// sunk a million times as deep as it touches.
-const UNITS_OF_DEPTH: f64 = 16.0;
-/// How often the residual of a contact that stays the same may grow: then that is its rounding.
-const HOPELESS: usize = 5;
+/// Factor on the inner tolerance per non-improving update of the active set; chosen.
+const INNER_TOLERANCE_REDUCTION: f64 = 0.3;
+/// Largest number of factors [`INNER_TOLERANCE_REDUCTION`] that are applied; chosen.
+const MAX_TOLERANCE_REDUCTIONS: i32 = 4;
+/// Penetration next to the active set, in RMS residuals on the set, below which it counts as solver error. With 2 or 5 there are as many
+/// operator applications.
+const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
+/// Penetration far from the active set, as a fraction of the largest residual on the set, below which it counts as solver error;
+/// chosen.
+const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
+/// Tensile fraction of the force above which an update only removes elements, because the gaps outside then say little. Of light
+/// contacts on dashpots with 128² elements, whose moduli grow up to a million times with the frequency, one in seven is not found in
+/// 3000 operator applications without it, and others take three times as many. With 0.25 there are as many applications.
+const MAX_TENSILE_FRACTION: f64 = 0.2;
+/// Largest residual of the inner solution, as a fraction of the largest gap that counts as closed; chosen.
+const INNER_SHARE_OF_TOLERANCE: f64 = 0.5;
+/// Residual that is always allowed, in units of the last place of the depth: after a long memory a line has sunk a million times as
+/// deep as it touches.
+const DEPTH_ROUNDING_ULPS: f64 = 16.0;
+/// Number of times that the residual of an unchanged active set may grow before the search gives up, because such growth is rounding
+/// error; chosen.
+const MAX_STAGNATIONS: usize = 5;
 
-/// A contact problem on one grid, and the equations of the elements that are in contact.
+/// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
+pub(crate) struct ForcingTerms {
+    pub(crate) usual: f64,
+    /// Value after an exchange that left a larger residual than the one before: inexact solutions then move elements back and forth
+    /// together.
+    pub(crate) after_growth: f64,
+}
+
+/// A contact problem on one grid whose linear equations can be solved on a given active set.
 ///
 /// ```text
-/// h + K p − d = 0  in the contact,   p = 0 outside
+/// h + K p − d = 0  on the active set,   p = 0 outside
 /// ```
-pub(crate) trait MovingContact {
-    /// Whether behind the last row comes the first one.
-    const REPEATS: bool;
-    /// Part of the residual to which the equations are solved, and where the residual grows from contact to contact: rough solutions
-    /// then move elements to and fro together.
-    const PARTS_OF_RESIDUAL: [f64; 2];
-    /// Rows and columns of the grid, and the place of an element.
+pub(crate) trait FixedSetSolver {
+    /// True if the first row follows the last one.
+    const PERIODIC_ALONG_X: bool;
+    const FORCING: ForcingTerms;
+    /// Rows and columns of the grid.
     fn shape(&self) -> [usize; 2];
+    /// Row and column of an element.
     fn place(&self, element: usize) -> [usize; 2];
-    /// Displacement of an element under its own unit pressure, greater than zero: where the displacements are known up to a
-    /// constant only, relative to what does not depend on it.
-    fn own_displacement(&self) -> f64;
-    /// Replaces a field by the displacements K p of all elements, up to a constant, and returns what residuals are relative to.
-    fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64;
-    /// The depth d where that is controlled; else it is the mean of h + K p in the contact.
+    /// Diagonal of K, greater than 0. Where displacements are known up to a constant only, the part of the diagonal that does not
+    /// depend on it.
+    fn self_influence(&self) -> f64;
+    /// Replaces `displacement` by K p on all elements, up to a constant, and returns the scale of relative residuals.
+    fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64;
+    /// The depth d that the control prescribes for this pressure. `None` if d is the mean of h + K p on the active set.
     fn depth(&self, pressure: &[f64]) -> Option<f64>;
-    /// Takes another contact, with the pressure and the gap h + K p − d of all elements.
-    fn take(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]);
-    /// Root mean square of the gap in the contact.
-    fn residual(&self) -> f64;
-    /// Solves until the root mean square, or the largest gap in the contact, is small enough.
+    /// Sets the active set and the initial pressure; `gap` is h + K p − d on all elements.
+    fn set_active_set(&mut self, active: &[bool], pressure: &[f64], gap: &[f64]);
+    /// RMS gap on the active set.
+    fn residual_rms(&self) -> f64;
+    /// Iterates until the RMS gap on the active set is at most `rms`, or the largest |gap| at most `max`.
     ///
     /// # Errors
     /// [`BemError::SingularContact`].
-    fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError>;
-    /// Writes the pressure in contact into the field.
-    fn give(&self, pressure: &mut [f64]);
-    /// Whether the gap of an element is told from the residual as well as in the contact.
-    fn is_near(&self, element: usize) -> bool;
-    /// Gives the pressure its control.
-    fn balance(&self, pressure: &mut [f64]);
-    /// How often it was tried to solve, and whether that was too often.
-    fn tried(&self) -> (usize, bool);
+    fn solve(&mut self, rms: f64, max: f64) -> Result<(), BemError>;
+    /// Writes the pressure on the active set, which may be tensile, into a field of all elements.
+    fn copy_pressure_to(&self, pressure: &mut [f64]);
+    /// True if the gap of an element outside the active set has the same error as the gaps on the set.
+    fn is_next_to_active_set(&self, element: usize) -> bool;
+    /// Scales the pressure to the given force, if a force is given.
+    fn scale_to_force(&self, pressure: &mut [f64]);
+    /// Iterations so far, in the unit of the budget.
+    fn iterations(&self) -> usize;
+    fn budget_is_exhausted(&self) -> bool;
 }
 
-/// A contact that is searched, and how it stands to the conditions.
+/// The search and its current iterate.
 pub(crate) struct Search<'a, P> {
     problem: &'a mut P,
-    /// Where the gaps are evaluated.
+    /// Heights h at the points where the gaps are evaluated.
     heights: Vec<f64>,
-    /// Root mean square of the residual that the solution of any contact may have; less after contacts in vain.
-    rough_residual: f64,
-    /// Largest residual, relative to [`scale`](Self::scale).
+    /// Loosest inner tolerance: RMS residual of the solution on any active set, in the unit of the heights.
+    inner_tolerance: f64,
+    /// Largest residual and penetration, relative to [`scale`](Self::scale).
     tolerance: f64,
-    pub(crate) contact: Vec<bool>,
-    /// Whether no element of it has changed sides.
-    is_same: bool,
+    /// True for each element of the active set.
+    pub(crate) active: Vec<bool>,
     pub(crate) pressure: Vec<f64>,
     /// h + K p − d.
     pub(crate) gap: Vec<f64>,
     pub(crate) depth: f64,
+    /// Scale of relative residuals, as returned by [`FixedSetSolver::displace`].
     scale: f64,
-    /// The largest one, relative to the scale.
+    /// Largest |gap| on the active set, relative to the scale.
     pub(crate) residual: f64,
 }
 
-impl<'a, P: MovingContact> Search<'a, P> {
-    /// From a guess of the pressure, of which some is positive.
+impl<'a, P: FixedSetSolver> Search<'a, P> {
+    /// Starts from a pressure of which some is positive; the initial active set is where it is.
     pub(crate) fn new(
         problem: &'a mut P,
-        (heights, rough_residual): (Vec<f64>, f64),
+        heights: Vec<f64>,
+        inner_tolerance: f64,
         tolerance: f64,
         mut pressure: Vec<f64>,
     ) -> Self {
         pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         Self {
-            contact: pressure.iter().map(|pressure| *pressure > 0.0).collect(),
-            is_same: false,
+            active: pressure.iter().map(|pressure| *pressure > 0.0).collect(),
             gap: vec![0.0; pressure.len()],
             problem,
             heights,
-            rough_residual,
+            inner_tolerance,
             tolerance,
             pressure,
             depth: 0.0,
@@ -115,37 +137,86 @@ impl<'a, P: MovingContact> Search<'a, P> {
         }
     }
 
-    /// Finds the contact.
+    /// Finds the active set, the pressure and the depth.
     ///
     /// # Errors
     /// [`BemError::ContactNotConverged`]; [`BemError::SingularContact`].
     pub(crate) fn run(&mut self) -> Result<(), BemError> {
-        self.problem.balance(&mut self.pressure);
-        self.renew_gaps();
-        let mut pivots = Pivots::new(self.problem.shape());
-        let (mut before, mut hopeless) = (f64::INFINITY, 0);
+        self.problem.scale_to_force(&mut self.pressure);
+        self.update_gaps();
+        let mut rule = ExchangeRule::new(self.problem.shape());
+        let mut previous_residual = f64::INFINITY;
+        let (mut set_is_unchanged, mut stagnations) = (false, 0);
         loop {
-            self.problem.take(&self.contact, &self.pressure, &self.gap);
-            let size = self.problem.residual();
-            let grows = size > before;
-            hopeless += usize::from(grows && self.is_same);
-            before = size;
-            // What cycles with rough solutions may end with better ones.
-            let part = if pivots.are_single() {
-                0.0
-            } else {
-                P::PARTS_OF_RESIDUAL[usize::from(grows)]
-            };
-            let rough = FINER.powi(pivots.in_vain().min(FINEST)) * self.rough_residual;
+            // Solve on the active set.
             self.problem
-                .solve(rough.min(part * size), PART_OF_TOLERANCE * self.allowed())?;
-            if self.change(grows, &mut pivots)? {
+                .set_active_set(&self.active, &self.pressure, &self.gap);
+            let residual = self.problem.residual_rms();
+            let residual_grows = residual > previous_residual;
+            stagnations += usize::from(residual_grows && set_is_unchanged);
+            previous_residual = residual;
+            let forcing = match residual_grows {
+                // A cycle of inexact solutions may end with accurate ones.
+                _ if rule.exchanges_single_elements() => 0.0,
+                true => P::FORCING.after_growth,
+                false => P::FORCING.usual,
+            };
+            let reductions = rule.non_improving().min(MAX_TOLERANCE_REDUCTIONS);
+            let inner_tolerance = INNER_TOLERANCE_REDUCTION.powi(reductions) * self.inner_tolerance;
+            self.problem.solve(
+                inner_tolerance.min(forcing * residual),
+                INNER_SHARE_OF_TOLERANCE * self.allowed_gap(),
+            )?;
+            let solver_residual = self.problem.residual_rms();
+            self.problem.copy_pressure_to(&mut self.pressure);
+
+            // Collect the KKT violations, under the pressure with its tension.
+            let [mut tension, mut total] = [0.0; 2];
+            for pressure in &self.pressure {
+                tension -= pressure.min(0.0);
+                total += pressure;
+            }
+            if !f64::is_finite(total) {
+                let elements = self.active.iter().filter(|active| **active).count();
+                return Err(BemError::SingularContact { elements });
+            }
+            self.problem.scale_to_force(&mut self.pressure);
+            self.update_gaps();
+            let mut converged = self.satisfies_kkt();
+            let thresholds = if rule.exchanges_single_elements() {
+                PenetrationThresholds::default()
+            } else {
+                PenetrationThresholds {
+                    next_to_set: PENETRATION_THRESHOLD_RMS * solver_residual,
+                    far: FAR_PENETRATION_THRESHOLD * self.residual * self.scale,
+                }
+            };
+            let mut violations = self.violations(&thresholds);
+            if tension > MAX_TENSILE_FRACTION * total {
+                violations.retain(|violation| self.active[violation.element]);
+            }
+
+            // Exchange elements between the active set and its complement.
+            let selected = rule.select(&violations, residual_grows);
+            set_is_unchanged = selected.is_empty();
+            for element in selected {
+                self.active[element] ^= true;
+            }
+
+            // Project onto p ≥ 0. More tension than the tolerance requires another solution.
+            if tension > 0.0 {
+                self.project_nonnegative();
+                self.update_gaps();
+                converged = tension <= self.tolerance * total && self.satisfies_kkt();
+            }
+            if converged {
                 return Ok(());
             }
-            let (iterations, is_too_often) = self.problem.tried();
-            if is_too_often || hopeless > HOPELESS {
+
+            // Give up when the budget is used or rounding error prevails.
+            if self.problem.budget_is_exhausted() || stagnations > MAX_STAGNATIONS {
                 return Err(BemError::ContactNotConverged {
-                    iterations,
+                    iterations: self.problem.iterations(),
                     residual: self.residual,
                     tolerance: self.tolerance,
                 });
@@ -153,64 +224,24 @@ impl<'a, P: MovingContact> Search<'a, P> {
         }
     }
 
-    /// Residual and penetration that count as none.
-    fn allowed(&self) -> f64 {
-        let rounding = UNITS_OF_DEPTH * f64::EPSILON * self.depth.abs();
+    /// Largest residual and penetration that count as closed, in the unit of the heights.
+    fn allowed_gap(&self) -> f64 {
+        let rounding = DEPTH_ROUNDING_ULPS * f64::EPSILON * self.depth.abs();
         (self.tolerance * self.scale).max(rounding)
     }
 
-    /// Moves elements that violate the conditions to the other side, and says whether the problem is solved; `grows` says that
-    /// the change before left a larger residual than the one before it.
-    fn change(&mut self, grows: bool, pivots: &mut Pivots) -> Result<bool, BemError> {
-        let noise = self.problem.residual();
-        self.problem.give(&mut self.pressure);
-        let [mut tension, mut total] = [0.0; 2];
-        for pressure in &self.pressure {
-            tension -= pressure.min(0.0);
-            total += pressure;
-        }
-        if !f64::is_finite(total) {
-            let elements = self.contact.iter().filter(|inside| **inside).count();
-            return Err(BemError::SingularContact { elements });
-        }
-        let is_slight = tension <= self.tolerance * total;
-        self.problem.balance(&mut self.pressure);
-        // With the tension.
-        self.renew_gaps();
-        let far = HIDING_RESIDUAL * self.residual * self.scale;
-        let hidden = if pivots.are_single() {
-            [0.0; 2]
-        } else {
-            [NOISE * noise, far]
-        };
-        let mut is_solved = self.is_solved();
-        let mut violations = self.violations(hidden);
-        if tension > TENSE * total {
-            violations.retain(|violation| self.contact[violation.element]);
-        }
-        let chosen = pivots.choose(&violations, grows);
-        self.is_same = chosen.is_empty();
-        for element in chosen {
-            self.contact[element] ^= true;
-        }
-        if tension > 0.0 {
-            self.release();
-            self.renew_gaps();
-            is_solved = is_slight && self.is_solved();
-        }
-        Ok(is_solved)
-    }
-
-    /// Takes tension away, and as much from the next pressures behind it along the motion. The longest waves along the motion
-    /// may be a thousand times softer than all others: they hardly change so, and those with crests along it not at all,
-    /// where tension that is just set to zero would throw the surfaces apart.
-    fn release(&mut self) {
-        let mut tensions = vec![0.0; self.problem.shape()[1]];
-        for _ in 0..=usize::from(P::REPEATS) {
-            for element in (0..self.contact.len()).rev() {
-                let tension = &mut tensions[self.problem.place(element)[1]];
+    /// Projects onto p ≥ 0 and p = 0 outside the active set, keeping the force of each line along the motion: removed tension is
+    /// subtracted from the next loaded elements behind it. The longest waves along the motion may be a thousand times more compliant
+    /// than all others. This projection hardly changes them, and waves with crests along the motion not at all. Setting tension to
+    /// zero would excite them and drive the surfaces apart.
+    fn project_nonnegative(&mut self) {
+        let mut tension_by_line = vec![0.0; self.problem.shape()[1]];
+        // A periodic line needs a second pass for the tension that is left at its rear end.
+        for _ in 0..=usize::from(P::PERIODIC_ALONG_X) {
+            for element in (0..self.active.len()).rev() {
+                let tension = &mut tension_by_line[self.problem.place(element)[1]];
                 let sum = self.pressure[element] + *tension;
-                let kept = if self.contact[element] {
+                let kept = if self.active[element] {
                     sum.max(0.0)
                 } else {
                     0.0
@@ -218,53 +249,59 @@ impl<'a, P: MovingContact> Search<'a, P> {
                 (self.pressure[element], *tension) = (kept, sum - kept);
             }
         }
-        self.problem.balance(&mut self.pressure);
+        self.problem.scale_to_force(&mut self.pressure);
     }
 
-    /// Whether no gap in the contact and no penetration beside it is too large.
-    fn is_solved(&self) -> bool {
-        let allowed = self.allowed();
-        let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -allowed;
-        self.residual * self.scale <= allowed && !self.gap.iter().zip(&self.contact).any(penetrates)
+    /// True if no residual on the active set and no penetration outside it exceeds the allowed gap.
+    fn satisfies_kkt(&self) -> bool {
+        let allowed = self.allowed_gap();
+        let penetrates = |(gap, active): (&f64, &bool)| !active && *gap < -allowed;
+        self.residual * self.scale <= allowed && !self.gap.iter().zip(&self.active).any(penetrates)
     }
 
-    /// The elements on the wrong side; smaller penetrations than those hidden near the contact and far from it, and than what is
-    /// allowed, are none.
-    fn violations(&self, hidden: [f64; 2]) -> Vec<Violation> {
-        let own = self.problem.own_displacement();
-        let [near, far] = hidden.map(|hidden| hidden.max(self.allowed()));
+    /// Elements of the active set under tension, and elements outside it whose penetration reaches its threshold.
+    fn violations(&self, thresholds: &PenetrationThresholds) -> Vec<Violation> {
+        let self_influence = self.problem.self_influence();
+        let next_to_set = thresholds.next_to_set.max(self.allowed_gap());
+        let far = thresholds.far.max(self.allowed_gap());
         let violation = |element: usize| {
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
-            let (size, least) = if self.contact[element] {
-                (-pressure * own, 0.0)
-            } else if self.problem.is_near(element) {
-                (-gap, near)
+            let (size, threshold) = if self.active[element] {
+                (-pressure * self_influence, 0.0)
+            } else if self.problem.is_next_to_active_set(element) {
+                (-gap, next_to_set)
             } else {
                 (-gap, far)
             };
-            (size >= least).then(|| Violation {
+            (size >= threshold).then(|| Violation {
                 element,
                 place: self.problem.place(element),
                 size,
             })
         };
-        (0..self.contact.len()).filter_map(violation).collect()
+        (0..self.active.len()).filter_map(violation).collect()
     }
 
-    /// The gaps under the pressure, and the largest residual.
-    fn renew_gaps(&mut self) {
+    /// Updates gaps, depth, scale and residual to the pressure.
+    fn update_gaps(&mut self) {
         self.scale = self.problem.displace(&self.pressure, &mut self.gap);
         for (gap, height) in self.gap.iter_mut().zip(&self.heights) {
             *gap += height;
         }
-        let contact = &self.contact;
-        let in_contact = |(gap, inside): (&f64, &bool)| inside.then_some(*gap);
+        let on_set = |(gap, active): (&f64, &bool)| active.then_some(*gap);
         self.depth = self.problem.depth(&self.pressure).unwrap_or_else(|| {
-            let inside = self.gap.iter().zip(contact).filter_map(in_contact);
-            inside.clone().sum::<f64>() / inside.count() as f64
+            let gaps = self.gap.iter().zip(&self.active).filter_map(on_set);
+            gaps.clone().sum::<f64>() / gaps.count() as f64
         });
         self.gap.iter_mut().for_each(|gap| *gap -= self.depth);
-        let inside = self.gap.iter().zip(contact).filter_map(in_contact);
-        self.residual = inside.fold(0.0, |top, gap| larger(top, gap.abs())) / self.scale;
+        let gaps = self.gap.iter().zip(&self.active).filter_map(on_set);
+        self.residual = gaps.fold(0.0, |max, gap| larger(max, gap.abs())) / self.scale;
     }
+}
+
+/// Penetrations below these count as solver error, in the unit of the heights.
+#[derive(Default)]
+struct PenetrationThresholds {
+    next_to_set: f64,
+    far: f64,
 }

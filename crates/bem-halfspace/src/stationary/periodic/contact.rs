@@ -3,7 +3,7 @@
 use crate::parallel::reductions::larger;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::search::{MovingContact, Search};
+use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};
 
 /// Root mean square of the residual, as a part of that of the heights, to which every contact is solved at least. Without it that
@@ -52,12 +52,18 @@ pub(super) fn solve(
     }
     let own = equations.own_displacement;
     let mut contact = OnGrid { problem, equations };
-    let surface = (heights, ROUGH * variance.sqrt());
-    let mut search = Search::new(&mut contact, surface, problem.tolerance, guess);
+    let inner_tolerance = ROUGH * variance.sqrt();
+    let mut search = Search::new(
+        &mut contact,
+        heights,
+        inner_tolerance,
+        problem.tolerance,
+        guess,
+    );
     let found = search.run();
     let [residual, depth] = [search.residual, search.depth];
     *pressure = search.pressure;
-    for ((pressure, gap), inside) in pressure.iter_mut().zip(search.gap).zip(search.contact) {
+    for ((pressure, gap), inside) in pressure.iter_mut().zip(search.gap).zip(search.active) {
         *pressure = if inside {
             pressure.max(0.0)
         } else {
@@ -76,12 +82,15 @@ struct OnGrid<'a> {
     equations: &'a mut Equations,
 }
 
-impl MovingContact for OnGrid<'_> {
-    const REPEATS: bool = true;
+impl FixedSetSolver for OnGrid<'_> {
+    const PERIODIC_ALONG_X: bool = true;
     /// With 0.1 as a rule there are up to a quarter more products in light contact. With a tenth of the area of 4096² elements in
     /// contact and moduli that differ by 1000 there are 156 products where they do not differ and 115 as they are; where the second
     /// holds for residuals that fall by less than a half too, contacts of dashpots take a fifth more.
-    const PARTS_OF_RESIDUAL: [f64; 2] = [0.2, 0.06];
+    const FORCING: ForcingTerms = ForcingTerms {
+        usual: 0.2,
+        after_growth: 0.06,
+    };
 
     fn shape(&self) -> [usize; 2] {
         self.problem.grid.shape()
@@ -92,7 +101,7 @@ impl MovingContact for OnGrid<'_> {
         [element / columns, element % columns]
     }
 
-    fn own_displacement(&self) -> f64 {
+    fn self_influence(&self) -> f64 {
         self.equations.own_displacement
     }
 
@@ -110,11 +119,11 @@ impl MovingContact for OnGrid<'_> {
         None
     }
 
-    fn take(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
+    fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
         self.equations.take(contact, pressure, gap);
     }
 
-    fn residual(&self) -> f64 {
+    fn residual_rms(&self) -> f64 {
         self.equations.size()
     }
 
@@ -123,22 +132,25 @@ impl MovingContact for OnGrid<'_> {
         Ok(())
     }
 
-    fn give(&self, pressure: &mut [f64]) {
+    fn copy_pressure_to(&self, pressure: &mut [f64]) {
         self.equations.give(pressure);
     }
 
-    fn is_near(&self, element: usize) -> bool {
+    fn is_next_to_active_set(&self, element: usize) -> bool {
         self.equations.near.contains(element)
     }
 
-    fn balance(&self, pressure: &mut [f64]) {
+    fn scale_to_force(&self, pressure: &mut [f64]) {
         let total = self.problem.mean_pressure * pressure.len() as f64;
         let factor = total / pressure.iter().sum::<f64>();
         pressure.iter_mut().for_each(|p| *p *= factor);
     }
 
-    fn tried(&self) -> (usize, bool) {
-        let products = self.equations.products;
-        (products, products >= self.problem.max_products)
+    fn iterations(&self) -> usize {
+        self.equations.products
+    }
+
+    fn budget_is_exhausted(&self) -> bool {
+        self.equations.products >= self.problem.max_products
     }
 }

@@ -22,7 +22,7 @@ use rustfft::num_complex::Complex;
 use crate::contact::active_set::ActiveSet;
 use crate::parallel::bands::copies;
 use crate::parallel::reductions::{add, larger, sum};
-use crate::stationary::conjugate_residuals::minimise;
+use crate::stationary::conjugate_residuals::{GcrLimits, gcr};
 use crate::stationary::periodic::far_loads::FarLoads;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::{BemError, Grid};
@@ -182,16 +182,19 @@ impl Equations {
         #[expect(clippy::cast_possible_truncation, reason = "at most all steps")]
         #[expect(clippy::cast_sign_loss, reason = "positive")]
         let most = most.min(fitting.max(STEPS) as f64) as usize;
-        let steps = [most, fitting - 1];
-        let unknowns = [&mut added[..], &mut gap[..]];
+        let limits = GcrLimits {
+            max_steps: most,
+            truncation_depth: fitting - 1,
+        };
         let mut before = f64::INFINITY;
-        minimise(
-            unknowns,
+        gcr(
+            &mut added,
+            &mut gap,
             Some(&inside),
-            steps,
-            |size, [gap, from], found| {
-                let now = (size / self.n_contact).sqrt();
-                let goes_on = !is_small(self, now, gap);
+            limits,
+            |state, direction, image| {
+                let now = (state.residual_square / self.n_contact).sqrt();
+                let goes_on = !is_small(self, now, state.residual);
                 if goes_on {
                     if let Some(far) = &mut self.far
                         && now > LITTLE * before
@@ -199,7 +202,7 @@ impl Equations {
                         far.refine();
                     }
                     before = now;
-                    self.find_direction(from, found);
+                    self.find_direction(state.source, [direction, image]);
                 }
                 goes_on
             },

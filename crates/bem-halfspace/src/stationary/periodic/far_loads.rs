@@ -19,7 +19,7 @@ use crate::contact::active_set::ActiveSet;
 use crate::parallel::bands::{Bands, copies};
 use crate::parallel::chunks::Starts;
 use crate::parallel::reductions::{add, sum};
-use crate::stationary::conjugate_residuals::{minimise, norm};
+use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::{BemError, Grid};
 
@@ -192,14 +192,18 @@ impl FarLoads {
             find_image(displacement, &mut image);
             add(&mut residual, 1.0, &image);
         }
-        let mut find = |size: f64, [_, from]: [&[f32]; 2], [direction, image]: [&mut [f32]; 2]| {
-            let goes_on = size.sqrt() > target;
+        let limits = GcrLimits {
+            max_steps: MOST,
+            truncation_depth: KEPT,
+        };
+        let find_direction = |state: GcrState<f32>, direction: &mut [f32], image: &mut [f32]| {
+            let goes_on = state.residual_square.sqrt() > target;
             if goes_on {
-                direction.copy_from_slice(from);
-                find_image(from, image);
+                direction.copy_from_slice(state.source);
+                find_image(state.source, image);
             }
             goes_on
         };
-        minimise([displacement, &mut residual], None, [MOST, KEPT], &mut find);
+        gcr(displacement, &mut residual, None, limits, find_direction);
     }
 }

@@ -36,13 +36,15 @@ pub(super) fn solve(
         check_contact_elements(0)?;
     }
     let heights = (0..mesh.n_elements()).map(|element| mesh.height(element));
-    let surface = (heights.collect(), rough_residual(guess.len()));
+    let heights = heights.collect();
+    let inner_tolerance = rough_residual(guess.len());
     let mut loads = vec![0.0; mesh.n_elements()];
     for (element, load) in guess {
         loads[element] = load;
     }
     let mut contact = ContactEquations::new(mesh, plans);
-    let mut search = Search::new(&mut contact, surface, mesh.options.tolerance, loads);
+    let tolerance = mesh.options.tolerance;
+    let mut search = Search::new(&mut contact, heights, inner_tolerance, tolerance, loads);
     search.run()?;
     let [residual, depth] = [search.residual, search.depth];
     let opening = mesh.opening(&search.pressure, &search.gap);
@@ -50,8 +52,8 @@ pub(super) fn solve(
     Ok(Solution {
         loads: loads.filter(|(_, load)| *load > 0.0).collect(),
         depth,
-        iterations: contact.contacts,
-        factorised: contact.is_factorised,
+        iterations: contact.n_active_sets,
+        factorised: contact.solved_directly,
         residual,
         opening,
     })

@@ -1,53 +1,65 @@
 //! Loads of either sign that satisfy the contact equations on a given active set.
 //!
 //! ```text
-//! h + K x − δ = 0  on the contact,      α δ + β Σ x = γ
+//! h + K x − δ = 0  on the active set,      α δ + β Σ x = γ
 //! ```
 //!
-//! The second equation is the control of force or depth. Small contacts are factorised, large ones solved by iteration.
+//! The second equation prescribes the force or the depth. Small systems are solved directly, large ones by preconditioned GCR.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::BemError;
 use crate::parallel::reductions::{add, dot, larger};
-use crate::stationary::conjugate_residuals::{minimise, norm};
-use crate::stationary::search::MovingContact;
-use crate::stationary::steady::filter::Product;
+use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
+use crate::stationary::search::{FixedSetSolver, ForcingTerms};
+use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
-/// A contact is factorised where the cube of its number of elements is at most so many times the number of elements of
-/// its box, on which transforms would work: a compact contact up to about 120 elements, a thin crescent far beyond. It is
-/// faster there, and exact to rounding.
-const FACTORISED: f64 = 5e3;
-/// Larger matrices take too much memory.
-const LARGEST_MATRIX: usize = 4000;
-/// Directions tried before the iteration gives up; a preconditioned contact needs some tens.
-pub(super) const MOST_DIRECTIONS: usize = 150;
+/// Largest n³/N for a direct solve of n unknowns in a box of N elements, on which the transforms of an iteration work. The limit is
+/// about 120 unknowns for a compact contact and far more for a thin crescent. Up to it the direct solve is faster, and exact to
+/// rounding.
+const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
+/// Largest number of unknowns of a direct solve, for the memory of its matrix: 128 MB.
+const DIRECT_SOLVE_MAX_UNKNOWNS: usize = 4000;
+/// Largest number of GCR steps, and truncation depth of the basis; chosen. A preconditioned contact needs some tens.
+pub(super) const MAX_GCR_STEPS: usize = 150;
+/// GCR without truncation: the basis keeps all directions.
+pub(super) const GCR_LIMITS: GcrLimits = GcrLimits {
+    max_steps: MAX_GCR_STEPS,
+    truncation_depth: MAX_GCR_STEPS,
+};
 
-/// The contact of a body, and its equations.
+/// The equations of a body on a mesh, with the current active set.
 pub(super) struct ContactEquations<'mesh> {
     mesh: &'mesh Mesh,
     plans: &'mesh mut Plans,
-    /// For the displacements of all elements that may touch.
-    all: Region,
-    product: Product,
-    /// The elements in contact, and their loads and gaps.
-    contact: Vec<usize>,
+    /// All elements that may touch.
+    candidates: Region,
+    /// K on all candidates.
+    operator: KernelOperator,
+    /// Elements of the active set; loads and gaps are in this order.
+    active: Vec<usize>,
     loads: Vec<f64>,
     gaps: Vec<f64>,
-    /// Contacts so far.
-    pub(super) contacts: usize,
-    /// Whether the last contact was factorised; if not, it was solved by iteration.
-    pub(super) is_factorised: bool,
+    /// Number of active sets so far.
+    pub(super) n_active_sets: usize,
+    /// True if the last active set was solved directly, false if by iteration.
+    pub(super) solved_directly: bool,
 }
 
-impl MovingContact for ContactEquations<'_> {
-    const REPEATS: bool = false;
-    /// With ten times as much there are 1.4 times as many contacts, which take a tenth longer; a third as much hardly matters.
-    const PARTS_OF_RESIDUAL: [f64; 2] = [0.02, 0.006];
+impl FixedSetSolver for ContactEquations<'_> {
+    const PERIODIC_ALONG_X: bool = false;
+    /// With ten times these values there are 1.4 times as many active sets, which take a tenth longer in total. A third of them hardly
+    /// changes anything.
+    const FORCING: ForcingTerms = ForcingTerms {
+        usual: 0.02,
+        after_growth: 0.006,
+    };
 
     fn shape(&self) -> [usize; 2] {
         self.mesh.shape()
@@ -57,13 +69,13 @@ impl MovingContact for ContactEquations<'_> {
         self.mesh.places(element)[0]
     }
 
-    fn own_displacement(&self) -> f64 {
-        self.mesh.own_creep()
+    fn self_influence(&self) -> f64 {
+        self.mesh.self_creep()
     }
 
-    /// Residuals are relative to the depth scale.
-    fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64 {
-        moved.copy_from_slice(&self.product.apply(0, pressure, &self.all));
+    /// Displacements in units of the depth scale, to which residuals are relative.
+    fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
+        displacement.copy_from_slice(&self.operator.apply(0, pressure, &self.candidates));
         1.0
     }
 
@@ -73,111 +85,121 @@ impl MovingContact for ContactEquations<'_> {
         (control.depth != 0.0).then(|| (control.right - control.load * total) / control.depth)
     }
 
-    fn take(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
-        let elements = (0..contact.len()).filter(|element| contact[*element]);
-        self.contact = elements.collect();
-        let listed = |field: &[f64]| self.contact.iter().map(|element| field[*element]).collect();
-        (self.loads, self.gaps) = (listed(pressure), listed(gap));
-        self.contacts += 1;
+    fn set_active_set(&mut self, active: &[bool], pressure: &[f64], gap: &[f64]) {
+        let elements = (0..active.len()).filter(|element| active[*element]);
+        self.active = elements.collect();
+        let packed = |field: &[f64]| self.active.iter().map(|element| field[*element]).collect();
+        (self.loads, self.gaps) = (packed(pressure), packed(gap));
+        self.n_active_sets += 1;
     }
 
-    fn residual(&self) -> f64 {
-        norm(&self.gaps) / (self.contact.len() as f64).sqrt()
+    fn residual_rms(&self) -> f64 {
+        norm(&self.gaps) / (self.active.len() as f64).sqrt()
     }
 
-    fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError> {
-        let region = self.mesh.region(self.contact.iter().copied());
-        self.is_factorised = is_factorised(self.contact.len(), region.n_places());
-        if self.is_factorised {
-            return self.factorise();
+    fn solve(&mut self, rms: f64, max: f64) -> Result<(), BemError> {
+        let region = self.mesh.region(self.active.iter().copied());
+        self.solved_directly = prefers_direct_solve(self.active.len(), region.n_places());
+        if self.solved_directly {
+            return self.solve_directly();
         }
-        self.iterate(&region, mean, largest);
+        self.iterate(&region, rms, max);
         Ok(())
     }
 
-    fn give(&self, pressure: &mut [f64]) {
-        for (element, load) in self.contact.iter().zip(&self.loads) {
+    fn copy_pressure_to(&self, pressure: &mut [f64]) {
+        for (element, load) in self.active.iter().zip(&self.loads) {
             pressure[*element] = *load;
         }
     }
 
-    fn is_near(&self, _: usize) -> bool {
+    /// Gaps outside the active set are not part of the equations.
+    fn is_next_to_active_set(&self, _: usize) -> bool {
         false
     }
 
-    fn balance(&self, pressure: &mut [f64]) {
-        self.mesh.balance(pressure);
+    fn scale_to_force(&self, pressure: &mut [f64]) {
+        self.mesh.scale_to_force(pressure);
     }
 
-    fn tried(&self) -> (usize, bool) {
-        let is_too_often = self.contacts >= self.mesh.options.max_iterations;
-        (self.contacts, is_too_often)
+    /// The budget counts active sets.
+    fn iterations(&self) -> usize {
+        self.n_active_sets
+    }
+
+    fn budget_is_exhausted(&self) -> bool {
+        self.n_active_sets >= self.mesh.options.max_iterations
     }
 }
 
 impl<'mesh> ContactEquations<'mesh> {
     pub(super) fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans) -> Self {
-        let all = mesh.region(0..mesh.n_elements());
+        let candidates = mesh.region(0..mesh.n_elements());
         Self {
             mesh,
-            product: Product::new(plans.kernel(all.shape), &all),
+            operator: KernelOperator::new(plans.kernel(candidates.shape), &candidates),
             plans,
-            all,
-            contact: Vec::new(),
+            candidates,
+            active: Vec::new(),
             loads: Vec::new(),
             gaps: Vec::new(),
-            contacts: 0,
-            is_factorised: false,
+            n_active_sets: 0,
+            solved_directly: false,
         }
     }
 
-    fn factorise(&mut self) -> Result<(), BemError> {
-        let (mesh, contact) = (self.mesh, &self.contact);
-        let n = contact.len();
+    /// Solves the equations with the depth as the last unknown.
+    fn solve_directly(&mut self) -> Result<(), BemError> {
+        let (mesh, active) = (self.mesh, &self.active);
+        let n = active.len();
         let control = mesh.loading.control;
-        let matrix = |row, column| match (row < n, column < n) {
-            (true, true) => mesh.influence(contact[row], contact[column]),
+        let entry = |row, column| match (row < n, column < n) {
+            (true, true) => mesh.influence(active[row], active[column]),
             (true, false) => -1.0,
-            (false, true) => control.load * mesh.weight(contact[column]),
+            (false, true) => control.load * mesh.weight(active[column]),
             (false, false) => control.depth,
         };
-        let heights = contact.iter().map(|&element| -mesh.height(element));
-        let solution = solve_dense(matrix, heights.chain([control.right]).collect());
+        let heights = active.iter().map(|&element| -mesh.height(element));
+        let solution = solve_dense(entry, heights.chain([control.right]).collect());
         self.loads = solution.ok_or(BemError::SingularContact { elements: n })?;
         self.loads.truncate(n);
         self.gaps.fill(0.0);
         Ok(())
     }
 
-    fn iterate(&mut self, region: &Region, mean: f64, largest: f64) {
+    /// Iterates by GCR until the RMS gap or the largest |gap| is small enough.
+    fn iterate(&mut self, region: &Region, rms: f64, max: f64) {
         let mut directions = Directions::new(self, region);
-        let n = self.contact.len() as f64;
-        let unknowns = [&mut self.loads[..], &mut self.gaps];
-        minimise(
-            unknowns,
+        let n = self.active.len() as f64;
+        gcr(
+            &mut self.loads,
+            &mut self.gaps,
             None,
-            [MOST_DIRECTIONS; 2],
-            |size, [gaps, from], found| {
-                let top = || gaps.iter().fold(0.0, |top, gap| larger(top, gap.abs()));
-                let size = (size / n).sqrt();
-                let goes_on = size > mean && (size > largest || top() > largest);
-                if goes_on {
-                    directions.find(from, found);
+            GCR_LIMITS,
+            |state, direction, image| {
+                let largest = || {
+                    let gaps = state.residual.iter();
+                    gaps.fold(0.0, |max, gap| larger(max, gap.abs()))
+                };
+                let residual_rms = (state.residual_square / n).sqrt();
+                let continues = residual_rms > rms && (residual_rms > max || largest() > max);
+                if continues {
+                    directions.write(state.source, direction, image);
                 }
-                goes_on
+                continues
             },
         );
     }
 }
 
-/// Whether so many unknowns in a box of so many elements are factorised.
-pub(super) fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
+/// True if a direct solve is cheaper than an iteration, for a number of unknowns in a box of `n_places` elements.
+pub(super) fn prefers_direct_solve(n_unknowns: usize, n_places: usize) -> bool {
     let work = (n_unknowns as f64).powi(3);
-    n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
+    n_unknowns <= DIRECT_SOLVE_MAX_UNKNOWNS
+        && work <= DIRECT_SOLVE_WORK_PER_ELEMENT * n_places as f64
 }
 
-/// The solution of linear equations with the entries of a matrix and the right sides, by factorisation; `None` if they are
-/// singular.
+/// Solves a dense linear system by LU factorisation. `None` if it is singular.
 fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64>) -> Option<Vec<f64>> {
     let n = right.len();
     let factors = DMatrix::from_fn(n, n, entry).lu();
@@ -185,48 +207,49 @@ fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64>) -> Optio
     Some(solution.data.into())
 }
 
-/// Directions for the iteration of one contact.
+/// GCR directions on one active set: the preconditioner with the control of force or depth.
 struct Directions<'a> {
     mesh: &'a Mesh,
     region: &'a Region,
     /// 1, or 2 for an element with a mirror image.
     weights: Vec<f64>,
-    product: Product,
+    operator: KernelOperator,
     preconditioner: WienerHopf,
-    /// The preconditioner applied to a unit depth.
-    lowered: Vec<f64>,
+    /// Preconditioned loads of a unit depth.
+    unit_depth_response: Vec<f64>,
 }
 
 impl<'a> Directions<'a> {
     fn new<'mesh: 'a>(equations: &mut ContactEquations<'mesh>, region: &'a Region) -> Self {
         let (mesh, plans) = (equations.mesh, &mut *equations.plans);
         let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), region);
-        let contact = equations.contact.iter();
+        let active = equations.active.iter();
         Self {
-            lowered: preconditioner.loads(&vec![1.0; equations.contact.len()], region),
-            product: Product::new(plans.kernel(region.shape), region),
-            weights: contact.map(|element| mesh.weight(*element)).collect(),
+            unit_depth_response: preconditioner.loads(&vec![1.0; equations.active.len()], region),
+            operator: KernelOperator::new(plans.kernel(region.shape), region),
+            weights: active.map(|element| mesh.weight(*element)).collect(),
             preconditioner,
             region,
             mesh,
         }
     }
 
-    /// Loads that about close the gaps, with the depth that leaves the control as it is, and the gaps K x − δ that they add.
-    fn find(&mut self, gaps: &[f64], [direction, image]: [&mut [f64]; 2]) {
+    /// Writes loads that nearly close the gaps, at the depth change δ that keeps the prescribed force or depth, and the gaps K x − δ
+    /// that they add.
+    fn write(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
         let mut loads = self.preconditioner.loads(gaps, self.region);
-        let stiffness = control.depth + control.load * self.total(&self.lowered);
+        let stiffness = control.depth + control.load * self.total(&self.unit_depth_response);
         let depth = -control.load * self.total(&loads) / stiffness;
-        add(&mut loads, depth, &self.lowered);
-        let moved = self.product.apply(0, &loads, self.region);
-        for (place, moved) in image.iter_mut().zip(moved) {
-            *place = moved - depth;
+        add(&mut loads, depth, &self.unit_depth_response);
+        let displacements = self.operator.apply(0, &loads, self.region);
+        for (gap, displacement) in image.iter_mut().zip(displacements) {
+            *gap = displacement - depth;
         }
         direction.copy_from_slice(&loads);
     }
 
-    /// Sum of the loads of the whole.
+    /// Sum of the loads, mirror images included.
     fn total(&self, loads: &[f64]) -> f64 {
         dot(loads, &self.weights)
     }

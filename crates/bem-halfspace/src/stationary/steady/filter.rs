@@ -25,7 +25,7 @@ pub(super) struct RegionFilter<const N: usize> {
 }
 
 /// The product of the stationary kernel with loads: displacements of the elements of a region.
-pub(super) type Product = RegionFilter<1>;
+pub(super) type KernelOperator = RegionFilter<1>;
 
 impl<const N: usize> RegionFilter<N> {
     pub(super) fn new(filters: Arc<Filters<N>>, region: &Region) -> Self {

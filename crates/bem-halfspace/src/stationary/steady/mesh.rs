@@ -218,7 +218,7 @@ impl Mesh {
 
     /// What the unit load of an element creeps within the element: greater than zero, where the displacement on a material that
     /// flows has an unknown constant.
-    pub(super) fn own_creep(&self) -> f64 {
+    pub(super) fn self_creep(&self) -> f64 {
         self.table.potential(0, 0)
     }
 
@@ -232,7 +232,7 @@ impl Mesh {
     }
 
     /// The same where everything moves the other way.
-    pub(super) fn reversed(&self, to: usize, from: usize) -> f64 {
+    pub(super) fn reversed_influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = from.row.cast_signed() - to.row.cast_signed();
         self.by_offset(rows, to, from)
@@ -300,7 +300,7 @@ impl Mesh {
     }
 
     /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
-    pub(super) fn balance(&self, loads: &mut [f64]) {
+    pub(super) fn scale_to_force(&self, loads: &mut [f64]) {
         let control = self.loading.control;
         if control.depth == 0.0 {
             let total = self.total_load(loads.iter().copied().enumerate());

@@ -22,12 +22,12 @@ impl Region {
     }
 
     /// The same box and elements turned about across the motion.
-    pub(super) fn turned(&self) -> Self {
+    pub(super) fn reversed(&self) -> Self {
         let [rows, columns] = self.shape;
-        let turn = |place: usize| (rows - 1 - place / columns) * columns + place % columns;
+        let reverse = |place: usize| (rows - 1 - place / columns) * columns + place % columns;
         Self {
             shape: self.shape,
-            places: self.places.iter().map(|both| both.map(turn)).collect(),
+            places: self.places.iter().map(|both| both.map(reverse)).collect(),
         }
     }
 

@@ -1,108 +1,122 @@
 //! Adjoint loads: solutions with the transposed kernel, which is that of the motion in the opposite direction.
 //!
-//! A contact that is turned about across the motion has the transposed equations as its own, so that the kernel and the
-//! preconditioner of the contact serve both.
+//! A contact that is reversed along x has the transposed equations as its own, so that the same kernel and preconditioner serve both.
+//!
+//! Theory: docs/sensitivity.md.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::BemError;
-use crate::stationary::conjugate_residuals::{minimise, norm};
-use crate::stationary::steady::contact_equations::{MOST_DIRECTIONS, is_factorised};
-use crate::stationary::steady::filter::Product;
+use crate::stationary::conjugate_residuals::{gcr, norm};
+use crate::stationary::steady::contact_equations::{
+    GCR_LIMITS, MAX_GCR_STEPS, prefers_direct_solve,
+};
+use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
-/// Residual of the adjoint equations over their right side.
-const TOLERANCE: f64 = 1e-9;
-/// Unknowns that are factorised where the iteration does not end; their matrix takes 32 MB.
-const MOST_FACTORISED: usize = 2000;
+/// Relative residual of the adjoint equations, ‖r‖ over the norm of the right side; chosen.
+const ADJOINT_TOLERANCE: f64 = 1e-9;
+/// Largest number of unknowns of the direct solve that replaces an iteration without convergence; the matrix takes 32 MB.
+const FALLBACK_MAX_UNKNOWNS: usize = 2000;
 
-/// Which way the contact moves.
+/// Direction of the motion in the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Motion {
-    /// As it does, with the kernel K.
-    Own,
-    /// Backwards, with its transpose.
-    Turned,
+    /// The motion of the contact, with the kernel K.
+    Forward,
+    /// The opposite motion, with Kᵀ.
+    Reversed,
 }
 
-/// The loads on a contact that solve `K y = r` for each of the right sides, in the units of the mesh, with the kernel of the
-/// motion; or the residual that is left, relative to the right side.
+/// Solves `K y = r` on a contact for several right sides, in the units of the mesh; `Kᵀ y = r` for the reversed motion.
+///
+/// # Errors
+/// [`BemError::ContactNotConverged`] with the largest relative residual.
 pub(super) fn solve(
     mesh: &Mesh,
     plans: &mut Plans,
-    (contact, motion): (&[usize], Motion),
-    right: &[Vec<f64>],
+    contact: &[usize],
+    motion: Motion,
+    right_sides: &[Vec<f64>],
 ) -> Result<Vec<Vec<f64>>, BemError> {
+    // Small systems are solved directly.
     let mut region = mesh.region(contact.iter().copied());
     let n = contact.len();
-    if is_factorised(n, region.n_places()) {
-        return factorise(mesh, (contact, motion), right).ok_or_else(|| not_solved(1.0));
+    if prefers_direct_solve(n, region.n_places()) {
+        return solve_directly(mesh, contact, motion, right_sides)
+            .ok_or_else(|| not_converged(1.0));
     }
-    if motion == Motion::Turned {
-        region = region.turned();
+
+    // Large ones are iterated, on the reversed contact for the reversed motion.
+    if motion == Motion::Reversed {
+        region = region.reversed();
     }
-    let mut product = Product::new(plans.kernel(region.shape), &region);
+    let mut operator = KernelOperator::new(plans.kernel(region.shape), &region);
     let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
-    let (mut left, mut has_ended) = (0.0_f64, true);
-    let solved = right.iter().map(|right| {
-        let allowed = TOLERANCE * norm(right);
+    let (mut worst_residual, mut converged) = (0.0_f64, true);
+    let solve_one = |right: &Vec<f64>| {
+        let allowed = ADJOINT_TOLERANCE * norm(right);
         let mut loads = vec![0.0; n];
         let mut residual: Vec<f64> = right.iter().map(|value| -value).collect();
-        let unknowns = [&mut loads[..], &mut residual[..]];
-        let most = [MOST_DIRECTIONS; 2];
-        minimise(
-            unknowns,
+        gcr(
+            &mut loads,
+            &mut residual,
             None,
-            most,
-            |size, [_, from], [direction, image]| {
-                if size.sqrt() <= allowed {
+            GCR_LIMITS,
+            |state, direction, image| {
+                if state.residual_square.sqrt() <= allowed {
                     return false;
                 }
-                direction.copy_from_slice(&preconditioner.loads(from, &region));
-                image.copy_from_slice(&product.apply(0, direction, &region));
+                direction.copy_from_slice(&preconditioner.loads(state.source, &region));
+                image.copy_from_slice(&operator.apply(0, direction, &region));
                 true
             },
         );
-        left = left.max(TOLERANCE * norm(&residual) / allowed);
-        has_ended &= norm(&residual) <= allowed;
+        worst_residual = worst_residual.max(ADJOINT_TOLERANCE * norm(&residual) / allowed);
+        converged &= norm(&residual) <= allowed;
         loads
-    });
-    let solved = solved.collect();
-    if has_ended {
-        return Ok(solved);
+    };
+    let solutions = right_sides.iter().map(solve_one).collect();
+    if converged {
+        return Ok(solutions);
     }
-    // What is nearly viscous over the length of the contact may need a direction for every unknown.
-    let few = (n <= MOST_FACTORISED).then(|| factorise(mesh, (contact, motion), right));
-    few.flatten().ok_or_else(|| not_solved(left))
+
+    // A material that is nearly viscous over the contact length may need as many directions as unknowns.
+    (n <= FALLBACK_MAX_UNKNOWNS)
+        .then(|| solve_directly(mesh, contact, motion, right_sides))
+        .flatten()
+        .ok_or_else(|| not_converged(worst_residual))
 }
 
-fn factorise(
+/// Solves by LU factorisation. `None` if the matrix is singular.
+fn solve_directly(
     mesh: &Mesh,
-    (contact, motion): (&[usize], Motion),
-    right: &[Vec<f64>],
+    contact: &[usize],
+    motion: Motion,
+    right_sides: &[Vec<f64>],
 ) -> Option<Vec<Vec<f64>>> {
     let n = contact.len();
     let entry = |row: usize, column: usize| {
         let [to, from] = [contact[row], contact[column]];
         match motion {
-            Motion::Own => mesh.influence(to, from),
-            Motion::Turned => mesh.reversed(to, from),
+            Motion::Forward => mesh.influence(to, from),
+            Motion::Reversed => mesh.reversed_influence(to, from),
         }
     };
     let factors = DMatrix::from_fn(n, n, entry).lu();
-    let solved = right.iter().map(|right| {
-        let solved = factors.solve(&DVector::from_column_slice(right))?;
-        Some(Vec::from(solved.data))
-    });
-    solved.collect()
+    let solve_one = |right: &Vec<f64>| {
+        let solution = factors.solve(&DVector::from_column_slice(right))?;
+        Some(Vec::from(solution.data))
+    };
+    right_sides.iter().map(solve_one).collect()
 }
 
-const fn not_solved(residual: f64) -> BemError {
+const fn not_converged(residual: f64) -> BemError {
     BemError::ContactNotConverged {
-        iterations: MOST_DIRECTIONS,
+        iterations: MAX_GCR_STEPS,
         residual,
-        tolerance: TOLERANCE,
+        tolerance: ADJOINT_TOLERANCE,
     }
 }

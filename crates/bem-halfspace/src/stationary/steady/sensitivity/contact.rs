@@ -3,7 +3,7 @@
 use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::stationary::steady::contact::Solution;
-use crate::stationary::steady::filter::Product;
+use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
@@ -126,8 +126,8 @@ impl<'mesh> Contact<'mesh> {
         right.extend(
             measures.map(|one| one.by_loads_through_gaps(self.mesh, plans, &self.elements)),
         );
-        let touching = (&self.elements[..n], Motion::Turned);
-        let mut solved = solve(self.mesh, plans, touching, &right)?.into_iter();
+        let touching = &self.elements[..n];
+        let mut solved = solve(self.mesh, plans, touching, Motion::Reversed, &right)?.into_iter();
         let mut felt = || {
             let mut loads = solved.next().unwrap_or_default();
             loads.resize(self.elements.len(), 0.0);
@@ -175,13 +175,13 @@ impl<'mesh> Contact<'mesh> {
         let region = Region::around(all.collect::<Vec<_>>().iter().copied());
         let loads = [&vec![0.0; 2 * n], &self.loads[..]].concat();
         let mut differences = |region: &Region| -> Vec<f64> {
-            let mut product = Product::new(plans.kernel(region.shape), region);
-            let moved = product.apply(0, &loads, region);
+            let mut operator = KernelOperator::new(plans.kernel(region.shape), region);
+            let moved = operator.apply(0, &loads, region);
             (0..n)
                 .map(|element| 0.5 * (moved[element] - moved[n + element]))
                 .collect()
         };
-        let [under, turned] = [differences(&region), differences(&region.turned())];
+        let [under, turned] = [differences(&region), differences(&region.reversed())];
         Slopes {
             at_elements: own
                 .iter()

@@ -5,7 +5,7 @@ use crate::elements::bounds::Bounds;
 use crate::elements::contact_boundary::{
     BoundaryDerivatives, BoundaryField, BoundaryPair, ContactBoundary, LOAD_GAP_RATIO,
 };
-use crate::stationary::steady::filter::Product;
+use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
@@ -36,7 +36,7 @@ struct Surroundings<'a> {
     contact: &'a [usize],
     beside: Vec<usize>,
     region: Region,
-    product: Product,
+    operator: KernelOperator,
 }
 
 impl ContactRim {
@@ -82,12 +82,12 @@ impl OfElements {
         plans: &mut Plans,
         elements: &[usize],
     ) -> Vec<f64> {
-        let region = mesh.region(elements.iter().copied()).turned();
-        let mut product = Product::new(plans.kernel(region.shape), &region);
+        let region = mesh.region(elements.iter().copied()).reversed();
+        let mut operator = KernelOperator::new(plans.kernel(region.shape), &region);
         let n = self.by_loads.len();
         let mut by_gaps = vec![0.0; n];
         by_gaps.extend(&self.by_gaps);
-        let felt = product.apply(0, &by_gaps, &region);
+        let felt = operator.apply(0, &by_gaps, &region);
         let pairs = self.by_loads.iter().zip(felt);
         pairs.map(|(by_load, felt)| by_load + felt).collect()
     }
@@ -106,7 +106,7 @@ impl<'a> Surroundings<'a> {
             mesh,
             contact,
             beside,
-            product: Product::new(plans.kernel(region.shape), &region),
+            operator: KernelOperator::new(plans.kernel(region.shape), &region),
             region,
         }
     }
@@ -115,7 +115,7 @@ impl<'a> Surroundings<'a> {
     fn displacements(&mut self, loads: &[f64]) -> Vec<f64> {
         let mut padded = loads.to_vec();
         padded.resize(self.contact.len() + self.beside.len(), 0.0);
-        let moved = self.product.apply(0, &padded, &self.region);
+        let moved = self.operator.apply(0, &padded, &self.region);
         moved[self.contact.len()..].to_vec()
     }
 
@@ -148,7 +148,7 @@ impl<'a> Surroundings<'a> {
     /// How much loads grow in the contact and gaps fall beside it while the body is lowered by a unit depth.
     fn lowered(&mut self, plans: &mut Plans, bounds: &Bounds) -> Result<Vec<f64>, BemError> {
         let ones = vec![vec![1.0; self.contact.len()]];
-        let loads = solve(self.mesh, plans, (self.contact, Motion::Own), &ones)?.remove(0);
+        let loads = solve(self.mesh, plans, self.contact, Motion::Forward, &ones)?.remove(0);
         let moved = self.displacements(&loads);
         let falls = moved.into_iter().map(|moved| 1.0 - moved).collect();
         Ok(self.field(bounds, &loads, falls).values)
