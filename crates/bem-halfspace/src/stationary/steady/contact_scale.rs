@@ -25,11 +25,11 @@ use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::{BemError, Elastomer};
 
 /// Halvings of the logarithm of the length: all the digits there are.
-const HALVINGS: usize = 60;
+const BISECTIONS: usize = 60;
 /// Doublings of the length until there is no solution.
-const DOUBLINGS: usize = 900;
+const MAX_DOUBLINGS: usize = 900;
 /// Directions in which the height of a surface is averaged.
-const DIRECTIONS: u8 = 8;
+const HEIGHT_DIRECTIONS: u8 = 8;
 
 /// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away, when it has slid a
 /// distance: a contact that is longer has lasted no longer than that.
@@ -48,14 +48,14 @@ pub(super) fn depth_scale(
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(0.25 * normal_force * (creep.compliance_of_contact(length, distance)? / length))
     };
-    let length = length_of_contact(height, depth, largest)?;
+    let length = contact_length(height, depth, largest)?;
     Ok(positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)?)
 }
 
 /// D of a profile, and the distance a from its lowest point at which it is as high, \[m].
 ///
 /// A half space that flows has none: in plane strain a line load sinks the faster the longer it is, without limit.
-pub(super) fn scale_of_profile(
+pub(super) fn profile_scale(
     profile: &dyn Surface,
     creep: &SlidingCreep,
     force_per_length: f64,
@@ -71,33 +71,33 @@ pub(super) fn scale_of_profile(
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(force_per_length / TAU * creep.compliance_of_contact(length, f64::INFINITY)?)
     };
-    let length = length_of_contact(height, depth, f64::INFINITY)?;
+    let length = contact_length(height, depth, f64::INFINITY)?;
     let depth = positive("2 (1 - ν) F' J(a/v) / (2π)", depth(length)?)?;
     Ok([depth, length])
 }
 
 /// The length at which a body is as high as the load is deep.
-fn length_of_contact(
+fn contact_length(
     height: impl Fn(f64) -> f64,
     depth: impl Fn(f64) -> Result<f64, BemError>,
     largest: f64,
 ) -> Result<f64, BemError> {
     let too_long = |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
     let mut upper = if largest.is_finite() { largest } else { 1.0 };
-    for _ in 0..DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         if largest.is_finite() || too_long(upper)? {
             break;
         }
         upper *= 2.0;
     }
     let mut lower = upper;
-    for _ in 0..DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         if !too_long(lower)? {
             break;
         }
         (lower, upper) = (0.5 * lower, lower);
     }
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         // The root of a ratio, so that another unit of length changes no rounding.
         let middle = lower * (upper / lower).sqrt();
         if too_long(middle)? {
@@ -115,7 +115,7 @@ pub(crate) fn depth_scale_of_surface(
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
-    let creep = SlidingCreep::under(elastomer, load)?;
+    let creep = SlidingCreep::for_load(elastomer, load)?;
     let force = load.require_normal_force()?;
     let body = surface.as_axisymmetric();
     let height = |distance| match body {
@@ -133,5 +133,5 @@ pub(super) fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
         let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
         surface.height([distance * cosine, distance * sine])
     };
-    (0..DIRECTIONS).map(along).sum::<f64>() / f64::from(DIRECTIONS)
+    (0..HEIGHT_DIRECTIONS).map(along).sum::<f64>() / f64::from(HEIGHT_DIRECTIONS)
 }

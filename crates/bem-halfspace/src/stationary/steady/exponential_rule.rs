@@ -13,9 +13,9 @@ use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
 /// Points of the longest rule.
 pub(super) const MAX_POINTS: usize = 12;
 /// Above this argument the recurrence of the Bessel functions is run upwards, below downwards.
-const UPWARD: f64 = 60.0;
+const UPWARD_RECURRENCE_ARGUMENT: f64 = 60.0;
 /// Degrees above the argument at which the downward recurrence starts: what is left out is below rounding.
-const HEADROOM: usize = 40;
+const EXTRA_DEGREES: usize = 40;
 
 /// Points on [0, 1] or around it, and the Legendre coefficients of the polynomial through values at them.
 pub(super) struct ExponentialRule {
@@ -49,7 +49,7 @@ impl ExponentialRule {
 
     /// The rule of 2 to [`MAX_POINTS`] points at whole numbers around [0, 1], as many on either side; for functions that
     /// are smooth over all of them.
-    pub(super) fn on_lattice(n_points: usize) -> Self {
+    pub(super) fn on_integers(n_points: usize) -> Self {
         let lobatto = Self::new(n_points);
         let first = 1.0 - 0.5 * n_points as f64;
         let nodes: Vec<f64> = (0..n_points).map(|index| first + index as f64).collect();
@@ -90,13 +90,13 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
     let first = -(-rate).exp_m1();
     let mut moments = [0.0; MAX_POINTS];
     moments[0] = first;
-    if z > UPWARD {
+    if z > UPWARD_RECURRENCE_ARGUMENT {
         moments[1] = 1.0 - z.recip();
         for n in 1..count - 1 {
             moments[n + 1] = moments[n - 1] - (2 * n + 1) as f64 / z * moments[n];
         }
     } else {
-        let start = count + HEADROOM + 2 * whole_part(z);
+        let start = count + EXTRA_DEGREES + 2 * whole_part(z);
         // Ratios i_n/i_(n−1) = z/(2n + 1 + z i_(n+1)/i_n), all positive.
         let mut ratio = 0.0;
         let mut ratios = [0.0; MAX_POINTS];

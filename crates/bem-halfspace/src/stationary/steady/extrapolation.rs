@@ -3,17 +3,17 @@
 use numerics::Estimate;
 
 /// Powers of the elements that are believed where they are observed.
-pub(super) const OBSERVED: [f64; 2] = [0.5, 1.5];
+pub(super) const OBSERVED_ORDERS: [f64; 2] = [0.5, 1.5];
 /// Those where elements hide an edge: values may turn around once it is seen, so that nothing observed is believed.
-pub(super) const HIDDEN_EDGE: [f64; 2] = [0.5, 0.5];
+pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [0.5, 0.5];
 
 /// Powers of the elements with which the friction of materials that recover is seen to converge: 2 from the dissipated power, and
 /// under cones, up to 5/2 from slopes.
-const FASTER: [f64; 2] = [2.0, 2.5];
+const CREEPING_ORDERS: [f64; 2] = [2.0, 2.5];
 /// Part of an error that that of another order must be below, to be taken: the least of several bars holds less often than each of
 /// them. With it all of 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without other orders, and the median is 0.6 of
 /// that.
-const CLEARLY_BETTER: f64 = 0.5;
+const HIGHER_ORDER_ERROR_RATIO: f64 = 0.5;
 
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
@@ -21,12 +21,12 @@ const CLEARLY_BETTER: f64 = 0.5;
 /// eliminated over a factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second
 /// one narrows the error bar to less than half.
 pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
-    let once = eliminate(values, order);
-    let twice = eliminate(&once, next_order(order));
+    let once = eliminate_order(values, order);
+    let twice = eliminate_order(&once, next_order(order));
     let value = values.last().copied().unwrap_or(f64::MAX);
     let unknown = Estimate::new(value, value.abs());
-    let first = judge(&once, values).filter(|_| order >= 1.0);
-    match (first, judge(&twice, &once)) {
+    let first = estimate_limit(&once, values).filter(|_| order >= 1.0);
+    match (first, estimate_limit(&twice, &once)) {
         (Some(first), Some(second)) if second.error >= 0.5 * first.error => first,
         (_, Some(second)) => second,
         (Some(first), None) => first,
@@ -35,12 +35,14 @@ pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
 }
 
 /// Extrapolates values whose error is known to fall with the power `order`, or faster: where elements resolve what creeps in the
-/// contact, the friction of a material that recovers does so with one of [`FASTER`].
+/// contact, the friction of a material that recovers does so with one of [`CREEPING_ORDERS`].
 pub(super) fn extrapolate_faster(values: &[f64], order: f64) -> Estimate {
     let mut best = extrapolate(values, order);
-    for faster in FASTER {
-        let limit = judge(&eliminate(values, faster), values);
-        if let Some(limit) = limit.filter(|limit| limit.error < CLEARLY_BETTER * best.error) {
+    for faster in CREEPING_ORDERS {
+        let limit = estimate_limit(&eliminate_order(values, faster), values);
+        if let Some(limit) =
+            limit.filter(|limit| limit.error < HIGHER_ORDER_ERROR_RATIO * best.error)
+        {
             best = limit;
         }
     }
@@ -51,7 +53,7 @@ pub(super) fn extrapolate_faster(values: &[f64], order: f64) -> Estimate {
 ///
 /// Where the edge of a flat end is just inside the contact, elements that are longer than what is around it see a punch, whose
 /// errors fall with the root of the elements. The larger of the last two counts, because one may agree by accident.
-pub(super) fn by_observed_order(values: &[f64], order: f64, powers: [f64; 2]) -> f64 {
+pub(super) fn change_at_observed_order(values: &[f64], order: f64, powers: [f64; 2]) -> f64 {
     let [slowest, fastest] = powers.map(f64::exp2);
     let change = |window: &[f64]| {
         let [before, last] = [window[2] - window[0], window[4] - window[2]];
@@ -79,7 +81,7 @@ const fn next_order(order: f64) -> f64 {
 
 /// The last limit with what the last two refinements changed and what the last elimination did. Two limits may agree by
 /// accident, three seldom do: with two of them the bar held in three of four cases, with three in 97 of 100.
-fn judge(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
+fn estimate_limit(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
     let [.., earlier, before, value] = limits else {
         return None;
     };
@@ -89,7 +91,7 @@ fn judge(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
 }
 
 /// Removes the error of one order from a sequence; two values are used up.
-fn eliminate(values: &[f64], order: f64) -> Vec<f64> {
+fn eliminate_order(values: &[f64], order: f64) -> Vec<f64> {
     // 2^order − 1, which is small for the sharpest cusps.
     let gain = (order * std::f64::consts::LN_2).exp_m1();
     let limit = |window: &[f64]| window[2] + (window[2] - window[0]) / gain;
@@ -118,7 +120,7 @@ mod tests {
 
     #[test]
     fn errors_that_fall_faster_are_seen() {
-        for faster in FASTER {
+        for faster in CREEPING_ORDERS {
             let values = sequence([faster, 3.5], 9);
             let [slow, fast] = [extrapolate(&values, 1.0), extrapolate_faster(&values, 1.0)];
             assert!(fast.error < 0.3 * slow.error, "{slow:?}, {fast:?}");

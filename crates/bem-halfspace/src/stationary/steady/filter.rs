@@ -38,7 +38,7 @@ impl<const N: usize> RegionFilter<N> {
 
     /// One of the filters of values on the elements of `region`, which are 0 elsewhere.
     pub(super) fn apply(&mut self, filter: usize, values: &[f64], region: &Region) -> Vec<f64> {
-        region.spread(values, &mut self.field);
+        region.scatter(values, &mut self.field);
         let Filters { transform, spectra } = &*self.filters;
         transform.filter(&mut self.workspace, &mut self.field, &spectra[filter]);
         region.gather(&self.field)

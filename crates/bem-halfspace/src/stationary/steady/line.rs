@@ -15,10 +15,10 @@ use rheology::Material as _;
 
 use crate::estimate::bars::{self, ContactEstimate};
 use crate::estimate::plan::GridPlan;
-use crate::stationary::steady::contact_scale::scale_of_profile;
-use crate::stationary::steady::estimate::resolution;
+use crate::stationary::steady::body_estimate::resolution;
+use crate::stationary::steady::contact_scale::profile_scale;
+use crate::stationary::steady::grid_refinement::{SteadyProblem, refine};
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::refinement::{SteadyProblem, refine};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{
     RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
@@ -69,20 +69,20 @@ pub struct LineSliding {
 pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
 /// Elements of the coarsest grids along the half contact of a cylinder on an elastic half space.
-const COARSEST: f64 = 4.0;
+const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
 /// Coarsest elements along the contact of a cylinder on an elastic half space.
-const ELEMENTS_OF_CYLINDER: f64 = 8.0;
-/// Rear of the footprint in the same lengths: nothing reaches further back than the elastic contact.
-const REAR: f64 = 2.0;
+const COARSEST_PER_CONTACT: f64 = 8.0;
+/// Rear of the footprint in the same half_length_and_footprint: nothing reaches further back than the elastic contact.
+const FOOTPRINT_REAR: f64 = 2.0;
 /// Front of the footprint, and what a long memory adds: how far ahead the surface still rises grows with its logarithm.
-const FRONT: f64 = 2.5;
-const FRONT_BY_MEMORY: f64 = 0.5;
+const FOOTPRINT_FRONT: f64 = 2.5;
+const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 
 /// Order of the error of a smooth profile, which has no outline that follows the elements (docs/calibration.md).
-const ORDER: f64 = 1.2;
+const PROFILE_ORDER: f64 = 1.2;
 
 /// Unknown pressures at most; as many are factorised at once.
-const MOST_UNKNOWNS: usize = 2000;
+const MAX_UNKNOWNS_OF_LINE: usize = 2000;
 
 /// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per
 /// length \[N/m], to a relative error of the friction coefficient; or with a number of elements along the contact of a
@@ -113,12 +113,12 @@ pub fn steady_line<'w>(
 ) -> Result<LineEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
     let force = load.require_normal_force()?;
-    let (length, footprint) = lengths(profile, elastomer, load)?;
+    let (length, footprint) = half_length_and_footprint(profile, elastomer, load)?;
     let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
     let plan = GridPlan {
         footprint: strip.footprint(footprint),
-        coarsest_spacing: length / COARSEST,
+        coarsest_spacing: length / COARSEST_PER_HALF_LENGTH,
         apex_exponent: 2.0,
         kinks: 0.0,
         shows_cells: false,
@@ -132,8 +132,8 @@ pub fn steady_line<'w>(
     };
     let is_elastic = elastomer.material().creep().is_elastic();
     let has_depth = elastomer.base().is_rigid();
-    let of_line = |known| {
-        let mut found = of_line(known, force);
+    let line_estimate = |known| {
+        let mut found = line_estimate(known, force);
         if is_elastic {
             found.friction_coefficient = Estimate::exact(0.0);
             found.error_parts = ErrorParts::NONE;
@@ -145,25 +145,26 @@ pub fn steady_line<'w>(
         Accuracy::RelativeError(relative_error) => {
             let options = RefinementOptions {
                 relative_error,
-                max_unknowns: MOST_UNKNOWNS,
+                max_unknowns: MAX_UNKNOWNS_OF_LINE,
                 ..RefinementOptions::default()
             };
-            refine(&problem, &options, of_line)
+            refine(&problem, &options, line_estimate)
         }
-        Accuracy::Elements(_) => of_line(with_elements(&problem, strip.length, request)?),
+        Accuracy::Elements(_) => line_estimate(with_elements(&problem, strip.length, request)?),
     }
 }
 
 /// Half the length of the contact, about, and where it may occur, \[m].
-fn lengths(
+fn half_length_and_footprint(
     profile: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<(f64, [f64; 2]), BemError> {
-    let creep = SlidingCreep::under(elastomer, load)?;
-    let [_, length] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
-    let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
-    Ok((length, [-REAR * length, front * length]))
+    let creep = SlidingCreep::for_load(elastomer, load)?;
+    let [_, length] = profile_scale(profile, &creep, load.require_normal_force()?)?;
+    let front =
+        FOOTPRINT_FRONT + FOOTPRINT_FRONT_PER_LOG_MEMORY * (creep.memory_length() / length).ln_1p();
+    Ok((length, [-FOOTPRINT_REAR * length, front * length]))
 }
 
 /// The grid of a number of elements, at least 1, along the contact of a cylinder on an elastic half space.
@@ -177,17 +178,17 @@ pub fn steady_line_grid(
     elements: usize,
 ) -> Result<LineOptions, BemError> {
     let elements = positive("elements", elements as f64)?;
-    let (length, footprint) = lengths(&profile, elastomer, load)?;
-    let spacing = ELEMENTS_OF_CYLINDER / COARSEST * length / elements;
+    let (length, footprint) = half_length_and_footprint(&profile, elastomer, load)?;
+    let spacing = COARSEST_PER_CONTACT / COARSEST_PER_HALF_LENGTH * length / elements;
     let grid = SteadyOptions::new([spacing; 2], Footprint::square(length));
     Ok(LineOptions {
         footprint,
-        ..LineOptions::of(&grid)
+        ..LineOptions::from_strip(&grid)
     })
 }
 
 /// The estimate of a strip as that of a line that bears a force per length.
-fn of_line(known: SteadyEstimate, force: f64) -> LineEstimate {
+fn line_estimate(known: SteadyEstimate, force: f64) -> LineEstimate {
     LineEstimate {
         friction_coefficient: known.friction_coefficient,
         error_parts: known.error_parts,
@@ -197,8 +198,8 @@ fn of_line(known: SteadyEstimate, force: f64) -> LineEstimate {
         peak_pressure: known.peak_pressure,
         contact_box_error: bars::contact_box_error(known.options.spacing[0]),
         refinements: known.refinements,
-        finest: LineSliding::of(&known.finest),
-        options: LineOptions::of(&known.options),
+        finest: LineSliding::from_strip(&known.finest),
+        options: LineOptions::from_strip(&known.options),
     }
 }
 
@@ -217,7 +218,7 @@ pub fn steady_line_on_grid(
     let strip = Strip::new(profile, &loading);
     let grid = options.on_strip(&strip);
     let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
-    Ok(LineSliding::of(&state))
+    Ok(LineSliding::from_strip(&state))
 }
 
 /// On a number of elements along the contact of a cylinder on an elastic half space.
@@ -227,8 +228,8 @@ fn with_elements(
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
     let (loading, plan) = (&problem.loading, &problem.plan);
-    let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
-    let resolution = resolution(request, loading.control, ORDER, problem.has_peak);
+    let length = COARSEST_PER_CONTACT * plan.coarsest_spacing;
+    let resolution = resolution(request, loading.control, PROFILE_ORDER, problem.has_peak);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
         let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
@@ -254,7 +255,7 @@ impl LineOptions {
         }
     }
 
-    const fn of(grid: &SteadyOptions) -> Self {
+    const fn from_strip(grid: &SteadyOptions) -> Self {
         Self {
             spacing: grid.spacing[0],
             phase: grid.phase[0],
@@ -266,7 +267,7 @@ impl LineOptions {
 }
 
 impl LineSliding {
-    fn of(state: &SteadySliding) -> Self {
+    fn from_strip(state: &SteadySliding) -> Self {
         let field = &state.pressure;
         let [first, _] = field.origin;
         let [dx, _] = field.grid.spacing();

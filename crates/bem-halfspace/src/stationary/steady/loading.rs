@@ -6,18 +6,18 @@ use indenters::{Control, SlidingLoad, Surface};
 use numerics::{in_range, positive};
 
 use crate::estimate::plan::{NEGLIGIBLE_KINKS, kinks};
-use crate::stationary::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
+use crate::stationary::steady::contact_scale::{depth_scale, mean_height, profile_scale};
 use crate::stationary::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Elastomer, Footprint};
 
-const SINKS: &str =
+const SINKS_WITHOUT_LIMIT: &str =
     "on a material that flows the body sinks without limit, so that a depth belongs to a distance";
 /// Sliding distance in lengths of the footprint where none is given: on a solid it has no effect.
-const DISTANCE_ON_SOLID: f64 = 100.0;
+const DEFAULT_DISTANCE_ON_SOLID: f64 = 100.0;
 
 /// The equation `depth · δ + load · Σ x = right` that controls depth or force in the units of the mesh.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Equation {
+pub(super) struct ControlEquation {
     pub(super) depth: f64,
     pub(super) load: f64,
     pub(super) right: f64,
@@ -42,7 +42,7 @@ pub(super) struct Loading {
 
 /// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
 /// one.
-const STRIP: f64 = 1e5;
+const STRIP_LENGTH_RATIO: f64 = 1e5;
 
 impl Loading {
     /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
@@ -52,7 +52,7 @@ impl Loading {
         load: &SlidingLoad,
         footprint: &Footprint,
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::under(elastomer, load)?;
+        let creep = SlidingCreep::for_load(elastomer, load)?;
         let [rear, front] = footprint.x;
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
@@ -85,10 +85,10 @@ impl Loading {
         load: &SlidingLoad,
         [rear, front]: [f64; 2],
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::under(elastomer, load)?;
+        let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
-        let [depth_scale, _] = scale_of_profile(profile, &creep, force)?;
-        let strip = STRIP * (front - rear + creep.memory());
+        let [depth_scale, _] = profile_scale(profile, &creep, force)?;
+        let strip = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
         let strip = positive("length of a strip", strip)?;
         let force = positive("force on a strip", force * strip)?;
         Ok(Self {
@@ -110,22 +110,24 @@ impl Loading {
 
     /// The problem on a grid.
     pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
-        let creep = self.creep.over(spacing[0])?;
+        let creep = self.creep.over_element(spacing[0])?;
         let compliance = self.creep.compliance(spacing[0])?;
         let force_scale = 4.0 * self.depth_scale / compliance * spacing[0];
         let force_scale = positive("4 D Δx / (2 (1 - ν) J(Δx/v))", force_scale)?;
         let aspect = spacing[1] / spacing[0];
         let control = match self.control {
-            Control::NormalForce(force) => Equation {
+            Control::NormalForce(force) => ControlEquation {
                 depth: 0.0,
                 load: 1.0,
                 right: force / force_scale / (PI * aspect),
             },
             Control::IndentationDepth(_) => {
-                let sunken = |distance| sunken(distance, spacing[0]);
-                Equation {
+                let sinking_in_e_folds = |distance| sinking_in_e_folds(distance, spacing[0]);
+                ControlEquation {
                     depth: 1.0,
-                    load: creep.flow * aspect * self.sliding_distance.map_or(0.0, sunken),
+                    load: creep.flow
+                        * aspect
+                        * self.sliding_distance.map_or(0.0, sinking_in_e_folds),
                     right: 1.0,
                 }
             }
@@ -151,9 +153,11 @@ fn distance_at_depth(
 ) -> Result<f64, BemError> {
     let Some(distance) = load.sliding_distance() else {
         if creep.fluidity() > 0.0 {
-            return Err(BemError::SlidingDistanceMissing { why: SINKS });
+            return Err(BemError::SlidingDistanceMissing {
+                why: SINKS_WITHOUT_LIMIT,
+            });
         }
-        return Ok(DISTANCE_ON_SOLID * footprint_length);
+        return Ok(DEFAULT_DISTANCE_ON_SOLID * footprint_length);
     };
     let is_allowed = distance >= footprint_length;
     let allowed = "longer than the footprint, because the depth is known only after the contact has become stationary";
@@ -164,7 +168,7 @@ fn distance_at_depth(
 pub(super) struct GridLoading {
     pub(super) creep: ElementCreep,
     /// Force or depth that is asked for.
-    pub(super) control: Equation,
+    pub(super) control: ControlEquation,
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
     /// 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
@@ -180,7 +184,7 @@ impl GridLoading {
     /// Whether the friction of a body with edges follows from the displacements beside an element. They are those at the points
     /// where gaps are evaluated: near its centre, unless the material is more of a fluid for the shortest wave.
     pub(super) fn is_solid_for_elements(&self) -> bool {
-        self.creep.shift > -0.25
+        self.creep.collocation_shift > -0.25
     }
 
     /// Normal force of the loads, \[N].
@@ -195,6 +199,6 @@ impl GridLoading {
 }
 
 /// ln(2s/L): how far a load has sunk after the distance s, in units of F_N/(4πηv), when its kernel measures lengths in L.
-pub(super) fn sunken(sliding_distance: f64, unit_length: f64) -> f64 {
+pub(super) fn sinking_in_e_folds(sliding_distance: f64, unit_length: f64) -> f64 {
     (2.0 * (sliding_distance / unit_length)).ln()
 }

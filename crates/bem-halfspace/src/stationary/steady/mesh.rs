@@ -21,7 +21,7 @@ use crate::stationary::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
 /// Height of the foot of a steep flank, in units of the depth scale.
-const FOOT: f64 = 0.1;
+const FLANK_FOOT_HEIGHT: f64 = 0.1;
 /// Elements below this height are guessed to be in contact, in the same units: about as high as the sides of the contact
 /// of a paraboloid.
 const GUESSED_HEIGHT: f64 = 0.5;
@@ -35,7 +35,7 @@ struct Element {
     /// Mean of ∂h/∂x.
     slope: f64,
     /// The slope that dissipates.
-    chord: f64,
+    dissipating_slope: f64,
 }
 
 /// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
@@ -54,7 +54,7 @@ pub(super) struct Mesh {
     /// Whether an element ends in a vertical wall, by row and column.
     walls: Vec<bool>,
     /// First and last row and column between which the contact must lie.
-    limits: [[usize; 2]; 2],
+    inner_limits: [[usize; 2]; 2],
     table: Arc<WakeTable>,
 }
 
@@ -82,21 +82,21 @@ impl Mesh {
             mirror: Mirror::None,
             elements: Vec::new(),
             walls: Vec::new(),
-            limits: [[0, behind + ahead], [0, right + left]],
+            inner_limits: [[0, behind + ahead], [0, right + left]],
             table: Arc::default(),
         };
         // Refuses what is too large before it is sampled.
         Grid::new(mesh.shape, options.spacing)?;
         mesh.sample(surface)?;
         if surface.mirrors()[1] {
-            mesh.keep_front();
+            mesh.keep_half();
         }
         // Without such an element nothing can carry load.
         let parameter = "number of elements of the footprint that may touch";
         positive(parameter, mesh.n_elements() as f64)?;
         let all = mesh.region(0..mesh.n_elements());
         mesh.check_track(all.shape[0])?;
-        mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
+        mesh.table = plans.prepare(&mesh.loading.creep, mesh.aspect(), all.shape);
         Ok(mesh)
     }
 
@@ -143,7 +143,7 @@ impl Mesh {
         for row in 0..self.shape[0] {
             for column in 0..self.shape[1] {
                 let [x, y] = [self.centre(0, row), self.centre(1, column)];
-                let positions = [-0.5, self.loading.creep.shift, 0.5];
+                let positions = [-0.5, self.loading.creep.collocation_shift, 0.5];
                 let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
                 let [rear, height, front] = heights;
                 let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
@@ -155,13 +155,14 @@ impl Mesh {
                 let covered = heights.iter().all(|height| height.is_finite());
                 if covered && (front > rear || !self.only_rising) {
                     let [height, slope] = [height / self.loading.depth_scale, (front - rear) / dx];
-                    let chord = self.chord(surface, [x, y]).unwrap_or(slope);
+                    let dissipating_slope =
+                        self.dissipating_slope(surface, [x, y]).unwrap_or(slope);
                     self.elements.push(Element {
                         row,
                         column,
                         height,
                         slope,
-                        chord,
+                        dissipating_slope,
                     });
                 }
             }
@@ -170,20 +171,20 @@ impl Mesh {
     }
 
     /// Keeps the elements at y ≥ 0 of a surface that mirrors them, where the grid does too.
-    fn keep_front(&mut self) {
+    fn keep_half(&mut self) {
         self.mirror = match self.options.phase[1].abs() {
             0.0 => Mirror::Centre,
             0.5 => Mirror::Edge,
             _ => return,
         };
-        // An element needs its image inside the footprint: the shorter side limits both.
+        // An element needs its image inside the footprint: the shorter side inner_limits both.
         let origin = self.origin[1];
         let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;
         self.elements
             .retain(|element| origin + element.column as f64 >= 0.0 && has_image(element.column));
         let mut columns = (0..self.shape[1]).rev();
         let last = columns.find(|&column| has_image(column)).unwrap_or(0);
-        self.limits[1] = [self.image(last), last];
+        self.inner_limits[1] = [self.image(last), last];
     }
 
     /// Column that mirrors `column`.
@@ -205,37 +206,42 @@ impl Mesh {
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
-        self.by_offset(rows, to, from)
+        self.influence_at_offset(rows, to, from)
     }
 
-    fn by_offset(&self, rows: isize, to: &Element, from: &Element) -> f64 {
-        let direct = self.table.at(rows, to.column.abs_diff(from.column));
+    fn influence_at_offset(&self, rows: isize, to: &Element, from: &Element) -> f64 {
+        let direct = self
+            .table
+            .displacement(rows, to.column.abs_diff(from.column));
         if !self.has_image(from) {
             return direct;
         }
-        direct + self.table.at(rows, to.column - self.image(from.column))
+        direct
+            + self
+                .table
+                .displacement(rows, to.column - self.image(from.column))
     }
 
     /// What the unit load of an element creeps within the element: greater than zero, where the displacement on a material that
     /// flows has an unknown constant.
     pub(super) fn self_creep(&self) -> f64 {
-        self.table.potential(0, 0)
+        self.table.creep_within_element(0, 0)
     }
 
     /// By how much the kernel of one element falls to its neighbours along an axis, which is its bend.
-    pub(super) fn bend(&self, axis: usize) -> f64 {
+    pub(super) fn kernel_second_difference(&self, axis: usize) -> f64 {
         let beside = match axis {
-            0 => 0.5 * (self.table.at(1, 0) + self.table.at(-1, 0)),
-            _ => self.table.at(0, 1),
+            0 => 0.5 * (self.table.displacement(1, 0) + self.table.displacement(-1, 0)),
+            _ => self.table.displacement(0, 1),
         };
-        self.table.at(0, 0) - beside
+        self.table.displacement(0, 0) - beside
     }
 
     /// The same where everything moves the other way.
     pub(super) fn reversed_influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = from.row.cast_signed() - to.row.cast_signed();
-        self.by_offset(rows, to, from)
+        self.influence_at_offset(rows, to, from)
     }
 
     /// Row and column of an element and of its mirror image; itself where it has none.
@@ -283,17 +289,17 @@ impl Mesh {
     }
 
     /// Whether elements `coarser` times as long still resolve the flanks of the body up to the depth scale.
-    pub(super) fn resolves_body(&self, coarser: f64) -> bool {
+    pub(super) fn resolves_flanks(&self, coarser: f64) -> bool {
         let dx = coarser * self.options.spacing[0];
         let passes = |element: &Element| {
             let rise = element.slope * dx / self.loading.depth_scale;
-            element.height < FOOT && element.height + rise > 1.0
+            element.height < FLANK_FOOT_HEIGHT && element.height + rise > 1.0
         };
         !self.elements.iter().any(passes)
     }
 
     /// The low elements, with hardly any load.
-    pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
+    pub(super) fn initial_active_set(&self) -> Vec<(usize, f64)> {
         let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
         let low = (0..self.n_elements()).filter(is_low);
         low.map(|element| (element, f64::EPSILON)).collect()
@@ -319,8 +325,12 @@ impl Mesh {
     pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> [f64; 3] {
         let (mut sums, mut normal) = ([0.0; 3], 0.0);
         for &(element, load) in loads {
-            let Element { slope, chord, .. } = self.elements[element];
-            for (sum, slope) in sums.iter_mut().zip([slope, slope.abs(), chord]) {
+            let Element {
+                slope,
+                dissipating_slope,
+                ..
+            } = self.elements[element];
+            for (sum, slope) in sums.iter_mut().zip([slope, slope.abs(), dissipating_slope]) {
                 *sum += self.weight(element) * load * slope;
             }
             normal += self.weight(element) * load;
@@ -330,18 +340,19 @@ impl Mesh {
 
     /// Of a body with edges the slope between the points of the two neighbours where gaps are evaluated: that of the element
     /// alone does not dissipate as much, by the root of an element where the contact ends near the edge.
-    fn chord(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
+    fn dissipating_slope(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
         if !self.loading.has_edges {
             return None;
         }
         let dx = self.options.spacing[0];
-        let height = |shift| surface.height([x + (self.loading.creep.shift + shift) * dx, y]);
-        let chord = (height(1.0) - height(-1.0)) / (2.0 * dx);
-        chord.is_finite().then_some(chord)
+        let height =
+            |shift| surface.height([x + (self.loading.creep.collocation_shift + shift) * dx, y]);
+        let dissipating_slope = (height(1.0) - height(-1.0)) / (2.0 * dx);
+        dissipating_slope.is_finite().then_some(dissipating_slope)
     }
 
     /// Mean of half the difference of the gaps ahead and behind, weighted with the load.
-    pub(super) fn opening(&self, loads: &[f64], gaps: &[f64]) -> f64 {
+    pub(super) fn mean_gap_difference(&self, loads: &[f64], gaps: &[f64]) -> f64 {
         let gap = |row: usize, column: usize| {
             let beside = self.in_row(row, column..=column).next();
             let open = beside.filter(|one| loads[*one] <= 0.0);
@@ -358,7 +369,7 @@ impl Mesh {
     }
 
     /// Row, column and load of every loaded element of the whole.
-    pub(super) fn loaded(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
+    pub(super) fn loaded_places(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
         let with_image = |&(element, load): &(usize, f64)| {
             let [place, image] = self.places(element);
             let places = std::iter::once(place).chain((image != place).then_some(image));
@@ -368,9 +379,9 @@ impl Mesh {
     }
 
     /// Whether a box lies inside the footprint, away from its boundary.
-    pub(super) fn holds(&self, bounds: &Bounds) -> bool {
+    pub(super) fn contains_inside(&self, bounds: &Bounds) -> bool {
         (0..2).all(|axis| {
-            let [first, last] = self.limits[axis];
+            let [first, last] = self.inner_limits[axis];
             bounds.lower[axis] > first && bounds.upper[axis] <= last
         })
     }
@@ -385,7 +396,7 @@ impl Mesh {
     }
 
     /// Largest rise of the body over a loaded element, in units of the depth scale.
-    pub(super) fn largest_rise(&self, loads: &[(usize, f64)]) -> f64 {
+    pub(super) fn max_rise(&self, loads: &[(usize, f64)]) -> f64 {
         let (dx, unit) = (self.options.spacing[0], self.loading.depth_scale);
         let rise = |&(element, _): &(usize, f64)| (self.elements[element].slope * dx / unit).abs();
         loads.iter().map(rise).fold(0.0, f64::max)

@@ -15,26 +15,26 @@
 //! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
 //! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
 
-mod contact;
+mod body_contact;
+mod body_estimate;
 mod contact_equations;
 mod contact_scale;
-mod depth;
-mod estimate;
 mod exponential_rule;
 mod extrapolation;
 mod filter;
-mod kernel;
+mod grid_refinement;
 mod line;
 mod loading;
 mod mesh;
-mod patches;
+mod patch_resolution;
 mod plans;
-mod refinement;
 mod region;
 mod retarded_potential;
 pub mod sensitivity;
+mod sinking_depth;
 mod sliding_creep;
 mod solution;
+mod wake_influence;
 mod wake_table;
 mod wiener_hopf;
 
@@ -44,26 +44,26 @@ use numerics::{between_zero_and_one, positive};
 pub use crate::estimate::averages::{Average, Refinement};
 use crate::parallel::chunks::in_pool;
 use crate::{BemError, Elastomer, Footprint};
-use contact::Solution;
+use body_contact::Solution;
+pub use body_estimate::{steady, steady_grid, steady_memory, steady_refined};
 pub(crate) use contact_scale::depth_scale_of_surface;
-pub use depth::SinkingDepth;
-pub use estimate::{steady, steady_grid, steady_memory, steady_refined};
-pub use kernel::wake_influence;
+pub use grid_refinement::RefinementOptions;
 pub use line::{
     LineEstimate, LineOptions, LineSliding, steady_line, steady_line_grid, steady_line_on_grid,
 };
 use loading::Loading;
 use mesh::Mesh;
 use plans::Plans;
-pub use refinement::RefinementOptions;
+pub use sinking_depth::SinkingDepth;
 pub use solution::{SteadyEstimate, SteadySliding};
+pub use wake_influence::wake_influence;
 
 /// Meshes of more elements than this start from the solution on a coarser one.
-const NESTED: usize = 500;
+const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
 /// Spacing of the grid to start from.
-const COARSER: f64 = 2.0;
+const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
 /// Tolerance of a solution that is only a start.
-const COARSE_TOLERANCE: f64 = 1e-6;
+const NESTED_ITERATION_TOLERANCE: f64 = 1e-6;
 
 /// One grid for a stationary solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -149,10 +149,13 @@ fn solve_on_mesh(
     positive("max_iterations", options.max_iterations as f64)?;
     between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
-    if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
+    if reuse.solution.is_none()
+        && mesh.n_elements() > NESTED_ITERATION_MIN_ELEMENTS
+        && mesh.resolves_flanks(NESTED_ITERATION_SPACING_FACTOR)
+    {
         let coarse = SteadyOptions {
-            spacing: loading.scaled(options.spacing, COARSER),
-            tolerance: options.tolerance.max(COARSE_TOLERANCE),
+            spacing: loading.scaled(options.spacing, NESTED_ITERATION_SPACING_FACTOR),
+            tolerance: options.tolerance.max(NESTED_ITERATION_TOLERANCE),
             ..*options
         };
         // Only the kernel of a dashpot is the same on both grids.
@@ -166,16 +169,18 @@ fn solve_on_mesh(
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
     let guess = match &reuse.solution {
-        Some(other) => loads_of(other, &mesh),
-        None => mesh.first_guess(),
+        Some(other) => prolonged_loads(other, &mesh),
+        None => mesh.initial_active_set(),
     };
     let plans = &mut reuse.plans;
-    let solution = in_pool(mesh.n_elements(), || contact::solve(&mesh, plans, guess))?;
+    let solution = in_pool(mesh.n_elements(), || {
+        body_contact::solve(&mesh, plans, guess)
+    })?;
     Ok((mesh, solution))
 }
 
 /// The loaded elements of another solution, seen on this mesh.
-fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
+fn prolonged_loads(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
     let unit = mesh.loading.pressure_unit();
     let load = |element| {
         (

@@ -11,7 +11,7 @@ use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
 
 /// Periods that are kept: the boxes of successive contacts have about the same size.
-const KEPT: usize = 4;
+const MAX_CACHED_PERIODS: usize = 4;
 
 /// What depends on the creep over an element, on the aspect ratio of the elements and on the size of a box only.
 #[derive(Debug, Default)]
@@ -23,7 +23,7 @@ pub(super) struct Plans {
 
 impl Plans {
     /// Makes ready for boxes of up to `shape` elements and returns the table of the kernel.
-    pub(super) fn cover(
+    pub(super) fn prepare(
         &mut self,
         creep: &ElementCreep,
         aspect: f64,
@@ -34,16 +34,16 @@ impl Plans {
             *self = Self::default();
         }
         let filtered = wiener_hopf::period(shape);
-        let reach = [0, 1].map(|axis| free_period(shape[axis]).max(filtered[axis]) / 2);
+        let reach = [0, 1].map(|axis| padded_length(shape[axis]).max(filtered[axis]) / 2);
         WakeTable::cover(&mut self.table, creep, aspect, reach);
         Arc::clone(&self.table)
     }
 
     /// The kernel for loads and displacements within a box of `shape` elements.
     pub(super) fn kernel(&mut self, shape: [usize; 2]) -> Arc<Filters<1>> {
-        let (padded, table) = (shape.map(free_period), &self.table);
-        recent(&mut self.kernels, padded, |transform| {
-            let value = |row, column| table.at(signed_offset(row, padded[0]), column);
+        let (padded, table) = (shape.map(padded_length), &self.table);
+        cached(&mut self.kernels, padded, |transform| {
+            let value = |row, column| table.displacement(signed_offset(row, padded[0]), column);
             [transform.spectrum(value, |_, _| {})]
         })
     }
@@ -51,14 +51,14 @@ impl Plans {
     /// The inverse Wiener–Hopf factors for a box of `shape` elements.
     pub(super) fn inverse_factors(&mut self, shape: [usize; 2]) -> Arc<Filters<2>> {
         let (padded, table) = (wiener_hopf::period(shape), &self.table);
-        recent(&mut self.factors, padded, |transform| {
+        cached(&mut self.factors, padded, |transform| {
             wiener_hopf::inverse_factors(table, transform)
         })
     }
 }
 
 /// The kept filters of a period, or new ones in the place of the oldest.
-fn recent<const N: usize>(
+fn cached<const N: usize>(
     kept: &mut Vec<Arc<Filters<N>>>,
     padded: [usize; 2],
     spectra: impl FnOnce(&PlaneTransform) -> [Spectrum; N],
@@ -67,7 +67,7 @@ fn recent<const N: usize>(
     if let Some(filters) = kept.iter().find(same_period) {
         return Arc::clone(filters);
     }
-    if kept.len() == KEPT {
+    if kept.len() == MAX_CACHED_PERIODS {
         kept.remove(0);
     }
     let transform = PlaneTransform::new(padded);
@@ -78,6 +78,6 @@ fn recent<const N: usize>(
 }
 
 /// A period that is fast to transform and keeps `n` elements free of their images.
-fn free_period(n: usize) -> usize {
+fn padded_length(n: usize) -> usize {
     fast_length(2 * n - 1)
 }

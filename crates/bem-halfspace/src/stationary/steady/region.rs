@@ -36,7 +36,7 @@ impl Region {
     }
 
     /// Writes a vector over the set into a field over the box, 0 elsewhere.
-    pub(super) fn spread(&self, vector: &[f64], field: &mut [f64]) {
+    pub(super) fn scatter(&self, vector: &[f64], field: &mut [f64]) {
         field.fill(0.0);
         for (places, value) in self.places.iter().zip(vector) {
             for place in places {

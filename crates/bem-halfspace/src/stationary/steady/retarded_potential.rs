@@ -17,50 +17,50 @@ use crate::stationary::steady::sliding_creep::ElementCreep;
 
 /// Distance from the edges of the loaded element, in panel lengths, from which a rule of so many points gives eleven
 /// digits.
-const POINTS: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
+const PANEL_RULES: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
 /// Distance in rows from which the polynomial through the values at so many rows gives eleven digits: its error is
 /// (1/2 · 3/2 · …)² over the power of the distance to the nearest of them.
-const ROWS: [(f64, usize); 3] = [(86.0, 6), (41.0, 8), (29.0, 10)];
+const ROW_RULES: [(f64, usize); 3] = [(86.0, 6), (41.0, 8), (29.0, 10)];
 /// Rows kept on either side of a panel.
-const KEPT: usize = 5;
+const ROWS_PER_SIDE: usize = 5;
 /// Panels next to a singularity on their own line are not divided below this length.
-const SHORTEST: f64 = 1.0 / (1_u64 << 26) as f64;
+const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
 /// The recursion along rows starts at least that far ahead of the load; further ahead, each panel ends this many times as far
 /// away as it begins.
-const FIRST_ROW: f64 = 16.0;
-const GROWTH: f64 = 1.9;
+const MIN_START_DISTANCE: f64 = 16.0;
+const PANEL_GROWTH: f64 = 1.9;
 /// Terms e^(−x) with a larger x are below rounding and left out.
-const LARGEST_EXPONENT: f64 = 40.0;
+const MAX_EXPONENT: f64 = 40.0;
 
 /// A part of the line ahead of a point.
 #[derive(Debug, Clone, Copy)]
 struct Panel {
     start: f64,
     length: f64,
-    /// Index of its rule in [`POINTS`].
+    /// Index of its rule in [`PANEL_RULES`].
     rule: usize,
 }
 
 /// A retardation element over the length of one element of the grid.
-struct Retardation {
+struct RetardationRule {
     rate: f64,
     compliance: f64,
     decay: f64,
     /// Weights of each rule, in parts of the compliance.
-    weights: [[f64; MAX_POINTS]; POINTS.len()],
-    row_weights: [[f64; MAX_POINTS]; ROWS.len()],
+    weights: [[f64; MAX_POINTS]; PANEL_RULES.len()],
+    row_weights: [[f64; MAX_POINTS]; ROW_RULES.len()],
 }
 
 /// Displacements by all retardation elements along a row of the table.
 pub(super) struct RetardedPotential {
-    delays: Vec<Retardation>,
-    rules: [ExponentialRule; POINTS.len()],
+    retardations: Vec<RetardationRule>,
+    rules: [ExponentialRule; PANEL_RULES.len()],
     base: Base,
     aspect: f64,
     n_columns: usize,
     /// Position of the present row.
     position: f64,
-    /// By delay and column, in parts of the compliance.
+    /// By retardation and column, in parts of the compliance.
     values: Vec<f64>,
     increments: Vec<f64>,
     /// V by row and column, for the rows around the element ahead of the present row.
@@ -70,41 +70,45 @@ pub(super) struct RetardedPotential {
 impl RetardedPotential {
     /// Starts at the row one element ahead of `first`.
     pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
-        let rules = POINTS.map(|(_, n_points)| ExponentialRule::new(n_points));
-        let row_rules = ROWS.map(|(_, n_points)| ExponentialRule::on_lattice(n_points));
-        let delays = creep.delays.iter().map(|delay| {
+        let rules = PANEL_RULES.map(|(_, n_points)| ExponentialRule::new(n_points));
+        let row_rules = ROW_RULES.map(|(_, n_points)| ExponentialRule::on_integers(n_points));
+        let retardations = creep.retardations.iter().map(|retardation| {
             let weights = |rule: &ExponentialRule| {
-                rule.weights(delay.rate)
-                    .map(|weight| delay.compliance() * weight)
+                rule.weights(retardation.rate)
+                    .map(|weight| retardation.compliance() * weight)
             };
-            Retardation {
-                rate: delay.rate,
-                compliance: delay.compliance(),
-                decay: delay.decay(),
+            RetardationRule {
+                rate: retardation.rate,
+                compliance: retardation.compliance(),
+                decay: retardation.decay(),
                 weights: rules.each_ref().map(weights),
                 row_weights: row_rules.each_ref().map(weights),
             }
         });
         let is_endless = creep.track.is_none();
-        let further = if is_endless { FIRST_ROW - first } else { 0.0 };
+        let further = if is_endless {
+            MIN_START_DISTANCE - first
+        } else {
+            0.0
+        };
         let position = first + 1.0 + further.max(0.0).ceil();
         let mut start = Self {
-            delays: delays.collect(),
+            retardations: retardations.collect(),
             rules,
             base: creep.base.clone(),
             aspect,
             n_columns,
             position,
-            values: vec![0.0; creep.delays.len() * n_columns],
-            increments: vec![0.0; creep.delays.len() * n_columns],
-            rows: VecDeque::with_capacity(2 * KEPT),
+            values: vec![0.0; creep.retardations.len() * n_columns],
+            increments: vec![0.0; creep.retardations.len() * n_columns],
+            rows: VecDeque::with_capacity(2 * ROWS_PER_SIDE),
         };
         match creep.track {
-            None => start.integrate_from_infinity(),
-            Some(track) => start.integrate_around(track),
+            None => start.start_from_infinity(),
+            Some(track) => start.start_around_track(track),
         }
-        for row in (1..=2 * KEPT).rev() {
-            start.push_row(position - KEPT as f64 + row as f64);
+        for row in (1..=2 * ROWS_PER_SIDE).rev() {
+            start.push_row(position - ROWS_PER_SIDE as f64 + row as f64);
         }
         while start.position > first + 1.5 {
             start.step(start.position - 1.0);
@@ -120,61 +124,63 @@ impl RetardedPotential {
 
     /// Adds the potentials of the next row behind, and drops those of the row furthest ahead.
     fn push_row(&mut self, x: f64) {
-        self.rows.truncate(2 * KEPT - 1);
+        self.rows.truncate(2 * ROWS_PER_SIDE - 1);
         let row = (0..self.n_columns).map(|column| self.potential(x, column));
         self.rows.push_front(row.collect());
     }
 
     /// The values at the first row: the integral over everything ahead of it.
-    fn integrate_from_infinity(&mut self) {
-        let rates = self.delays.iter().map(|delay| delay.rate);
+    fn start_from_infinity(&mut self) {
+        let rates = self.retardations.iter().map(|retardation| retardation.rate);
         let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
         let mut end = self.position;
         let felt = 1.0 + self.base.influence_radius();
-        while slowest * (end - self.position) < LARGEST_EXPONENT && end < felt.min(1e150) {
-            end *= GROWTH;
+        while slowest * (end - self.position) < MAX_EXPONENT && end < felt.min(1e150) {
+            end *= PANEL_GROWTH;
             ends.push(end);
         }
-        let rule = POINTS.len() - 1;
+        let rule = PANEL_RULES.len() - 1;
         for pair in ends.windows(2).rev() {
             let panel = Panel {
                 start: pair[0],
                 length: pair[1] - pair[0],
                 rule,
             };
-            self.go_back_over(&panel, 0..self.n_columns);
+            self.integrate_over_panel(&panel, 0..self.n_columns);
         }
     }
 
     /// The values at the first row of a track: the integral once around it, over the part that is forgotten meanwhile.
-    fn integrate_around(&mut self, track: f64) {
+    fn start_around_track(&mut self, track: f64) {
         let half = 0.5 * track;
         // Only of the first column the edges of the loaded element are singular on the track itself.
         for columns in [0..1, 1..self.n_columns] {
             let clearance = self.clearance(columns.start);
             for part in [[-half, self.position], [self.position, half]] {
                 for panel in panels(part, clearance).iter().rev() {
-                    self.go_back_over(panel, columns.clone());
+                    self.integrate_over_panel(panel, columns.clone());
                 }
             }
         }
-        for (delay, values) in self
-            .delays
+        for (retardation, values) in self
+            .retardations
             .iter()
             .zip(self.values.chunks_exact_mut(self.n_columns))
         {
-            let forgotten = -(-delay.rate * track).exp_m1();
+            let forgotten = -(-retardation.rate * track).exp_m1();
             values.iter_mut().for_each(|value| *value /= forgotten);
         }
     }
 
     /// Takes the values of some columns from the front to the rear of a panel.
-    fn go_back_over(&mut self, panel: &Panel, columns: Range<usize>) {
-        let steps = self.delays.iter();
-        let steps: Vec<_> = steps.map(|delay| self.over_panel(delay, panel)).collect();
+    fn integrate_over_panel(&mut self, panel: &Panel, columns: Range<usize>) {
+        let steps = self.retardations.iter();
+        let steps: Vec<_> = steps
+            .map(|retardation| self.panel_step(retardation, panel))
+            .collect();
         for column in columns {
-            let potentials = self.at_nodes(panel, column);
+            let potentials = self.potentials_at_nodes(panel, column);
             for (index, (decay, weights)) in steps.iter().enumerate() {
                 let value = &mut self.values[index * self.n_columns + column];
                 *value = decay * *value + dot(weights, &potentials);
@@ -188,14 +194,14 @@ impl RetardedPotential {
     }
 
     /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
-    fn over_panel(&self, delay: &Retardation, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
-        let rate = delay.rate * panel.length;
+    fn panel_step(&self, retardation: &RetardationRule, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
+        let rate = retardation.rate * panel.length;
         let weights = self.rules[panel.rule].weights(rate);
-        let weights = weights.map(|weight| delay.compliance * weight);
+        let weights = weights.map(|weight| retardation.compliance * weight);
         ((-rate).exp(), weights)
     }
 
-    fn at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {
+    fn potentials_at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {
         let mut potentials = [0.0; MAX_POINTS];
         for (potential, node) in potentials.iter_mut().zip(&self.rules[panel.rule].nodes) {
             *potential = self.potential(panel.start + panel.length * node, column);
@@ -205,20 +211,21 @@ impl RetardedPotential {
 
     /// Goes back to the row at `x`, one element behind the last.
     pub(super) fn step(&mut self, x: f64) {
-        self.push_row(x + 1.0 - KEPT as f64);
+        self.push_row(x + 1.0 - ROWS_PER_SIDE as f64);
         for column in 0..self.n_columns {
             let clearance = self.clearance(column);
             let distance = distance_from_edges([x, x + 1.0], clearance);
-            if let Some(rule) = shortest(&ROWS, distance) {
+            if let Some(rule) = fewest_points(&ROW_RULES, distance) {
                 self.through_rows(column, rule);
-            } else if let Some(rule) = shortest(&POINTS, distance) {
+            } else if let Some(rule) = fewest_points(&PANEL_RULES, distance) {
                 self.whole(x, column, rule);
             } else {
                 self.graded(x, column, clearance);
             }
-            for (index, delay) in self.delays.iter().enumerate() {
+            for (index, retardation) in self.retardations.iter().enumerate() {
                 let place = index * self.n_columns + column;
-                self.values[place] = delay.decay * self.values[place] + self.increments[place];
+                self.values[place] =
+                    retardation.decay * self.values[place] + self.increments[place];
             }
         }
         self.position = x;
@@ -226,29 +233,31 @@ impl RetardedPotential {
 
     /// The integral over an element from the values at the rows around it.
     fn through_rows(&mut self, column: usize, rule: usize) {
-        let n_points = ROWS[rule].1;
+        let n_points = ROW_RULES[rule].1;
         let mut potentials = [0.0; MAX_POINTS];
-        let rows = self.rows.iter().skip(KEPT - n_points / 2);
+        let rows = self.rows.iter().skip(ROWS_PER_SIDE - n_points / 2);
         for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
             *potential = row[column];
         }
-        self.integrate(column, &potentials[..n_points], |delay| {
-            &delay.row_weights[rule]
+        self.integrate(column, &potentials[..n_points], |retardation| {
+            &retardation.row_weights[rule]
         });
     }
 
     /// The integral over an element in one panel, whose ends are rows that are kept.
     fn whole(&mut self, x: f64, column: usize, rule: usize) {
-        let last = POINTS[rule].1 - 1;
+        let last = PANEL_RULES[rule].1 - 1;
         let mut potentials = [0.0; MAX_POINTS];
         for (index, node) in self.rules[rule].nodes.iter().enumerate() {
             potentials[index] = match index {
-                0 => self.rows[KEPT - 1][column],
-                _ if index == last => self.rows[KEPT][column],
+                0 => self.rows[ROWS_PER_SIDE - 1][column],
+                _ if index == last => self.rows[ROWS_PER_SIDE][column],
                 _ => self.potential(x + node, column),
             };
         }
-        self.integrate(column, &potentials[..=last], |delay| &delay.weights[rule]);
+        self.integrate(column, &potentials[..=last], |retardation| {
+            &retardation.weights[rule]
+        });
     }
 
     /// Sets the increments of a column from the potentials at the nodes of a rule.
@@ -256,10 +265,11 @@ impl RetardedPotential {
         &mut self,
         column: usize,
         potentials: &[f64],
-        weights: impl Fn(&Retardation) -> &[f64; MAX_POINTS],
+        weights: impl Fn(&RetardationRule) -> &[f64; MAX_POINTS],
     ) {
-        for (index, delay) in self.delays.iter().enumerate() {
-            self.increments[index * self.n_columns + column] = dot(weights(delay), potentials);
+        for (index, retardation) in self.retardations.iter().enumerate() {
+            self.increments[index * self.n_columns + column] =
+                dot(weights(retardation), potentials);
         }
     }
 
@@ -269,9 +279,9 @@ impl RetardedPotential {
             *increment = 0.0;
         }
         for panel in panels([x, x + 1.0], clearance).iter().rev() {
-            let potentials = self.at_nodes(panel, column);
-            for (index, delay) in self.delays.iter().enumerate() {
-                let (decay, weights) = self.over_panel(delay, panel);
+            let potentials = self.potentials_at_nodes(panel, column);
+            for (index, retardation) in self.retardations.iter().enumerate() {
+                let (decay, weights) = self.panel_step(retardation, panel);
                 let increment = &mut self.increments[index * self.n_columns + column];
                 *increment = decay * *increment + dot(&weights, &potentials);
             }
@@ -279,22 +289,22 @@ impl RetardedPotential {
     }
 
     /// Potential of the loaded element at the present row.
-    pub(super) fn here(&self, column: usize) -> f64 {
-        self.rows[KEPT - 1][column]
+    pub(super) fn load_potential(&self, column: usize) -> f64 {
+        self.rows[ROWS_PER_SIDE - 1][column]
     }
 
     /// Displacement by all retardation elements at the present row.
-    pub(super) fn value(&self, column: usize) -> f64 {
+    pub(super) fn displacement(&self, column: usize) -> f64 {
         self.values[column..].iter().step_by(self.n_columns).sum()
     }
 
     /// The part of one of them, by column.
-    pub(super) fn of_delay(&self, index: usize) -> &[f64] {
+    pub(super) fn retardation_part(&self, index: usize) -> &[f64] {
         &self.values[index * self.n_columns..][..self.n_columns]
     }
 
     /// The part of it that comes from the last element passed.
-    pub(super) fn increment(&self, column: usize) -> f64 {
+    pub(super) fn creep_within_element(&self, column: usize) -> f64 {
         let increments = self.increments[column..].iter();
         increments.step_by(self.n_columns).sum()
     }
@@ -307,8 +317,8 @@ fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
     (along * along + clearance * clearance).sqrt()
 }
 
-/// The shortest of some rules for a panel at this distance in its own length; none that is too near.
-fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
+/// The fewest_points of some rules for a panel at this distance in its own length; none that is too near.
+fn fewest_points(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
     rules.iter().position(|(far, _)| distance >= *far)
 }
 
@@ -320,16 +330,16 @@ fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<Panel> {
     ends.dedup();
     let mut panels = Vec::new();
     for pair in ends.windows(2) {
-        divide([pair[0], pair[1]], clearance, &mut panels);
+        subdivide([pair[0], pair[1]], clearance, &mut panels);
     }
     panels
 }
 
-fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
+fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
     let length = end - start;
     let distance = distance_from_edges([start, end], clearance);
-    let rule =
-        shortest(&POINTS, distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
+    let rule = fewest_points(&PANEL_RULES, distance / length)
+        .or((length <= MIN_PANEL_LENGTH).then_some(PANEL_RULES.len() - 1));
     if let Some(rule) = rule {
         panels.push(Panel {
             start,
@@ -339,8 +349,8 @@ fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
         return;
     }
     let middle = 0.5 * (start + end);
-    divide([start, middle], clearance, panels);
-    divide([middle, end], clearance, panels);
+    subdivide([start, middle], clearance, panels);
+    subdivide([middle, end], clearance, panels);
 }
 
 #[cfg(test)]
@@ -349,7 +359,7 @@ mod tests {
     use rheology::Elastic;
 
     use super::*;
-    use crate::stationary::steady::sliding_creep::Delay;
+    use crate::stationary::steady::sliding_creep::RetardationElement;
     use crate::{Elastomer, Layer};
 
     /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale; on a track
@@ -446,13 +456,13 @@ mod tests {
     fn check(rate: f64, scene: &Scene, ahead: i32, rows: &[i32]) {
         let material = Elastic::new(1.0).expect("a modulus");
         let layer = Layer::new(&material, scene.thickness).expect("a thickness");
-        let delay = Delay {
+        let retardation = RetardationElement {
             rate,
             share: -(-rate).exp_m1(),
         };
         let creep = ElementCreep {
-            shift: scene.shift,
-            delays: vec![delay],
+            collocation_shift: scene.shift,
+            retardations: vec![retardation],
             track: scene.track,
             base: layer.base(),
             ..ElementCreep::default()
@@ -475,7 +485,7 @@ mod tests {
                 } else {
                     expected
                 };
-                let actual = retarded.value(column as usize);
+                let actual = retarded.displacement(column as usize);
                 let error = (actual - expected).abs() / of_half_space;
                 assert!(error < 1e-10, "{error:e} at {:?}", (rate, scene, [x, y]));
             }

@@ -17,7 +17,7 @@ use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
 use crate::{Base, BemError, Elastomer};
 
 /// Rate of the retardation element that stands for a flow behind which the load is not felt without end.
-pub(super) const SLOWEST: f64 = 1e-100;
+pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 
 /// A material at a sliding speed.
 #[derive(Debug, Clone)]
@@ -35,12 +35,12 @@ pub(super) struct SlidingCreep {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct ElementCreep {
     /// Where the gap of an element is evaluated, in elements from its centre: −1/2 is the rear edge.
-    pub(super) shift: f64,
+    pub(super) collocation_shift: f64,
     /// Part of J₀.
-    pub(super) instant: f64,
+    pub(super) instantaneous: f64,
     /// Part of the free flow.
     pub(super) flow: f64,
-    pub(super) delays: Vec<Delay>,
+    pub(super) retardations: Vec<RetardationElement>,
     /// Length after which the load comes back to the same place, in Δx.
     pub(super) track: Option<f64>,
     /// With lengths in Δx.
@@ -49,7 +49,7 @@ pub(super) struct ElementCreep {
 
 /// A retardation element over the length of one element.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Delay {
+pub(super) struct RetardationElement {
     /// Δx/(v λ).
     pub(super) rate: f64,
     /// Part of J (1 − e^(−Δx/(vλ))).
@@ -58,16 +58,16 @@ pub(super) struct Delay {
 
 /// The creep compliance, times 2 (1 − ν), over the length that a load has moved.
 #[derive(Debug, Clone)]
-pub(super) struct MovingCreep {
+pub(super) struct CreepOverDistance {
     /// At once, \[1/Pa].
-    pub(super) instant: f64,
+    pub(super) instantaneous: f64,
     /// [1/(Pa m)].
     pub(super) flow_per_length: f64,
     /// Compliance \[1/Pa] and memory \[m] of each retardation element.
-    pub(super) delays: Vec<[f64; 2]>,
+    pub(super) retardations: Vec<[f64; 2]>,
 }
 
-impl Delay {
+impl RetardationElement {
     /// e^(−Δx/(vλ)).
     pub(super) fn decay(&self) -> f64 {
         (-self.rate).exp()
@@ -81,7 +81,10 @@ impl Delay {
 
 impl SlidingCreep {
     /// On the track of a load, if it has one; refuses a material that flows there.
-    pub(super) fn under(elastomer: &dyn Elastomer, load: &SlidingLoad) -> Result<Self, BemError> {
+    pub(super) fn for_load(
+        elastomer: &dyn Elastomer,
+        load: &SlidingLoad,
+    ) -> Result<Self, BemError> {
         let creep = Self {
             track: load.track(),
             ..Self::new(elastomer, load.velocity())?
@@ -153,7 +156,7 @@ impl SlidingCreep {
 
     /// Distance in which the slowest retardation element forgets, or is under the load again, or ahead of which a layer that
     /// flows does not feel the load, \[m].
-    pub(super) fn memory(&self) -> f64 {
+    pub(super) fn memory_length(&self) -> f64 {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
         let memory = self.velocity * times.fold(0.0, f64::max);
@@ -166,16 +169,16 @@ impl SlidingCreep {
     }
 
     /// The creep over lengths.
-    pub(super) fn moving(&self) -> MovingCreep {
+    pub(super) fn over_distance(&self) -> CreepOverDistance {
         let elements = self.spectrum.elements().iter();
-        let delays = elements.map(|element| {
+        let retardations = elements.map(|element| {
             let memory = self.velocity * element.retardation_time;
             [self.half_space_factor * element.compliance, memory]
         });
-        MovingCreep {
-            instant: self.half_space_factor * self.spectrum.instantaneous_compliance(),
+        CreepOverDistance {
+            instantaneous: self.half_space_factor * self.spectrum.instantaneous_compliance(),
             flow_per_length: self.flow_per_length(),
-            delays: delays.collect(),
+            retardations: retardations.collect(),
         }
     }
 
@@ -195,11 +198,11 @@ impl SlidingCreep {
         let passed = length.min(sliding_distance);
         let mut parts = self.parts(passed)?;
         if let Some(track) = self.track {
-            for delay in &mut parts.delays {
-                delay.share /= -(-delay.rate * (track / passed)).exp_m1();
+            for retardation in &mut parts.retardations {
+                retardation.share /= -(-retardation.rate * (track / passed)).exp_m1();
             }
         }
-        let compliance = self.half_space_factor * total(&parts);
+        let compliance = self.half_space_factor * total_compliance(&parts);
         let compliance = positive("compliance over a length", compliance)?;
         Ok(compliance * self.base.compliance_ratio_under_punch(length))
     }
@@ -207,27 +210,30 @@ impl SlidingCreep {
     /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
     pub(super) fn compliance(&self, length: f64) -> Result<f64, BemError> {
         let parts = self.parts(length)?;
-        let compliance = self.half_space_factor * total(&parts);
+        let compliance = self.half_space_factor * total_compliance(&parts);
         Ok(positive("compliance over a length", compliance)?)
     }
 
     /// The creep over elements of the length Δx.
-    pub(super) fn over(&self, spacing: f64) -> Result<ElementCreep, BemError> {
+    pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
         let mut parts = self.parts(spacing)?;
-        let total = positive("compliance over an element", total(&parts))?;
-        parts.instant /= total;
+        let total = positive("compliance over an element", total_compliance(&parts))?;
+        parts.instantaneous /= total;
         parts.flow /= total;
-        for delay in &mut parts.delays {
-            delay.share /= total;
-            positive("compliance of a retardation element", delay.compliance())?;
+        for retardation in &mut parts.retardations {
+            retardation.share /= total;
+            positive(
+                "compliance of a retardation element",
+                retardation.compliance(),
+            )?;
         }
-        parts.shift = self.shift(spacing)?;
+        parts.collocation_shift = self.collocation_shift(spacing)?;
         parts.track = self.track.map(|track| track / spacing);
         parts.base = self.base.in_units_of(spacing)?;
         if parts.base.is_rigid() && parts.flow > 0.0 {
             // The slowest element there is.
-            let (rate, share) = (SLOWEST, parts.flow);
-            parts.delays.push(Delay { rate, share });
+            let (rate, share) = (FLOW_AS_RETARDATION_RATE, parts.flow);
+            parts.retardations.push(RetardationElement { rate, share });
             parts.flow = 0.0;
         }
         Ok(parts)
@@ -235,17 +241,17 @@ impl SlidingCreep {
 
     fn parts(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
-        let delays = self.spectrum.elements().iter().map(|element| {
+        let retardations = self.spectrum.elements().iter().map(|element| {
             let rate = time / element.retardation_time;
             let rate = positive("length / (velocity × retardation time)", rate)?;
             let share = -element.compliance * (-rate).exp_m1();
-            Ok(Delay { rate, share })
+            Ok(RetardationElement { rate, share })
         });
         Ok(ElementCreep {
-            shift: 0.0,
-            instant: self.spectrum.instantaneous_compliance(),
+            collocation_shift: 0.0,
+            instantaneous: self.spectrum.instantaneous_compliance(),
             flow: self.spectrum.fluidity() * time,
-            delays: delays.collect::<Result<_, BemError>>()?,
+            retardations: retardations.collect::<Result<_, BemError>>()?,
             track: None,
             base: Base::default(),
         })
@@ -258,7 +264,12 @@ impl SlidingCreep {
     ///
     /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements see
     /// ln(a/Δx): under flat cones they miss up to the factor e^(−x) ln(1 + 1/x), x = λv/(2Δx), over ln(1 + a/Δx).
-    pub(super) fn unresolved(&self, spacing: f64, half_length: f64, kinks: f64) -> f64 {
+    pub(super) fn subgrid_friction_fraction(
+        &self,
+        spacing: f64,
+        half_length: f64,
+        kinks: f64,
+    ) -> f64 {
         let (mut sum, mut missed) = (0.0, 0.0);
         for element in self.spectrum.elements() {
             let length = self.velocity * element.retardation_time;
@@ -277,14 +288,18 @@ impl SlidingCreep {
     /// −δ/π with the loss angle δ at the wave number π/Δx, the shortest of the grid: moving the point by that part of an
     /// element turns the phase of this wave back by δ, so that displacement and load are in phase for it and less than a
     /// quarter period apart for all others.
-    fn shift(&self, spacing: f64) -> Result<f64, BemError> {
+    fn collocation_shift(&self, spacing: f64) -> Result<f64, BemError> {
         let angular_frequency = positive("π × velocity / spacing", PI * (self.velocity / spacing))?;
         let compliance = self.spectrum.complex_compliance(angular_frequency)?;
         Ok(-compliance.loss.atan2(compliance.storage) / PI)
     }
 }
 
-fn total(parts: &ElementCreep) -> f64 {
-    let delayed: f64 = parts.delays.iter().map(|delay| delay.share).sum();
-    parts.instant + parts.flow + delayed
+fn total_compliance(parts: &ElementCreep) -> f64 {
+    let delayed: f64 = parts
+        .retardations
+        .iter()
+        .map(|retardation| retardation.share)
+        .sum();
+    parts.instantaneous + parts.flow + delayed
 }

@@ -9,14 +9,14 @@ use crate::error::check_contact_elements;
 use crate::estimate::bars::{ContactEstimate, OnGrid};
 use crate::estimate::quantities::Quantities;
 use crate::stationary::steady::SteadyOptions;
-use crate::stationary::steady::contact::Solution;
-use crate::stationary::steady::depth::SinkingDepth;
+use crate::stationary::steady::body_contact::Solution;
 use crate::stationary::steady::mesh::Mesh;
-use crate::stationary::steady::patches::check_patches;
+use crate::stationary::steady::patch_resolution::check_patches;
+use crate::stationary::steady::sinking_depth::SinkingDepth;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 
 /// Elements between an edge of the body and the end of the contact with which the two are told apart.
-const BEYOND_EDGE: f64 = 4.0;
+const EDGE_CLEARANCE: f64 = 4.0;
 
 /// A stationary state with its error bars.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
@@ -73,12 +73,13 @@ impl SteadySliding {
         options: SteadyOptions,
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
-        let unresolved = self.unresolved(creep, kinks) * self.friction_coefficient.abs();
+        let unresolved =
+            self.subgrid_friction_fraction(creep, kinks) * self.friction_coefficient.abs();
         OnGrid {
             quantities: Quantities {
                 friction_coefficient: self.friction_coefficient,
                 normal_force: self.normal_force,
-                indentation_depth: self.depth.at(sliding_distance),
+                indentation_depth: self.depth.at_distance(sliding_distance),
                 contact_area: self.contact_area,
                 peak_pressure: self.pressure.largest(),
             },
@@ -95,22 +96,22 @@ impl SteadySliding {
     }
 
     /// Part of the friction that the elements may miss because the surface forgets within them.
-    pub(super) fn unresolved(&self, creep: &SlidingCreep, kinks: f64) -> f64 {
+    pub(super) fn subgrid_friction_fraction(&self, creep: &SlidingCreep, kinks: f64) -> f64 {
         let [rear, front] = self.contact_x;
         let half_length = 0.5 * (front - rear);
-        creep.unresolved(self.pressure.grid.spacing()[0], half_length, kinks)
+        creep.subgrid_friction_fraction(self.pressure.grid.spacing()[0], half_length, kinks)
     }
 
-    /// Whether the front is closer to an edge of the body than [`BEYOND_EDGE`] elements.
+    /// Whether the front is closer to an edge of the body than [`EDGE_CLEARANCE`] elements.
     pub(super) fn hides_edge(&self, radii: &[f64]) -> bool {
-        let close = BEYOND_EDGE * self.pressure.grid.spacing()[0];
+        let close = EDGE_CLEARANCE * self.pressure.grid.spacing()[0];
         let [_, front] = self.contact_x;
         radii.iter().any(|radius| (front - radius).abs() < close)
     }
 
     /// Turns a solution in the units of the mesh into one in SI.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
-        let loaded = mesh.loaded(&solution.loads);
+        let loaded = mesh.loaded_places(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
         check_walls(mesh, &solution.loads)?;
         check_slopes(mesh, &solution.loads)?;
@@ -137,7 +138,7 @@ impl SteadySliding {
             friction_from_dissipation: if mesh.loading.is_solid_for_elements()
                 || !mesh.loading.has_edges
             {
-                dissipating_slope - solution.opening * mesh.loading.depth_scale / spacing[0]
+                dissipating_slope - solution.gap_difference * mesh.loading.depth_scale / spacing[0]
             } else {
                 friction_coefficient
             },
@@ -155,7 +156,7 @@ impl SteadySliding {
             iterations: solution.iterations,
             residual: solution.residual,
             pressure,
-            factorised: solution.factorised,
+            factorised: solution.solved_directly,
         })
     }
 }
@@ -176,7 +177,7 @@ fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
 /// Refuses a surface that rises by more than the depth over one element in contact.
 fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     let depth_scale = mesh.loading.depth_scale;
-    let rise = mesh.largest_rise(loads) * depth_scale;
+    let rise = mesh.max_rise(loads) * depth_scale;
     if rise > depth_scale {
         return Err(BemError::SlopeNotResolved { rise, depth_scale });
     }
@@ -187,7 +188,7 @@ fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
 fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, BemError> {
     let bounds = Bounds::enclosing(loaded.iter().map(|(element, _)| *element));
     let bounds = bounds.unwrap_or(Bounds::EMPTY);
-    if bounds != Bounds::EMPTY && !mesh.holds(&bounds) {
+    if bounds != Bounds::EMPTY && !mesh.contains_inside(&bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }
     let [rows, columns] = bounds.shape();

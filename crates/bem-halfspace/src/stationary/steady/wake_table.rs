@@ -1,4 +1,4 @@
-//! Kernel values between the elements of a grid, computed once for all grids with the same elements.
+//! Influence coefficients between the elements of a grid, computed once for all grids with the same elements.
 //!
 //! Upstream of a load, the potential `V = ∬ dA'/r` of a uniformly loaded element is smooth; a retardation element turns
 //! it into
@@ -15,114 +15,125 @@
 //! ```text
 //! k(ξ) = q/(1 − e^(−q L)) ∫_0^L e^(−q s) V(ξ + s) ds,      V(ξ) = V(ξ − L) for ξ > L/2
 //! ```
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material" and "A track".
 
 use std::sync::Arc;
 
 use numerics::whole_part;
 
-use crate::stationary::steady::kernel::wake_influence;
 use crate::stationary::steady::retarded_potential::RetardedPotential;
 use crate::stationary::steady::sliding_creep::ElementCreep;
+use crate::stationary::steady::wake_influence::wake_influence;
 
-/// Displacement at the point of an element where its gap is evaluated by a unit load on another, by their offset;
-/// lengths are in Δx, so that one table serves every spacing with the same creep over an element.
+/// Displacement at the collocation point of an element by a unit load on another, as a function of their offset. Lengths are in Δx,
+/// so that one table serves every spacing with the same creep over an element.
 #[derive(Debug, Clone, Default)]
 pub(super) struct WakeTable {
     pub(super) creep: ElementCreep,
     /// Δy/Δx.
     pub(super) aspect: f64,
-    /// Largest offsets along x, either way, and along y.
-    reach: [usize; 2],
+    /// Largest offsets: along x in either direction, and along y.
+    max_offsets: [usize; 2],
+    /// Displacements, row-major from behind the load to ahead of it.
     values: Vec<f64>,
-    /// What creeps within one element: the values without what came from ahead.
-    potentials: Vec<f64>,
+    /// Creep within one element: the values without the displacement at the element ahead.
+    creep_within_element: Vec<f64>,
 }
 
 impl WakeTable {
-    /// Makes the table cover offsets up to `reach`; what is wider already is kept.
+    /// Extends the table to offsets up to `max_offsets`. A table that is larger along one axis stays so.
     pub(super) fn cover(
         table: &mut Arc<Self>,
         creep: &ElementCreep,
         aspect: f64,
-        reach: [usize; 2],
+        max_offsets: [usize; 2],
     ) {
         let empty = table.values.is_empty();
-        if !empty && table.reach[0] >= reach[0] && table.reach[1] >= reach[1] {
+        if !empty
+            && table.max_offsets[0] >= max_offsets[0]
+            && table.max_offsets[1] >= max_offsets[1]
+        {
             return;
         }
-        let reach = [0, 1].map(|axis| reach[axis].max(table.reach[axis]));
-        *table = Arc::new(Self::new(creep, aspect, reach, table));
+        let max_offsets = [0, 1].map(|axis| max_offsets[axis].max(table.max_offsets[axis]));
+        *table = Arc::new(Self::new(creep, aspect, max_offsets, table));
     }
 
-    /// The table of a creep up to `reach`.
-    pub(super) fn of(creep: &ElementCreep, aspect: f64, reach: [usize; 2]) -> Self {
-        Self::new(creep, aspect, reach, &Self::default())
+    /// A table with offsets up to `max_offsets`.
+    pub(super) fn for_creep(creep: &ElementCreep, aspect: f64, max_offsets: [usize; 2]) -> Self {
+        Self::new(creep, aspect, max_offsets, &Self::default())
     }
 
-    /// The table up to `reach`; what a `smaller` one of the same kind has is not computed again where that is simple.
-    fn new(creep: &ElementCreep, aspect: f64, reach: [usize; 2], smaller: &Self) -> Self {
-        let n_values = (2 * reach[0] + 1) * (reach[1] + 1);
+    /// A table with offsets up to `max_offsets`; for a dashpot it copies the values of a `smaller` table of the same kind.
+    fn new(creep: &ElementCreep, aspect: f64, max_offsets: [usize; 2], smaller: &Self) -> Self {
+        let n_values = (2 * max_offsets[0] + 1) * (max_offsets[1] + 1);
         let mut table = Self {
             creep: creep.clone(),
             aspect,
-            reach,
+            max_offsets,
             values: vec![0.0; n_values],
-            potentials: vec![0.0; n_values],
+            creep_within_element: vec![0.0; n_values],
         };
         if creep.flow > 0.0 {
             table.add_flow(smaller);
         }
-        if !creep.delays.is_empty() {
-            table.add_recovering();
-        } else if creep.instant > 0.0 {
-            table.add_instant();
+        if !creep.retardations.is_empty() {
+            table.add_viscoelastic();
+        } else if creep.instantaneous > 0.0 {
+            table.add_instantaneous();
         }
         table
     }
 
     const fn n_columns(&self) -> usize {
-        self.reach[1] + 1
+        self.max_offsets[1] + 1
     }
 
-    /// Offset of a row of the table from the loaded element.
+    /// Offset along x of the collocation points of a row of the table from the centre of the loaded element.
     fn offset(&self, row: usize) -> f64 {
-        row as f64 - self.reach[0] as f64 + self.creep.shift
+        row as f64 - self.max_offsets[0] as f64 + self.creep.collocation_shift
     }
 
-    fn along(&self, row: usize, kernel: impl Fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
+    /// Values of a kernel on a row of the table.
+    fn kernel_row(&self, row: usize, kernel: impl Fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
         let x = self.offset(row);
         let value = |column| kernel([x, column as f64 * self.aspect], [1.0, self.aspect]);
         (0..self.n_columns()).map(value).collect()
     }
 
-    /// Adds a row, and what of it has crept within the element.
-    fn add(&mut self, row: usize, parts: impl Fn(usize) -> [f64; 2]) {
+    /// Adds the displacement of each column to a row of the table, and its part that crept within the element.
+    fn add_to_row(&mut self, row: usize, by_column: impl Fn(usize) -> RowEntry) {
         let first = row * self.n_columns();
         for column in 0..self.n_columns() {
-            let [value, potential] = parts(column);
-            self.values[first + column] += value;
-            self.potentials[first + column] += potential;
+            let entry = by_column(column);
+            self.values[first + column] += entry.displacement;
+            self.creep_within_element[first + column] += entry.creep_within_element;
         }
     }
 
+    /// Adds the free flow, whose kernel is the wake.
     fn add_flow(&mut self, smaller: &Self) {
         let flow = self.creep.flow;
-        let n_rows = 2 * self.reach[0] + 1;
-        let mut ahead = self.along(n_rows, wake_influence);
+        let n_rows = 2 * self.max_offsets[0] + 1;
+        let mut ahead = self.kernel_row(n_rows, wake_influence);
         for row in (0..n_rows).rev() {
-            let here = self.wake_along(row, smaller);
-            let crept = |column: usize| flow * (ahead[column] - here[column]);
-            self.add(row, |column| [-flow * here[column], crept(column)]);
+            let here = self.wake_row(row, smaller);
+            self.add_to_row(row, |column| RowEntry {
+                displacement: -flow * here[column],
+                creep_within_element: flow * (ahead[column] - here[column]),
+            });
             ahead = here;
         }
     }
 
-    /// Values of the wake along a row; those of a dashpot are the values of the table, with the other sign.
-    fn wake_along(&self, row: usize, smaller: &Self) -> Vec<f64> {
-        let only_flows = smaller.creep.instant == 0.0 && smaller.creep.delays.is_empty();
-        let known = (row + smaller.reach[0])
-            .checked_sub(self.reach[0])
-            .filter(|row| only_flows && *row <= 2 * smaller.reach[0])
+    /// Values of the wake on a row. A smaller table of a dashpot contains them with the opposite sign.
+    fn wake_row(&self, row: usize, smaller: &Self) -> Vec<f64> {
+        let only_flows =
+            smaller.creep.instantaneous == 0.0 && smaller.creep.retardations.is_empty();
+        let known = (row + smaller.max_offsets[0])
+            .checked_sub(self.max_offsets[0])
+            .filter(|row| only_flows && *row <= 2 * smaller.max_offsets[0])
             .and_then(|row| smaller.values.chunks_exact(smaller.n_columns()).nth(row))
             .unwrap_or_default();
         let x = self.offset(row);
@@ -131,56 +142,73 @@ impl WakeTable {
         known.iter().map(|value| -value).chain(beyond).collect()
     }
 
-    fn add_instant(&mut self) {
-        let instant = self.creep.instant;
-        for row in 0..=2 * self.reach[0] {
-            let here = self.along(row, |at, edges| self.creep.base.influence(at, edges));
-            self.add(row, |column| [instant * here[column]; 2]);
-        }
-    }
-
-    /// The last row within half a track ahead of the load; what is further ahead is not asked for.
-    fn last_on_track(&self) -> usize {
-        let last = 2 * self.reach[0];
-        self.creep.track.map_or(last, |track| {
-            let ahead = 0.5 * track - 1.0 - self.creep.shift;
-            last.min(self.reach[0] + whole_part(ahead.max(0.0)))
-        })
-    }
-
-    /// What recovers, at once or with delays, from one and the same potentials.
-    fn add_recovering(&mut self) {
-        let instant = self.creep.instant;
-        let last = self.last_on_track();
-        let first = [self.offset(last), self.aspect];
-        let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
-        for row in (0..=last).rev() {
-            retarded.step(self.offset(row));
-            self.add(row, |column| {
-                let now = instant * retarded.here(column);
-                [retarded.value(column), retarded.increment(column)].map(|part| now + part)
+    /// Adds the instantaneous compliance of a material without retardation elements.
+    fn add_instantaneous(&mut self) {
+        let instantaneous = self.creep.instantaneous;
+        for row in 0..=2 * self.max_offsets[0] {
+            let here = self.kernel_row(row, |at, edges| self.creep.base.influence(at, edges));
+            self.add_to_row(row, |column| RowEntry {
+                displacement: instantaneous * here[column],
+                creep_within_element: instantaneous * here[column],
             });
         }
     }
 
-    /// Displacement of an element by the unit load of another that lies `rows` behind it and `columns` beside it, both
-    /// within the reach.
-    pub(super) fn at(&self, rows: isize, columns: usize) -> f64 {
+    /// The last row within half a track ahead of the load. Offsets further ahead do not occur.
+    fn last_row_on_track(&self) -> usize {
+        let last = 2 * self.max_offsets[0];
+        self.creep.track.map_or(last, |track| {
+            let ahead = 0.5 * track - 1.0 - self.creep.collocation_shift;
+            last.min(self.max_offsets[0] + whole_part(ahead.max(0.0)))
+        })
+    }
+
+    /// Adds the instantaneous compliance and the retardation elements, which share the values of the potential.
+    fn add_viscoelastic(&mut self) {
+        let instantaneous = self.creep.instantaneous;
+        let last = self.last_row_on_track();
+        let first = [self.offset(last), self.aspect];
+        let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
+        for row in (0..=last).rev() {
+            retarded.step(self.offset(row));
+            self.add_to_row(row, |column| {
+                let now = instantaneous * retarded.load_potential(column);
+                RowEntry {
+                    displacement: now + retarded.displacement(column),
+                    creep_within_element: now + retarded.creep_within_element(column),
+                }
+            });
+        }
+    }
+
+    /// Displacement of an element by the unit load of another, which lies `rows` behind it and `columns` beside it.
+    ///
+    /// # Panics
+    /// For an offset beyond the table.
+    pub(super) fn displacement(&self, rows: isize, columns: usize) -> f64 {
         self.values[self.index(rows, columns)]
     }
 
-    /// The part of [`at`](Self::at) that has crept over the element itself.
-    pub(super) fn potential(&self, rows: isize, columns: usize) -> f64 {
-        self.potentials[self.index(rows, columns)]
+    /// The part of [`displacement`](Self::displacement) that creeps within the element itself, from its front to its rear.
+    pub(super) fn creep_within_element(&self, rows: isize, columns: usize) -> f64 {
+        self.creep_within_element[self.index(rows, columns)]
     }
 
     fn index(&self, rows: isize, columns: usize) -> usize {
-        let row = rows + self.reach[0].cast_signed();
+        let row = rows + self.max_offsets[0].cast_signed();
         assert!(
-            row >= 0 && row.unsigned_abs() <= 2 * self.reach[0] && columns <= self.reach[1],
-            "offset {rows}, {columns} is beyond the reach {:?}",
-            self.reach
+            row >= 0
+                && row.unsigned_abs() <= 2 * self.max_offsets[0]
+                && columns <= self.max_offsets[1],
+            "offset {rows}, {columns} is beyond the table of {:?}",
+            self.max_offsets
         );
-        row.unsigned_abs() * (self.reach[1] + 1) + columns
+        row.unsigned_abs() * (self.max_offsets[1] + 1) + columns
     }
+}
+
+/// One value of the table.
+struct RowEntry {
+    displacement: f64,
+    creep_within_element: f64,
 }

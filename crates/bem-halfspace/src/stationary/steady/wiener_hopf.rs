@@ -15,14 +15,14 @@ use rustfft::num_complex::Complex;
 
 use crate::stationary::steady::filter::{Filters, RegionFilter, Spectrum, signed_offset};
 use crate::stationary::steady::region::Region;
-use crate::stationary::steady::sliding_creep::{Delay, ElementCreep};
+use crate::stationary::steady::sliding_creep::{ElementCreep, RetardationElement};
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
 
 /// Elements beyond the box before the period of the filters repeats it. They need no more: the inverse factors decay
 /// fast.
-const MARGIN: usize = 4;
+const FILTER_MARGIN: usize = 4;
 
 /// Places of the two factors.
 const SWEEP: usize = 0;
@@ -30,13 +30,14 @@ const COUNTER_SWEEP: usize = 1;
 
 /// Period of the filters for a box of `shape` elements.
 pub(super) fn period(shape: [usize; 2]) -> [usize; 2] {
-    shape.map(|n| fast_length(n + MARGIN))
+    shape.map(|n| fast_length(n + FILTER_MARGIN))
 }
 
 /// The inverses of the two factors in Fourier space: of that which contains the creep filter, and of the other one.
 pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> [Spectrum; 2] {
     let [length, _] = transform.padded;
-    let potential = |row: usize, column: usize| table.potential(signed_offset(row, length), column);
+    let potential =
+        |row: usize, column: usize| table.creep_within_element(signed_offset(row, length), column);
     let counter_sweep = transform.spectrum(potential, invert_causal_factor);
     let sweep = with_inverse_creep(&counter_sweep, &table.creep, length);
     [sweep, counter_sweep]
@@ -104,14 +105,15 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
         // 1 − e^{iα} without cancellation.
         let half_sine = (0.5 * angle).sin();
         let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
-        let delayed = |delay: &Delay| {
-            let kept = delay.decay();
-            difference * kept + -(-delay.rate).exp_m1()
+        let delayed = |retardation: &RetardationElement| {
+            let kept = retardation.decay();
+            difference * kept + -(-retardation.rate).exp_m1()
         };
-        let delays = creep.delays.iter();
+        let retardations = creep.retardations.iter();
         // Of a memory longer than 1e154 elements the square of what is forgotten within one is no number.
-        let shares = delays.map(|delay| delayed(delay).finv() * delay.share);
-        let recovered = shares.sum::<Complex<f64>>() + creep.instant;
+        let shares =
+            retardations.map(|retardation| delayed(retardation).finv() * retardation.share);
+        let recovered = shares.sum::<Complex<f64>>() + creep.instantaneous;
         if creep.flow > 0.0 {
             difference / (difference * recovered + creep.flow)
         } else {

@@ -1,4 +1,4 @@
-//! What a quantity asks of the creep: its derivative by the kernel, summed over each part of the creep once.
+//! What a quantity asks of the creep: its derivative by the kernel, assemble over each part of the creep once.
 
 use std::f64::consts::PI;
 
@@ -11,10 +11,10 @@ use crate::BemError;
 use crate::parallel::reductions::dot;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::retarded_potential::RetardedPotential;
-use crate::stationary::steady::sensitivity::offsets::Offsets;
-use crate::stationary::steady::sensitivity::waves::Waves;
+use crate::stationary::steady::sensitivity::correlation::Correlation;
+use crate::stationary::steady::sensitivity::correlation_spectrum::CorrelationSpectrum;
 use crate::stationary::steady::sliding_creep::{
-    Delay, ElementCreep, MovingCreep, SLOWEST, SlidingCreep,
+    CreepOverDistance, ElementCreep, FLOW_AS_RETARDATION_RATE, RetardationElement, SlidingCreep,
 };
 use crate::stationary::steady::wake_table::WakeTable;
 
@@ -29,17 +29,17 @@ const APART: f64 = 1e-3;
 /// Sums of the kernels of all parts of the creep with the weights of a quantity, per compliance of an element.
 #[derive(Debug)]
 pub(super) struct Basis {
-    offsets: Offsets,
-    kernel: Kernel,
-    creep: MovingCreep,
-    instant: f64,
+    correlation: Correlation,
+    kernel: KernelParameters,
+    creep: CreepOverDistance,
+    instantaneous: f64,
     flow: f64,
-    delays: Vec<OfDelay>,
+    retardations: Vec<RetardationSums>,
 }
 
 /// What is common to all kernels of a grid.
 #[derive(Debug, Clone)]
-pub(super) struct Kernel {
+pub(super) struct KernelParameters {
     spacing: f64,
     aspect: f64,
     /// The creep over an element without any of its parts: where gaps are evaluated, the track and the base.
@@ -50,78 +50,83 @@ pub(super) struct Kernel {
 }
 
 #[derive(Debug)]
-struct OfDelay {
+struct RetardationSums {
     by_compliance: f64,
     /// By the logarithm of its memory, per compliance.
-    by_memory: f64,
+    by_log_memory: f64,
 }
 
 impl Basis {
     /// One for each quantity; the kernels are computed once for all.
-    pub(super) fn of_all(mut quantities: Vec<Offsets>, kernel: &Kernel) -> Vec<Self> {
-        Offsets::align(&mut quantities);
+    pub(super) fn of_all(mut quantities: Vec<Correlation>, kernel: &KernelParameters) -> Vec<Self> {
+        Correlation::align(&mut quantities);
         let spacing = kernel.spacing;
-        let creep = kernel.material.moving();
+        let creep = kernel.material.over_distance();
         let steps = [1.0, 1.0 + STEP];
-        let memories = creep.delays.iter().map(|[_, memory]| *memory);
+        let memories = creep.retardations.iter().map(|[_, memory]| *memory);
         let rates = memories.flat_map(|memory| steps.map(|step| spacing / (memory * step)));
         let recovering = kernel.recovering(&quantities, &rates.collect::<Vec<f64>>());
         let flows = creep.flow_per_length > 0.0;
         let bases = quantities
             .into_iter()
             .zip(recovering)
-            .map(|(offsets, sums)| {
-                let delays = sums[1..].chunks_exact(steps.len());
-                let delays = delays.map(|sums| OfDelay {
+            .map(|(correlation, sums)| {
+                let retardations = sums[1..].chunks_exact(steps.len());
+                let retardations = retardations.map(|sums| RetardationSums {
                     by_compliance: sums[0],
-                    by_memory: (sums[1] - sums[0]) / STEP,
+                    by_log_memory: (sums[1] - sums[0]) / STEP,
                 });
                 Self {
-                    instant: sums[0],
-                    flow: if flows { kernel.flow(&offsets) } else { 0.0 },
-                    delays: delays.collect(),
+                    instantaneous: sums[0],
+                    flow: if flows {
+                        kernel.flow(&correlation)
+                    } else {
+                        0.0
+                    },
+                    retardations: retardations.collect(),
                     kernel: kernel.clone(),
                     creep: creep.clone(),
-                    offsets,
+                    correlation,
                 }
             });
         bases.collect()
     }
 
-    /// The change from one creep to another on the same base, to first order; of as many delays as here.
-    pub(super) fn between_creeps(&self, [from, to]: [&MovingCreep; 2]) -> f64 {
-        let instant = self.instant * (to.instant - from.instant);
+    /// The change from one creep to another on the same base, to first order; of as many retardations as here.
+    pub(super) fn between_creeps(&self, [from, to]: [&CreepOverDistance; 2]) -> f64 {
+        let instantaneous = self.instantaneous * (to.instantaneous - from.instantaneous);
         let flow = self.flow * self.kernel.spacing * (to.flow_per_length - from.flow_per_length);
-        let ends = from.delays.iter().zip(&to.delays);
-        let delays = ends.zip(&self.creep.delays).zip(&self.delays);
-        let delayed = delays.map(|(((from, to), [compliance, _]), of)| {
+        let ends = from.retardations.iter().zip(&to.retardations);
+        let retardations = ends.zip(&self.creep.retardations).zip(&self.retardations);
+        let delayed = retardations.map(|(((from, to), [compliance, _]), of)| {
             of.by_compliance * (to[0] - from[0])
-                + of.by_memory * compliance * (to[1] / from[1]).ln()
+                + of.by_log_memory * compliance * (to[1] / from[1]).ln()
         });
-        (instant + flow + delayed.sum::<f64>()) / self.kernel.compliance
+        (instantaneous + flow + delayed.sum::<f64>()) / self.kernel.compliance
     }
 
     /// The sum with all of the kernel.
     fn whole(&self) -> f64 {
-        let delays = self.creep.delays.iter().zip(&self.delays);
-        let delayed = delays.map(|([compliance, _], of)| of.by_compliance * compliance);
+        let retardations = self.creep.retardations.iter().zip(&self.retardations);
+        let delayed = retardations.map(|([compliance, _], of)| of.by_compliance * compliance);
         let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
-        let at_once = self.instant * self.creep.instant;
+        let at_once = self.instantaneous * self.creep.instantaneous;
         (at_once + flow + delayed.sum::<f64>()) / self.kernel.compliance
     }
 
     /// By the logarithm of the velocity.
     pub(super) fn by_velocity(&self) -> f64 {
-        let delays = self.creep.delays.iter().zip(&self.delays);
-        let delayed = delays.map(|([compliance, _], of)| of.by_memory * compliance);
+        let retardations = self.creep.retardations.iter().zip(&self.retardations);
+        let delayed = retardations.map(|([compliance, _], of)| of.by_log_memory * compliance);
         let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
         (delayed.sum::<f64>() - flow) / self.kernel.compliance
     }
 
-    /// Whether each delay of another creep belongs to one of these; of some that are alike it is not known which.
-    pub(super) fn has_delays_of(&self, creep: &MovingCreep) -> bool {
+    /// Whether each retardation of another creep belongs to one of these; of some that are alike it is not known which.
+    pub(super) fn has_same_retardations(&self, creep: &CreepOverDistance) -> bool {
         let differ = |pair: &[[f64; 2]]| (pair[1][1] / pair[0][1]).ln().abs() > APART;
-        creep.delays.len() == self.delays.len() && creep.delays.windows(2).all(differ)
+        creep.retardations.len() == self.retardations.len()
+            && creep.retardations.windows(2).all(differ)
     }
 
     /// The derivatives of quantities of one contact by the logarithms of the storage and of the loss modulus in each of the
@@ -140,11 +145,11 @@ impl Basis {
             let track = track * kernel.spacing;
             return Err(IndenterError::NoTrack { track }.into());
         }
-        let waves = Waves {
-            quantities: quantities.iter().map(|basis| &basis.offsets).collect(),
+        let waves = CorrelationSpectrum {
+            quantities: quantities.iter().map(|basis| &basis.correlation).collect(),
             base: &kernel.bare.base,
             aspect: kernel.aspect,
-            shift: kernel.bare.shift,
+            collocation_shift: kernel.bare.collocation_shift,
         };
         let of_band = |band: &[f64; 2]| {
             let ends =
@@ -223,10 +228,12 @@ impl Basis {
     fn on_other(
         quantities: &[&Self],
         creep: &SlidingCreep,
-        change: impl Fn(&Kernel, &mut ElementCreep) -> Result<(), InvalidParameter>,
+        change: impl Fn(&KernelParameters, &mut ElementCreep) -> Result<(), InvalidParameter>,
     ) -> Result<Vec<f64>, BemError> {
         let Some(Self {
-            kernel, offsets, ..
+            kernel,
+            correlation,
+            ..
         }) = quantities.first()
         else {
             return Ok(Vec::new());
@@ -234,31 +241,31 @@ impl Basis {
         let mut bare = kernel.bare.clone();
         change(kernel, &mut bare)?;
         let part = ElementCreep {
-            shift: bare.shift,
+            collocation_shift: bare.collocation_shift,
             track: bare.track,
             base: bare.base,
-            ..creep.over(kernel.spacing)?
+            ..creep.over_element(kernel.spacing)?
         };
-        let table = WakeTable::of(&part, kernel.aspect, offsets.reach());
+        let table = WakeTable::for_creep(&part, kernel.aspect, correlation.reach());
         let unit = creep.compliance(kernel.spacing)? / kernel.compliance;
-        let sum = |basis: &&Self| unit * basis.offsets.with_kernel(&table);
+        let sum = |basis: &&Self| unit * basis.correlation.with_kernel(&table);
         Ok(quantities.iter().map(sum).collect())
     }
 }
 
 /// A retardation element of unit compliance.
-fn unit_delay(rate: f64) -> Delay {
+fn unit_retardation(rate: f64) -> RetardationElement {
     let share = -(-rate).exp_m1();
-    Delay { rate, share }
+    RetardationElement { rate, share }
 }
 
-impl Kernel {
+impl KernelParameters {
     pub(super) fn new(creep: &SlidingCreep, mesh: &Mesh) -> Result<Self, BemError> {
         let spacing = mesh.options.spacing[0];
         let bare = ElementCreep {
-            instant: 0.0,
+            instantaneous: 0.0,
             flow: 0.0,
-            delays: Vec::new(),
+            retardations: Vec::new(),
             ..mesh.loading.creep.clone()
         };
         Ok(Self {
@@ -271,35 +278,37 @@ impl Kernel {
     }
 
     /// The sums of each quantity with the kernels of what recovers at once, and of retardation elements of unit compliance.
-    fn recovering(&self, quantities: &[Offsets], rates: &[f64]) -> Vec<Vec<f64>> {
+    fn recovering(&self, quantities: &[Correlation], rates: &[f64]) -> Vec<Vec<f64>> {
         let mut sums = vec![vec![0.0; 1 + rates.len()]; quantities.len()];
-        let Some([rows, columns]) = quantities.first().map(Offsets::reach) else {
+        let Some([rows, columns]) = quantities.first().map(Correlation::reach) else {
             return sums;
         };
         if rates.is_empty() {
             let part = ElementCreep {
-                instant: 1.0,
+                instantaneous: 1.0,
                 ..self.bare.clone()
             };
-            for (sums, offsets) in sums.iter_mut().zip(quantities) {
-                sums[0] = self.sum_of(offsets, &part);
+            for (sums, correlation) in sums.iter_mut().zip(quantities) {
+                sums[0] = self.sum_of(correlation, &part);
             }
             return sums;
         }
         let part = ElementCreep {
-            delays: rates.iter().copied().map(unit_delay).collect(),
+            retardations: rates.iter().copied().map(unit_retardation).collect(),
             ..self.bare.clone()
         };
-        let offset = |row: usize| row as f64 - rows as f64 + self.bare.shift;
+        let offset = |row: usize| row as f64 - rows as f64 + self.bare.collocation_shift;
         let first = [offset(2 * rows), self.aspect];
         let mut retarded = RetardedPotential::new(&part, first, columns + 1);
         for row in (0..=2 * rows).rev() {
             retarded.step(offset(row));
-            let at_once: Vec<f64> = (0..=columns).map(|column| retarded.here(column)).collect();
-            for (sums, offsets) in sums.iter_mut().zip(quantities) {
-                sums[0] += dot(offsets.row(row), &at_once);
-                for (delay, sum) in sums[1..].iter_mut().enumerate() {
-                    *sum += dot(offsets.row(row), retarded.of_delay(delay));
+            let at_once: Vec<f64> = (0..=columns)
+                .map(|column| retarded.load_potential(column))
+                .collect();
+            for (sums, correlation) in sums.iter_mut().zip(quantities) {
+                sums[0] += dot(correlation.row(row), &at_once);
+                for (retardation, sum) in sums[1..].iter_mut().enumerate() {
+                    *sum += dot(correlation.row(row), retarded.retardation_part(retardation));
                 }
             }
         }
@@ -321,19 +330,23 @@ impl Kernel {
         ])
     }
 
-    fn flow(&self, offsets: &Offsets) -> f64 {
+    fn flow(&self, correlation: &Correlation) -> f64 {
         let mut part = self.bare.clone();
         if part.base.is_rigid() {
-            let (rate, share) = (SLOWEST, 1.0);
-            part.delays.push(Delay { rate, share });
+            let (rate, share) = (FLOW_AS_RETARDATION_RATE, 1.0);
+            part.retardations.push(RetardationElement { rate, share });
         } else {
             part.flow = 1.0;
         }
-        self.sum_of(offsets, &part)
+        self.sum_of(correlation, &part)
     }
 
     /// The sum with the kernel of a part of the creep.
-    fn sum_of(&self, offsets: &Offsets, part: &ElementCreep) -> f64 {
-        offsets.with_kernel(&WakeTable::of(part, self.aspect, offsets.reach()))
+    fn sum_of(&self, correlation: &Correlation, part: &ElementCreep) -> f64 {
+        correlation.with_kernel(&WakeTable::for_creep(
+            part,
+            self.aspect,
+            correlation.reach(),
+        ))
     }
 }

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! (Tardieu & Constantinescu 2000). The contact itself moves, but where the pressure vanishes at its edge its motion counts in
-//! second order only. Everything that is asked for afterwards is a sum: over the offsets between elements for the material,
+//! second order only. Everything that is asked for afterwards is a sum: over the correlation between elements for the material,
 //! over the elements for the body.
 //!
 //! On a grid the contact moves by elements, and what this leaves is the largest part of the error. Of the motion that changes its
@@ -24,15 +24,15 @@
 //! rim, too, whose derivative is divided by that of the dilation and multiplied by 2. Then all derivatives add up in units of length, as
 //! they do in those of stress and time without it.
 
-mod adjoint;
+mod adjoint_solve;
 mod basis;
-mod contact;
-mod limit;
-mod offsets;
-mod points;
-mod rim;
+mod boundary_measures;
+mod collocation_points;
+mod correlation;
+mod correlation_spectrum;
+mod loaded_contact;
 mod state;
-mod waves;
+mod two_grid_extrapolation;
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Estimate, InvalidParameter, in_range, not_negative};
@@ -43,9 +43,9 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
 use crate::{BemError, Elastomer};
-pub(crate) use limit::Limit;
-use limit::{Apart, mean};
 use state::State;
+pub(crate) use two_grid_extrapolation::Limit;
+use two_grid_extrapolation::{Apart, mean};
 
 /// Spacing of the grids whose derivatives are compared with those of the finest.
 const COARSER: f64 = 2.0;

@@ -5,11 +5,13 @@ use indenters::{Control, Surface};
 use crate::BemError;
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sensitivity::Change;
-use crate::stationary::steady::sensitivity::basis::{Basis, Kernel};
-use crate::stationary::steady::sensitivity::contact::{Adjoint, Contact};
-use crate::stationary::steady::sensitivity::offsets::Offsets;
-use crate::stationary::steady::sensitivity::points::{Height, Points, Slope, differences};
-use crate::stationary::steady::sliding_creep::{MovingCreep, SlidingCreep};
+use crate::stationary::steady::sensitivity::basis::{Basis, KernelParameters};
+use crate::stationary::steady::sensitivity::collocation_points::{
+    CollocationPoints, FrictionSlope, Height, differences,
+};
+use crate::stationary::steady::sensitivity::correlation::Correlation;
+use crate::stationary::steady::sensitivity::loaded_contact::{AdjointLoads, LoadedContact};
+use crate::stationary::steady::sliding_creep::{CreepOverDistance, SlidingCreep};
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
 
 /// Relative step of the differences by all lengths of a body.
@@ -20,12 +22,12 @@ const DILATION: f64 = 1e-5;
 pub(super) struct State {
     /// Of which the derivatives are.
     pub(super) friction_coefficient: f64,
-    points: Points,
+    points: CollocationPoints,
     /// Part of the load on each element, its image included.
     shares: Vec<f64>,
     /// Of the friction, of the depth under a force or the force at a depth, where that has a meaning, and, unless the body has
     /// edges, of the area and of the growth.
-    gradients: Vec<Gradient>,
+    gradients: Vec<QuantityGradient>,
     /// Of each of them by the logarithms of the thickness of a layer and of the length of a track.
     by_thickness: Vec<f64>,
     by_track: Vec<f64>,
@@ -50,7 +52,7 @@ pub(super) struct Dilation {
 }
 
 impl Dilation {
-    /// Whether a dilated contact is the larger one, by both measures.
+    /// Whether a dilation contact is the larger one, by both measures.
     fn is_growth(&self) -> bool {
         self.area > 0.0 && self.growth > 0.0
     }
@@ -58,7 +60,7 @@ impl Dilation {
 
 /// A quantity in the units of the mesh.
 #[derive(Debug)]
-struct Gradient {
+struct QuantityGradient {
     unit: f64,
     /// By the height of each element, its image included.
     by_height: Vec<f64>,
@@ -67,13 +69,13 @@ struct Gradient {
     basis: Basis,
 }
 
-/// A contact whose kernels are not summed yet.
-struct Unsummed {
+/// A contact whose kernels are not assemble yet.
+struct UnassembledState {
     friction_coefficient: f64,
-    points: Points,
+    points: CollocationPoints,
     shares: Vec<f64>,
-    drafts: Vec<Draft>,
-    kernel: Kernel,
+    unassembled_gradients: Vec<UnassembledGradient>,
+    kernel: KernelParameters,
     n_unknowns: usize,
 }
 
@@ -85,26 +87,29 @@ impl State {
         grids: impl Iterator<Item = SteadyOptions>,
         reuse: &mut Reuse,
     ) -> Result<Vec<Self>, BemError> {
-        let unsummed = grids.map(|options| Unsummed::new(surface, loading, options, reuse));
-        let mut unsummed = unsummed.collect::<Result<Vec<_>, _>>()?;
-        let Some(kernel) = unsummed.first().map(|one| one.kernel.clone()) else {
+        let unassembled =
+            grids.map(|options| UnassembledState::new(surface, loading, options, reuse));
+        let mut unassembled = unassembled.collect::<Result<Vec<_>, _>>()?;
+        let Some(kernel) = unassembled.first().map(|one| one.kernel.clone()) else {
             return Ok(Vec::new());
         };
-        let drafts = unsummed.iter_mut().flat_map(|one| &mut one.drafts);
-        let offsets: Vec<Offsets> = drafts
-            .map(|draft| std::mem::take(&mut draft.offsets))
+        let unassembled_gradients = unassembled
+            .iter_mut()
+            .flat_map(|one| &mut one.unassembled_gradients);
+        let correlation: Vec<Correlation> = unassembled_gradients
+            .map(|draft| std::mem::take(&mut draft.correlation))
             .collect();
-        let bases = Basis::of_all(offsets, &kernel);
+        let bases = Basis::of_all(correlation, &kernel);
         let all: Vec<&Basis> = bases.iter().collect();
         let by_lengths = Basis::by_thickness(&all)?
             .into_iter()
             .zip(Basis::by_track(&all)?);
         let by_lengths: Vec<(f64, f64)> = by_lengths.collect();
         let mut sums = bases.into_iter().zip(by_lengths);
-        let states = unsummed.into_iter().map(|one| {
-            let mut state = one.summed(&mut sums, loading);
+        let states = unassembled.into_iter().map(|one| {
+            let mut state = one.assemble(&mut sums, loading);
             if state.has_measures {
-                let dilation = state.dilated(surface, loading.strip)?;
+                let dilation = state.dilation(surface, loading.strip)?;
                 state.dilation = Some(dilation).filter(Dilation::is_growth);
             }
             Ok(state)
@@ -113,7 +118,7 @@ impl State {
     }
 }
 
-impl Unsummed {
+impl UnassembledState {
     fn new(
         surface: &dyn Surface,
         loading: &Loading,
@@ -122,17 +127,17 @@ impl Unsummed {
     ) -> Result<Self, BemError> {
         let (mesh, solution) = solve_on_mesh(surface, loading, &options, reuse)?;
         reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
-        let contact = Contact::new(&mesh, &solution, &mut reuse.plans)?;
-        let points = Points::new(&contact, loading);
-        let own = points.own_slopes(&|point| surface.height(point))?;
+        let contact = LoadedContact::new(&mesh, &solution, &mut reuse.plans)?;
+        let points = CollocationPoints::new(&contact, loading);
+        let own = points.explicit_slope_terms(&|point| surface.height(point))?;
         let slopes = match points.slope {
-            Slope::OfBody => contact.slopes_of_body(own),
+            FrictionSlope::Body => contact.slopes_of_body(own),
             _ => contact.slopes_of_surface(&own, &mut reuse.plans),
         };
         let (friction, adjoint) = contact.adjoint(&slopes, &mut reuse.plans)?;
         let shares = contact.elements.iter().zip(&contact.loads);
         let shares = shares.map(|(&element, load)| mesh.weight(element) * load / contact.total);
-        let gradients = Gradients {
+        let gradients = GradientAssembly {
             contact: &contact,
             loading,
             adjoint,
@@ -142,23 +147,24 @@ impl Unsummed {
             friction_coefficient: friction * points.slope_unit(),
             shares: shares.collect(),
             n_unknowns: contact.n_touching(),
-            drafts: gradients.all(),
-            kernel: Kernel::new(&loading.creep, &mesh)?,
+            unassembled_gradients: gradients.all(),
+            kernel: KernelParameters::new(&loading.creep, &mesh)?,
             points,
         })
     }
 
-    fn summed(
+    fn assemble(
         self,
         sums: &mut impl Iterator<Item = (Basis, (f64, f64))>,
         loading: &Loading,
     ) -> State {
         let (mut gradients, mut by_thickness, mut by_track) = (Vec::new(), Vec::new(), Vec::new());
-        for (draft, (basis, (by_log_thickness, by_log_track))) in self.drafts.into_iter().zip(sums)
+        for (draft, (basis, (by_log_thickness, by_log_track))) in
+            self.unassembled_gradients.into_iter().zip(sums)
         {
             by_thickness.push(draft.unit * by_log_thickness);
             by_track.push(draft.unit * by_log_track);
-            gradients.push(Gradient {
+            gradients.push(QuantityGradient {
                 unit: draft.unit,
                 by_height: draft.by_height,
                 by_load: draft.unit * draft.by_load,
@@ -182,7 +188,7 @@ impl Unsummed {
 
 impl State {
     /// The excess R of each quantity, and what the measures of the contact change by.
-    fn dilated(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
+    fn dilation(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
         let scaled = |[wide, high]: [f64; 2]| {
             move |[x, y]: [f64; 2]| high * surface.height([x / wide, y / wide])
         };
@@ -240,7 +246,10 @@ impl State {
     /// The change of each quantity with these elements.
     fn between_heights(&self, [from, to]: [Height; 2]) -> Result<Vec<f64>, BemError> {
         let heights = differences(self.points.heights(from)?, &self.points.heights(to)?);
-        let slopes = differences(self.points.own_slopes(from)?, &self.points.own_slopes(to)?);
+        let slopes = differences(
+            self.points.explicit_slope_terms(from)?,
+            &self.points.explicit_slope_terms(to)?,
+        );
         let gradients = self.gradients.iter();
         let changes = gradients.map(|one| one.unit * weighted(&one.by_height, &heights));
         let mut changes: Vec<f64> = changes.collect();
@@ -255,8 +264,11 @@ impl State {
         &self,
         ends: [&SlidingCreep; 2],
     ) -> Result<Change<f64>, BemError> {
-        let [from, to] = ends.map(SlidingCreep::moving);
-        if [&from, &to].iter().all(|end| self.has_delays_of(end)) {
+        let [from, to] = ends.map(SlidingCreep::over_distance);
+        if [&from, &to]
+            .iter()
+            .all(|end| self.has_same_retardations(end))
+        {
             return Ok(self.change(|basis| basis.between_creeps([&from, &to])));
         }
         let [from, to] = ends.map(|end| Basis::to_elastomer(&self.bases(), end));
@@ -320,10 +332,10 @@ impl State {
         given
     }
 
-    fn has_delays_of(&self, creep: &MovingCreep) -> bool {
+    fn has_same_retardations(&self, creep: &CreepOverDistance) -> bool {
         self.gradients
             .iter()
-            .all(|one| one.basis.has_delays_of(creep))
+            .all(|one| one.basis.has_same_retardations(creep))
     }
 
     fn bases(&self) -> Vec<&Basis> {
@@ -375,26 +387,26 @@ fn weighted(weights: &[f64], values: &[f64]) -> f64 {
 }
 
 /// Makes the derivatives of a contact.
-struct Gradients<'a> {
-    contact: &'a Contact<'a>,
+struct GradientAssembly<'a> {
+    contact: &'a LoadedContact<'a>,
     loading: &'a Loading,
-    adjoint: Adjoint,
-    slope: Slope,
+    adjoint: AdjointLoads,
+    slope: FrictionSlope,
 }
 
-/// A quantity whose kernel is not summed yet.
-struct Draft {
+/// A quantity whose kernel is not assemble yet.
+struct UnassembledGradient {
     unit: f64,
     /// By the height of each element, its image included.
     by_height: Vec<f64>,
     /// In units of the quantity.
     by_load: f64,
-    offsets: Offsets,
+    correlation: Correlation,
 }
 
-impl Gradients<'_> {
+impl GradientAssembly<'_> {
     /// Of the friction, of the depth under a force or the force at a depth, of the area and of the growth.
-    fn all(&self) -> Vec<Draft> {
+    fn all(&self) -> Vec<UnassembledGradient> {
         let Loading {
             control,
             strip,
@@ -415,15 +427,15 @@ impl Gradients<'_> {
                 Some(self.of_depth(unit, -1.0, stiffness / depth_scale))
             }
         };
-        let mut drafts = vec![self.of_friction(stiffness)];
-        drafts.extend(other);
+        let mut unassembled_gradients = vec![self.of_friction(stiffness)];
+        unassembled_gradients.extend(other);
         let measures = self.contact.measures().zip(&self.adjoint.measures);
-        drafts.extend(measures.map(|(measure, by_loads)| {
+        unassembled_gradients.extend(measures.map(|(measure, by_loads)| {
             let mut draft = self.of_loads(by_loads, 1.0, stiffness);
-            draft.offsets = draft.offsets.with_bend(measure.by_bend);
+            draft.correlation = draft.correlation.with_bend(measure.by_second_difference);
             draft
         }));
-        drafts
+        unassembled_gradients
     }
 
     /// Total load in the units of the mesh per unit of the given force.
@@ -433,17 +445,17 @@ impl Gradients<'_> {
         self.contact.total * strip.unwrap_or(1.0) / given
     }
 
-    fn of_friction(&self, stiffness: f64) -> Draft {
+    fn of_friction(&self, stiffness: f64) -> UnassembledGradient {
         let unit = self.loading.depth_scale / self.contact.mesh.options.spacing[0];
         let mut draft = self.of_loads(&self.adjoint.friction, unit, stiffness);
-        if self.slope != Slope::OfBody {
-            draft.offsets = draft.offsets.and(&self.contact.offsets_of_slope());
+        if self.slope != FrictionSlope::Body {
+            draft.correlation = draft.correlation.and(&self.contact.slope_correlation());
         }
         draft
     }
 
     /// Of a function of the loads with these adjoint loads.
-    fn of_loads(&self, by_loads: &[f64], unit: f64, stiffness: f64) -> Draft {
+    fn of_loads(&self, by_loads: &[f64], unit: f64, stiffness: f64) -> UnassembledGradient {
         let rise = self.contact.sum(by_loads);
         let (constant, by_load) = match self.loading.control {
             Control::NormalForce(_) => (rise / stiffness, rise / stiffness * self.per_newton()),
@@ -455,21 +467,21 @@ impl Gradients<'_> {
     }
 
     /// Of what follows from the depth, with so many times its adjoint loads.
-    fn of_depth(&self, unit: f64, factor: f64, by_load: f64) -> Draft {
+    fn of_depth(&self, unit: f64, factor: f64, by_load: f64) -> UnassembledGradient {
         let depth = self.adjoint.depth.iter();
         let adjoint: Vec<f64> = depth.map(|load| factor * load).collect();
         self.draft(unit, &adjoint, by_load)
     }
 
-    fn draft(&self, unit: f64, adjoint: &[f64], by_load: f64) -> Draft {
-        let Contact { mesh, elements, .. } = self.contact;
+    fn draft(&self, unit: f64, adjoint: &[f64], by_load: f64) -> UnassembledGradient {
+        let LoadedContact { mesh, elements, .. } = self.contact;
         let pairs = elements.iter().zip(adjoint);
         let by_height = pairs.map(|(&element, load)| mesh.weight(element) * load);
-        Draft {
+        UnassembledGradient {
             unit,
             by_height: by_height.collect(),
             by_load,
-            offsets: self.contact.offsets(adjoint),
+            correlation: self.contact.correlation(adjoint),
         }
     }
 }

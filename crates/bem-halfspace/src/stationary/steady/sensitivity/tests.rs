@@ -80,7 +80,7 @@ impl Case {
     fn solved(&self, factors: &Factors, options: SteadyOptions, start: &SteadySliding) -> [f64; 2] {
         let (state, found) = self.state(factors, options, Some(start));
         let other = match self.control {
-            Control::NormalForce(_) => found.depth.at(None),
+            Control::NormalForce(_) => found.depth.at_distance(None),
             Control::IndentationDepth(_) => found.normal_force,
         };
         [state.friction_coefficient, other]
@@ -286,7 +286,7 @@ fn by_frequencies(
     [sums, sizes]
 }
 
-/// Waves are another way to the same number: those of a modulus, of a time and of the unit of stress.
+/// CorrelationSpectrum are another way to the same number: those of a modulus, of a time and of the unit of stress.
 #[test]
 fn derivatives_by_frequencies_add_up_to_those_by_moduli_and_times() {
     let side = [-1.7, 1.7];
@@ -388,7 +388,7 @@ fn derivatives_add_up_in_units_of_length() {
         let [curvature, _, _, _, thickness, load, velocity, track] = by_logarithm;
         let powers = match case.control {
             _ if case.flows => [-1.0, 2.0, 0.0],
-            Control::NormalForce(_) => [-1.0, 2.0, solution.depth.at(None)],
+            Control::NormalForce(_) => [-1.0, 2.0, solution.depth.at_distance(None)],
             Control::IndentationDepth(_) => [0.0, 1.0, 2.0 * solution.normal_force],
         };
         let expected = [0.0, powers[2]];

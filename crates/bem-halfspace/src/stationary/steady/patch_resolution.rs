@@ -5,10 +5,10 @@ use crate::elements::bounds::Bounds;
 use crate::error::check_contact_elements;
 
 /// Smaller parts of the load, on patches that cover too few elements, are less than the error bars of a contact contain.
-const SMALL_PART: f64 = 0.01;
+const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
 /// Elements across the sliding direction in the widest row of a patch, at least: on one to three of them, several grids may agree by
 /// chance.
-pub(super) const LEAST_ACROSS: usize = 4;
+pub(super) const MIN_ELEMENTS_ACROSS: usize = 4;
 
 /// A loaded element, by row and column, and its load.
 type Loaded = ([usize; 2], f64);
@@ -16,9 +16,9 @@ type Loaded = ([usize; 2], f64);
 /// Refuses a contact with a patch that carries load on too few elements along x or across it.
 pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), BemError> {
     let total: f64 = loaded.iter().map(|(_, load)| load).sum();
-    for patch in patches(loaded, bounds) {
+    for patch in connected_patches(loaded, bounds) {
         let load: f64 = patch.iter().map(|(_, load)| load).sum();
-        if load < SMALL_PART * total {
+        if load < NEGLIGIBLE_LOAD_FRACTION * total {
             continue;
         }
         let [mut per_row, mut per_column] = bounds.shape().map(|n| vec![0_usize; n]);
@@ -28,8 +28,8 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
         }
         check_contact_elements(per_row.iter().filter(|count| **count > 0).count())?;
         let elements = per_row.into_iter().max().unwrap_or(0);
-        if elements < LEAST_ACROSS {
-            let needed = LEAST_ACROSS;
+        if elements < MIN_ELEMENTS_ACROSS {
+            let needed = MIN_ELEMENTS_ACROSS;
             return Err(BemError::GridTooCoarse { elements, needed });
         }
     }
@@ -37,7 +37,7 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
 }
 
 /// The loaded elements that hang together by their edges or corners.
-fn patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
+fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     // Loads by place in the box, 0 where there is none left.
     let mut left = vec![0.0; bounds.n_elements()];
     for (element, load) in loaded {
@@ -46,13 +46,13 @@ fn patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     let mut patches = Vec::new();
     for (first, _) in loaded {
         let mut patch = Vec::new();
-        take(*first, &mut left, bounds, &mut patch);
+        move_to_patch(*first, &mut left, bounds, &mut patch);
         let mut done = 0;
         while let Some(&([row, column], _)) = patch.get(done) {
             done += 1;
             for row in row.saturating_sub(1)..=row + 1 {
                 for column in column.saturating_sub(1)..=column + 1 {
-                    take([row, column], &mut left, bounds, &mut patch);
+                    move_to_patch([row, column], &mut left, bounds, &mut patch);
                 }
             }
         }
@@ -64,7 +64,7 @@ fn patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
 }
 
 /// Moves an element that is left to a patch.
-fn take(element: [usize; 2], left: &mut [f64], bounds: &Bounds, patch: &mut Vec<Loaded>) {
+fn move_to_patch(element: [usize; 2], left: &mut [f64], bounds: &Bounds, patch: &mut Vec<Loaded>) {
     if !bounds.contains(element) {
         return;
     }

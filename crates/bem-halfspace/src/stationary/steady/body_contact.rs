@@ -9,20 +9,20 @@ use crate::stationary::steady::plans::Plans;
 
 /// Root mean square of the residual that the solution of any contact may have: as a part of how much the gap opens over an element
 /// at the front, and at most, in units of the depth scale.
-const PART_OF_OPENING: f64 = 1e-3;
-const MOST_RESIDUAL: f64 = 1e-5;
+const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
+const MAX_INNER_TOLERANCE: f64 = 1e-5;
 
 /// Loads of all elements in contact, all greater than zero, in the units of the mesh.
 pub(super) struct Solution {
     pub(super) loads: Vec<(usize, f64)>,
     pub(super) depth: f64,
     pub(super) iterations: usize,
-    /// Whether the equations of the last contact were factorised.
-    pub(super) factorised: bool,
+    /// Whether the equations of the last contact were solved_directly.
+    pub(super) solved_directly: bool,
     /// Largest residual |h + u − d| in the contact, in units of the depth scale.
     pub(super) residual: f64,
     /// Mean under the load of what the gaps beside the contact add to the slope, in elements and units of the depth scale.
-    pub(super) opening: f64,
+    pub(super) gap_difference: f64,
 }
 
 /// Solves the complementarity problem from a first guess of the elements in contact and their loads.
@@ -37,7 +37,7 @@ pub(super) fn solve(
     }
     let heights = (0..mesh.n_elements()).map(|element| mesh.height(element));
     let heights = heights.collect();
-    let inner_tolerance = rough_residual(guess.len());
+    let inner_tolerance = inner_tolerance(guess.len());
     let mut loads = vec![0.0; mesh.n_elements()];
     for (element, load) in guess {
         loads[element] = load;
@@ -47,20 +47,20 @@ pub(super) fn solve(
     let mut search = Search::new(&mut contact, heights, inner_tolerance, tolerance, loads);
     search.run()?;
     let [residual, depth] = [search.residual, search.depth];
-    let opening = mesh.opening(&search.pressure, &search.gap);
+    let gap_difference = mesh.mean_gap_difference(&search.pressure, &search.gap);
     let loads = search.pressure.into_iter().enumerate();
     Ok(Solution {
         loads: loads.filter(|(_, load)| *load > 0.0).collect(),
         depth,
         iterations: contact.n_active_sets,
-        factorised: contact.solved_directly,
+        solved_directly: contact.solved_directly,
         residual,
-        opening,
+        gap_difference,
     })
 }
 
 /// That of contacts of about so many elements: the gap opens with the power 3/2 of the distance from the front.
-fn rough_residual(n_elements: usize) -> f64 {
+fn inner_tolerance(n_elements: usize) -> f64 {
     let along = (n_elements as f64).sqrt().max(1.0);
-    MOST_RESIDUAL.min(PART_OF_OPENING * along.powf(-1.5))
+    MAX_INNER_TOLERANCE.min(INNER_TOLERANCE_OVER_OPENING * along.powf(-1.5))
 }

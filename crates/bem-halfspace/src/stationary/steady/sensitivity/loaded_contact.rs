@@ -2,17 +2,19 @@
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
-use crate::stationary::steady::contact::Solution;
+use crate::stationary::steady::body_contact::Solution;
 use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
-use crate::stationary::steady::sensitivity::adjoint::{Motion, solve};
-use crate::stationary::steady::sensitivity::offsets::{Field, Offsets};
-use crate::stationary::steady::sensitivity::rim::{ContactRim, OfElements};
+use crate::stationary::steady::sensitivity::adjoint_solve::{KernelDirection, solve};
+use crate::stationary::steady::sensitivity::boundary_measures::{
+    BoundaryMeasures, MeasureGradient,
+};
+use crate::stationary::steady::sensitivity::correlation::{Correlation, Field};
 
 /// The loads of a contact in the units of the mesh.
-pub(super) struct Contact<'mesh> {
+pub(super) struct LoadedContact<'mesh> {
     pub(super) mesh: &'mesh Mesh,
     /// Those in contact, and then those beside it, on which a change is felt, too.
     pub(super) elements: Vec<usize>,
@@ -21,14 +23,14 @@ pub(super) struct Contact<'mesh> {
     /// How many are in contact.
     n_touching: usize,
     /// None under a body with edges, at which the contact ends.
-    rim: Option<ContactRim>,
+    rim: Option<BoundaryMeasures>,
     /// Sum of all loads.
     pub(super) total: f64,
     bounds: Bounds,
 }
 
 /// Solutions `Kᵀ y = r` in the units of the mesh.
-pub(super) struct Adjoint {
+pub(super) struct AdjointLoads {
     /// For the derivative of the friction by the loads.
     pub(super) friction: Vec<f64>,
     /// For a unit depth.
@@ -37,7 +39,7 @@ pub(super) struct Adjoint {
     pub(super) measures: Vec<Vec<f64>>,
 }
 
-impl<'mesh> Contact<'mesh> {
+impl<'mesh> LoadedContact<'mesh> {
     pub(super) fn new(
         mesh: &'mesh Mesh,
         solution: &Solution,
@@ -47,9 +49,9 @@ impl<'mesh> Contact<'mesh> {
         let (mut elements, mut loads): (Vec<usize>, Vec<f64>) = pairs.unzip();
         let n_touching = elements.len();
         let rim = (!mesh.loading.has_edges)
-            .then(|| ContactRim::new(mesh, plans, (&elements, &loads), solution.depth));
+            .then(|| BoundaryMeasures::new(mesh, plans, &elements, &loads, solution.depth));
         let rim = rim.transpose()?;
-        elements.extend(rim.iter().flat_map(|rim| &rim.beside));
+        elements.extend(rim.iter().flat_map(|rim| &rim.outside));
         loads.resize(elements.len(), 0.0);
         let places = elements.iter().flat_map(|&element| mesh.places(element));
         Ok(Self {
@@ -69,9 +71,9 @@ impl<'mesh> Contact<'mesh> {
     }
 
     /// The area and the growth, where they are asked for.
-    pub(super) fn measures(&self) -> impl Iterator<Item = &OfElements> {
+    pub(super) fn measures(&self) -> impl Iterator<Item = &MeasureGradient> {
         let rim = self.rim.iter();
-        rim.flat_map(|rim| [&rim.area, &rim.growth])
+        rim.flat_map(|rim| [&rim.area, &rim.boundary_weight])
     }
 
     /// Sum over the whole contact.
@@ -81,7 +83,7 @@ impl<'mesh> Contact<'mesh> {
     }
 
     /// The weights of the kernel for a quantity with these adjoint loads.
-    pub(super) fn offsets(&self, adjoint: &[f64]) -> Offsets {
+    pub(super) fn correlation(&self, adjoint: &[f64]) -> Correlation {
         let pairs = |loads: &[f64]| -> Vec<(usize, f64)> {
             let elements = self.elements.iter().copied();
             elements.zip(loads.iter().copied()).collect()
@@ -91,16 +93,16 @@ impl<'mesh> Contact<'mesh> {
             let [place, _] = self.mesh.places(element);
             (place, self.mesh.weight(element) * load)
         });
-        let loads = self.mesh.loaded(&pairs(&self.loads)).into_iter();
-        Offsets::of(
+        let loads = self.mesh.loaded_places(&pairs(&self.loads)).into_iter();
+        Correlation::of(
             &Field::new(&self.bounds, adjoint),
             &Field::new(&self.bounds, loads),
         )
     }
 
     /// The same for the mean slope of the displacements under the load.
-    pub(super) fn offsets_of_slope(&self) -> Offsets {
-        self.offsets(&self.loads).of_slope(self.total.recip())
+    pub(super) fn slope_correlation(&self) -> Correlation {
+        self.correlation(&self.loads).of_slope(self.total.recip())
     }
 
     /// The friction, in units of the depth scale over the length of an element, and the adjoint loads.
@@ -108,7 +110,7 @@ impl<'mesh> Contact<'mesh> {
         &self,
         slopes: &Slopes,
         plans: &mut Plans,
-    ) -> Result<(f64, Adjoint), BemError> {
+    ) -> Result<(f64, AdjointLoads), BemError> {
         let pairs = self.loads.iter().zip(&slopes.at_elements);
         let weights = self
             .elements
@@ -123,11 +125,16 @@ impl<'mesh> Contact<'mesh> {
         let n = self.n_touching;
         let mut right = vec![by_loads.take(n).collect(), vec![1.0; n]];
         let measures = self.measures();
-        right.extend(
-            measures.map(|one| one.by_loads_through_gaps(self.mesh, plans, &self.elements)),
-        );
+        right.extend(measures.map(|one| one.total_by_loads(self.mesh, plans, &self.elements)));
         let touching = &self.elements[..n];
-        let mut solved = solve(self.mesh, plans, touching, Motion::Reversed, &right)?.into_iter();
+        let mut solved = solve(
+            self.mesh,
+            plans,
+            touching,
+            KernelDirection::Reversed,
+            &right,
+        )?
+        .into_iter();
         let mut felt = || {
             let mut loads = solved.next().unwrap_or_default();
             loads.resize(self.elements.len(), 0.0);
@@ -141,7 +148,7 @@ impl<'mesh> Contact<'mesh> {
             }
             loads
         });
-        let adjoint = Adjoint {
+        let adjoint = AdjointLoads {
             friction,
             depth,
             measures: measures.collect(),
@@ -193,7 +200,7 @@ impl<'mesh> Contact<'mesh> {
     }
 }
 
-/// The slope under each element, of which the friction is the mean, and its derivative by the load of another one, summed
+/// The slope under each element, of which the friction is the mean, and its derivative by the load of another one, assemble
 /// over the loads of all.
 pub(super) struct Slopes {
     at_elements: Vec<f64>,

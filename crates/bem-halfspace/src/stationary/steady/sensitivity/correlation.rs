@@ -12,7 +12,7 @@ pub(super) struct Field {
 
 /// Weights of the kernel by the offset of an element from the one that is loaded.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Offsets {
+pub(super) struct Correlation {
     /// Largest offset along x, either way, and along y.
     reach: [usize; 2],
     /// By offset along x, from behind, and by distance along y.
@@ -30,7 +30,7 @@ impl Field {
     }
 }
 
-impl Offsets {
+impl Correlation {
     /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side; where x is mirror symmetric, of images
     /// in y one may stand for both.
     pub(super) fn of(left: &Field, right: &Field) -> Self {
@@ -141,7 +141,7 @@ impl Offsets {
         let [rows, columns] = self.reach;
         let row_of = |row: usize| row.cast_signed() - rows.cast_signed();
         let weighted = |(index, weight): (usize, &f64)| {
-            weight * table.at(row_of(index / (columns + 1)), index % (columns + 1))
+            weight * table.displacement(row_of(index / (columns + 1)), index % (columns + 1))
         };
         self.weights.iter().enumerate().map(weighted).sum()
     }

@@ -1,4 +1,4 @@
-//! Adjoint loads: solutions with the transposed kernel, which is that of the motion in the opposite direction.
+//! AdjointLoads loads: solutions with the transposed kernel, which is that of the motion in the opposite direction.
 //!
 //! A contact that is reversed along x has the transposed equations as its own, so that the same kernel and preconditioner serve both.
 //!
@@ -23,7 +23,7 @@ const FALLBACK_MAX_UNKNOWNS: usize = 2000;
 
 /// Direction of the motion in the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Motion {
+pub(super) enum KernelDirection {
     /// The motion of the contact, with the kernel K.
     Forward,
     /// The opposite motion, with Kᵀ.
@@ -38,7 +38,7 @@ pub(super) fn solve(
     mesh: &Mesh,
     plans: &mut Plans,
     contact: &[usize],
-    motion: Motion,
+    motion: KernelDirection,
     right_sides: &[Vec<f64>],
 ) -> Result<Vec<Vec<f64>>, BemError> {
     // Small systems are solved directly.
@@ -50,7 +50,7 @@ pub(super) fn solve(
     }
 
     // Large ones are iterated, on the reversed contact for the reversed motion.
-    if motion == Motion::Reversed {
+    if motion == KernelDirection::Reversed {
         region = region.reversed();
     }
     let mut operator = KernelOperator::new(plans.kernel(region.shape), &region);
@@ -94,15 +94,15 @@ pub(super) fn solve(
 fn solve_directly(
     mesh: &Mesh,
     contact: &[usize],
-    motion: Motion,
+    motion: KernelDirection,
     right_sides: &[Vec<f64>],
 ) -> Option<Vec<Vec<f64>>> {
     let n = contact.len();
     let entry = |row: usize, column: usize| {
         let [to, from] = [contact[row], contact[column]];
         match motion {
-            Motion::Forward => mesh.influence(to, from),
-            Motion::Reversed => mesh.reversed_influence(to, from),
+            KernelDirection::Forward => mesh.influence(to, from),
+            KernelDirection::Reversed => mesh.reversed_influence(to, from),
         }
     };
     let factors = DMatrix::from_fn(n, n, entry).lu();

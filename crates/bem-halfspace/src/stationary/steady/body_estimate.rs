@@ -9,28 +9,28 @@ use rheology::Material as _;
 
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::{GridPlan, NEGLIGIBLE_KINKS};
+use crate::stationary::steady::grid_refinement::{SteadyProblem, refine};
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::patches::LEAST_ACROSS;
-use crate::stationary::steady::refinement::{SteadyProblem, refine};
+use crate::stationary::steady::patch_resolution::MIN_ELEMENTS_ACROSS;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::solution::SteadyEstimate;
 use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 use crate::{BemError, Elastomer};
 
 /// Δy/Δx of a grid of a given number of elements.
-const ASPECT: f64 = 0.5;
+const BODY_ASPECT: f64 = 0.5;
 /// Order of the error under a smooth body. The front leaves 3/2, and an outline that follows the elements less: with 1.1 the
 /// bars hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90, and with the first order they are wider.
-const ORDER: f64 = 1.1;
+const BODY_ORDER: f64 = 1.1;
 /// Order at the edge of a flat end just inside the contact, under which elements see a punch.
-const ORDER_AT_EDGE: f64 = 0.5;
+const FLAT_END_ORDER: f64 = 0.5;
 /// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
 /// lesser of two bars holds less often than either.
-const BETTER: f64 = 0.2;
+const DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
 /// Of a transform of the elements along x and y, of which finer grids take hardly more.
-const WORK: f64 = 2.0;
+const WORK_EXPONENT: f64 = 2.0;
 /// Footprints that are tried at most: the last one is 11 times as long as the first.
-const FOOTPRINTS: usize = 7;
+const MAX_FOOTPRINTS: usize = 7;
 /// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 900.0;
 
@@ -59,7 +59,7 @@ fn in_growing_footprint<T>(
     mut plan: GridPlan,
     solve: impl Fn(&GridPlan) -> Result<T, BemError>,
 ) -> Result<T, BemError> {
-    for _ in 1..FOOTPRINTS {
+    for _ in 1..MAX_FOOTPRINTS {
         match solve(&plan) {
             Err(BemError::ContactReachesBoundary { .. }) => plan.footprint = plan.footprint.grown(),
             result => return result,
@@ -97,7 +97,7 @@ pub fn steady_grid(
 
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
     let dx = plan.length() / elements as f64;
-    SteadyOptions::new([dx, ASPECT * dx], plan.footprint.widened(dx))
+    SteadyOptions::new([dx, BODY_ASPECT * dx], plan.footprint.widened(dx))
 }
 
 /// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth, to a
@@ -208,20 +208,20 @@ fn with_elements_in(
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
     let has_peak = peak_has_limit(surface, elastomer);
-    let mut resolution = resolution(request, load.control(), ORDER, has_peak);
+    let mut resolution = resolution(request, load.control(), BODY_ORDER, has_peak);
     if plan.kinks > NEGLIGIBLE_KINKS || plan.shows_cells {
         (
             resolution.goal.order,
             resolution.max_dissipation_error_ratio,
-        ) = (ORDER_AT_EDGE, f64::INFINITY);
+        ) = (FLAT_END_ORDER, f64::INFINITY);
     } else {
-        resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
+        resolution.goal.order = bars::order_of_friction(plan.apex_exponent, BODY_ORDER);
     }
-    let creep = SlidingCreep::under(elastomer, load)?;
+    let creep = SlidingCreep::for_load(elastomer, load)?;
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = grid(plan, elements);
         let state = steady_on_grid(surface, elastomer, load, &options)
-            .map_err(|error| too_few(error, request.accuracy, elements))?;
+            .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
         Ok(state.on_grid((&creep, plan.kinks), options, load.sliding_distance()))
     };
     bars::resolve(&resolution, solve, |estimate| {
@@ -230,7 +230,7 @@ fn with_elements_in(
 }
 
 /// How many elements to ask for where one of the grids that make the error bar is too coarse, which has `elements`.
-fn too_few(error: BemError, asked: Accuracy, elements: usize) -> BemError {
+fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> BemError {
     let (
         &BemError::GridTooCoarse {
             elements: across,
@@ -243,7 +243,7 @@ fn too_few(error: BemError, asked: Accuracy, elements: usize) -> BemError {
     };
     // A patch may be narrower than its elements by about half of one, and other grids need as many across.
     let half_widths = (2 * across).saturating_sub(1).max(1);
-    let on_coarsest = (2 * elements * least.max(LEAST_ACROSS)).div_ceil(half_widths);
+    let on_coarsest = (2 * elements * least.max(MIN_ELEMENTS_ACROSS)).div_ceil(half_widths);
     BemError::ElementsTooFew {
         elements: asked,
         across,
@@ -266,14 +266,14 @@ pub(super) fn resolution(
             first: FIRST_ELEMENTS,
             largest: usize::MAX,
             order,
-            work: WORK,
+            work: WORK_EXPONENT,
             others: 0.0,
             selection: 2.0,
         },
         control,
         target: Target::Friction,
         has_peak,
-        max_dissipation_error_ratio: BETTER,
+        max_dissipation_error_ratio: DISSIPATION_ERROR_RATIO_ON_ELEMENTS,
     }
 }
 

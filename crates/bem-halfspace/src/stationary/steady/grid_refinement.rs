@@ -20,54 +20,54 @@ use crate::estimate::bars;
 use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::estimate::quantities::Name;
 use crate::stationary::steady::extrapolation::{
-    HIDDEN_EDGE, OBSERVED, by_observed_order, extrapolate, extrapolate_faster,
+    HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS, change_at_observed_order, extrapolate, extrapolate_faster,
 };
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::stationary::steady::{Reuse, SteadyOptions, solve};
 
 /// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
-const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
+const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
 /// Shifts in plane strain. The means over the first two and over the last two differ by the second harmonic of how the
 /// friction varies with the shift, which all four average out.
-const PHASES_OF_STRIP: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
+const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
 /// Refinements in plane strain of which the largest scatter counts: on one of them it may be small by chance, and the
 /// extrapolated limit contains the scatter of all that it eliminates.
-const SCATTERING: usize = 4;
+const STRIP_SCATTER_WINDOW: usize = 4;
 /// Order of the error that the singular front leaves.
 const FRONT_ORDER: f64 = 1.5;
 /// Order in which the area of the elements in contact approaches that of the contact.
 const AREA_ORDER: f64 = 1.0;
 /// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
 /// lesser of two bars holds less often than either.
-const BETTER: f64 = 0.5;
+const DISSIPATION_ERROR_RATIO: f64 = 0.5;
 /// Weight of the error on materials that recover, where all outlines scatter and the refinement that ends is one that does so
 /// little by chance: without it 95.8 of 100 bars hold on random solids and cylinders, with it 98.6 (docs/calibration.md).
-const RECOVERING: f64 = 1.5;
+const SAFETY_FACTOR_CREEPING: f64 = 1.5;
 /// Friction as a part of the mean slope, below which it is a small difference of slopes, and faster orders are looked for: chosen;
 /// larger ones reach what is asked for without.
 const SMALL_FRICTION: f64 = 0.2;
 /// Refinements of which an error bar can come, at least.
-const FEWEST: i32 = 5;
+const MIN_REFINEMENTS: i32 = 5;
 /// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
 /// Elements of the footprint up to which that holds, and for each unknown pressure beyond: they take some GB.
-const MANY_ELEMENTS: f64 = 2e6;
-const MANY_PER_UNKNOWN: f64 = 12.5;
+const LARGE_GRID_ELEMENTS: f64 = 2e6;
+const LARGE_GRID_ELEMENTS_PER_UNKNOWN: f64 = 12.5;
 /// Elements that hardly cost anything.
-const ALWAYS_ALLOWED: f64 = 1e5;
+const MIN_GRID_LIMIT: f64 = 1e5;
 /// At the edge of a contact elements may change sides without end; then the grid is this much finer, and its own spacing is
 /// the one that is reported.
-const FINER: [f64; 2] = [0.99, 0.98];
+const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
 /// Residual left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
 const RESIDUAL_SHARE: f64 = 1e-4;
-const SMALLEST_RESIDUAL: f64 = 1e-12;
+const MIN_TOLERANCE: f64 = 1e-12;
 /// The same part under a strip: the potential of its whole length, which is absorbed in the depth, leaves more rounding.
-const RESIDUAL_SHARE_OF_STRIP: f64 = 1e-2;
+const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
 /// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
-const FIRST_PART: f64 = 1e-3;
+const INITIAL_FRICTION_RATIO: f64 = 1e-3;
 /// Friction on an elastic material that is known to this part of the mean slope counts as known: what is left is rounding.
-const ROUNDING: f64 = 1e-9;
+const ELASTIC_ROUNDING: f64 = 1e-9;
 
 /// How far a friction coefficient is refined.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,7 +116,7 @@ pub(super) fn refine<E: Into<Reached>>(
         options,
         order: order_of_friction(problem.plan.apex_exponent)?,
         reuse: Reuse::default(),
-        progress: WorkProgress::new(problem.watch, work_of(0..FEWEST)),
+        progress: WorkProgress::new(problem.watch, refinement_work(0..MIN_REFINEMENTS)),
     };
     let (mut index, mut finest) = grids.coarsest(0)?;
     let mut refinements = vec![finest.averages];
@@ -124,7 +124,7 @@ pub(super) fn refine<E: Into<Reached>>(
         let friction = grids.friction(&refinements);
         let force = grids.force(&refinements);
         let is_elastic = problem.loading.creep.is_elastic();
-        let rounding = [SMALLEST_RESIDUAL, ROUNDING][usize::from(is_elastic)];
+        let rounding = [MIN_TOLERANCE, ELASTIC_ROUNDING][usize::from(is_elastic)];
         // Without friction the contact is known as well as its depth, and finer grids leave what is rounding.
         let is_rounding = friction.error <= rounding * finest.state.mean_slope;
         let (name, driving) = match grids.depth(&refinements) {
@@ -191,7 +191,7 @@ fn not_reached(
 }
 
 /// One refinement, and the last solution of it with its grid.
-struct Solved {
+struct SolvedRefinement {
     averages: Refinement,
     state: SteadySliding,
     options: SteadyOptions,
@@ -208,7 +208,7 @@ struct Grids<'a> {
 }
 
 /// Each refinement has twice as many elements as the one before.
-fn work_of(refinements: Range<i32>) -> f64 {
+fn refinement_work(refinements: Range<i32>) -> f64 {
     refinements.map(|index| f64::from(index).exp2()).sum()
 }
 
@@ -218,9 +218,9 @@ impl Grids<'_> {
         let most = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
         let needed = 2.0 * excess.log2() / self.order;
         let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(most)));
-        let ahead = ahead.unwrap_or(1).max(FEWEST - 1 - index);
+        let ahead = ahead.unwrap_or(1).max(MIN_REFINEMENTS - 1 - index);
         self.progress
-            .set_remaining_work(work_of(index + 1..index + 1 + ahead));
+            .set_remaining_work(refinement_work(index + 1..index + 1 + ahead));
     }
 
     /// The limit of averages with what is left of their scatter, and under a body with edges with what it would be if the order
@@ -238,22 +238,27 @@ impl Grids<'_> {
         let limit = extrapolate(&values, order).widened(scatter);
         if self.problem.loading.has_edges {
             let hides_edge = refinements.last().is_some_and(|last| last.hides_edge);
-            let powers = if hides_edge { HIDDEN_EDGE } else { OBSERVED };
-            return limit.widened(by_observed_order(&values, order, powers));
+            let powers = if hides_edge {
+                HIDDEN_EDGE_ORDERS
+            } else {
+                OBSERVED_ORDERS
+            };
+            return limit.widened(change_at_observed_order(&values, order, powers));
         }
         limit
     }
 
     /// Of the pressure under the slopes, or of the dissipated power where that is known much better, with what no grid shows.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
-        let mut friction = self.friction_of_slopes(refinements);
+        let mut friction = self.friction_from_slopes(refinements);
         if !self.problem.loading.creep.only_flows() {
-            let dissipated = self.limit_of_friction(refinements, |r| r.friction_from_dissipation);
+            let dissipated =
+                self.extrapolate_friction(refinements, |r| r.friction_from_dissipation);
             let has_edges = self.problem.loading.has_edges;
-            if has_edges || dissipated.error < BETTER * friction.error {
+            if has_edges || dissipated.error < DISSIPATION_ERROR_RATIO * friction.error {
                 friction = dissipated;
             }
-            friction = Estimate::new(friction.value, RECOVERING * friction.error);
+            friction = Estimate::new(friction.value, SAFETY_FACTOR_CREEPING * friction.error);
         }
         let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
         friction.widened(unresolved * friction.value.abs())
@@ -261,7 +266,7 @@ impl Grids<'_> {
 
     /// The limit of one of the two frictions. Of a body of finite width without edges, on a material that recovers, errors of a small
     /// friction may fall faster than the front and the apex let them fall on a dashpot.
-    fn limit_of_friction(
+    fn extrapolate_friction(
         &self,
         refinements: &[Refinement],
         friction: impl Fn(&Refinement) -> Average,
@@ -287,18 +292,18 @@ impl Grids<'_> {
     }
 
     /// On a dashpot the scatter falls as fast as the rest of the error.
-    fn friction_of_slopes(&self, refinements: &[Refinement]) -> Estimate {
+    fn friction_from_slopes(&self, refinements: &[Refinement]) -> Estimate {
         let Loading { creep, strip, .. } = &self.problem.loading;
         let counted = match strip {
             _ if creep.only_flows() => 0,
-            Some(_) => SCATTERING,
+            Some(_) => STRIP_SCATTER_WINDOW,
             None => 1,
         };
         let value = |refinement: &Refinement| Average {
             scatter: 0.0,
             ..refinement.friction_coefficient
         };
-        let friction = self.limit_of_friction(refinements, value);
+        let friction = self.extrapolate_friction(refinements, value);
         let last = refinements.iter().rev().take(counted);
         let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
         friction.widened(scatter.fold(0.0, f64::max))
@@ -326,7 +331,7 @@ impl Grids<'_> {
         friction: Estimate,
         normal_force: Estimate,
         refinements: Vec<Refinement>,
-        finest: Solved,
+        finest: SolvedRefinement,
     ) -> SteadyEstimate {
         let iteration = finest.state.iteration_error();
         let known = |of: fn(&Refinement) -> Average| self.limit(&refinements, self.order, of);
@@ -350,13 +355,13 @@ impl Grids<'_> {
 
     /// The coarsest refinement from one on in which body and contact are resolved, if enough of those that follow are within the
     /// limits.
-    fn coarsest(&mut self, mut index: i32) -> Result<(i32, Solved), BemError> {
+    fn coarsest(&mut self, mut index: i32) -> Result<(i32, SolvedRefinement), BemError> {
         loop {
-            let elements = self.n_elements(index + FEWEST - 1);
-            if elements > self.most_elements() {
+            let elements = self.n_elements(index + MIN_REFINEMENTS - 1);
+            if elements > self.max_elements() {
                 return Err(BemError::GridTooLarge {
                     elements,
-                    limit: self.most_elements(),
+                    limit: self.max_elements(),
                 });
             }
             match self.refine(index) {
@@ -372,7 +377,7 @@ impl Grids<'_> {
     fn allows(&self, refinement: i32, before: &Refinement) -> bool {
         let SteadyProblem { plan, watch, .. } = self.problem;
         refinement < MAX_REFINEMENTS
-            && self.n_elements(refinement) <= self.most_elements()
+            && self.n_elements(refinement) <= self.max_elements()
             && 2 * before.unknowns <= self.options.max_unknowns
             && watch.may_refine(plan.elements(refinement))
     }
@@ -392,27 +397,27 @@ impl Grids<'_> {
 
     fn phases(&self) -> &'static [[f64; 2]] {
         match self.problem.loading.strip {
-            Some(_) => &PHASES_OF_STRIP,
-            None => &PHASES,
+            Some(_) => &STRIP_PHASES,
+            None => &BODY_PHASES,
         }
     }
 
-    fn most_elements(&self) -> f64 {
+    fn max_elements(&self) -> f64 {
         let n_unknowns = self.options.max_unknowns as f64;
-        let many = MANY_ELEMENTS.max(MANY_PER_UNKNOWN * n_unknowns);
-        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(ALWAYS_ALLOWED, many)
+        let many = LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
+        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, many)
     }
 
     /// The averages over the shifts, each started from the contact of the one before.
-    fn refine(&mut self, index: i32) -> Result<Solved, BemError> {
-        let (spacing, work) = (self.edges(index), work_of(index..index + 1));
+    fn refine(&mut self, index: i32) -> Result<SolvedRefinement, BemError> {
+        let (spacing, work) = (self.edges(index), refinement_work(index..index + 1));
         let footprint = self.problem.plan.footprint.widened(spacing[0]);
         let mut options = SteadyOptions::new(spacing, footprint);
         let mut states = Vec::new();
         for &phase in self.phases() {
             options.phase = phase;
             options.tolerance = self.tolerance();
-            let state = self.solve_near(&options)?;
+            let state = self.solve_on_similar_grid(&options)?;
             self.progress.add(work / self.phases().len() as f64);
             states.push(state.clone());
             self.reuse.solution = Some(state);
@@ -425,7 +430,7 @@ impl Grids<'_> {
         let creep = &self.problem.loading.creep;
         let unresolved = states
             .iter()
-            .map(|state| state.unresolved(creep, self.problem.plan.kinks));
+            .map(|state| state.subgrid_friction_fraction(creep, self.problem.plan.kinks));
         let edges = self.edges_of_body();
         let averages = Refinement {
             hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
@@ -438,14 +443,14 @@ impl Grids<'_> {
             }),
             unresolved: unresolved.fold(0.0, f64::max),
             normal_force: average(&|state| state.normal_force).times(per_length),
-            indentation_depth: average(&|state| state.depth.at(distance)),
+            indentation_depth: average(&|state| state.depth.at_distance(distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),
             peak_pressure: average(&|state| state.pressure.largest()),
             unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
         };
         let state = states.swap_remove(states.len() - 1);
         options.spacing = state.pressure.grid.spacing();
-        Ok(Solved {
+        Ok(SolvedRefinement {
             averages,
             state,
             options,
@@ -460,7 +465,10 @@ impl Grids<'_> {
     }
 
     /// The solution on a grid, or on a slightly finer one where pivoting cycles.
-    fn solve_near(&mut self, options: &SteadyOptions) -> Result<SteadySliding, BemError> {
+    fn solve_on_similar_grid(
+        &mut self,
+        options: &SteadyOptions,
+    ) -> Result<SteadySliding, BemError> {
         let (surface, loading) = (self.problem.surface, &self.problem.loading);
         let mut solve_on = |spacing| {
             let options = SteadyOptions {
@@ -470,7 +478,7 @@ impl Grids<'_> {
             solve(surface, loading, &options, &mut self.reuse)
         };
         let mut solution = solve_on(options.spacing);
-        for finer in FINER {
+        for finer in CYCLING_SPACING_FACTORS {
             let is_lost = matches!(
                 solution,
                 Err(BemError::ContactNotConverged { .. } | BemError::SingularContact { .. })
@@ -488,12 +496,12 @@ impl Grids<'_> {
         let part = match &self.reuse.solution {
             Some(last) => last.friction_coefficient.abs() / last.mean_slope,
             None if self.problem.loading.creep.only_flows() => 1.0,
-            None => FIRST_PART,
+            None => INITIAL_FRICTION_RATIO,
         };
         let share = match self.problem.loading.strip {
-            Some(_) => RESIDUAL_SHARE_OF_STRIP,
+            Some(_) => STRIP_RESIDUAL_SHARE,
             None => RESIDUAL_SHARE,
         };
-        (share * self.options.relative_error * part).max(SMALLEST_RESIDUAL)
+        (share * self.options.relative_error * part).max(MIN_TOLERANCE)
     }
 }

@@ -1,8 +1,8 @@
 //! How deep a body lies that slides without end.
 
 use crate::BemError;
-use crate::stationary::steady::contact::Solution;
-use crate::stationary::steady::loading::sunken;
+use crate::stationary::steady::body_contact::Solution;
+use crate::stationary::steady::loading::sinking_in_e_folds;
 use crate::stationary::steady::mesh::Mesh;
 use numerics::{in_range, positive};
 
@@ -38,14 +38,15 @@ impl SinkingDepth {
         let rate =
             mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());
         Self {
-            reference_depth: scale * (solution.depth + rate * sunken(contact_length, spacing[0])),
+            reference_depth: scale
+                * (solution.depth + rate * sinking_in_e_folds(contact_length, spacing[0])),
             reference_distance: contact_length,
             depth_per_e_fold: scale * rate,
         }
     }
 
     /// Depth after sliding a distance, or the reference depth without one, \[m].
-    pub(super) fn at(&self, sliding_distance: Option<f64>) -> f64 {
+    pub(super) fn at_distance(&self, sliding_distance: Option<f64>) -> f64 {
         match sliding_distance {
             Some(distance) if self.depth_per_e_fold > 0.0 => {
                 let e_folds = (distance / self.reference_distance).ln();
@@ -64,6 +65,6 @@ impl SinkingDepth {
         let is_allowed = sliding_distance >= self.reference_distance;
         let allowed = "at least the length of the contact";
         in_range("sliding_distance", sliding_distance, is_allowed, allowed)?;
-        Ok(self.at(Some(sliding_distance)))
+        Ok(self.at_distance(Some(sliding_distance)))
     }
 }

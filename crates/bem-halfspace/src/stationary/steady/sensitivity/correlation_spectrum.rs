@@ -17,7 +17,7 @@ use rustfft::num_complex::Complex;
 
 use crate::Base;
 use crate::parallel::reductions::dot;
-use crate::stationary::steady::sensitivity::offsets::Offsets;
+use crate::stationary::steady::sensitivity::correlation::Correlation;
 
 /// Step of u, where an integrand has no waves.
 const STEP: f64 = 0.25;
@@ -25,7 +25,7 @@ const STEP: f64 = 0.25;
 const STEPS_PER_WAVE: f64 = 2.0;
 /// Wave number over the thickness from which a base is not felt: M − 1 has ended.
 const SHORTEST: f64 = 18.0;
-/// Waves of the weights in a panel of the integral over a band, the ratio of its ends, and the end of the first one over that of
+/// CorrelationSpectrum of the weights in a panel of the integral over a band, the ratio of its ends, and the end of the first one over that of
 /// a band from 0 on.
 const WAVES_PER_PANEL: f64 = 0.4;
 const RATIO: f64 = 1.25;
@@ -34,15 +34,15 @@ const LOWEST: f64 = 1e-3;
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 
 /// The weights of quantities on elements of one grid over a base; their gaps are felt so far from their centres.
-pub(super) struct Waves<'a> {
-    pub(super) quantities: Vec<&'a Offsets>,
+pub(super) struct CorrelationSpectrum<'a> {
+    pub(super) quantities: Vec<&'a Correlation>,
     /// With lengths in Δx.
     pub(super) base: &'a Base,
     pub(super) aspect: f64,
-    pub(super) shift: f64,
+    pub(super) collocation_shift: f64,
 }
 
-impl Waves<'_> {
+impl CorrelationSpectrum<'_> {
     /// The nodes of the wave number between two, with their weights: fine enough for the waves of the longest distance and for
     /// what varies with the logarithm of the frequency.
     pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
@@ -60,7 +60,7 @@ impl Waves<'_> {
     fn reach(&self) -> [usize; 2] {
         self.quantities
             .first()
-            .map_or([0; 2], |offsets| offsets.reach())
+            .map_or([0; 2], |correlation| correlation.reach())
     }
 
     /// Sums of the weights of each quantity times the waves of the kernel of a unit compliance at one wave number.
@@ -69,10 +69,10 @@ impl Waves<'_> {
         let kernel = self.along_y(wave_number, columns);
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
-        let sum = |offsets: &&Offsets| -> Complex<f64> {
+        let sum = |correlation: &&Correlation| -> Complex<f64> {
             let wave = |row: usize| {
-                let x = row as f64 - rows as f64 + self.shift;
-                dot(offsets.row(row), &kernel) * Complex::cis(wave_number * x)
+                let x = row as f64 - rows as f64 + self.collocation_shift;
+                dot(correlation.row(row), &kernel) * Complex::cis(wave_number * x)
             };
             (0..=2 * rows).map(wave).sum::<Complex<f64>>() * mean
         };

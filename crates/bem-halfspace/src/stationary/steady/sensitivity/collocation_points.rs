@@ -4,36 +4,36 @@ use numerics::in_range;
 
 use crate::BemError;
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::sensitivity::contact::Contact;
+use crate::stationary::steady::sensitivity::loaded_contact::LoadedContact;
 
 /// A height of a body, \[m], by a point.
 pub(super) type Height<'a> = &'a dyn Fn([f64; 2]) -> f64;
 
 /// Where a body is felt.
 #[derive(Debug)]
-pub(super) struct Points {
+pub(super) struct CollocationPoints {
     /// Centres of the elements, \[m], of one half where the contact is mirror symmetric.
     centres: Vec<[f64; 2]>,
     /// Where gaps are evaluated, in elements from these.
-    shift: f64,
+    collocation_shift: f64,
     spacing: f64,
     depth_scale: f64,
-    pub(super) slope: Slope,
+    pub(super) slope: FrictionSlope,
 }
 
 /// What the friction is the mean of under the load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Slope {
+pub(super) enum FrictionSlope {
     /// The slope of the body over each element.
-    OfBody,
+    Body,
     /// The slope of the displacements at the centre of each element.
-    OfSurface,
+    Surface,
     /// The same where gaps are evaluated.
-    BesidePoints,
+    SurfaceAtCollocationPoints,
 }
 
-impl Points {
-    pub(super) fn new(contact: &Contact, loading: &Loading) -> Self {
+impl CollocationPoints {
+    pub(super) fn new(contact: &LoadedContact, loading: &Loading) -> Self {
         let on_grid = &contact.mesh.loading;
         let is_solid = on_grid.is_solid_for_elements();
         let elements = contact.elements.iter();
@@ -41,14 +41,14 @@ impl Points {
             centres: elements
                 .map(|&element| contact.mesh.position(element))
                 .collect(),
-            shift: on_grid.creep.shift,
+            collocation_shift: on_grid.creep.collocation_shift,
             spacing: contact.mesh.options.spacing[0],
             depth_scale: loading.depth_scale,
             slope: match loading.has_edges {
-                _ if loading.creep.only_flows() => Slope::OfBody,
-                true if is_solid => Slope::BesidePoints,
-                true => Slope::OfBody,
-                false => Slope::OfSurface,
+                _ if loading.creep.only_flows() => FrictionSlope::Body,
+                true if is_solid => FrictionSlope::SurfaceAtCollocationPoints,
+                true => FrictionSlope::Body,
+                false => FrictionSlope::Surface,
             },
         }
     }
@@ -73,21 +73,21 @@ impl Points {
     }
 
     pub(super) fn heights(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
-        self.heights_at(of_body, self.shift)
+        self.heights_at(of_body, self.collocation_shift)
     }
 
     /// What the slope of the body adds to that of which the friction is the mean, in units of the depth scale over the length
     /// of an element.
-    pub(super) fn own_slopes(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
+    pub(super) fn explicit_slope_terms(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
         let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
             let behind = self.heights_at(of_body, from)?;
             Ok(differences(behind, &self.heights_at(of_body, to)?))
         };
         match self.slope {
-            Slope::OfBody => rise(-0.5, 0.5),
-            Slope::BesidePoints => Ok(vec![0.0; self.centres.len()]),
-            Slope::OfSurface => {
-                let beside = rise(self.shift - 1.0, self.shift + 1.0)?;
+            FrictionSlope::Body => rise(-0.5, 0.5),
+            FrictionSlope::SurfaceAtCollocationPoints => Ok(vec![0.0; self.centres.len()]),
+            FrictionSlope::Surface => {
+                let beside = rise(self.collocation_shift - 1.0, self.collocation_shift + 1.0)?;
                 let pairs = rise(-0.5, 0.5)?.into_iter().zip(beside);
                 Ok(pairs.map(|(over, beside)| over - 0.5 * beside).collect())
             }
