@@ -8,7 +8,8 @@
 
 use numerics::Estimate;
 use numerics::least_squares::{
-    Linearised, Minimum, Profile, Range, inverse, minimise_by_model, profile_end, student_quantile,
+    IntervalEnd, Minimum, ParameterRange, QuadraticModel, inverse, minimise_by_model, profile_end,
+    student_quantile,
 };
 
 use super::{FreeParameter, FrictionModel, FrictionNoise, FrictionPoint, ModelledPoint, Prior};
@@ -124,7 +125,7 @@ impl<'a> FrictionFitting<'a> {
                 let minimum = minimise_by_model(sum, start.clone(), &ranges, enough)?;
                 start.clone_from(&minimum.parameters);
                 if self.noise.is_some() {
-                    variance = minimum.linearised.sum / self.freedom().max(1) as f64;
+                    variance = minimum.model.sum / self.freedom().max(1) as f64;
                 }
                 Some(FrictionMinimum { minimum, variance })
             },
@@ -139,7 +140,7 @@ impl<'a> FrictionFitting<'a> {
 
     /// The root mean square residual of a minimum, with what a prior adds; `None` if it is not finite.
     pub fn mean_residual(&self, found: &FrictionMinimum) -> Option<f64> {
-        let mean = found.minimum.linearised.sum / self.points.len() as f64;
+        let mean = found.minimum.model.sum / self.points.len() as f64;
         Some(mean.max(0.0).sqrt()).filter(|mean| mean.is_finite())
     }
 
@@ -161,7 +162,7 @@ impl<'a> FrictionFitting<'a> {
         }
     }
 
-    fn ranges(&self) -> Vec<Range> {
+    fn ranges(&self) -> Vec<ParameterRange> {
         self.parameters.iter().map(|one| one.range).collect()
     }
 
@@ -181,7 +182,7 @@ impl<'a> FrictionFitting<'a> {
         model: &dyn FrictionModel,
         parameters: &[f64],
         variance: f64,
-    ) -> Option<Linearised> {
+    ) -> Option<QuadraticModel> {
         let modelled = model.friction(parameters)?;
         let rows = self.points.iter().zip(modelled).map(|(point, modelled)| {
             let ModelledPoint {
@@ -262,17 +263,17 @@ impl<'a> FrictionFitting<'a> {
         };
         let deviations = deviations.unwrap_or(f64::INFINITY);
         let rise = deviations * deviations * variance;
-        let deviation = inverse(&best.linearised.matrix, n).map_or(f64::INFINITY, |inverse| {
+        let deviation = inverse(&best.model.matrix, n).map_or(f64::INFINITY, |inverse| {
             (inverse[k * (n + 1)] * rise).sqrt()
         });
         let ranges = self.ranges();
         let ends = [-1.0, 1.0].map(|side| {
-            let profile = Profile {
+            let interval_end = IntervalEnd {
                 parameter: k,
                 side,
                 rise,
-                first_step: deviation,
-                close: CLOSE,
+                initial_step: deviation,
+                relative_tolerance: CLOSE,
             };
             let mut n_computed = 0;
             let sum = |parameters: &[f64]| {
@@ -280,7 +281,7 @@ impl<'a> FrictionFitting<'a> {
                 let may_go_on = n_computed <= MOST_COMPUTATIONS;
                 may_go_on.then(|| self.linearised(model, parameters, variance))?
             };
-            let end = profile_end(sum, best, &ranges, profile).map(f64::exp);
+            let end = profile_end(sum, best, &ranges, interval_end).map(f64::exp);
             if n_computed > MOST_COMPUTATIONS {
                 *n_unfinished += 1;
                 return None;
@@ -367,7 +368,7 @@ impl Prior {
     }
 
     /// Adds the prior to the normal equations of residuals of this variance.
-    fn add_to(&self, linearised: &mut Linearised, parameters: &[f64], variance: f64) {
+    fn add_to(&self, linearised: &mut QuadraticModel, parameters: &[f64], variance: f64) {
         linearised.sum += variance * self.squared_distance(parameters);
         for (entry, known) in linearised.matrix.iter_mut().zip(&self.precision) {
             *entry += variance * known;
@@ -397,8 +398,8 @@ fn loop_rounds<T>(rounds: usize, mut round: impl FnMut() -> Option<T>) -> Option
 }
 
 /// Normal equations of residuals and their rows of derivatives of what is computed.
-fn normal(rows: impl Iterator<Item = (f64, Vec<f64>)>, n: usize) -> Linearised {
-    let mut linearised = Linearised {
+fn normal(rows: impl Iterator<Item = (f64, Vec<f64>)>, n: usize) -> QuadraticModel {
+    let mut linearised = QuadraticModel {
         sum: 0.0,
         matrix: vec![0.0; n * n],
         descent: vec![0.0; n],

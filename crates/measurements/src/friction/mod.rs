@@ -9,7 +9,7 @@ mod fit;
 mod read;
 mod runs;
 
-use numerics::least_squares::Range;
+use numerics::least_squares::ParameterRange;
 use numerics::{InvalidParameter, in_range, positive};
 
 pub use fit::{FrictionFit, FrictionFitting, FrictionMinimum};
@@ -113,7 +113,7 @@ pub struct FreeParameter {
     /// SI unit.
     pub unit: &'static str,
     /// Bounds of its logarithm, and how far that goes in one step.
-    pub range: Range,
+    pub range: ParameterRange,
 }
 
 /// A normal distribution of the logarithms of the parameters, known before the fit.

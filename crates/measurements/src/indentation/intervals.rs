@@ -9,7 +9,7 @@
 //! of a smoothed depth is added to both.
 
 use numerics::Estimate;
-use numerics::least_squares::{Minimum, Profile, inverse, profile_end};
+use numerics::least_squares::{IntervalEnd, Minimum, inverse, profile_end};
 
 use super::IndentationCurve;
 use super::model::{Forces, Kind, Model};
@@ -133,18 +133,18 @@ impl Statistics {
     /// Where the least sum with a parameter held has risen; none up to the bound of its range.
     fn profile_end(&self, found: &Found, parameter: usize, side: f64) -> Option<f64> {
         let best = Minimum {
-            linearised: found.linearised(&found.parameters)?,
+            model: found.linearised(&found.parameters)?,
             parameters: found.parameters.clone(),
         };
-        let profile = Profile {
+        let interval_end = IntervalEnd {
             parameter,
             side,
             rise: self.rises[parameter],
-            first_step: NORMAL * self.deviation(parameter),
-            close: CLOSE,
+            initial_step: NORMAL * self.deviation(parameter),
+            relative_tolerance: CLOSE,
         };
         let sum = |parameters: &[f64]| found.linearised(parameters);
-        profile_end(sum, &best, &found.ranges, profile)
+        profile_end(sum, &best, &found.ranges, interval_end)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The parameters of least squares, from several starts on few points to all points but wild ones.
 
-use numerics::least_squares::{Linearised, Range, minimise};
+use numerics::least_squares::{ParameterRange, QuadraticModel, minimise};
 
 use super::depth::{BY_MEDIAN, median};
 use super::means::Measured;
@@ -32,7 +32,7 @@ pub(super) struct Found<'a> {
     pub(super) linear: Linear<'a>,
     /// Kinds of noise with their probabilities, the most likely one first.
     pub(super) noises: Vec<(Noise, f64)>,
-    pub(super) ranges: Vec<Range>,
+    pub(super) ranges: Vec<ParameterRange>,
 }
 
 pub(super) fn search<'a>(
@@ -129,7 +129,7 @@ fn fit<'a>(
     };
     let starts = starts(&model, begin).into_iter();
     let found = starts.filter_map(|start| descend(&coarse, &coarsely, start, 1e-3));
-    let best = found.min_by(|one, other| one.linearised.sum.total_cmp(&other.linearised.sum))?;
+    let best = found.min_by(|one, other| one.model.sum.total_cmp(&other.model.sum))?;
     let found = descend(&model, &squares, best.parameters, 1e-4)?;
     let mut parameters = in_order(model.kind, found.parameters);
     for sufficient in [1e-3, 1e-6] {
@@ -183,13 +183,13 @@ impl Found<'_> {
     }
 
     /// The sum of the squares, with its model.
-    pub(super) fn linearised(&self, parameters: &[f64]) -> Option<Linearised> {
+    pub(super) fn linearised(&self, parameters: &[f64]) -> Option<QuadraticModel> {
         self.squares.linearised(&self.model, parameters)
     }
 }
 
-fn ranges(model: &Model, begin: &Start) -> Vec<Range> {
-    let range = |bounds: [f64; 2], largest_step| Range {
+fn ranges(model: &Model, begin: &Start) -> Vec<ParameterRange> {
+    let range = |bounds: [f64; 2], largest_step| ParameterRange {
         bounds,
         largest_step,
     };
@@ -315,7 +315,7 @@ impl<'a> Squares<'a> {
             .collect()
     }
 
-    fn linearised(&self, model: &Model, parameters: &[f64]) -> Option<Linearised> {
+    fn linearised(&self, model: &Model, parameters: &[f64]) -> Option<QuadraticModel> {
         let forces = model.forces(parameters).ok()?;
         let known = self.known(&forces.residuals);
         let columns = forces.rows.iter().chain([&known]);
@@ -323,7 +323,7 @@ impl<'a> Squares<'a> {
         let products = normal_matrix(&columns);
         let n = forces.rows.len();
         let entries = |row: usize| products[row * (n + 1)..][..n].to_vec();
-        Some(Linearised {
+        Some(QuadraticModel {
             sum: products[n * (n + 1) + n],
             matrix: (0..n).flat_map(entries).collect(),
             descent: entries(n),

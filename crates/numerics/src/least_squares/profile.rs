@@ -1,144 +1,182 @@
-//! How far one parameter may go while all others follow it: ends of intervals of the profile likelihood.
+//! Ends of profile-likelihood intervals: how far one parameter may move while all others follow it.
 
-use super::{Linearised, Minimum, Range, inverse, minimise_below};
+use super::{Minimum, ParameterRange, QuadraticModel, StoppingRule, descend, inverse};
 
-/// A side of one parameter of a minimum.
+/// One end of the profile-likelihood interval of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Profile {
-    /// The parameter that is held.
+pub struct IntervalEnd {
+    /// Index of the parameter.
     pub parameter: usize,
-    /// −1 or 1.
+    /// −1 for the lower end, 1 for the upper one.
     pub side: f64,
-    /// By how much the sum has risen at the end.
+    /// Rise of the minimal sum from the minimum to the end, in units of the sum.
     pub rise: f64,
-    /// Where the end is sought first.
-    pub first_step: f64,
-    /// Part of the distance by which the root of the rise may be off; the end is then interpolated.
-    pub close: f64,
+    /// Distance from the minimum at which the end is sought first.
+    pub initial_step: f64,
+    /// Tolerance of √(rise of the minimal sum/`rise`), which is 1 at the end; the end is interpolated then.
+    pub relative_tolerance: f64,
 }
 
-/// Steps of the search.
-const STEPS: usize = 20;
-/// Places at which the sum is computed on one step; where these are not enough, what the model of the last one leaves is the sum,
-/// which is too small rather than too large in a curved valley: the interval becomes wider.
-const MOST_PLACES: usize = 12;
-/// Part of the rise that the model may be trusted with, over the closeness asked for.
-const BY_MODEL: f64 = 0.3;
+/// Largest number of points of the search; chosen.
+const MAX_TRIALS: usize = 20;
+/// Largest number of evaluations of the sum per trial; chosen.
+///
+/// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is too small
+/// rather than too large, and the interval becomes wider.
+const MAX_EVALUATIONS: usize = 12;
+/// Sufficient decrease of the inner minimisation, as a fraction of `rise` times the relative tolerance; chosen.
+const INNER_TOLERANCE: f64 = 0.3;
+/// Bounds of the relative position of the next trial between the last two, which keep the bracket shrinking; chosen.
+const INTERPOLATION_RANGE: [f64; 2] = [0.02, 0.98];
 
-/// Where the least sum with the parameter held has risen as much, over all others within their ranges; none up to the bound of
-/// its range.
+/// The value of one parameter at which the minimal sum over all others, within their ranges, has risen as required.
+///
+/// Returns `None` if the sum has not risen as much up to the bound of the parameter.
 pub fn profile_end(
-    mut linearise: impl FnMut(&[f64]) -> Option<Linearised>,
+    mut evaluate: impl FnMut(&[f64]) -> Option<QuadraticModel>,
     best: &Minimum,
-    ranges: &[Range],
-    profile: Profile,
+    ranges: &[ParameterRange],
+    end: IntervalEnd,
 ) -> Option<f64> {
-    let Profile {
+    let IntervalEnd {
         parameter, side, ..
-    } = profile;
-    let place = |step: f64| best.parameters[parameter] + side * step;
+    } = end;
+    let value_at = |step: f64| best.parameters[parameter] + side * step;
     let tangent = tangent(best, parameter);
     let range = ranges[parameter];
-    let end = range.bounds[usize::from(side > 0.0)];
-    let room = side * (end - best.parameters[parameter]);
-    let mut at = |step: f64| {
+    let bound = range.bounds[usize::from(side > 0.0)];
+    let max_step = side * (bound - best.parameters[parameter]);
+    // Bracket of the end: the last trial inside the interval, and the last one outside.
+    let mut inner = Trial {
+        step: 0.0,
+        root_rise: 0.0,
+    };
+    let mut outer = Trial {
+        step: f64::INFINITY,
+        root_rise: f64::INFINITY,
+    };
+    // If no end is expected within the range, its bound is tried first.
+    let mut step = if end.initial_step < max_step {
+        end.initial_step.min(range.largest_step)
+    } else {
+        max_step
+    };
+    for _ in 0..MAX_TRIALS {
         // At the bound it only matters whether the sum has risen enough.
-        let below = if step < room {
+        let target = if step < max_step {
             f64::NEG_INFINITY
         } else {
-            best.linearised.sum + profile.rise
+            best.model.sum + end.rise
         };
-        held(
-            &mut linearise,
-            (best, &tangent),
-            ranges,
-            (profile, step, below),
-        )
-    };
-    let [mut inner, mut outer] = [[0.0; 2], [f64::INFINITY; 2]];
-    // Where no end is expected within the range, its bound comes first.
-    let mut step = if profile.first_step < room {
-        profile.first_step.min(range.largest_step)
-    } else {
-        room
-    };
-    for _ in 0..STEPS {
-        let found = at(step);
-        if found < 1.0 && step >= room {
+        let root_rise = root_rise(&mut evaluate, best, &tangent, ranges, end, step, target);
+        let trial = Trial { step, root_rise };
+        let is_inside = root_rise < 1.0;
+        if is_inside && step >= max_step {
             return None;
         }
-        let is_close = (found - 1.0).abs() < profile.close;
-        let between = |[near, low]: [f64; 2], [far, high]: [f64; 2]| {
-            near + ((1.0 - low) / (high - low)).clamp(0.02, 0.98) * (far - near)
-        };
-        let last = [inner, outer];
-        *(if found < 1.0 { &mut inner } else { &mut outer }) = [step, found];
-        step = match is_close {
-            true if found >= 1.0 => return Some(place(between(inner, outer))),
-            true => match beyond(inner, last) {
-                end if end < room => return Some(place(end)),
-                _ => room,
-            },
-            false if outer[0].is_infinite() => (2.0 * step).min(room),
-            false if outer[1].is_infinite() => 0.5 * (inner[0] + outer[0]),
-            false => between(inner, outer),
+
+        // Update the bracket.
+        let (inner_before, outer_before) = (inner, outer);
+        *(if is_inside { &mut inner } else { &mut outer }) = trial;
+
+        // Return the interpolated end when close, otherwise choose the next trial.
+        let is_close = (root_rise - 1.0).abs() < end.relative_tolerance;
+        step = if is_close && !is_inside {
+            return Some(value_at(inner.interpolate_to(outer)));
+        } else if is_close {
+            match trial.extrapolate(inner_before, outer_before) {
+                end if end < max_step => return Some(value_at(end)),
+                _ => max_step,
+            }
+        } else if outer.step.is_infinite() {
+            (2.0 * step).min(max_step)
+        } else if outer.root_rise.is_infinite() {
+            0.5 * (inner.step + outer.step)
+        } else {
+            inner.interpolate_to(outer)
         };
     }
-    // The nearest place where the sum has certainly risen enough.
-    Some(place(outer[0])).filter(|end| end.is_finite())
+    // The closest trial at which the sum has certainly risen enough.
+    Some(value_at(outer.step)).filter(|end| end.is_finite())
 }
 
-/// The root of the rise of the least sum over that at the end, with the parameter held a step beside the minimum: nearly linear
-/// in the step. Where there is no sum, or nothing may rise, it is infinite, because the end is before.
-fn held(
-    linearise: impl FnMut(&[f64]) -> Option<Linearised>,
-    (best, tangent): (&Minimum, &[f64]),
-    ranges: &[Range],
-    (profile, step, below): (Profile, f64, f64),
+/// A distance from the minimum, and the root of the relative rise there.
+#[derive(Clone, Copy)]
+struct Trial {
+    step: f64,
+    /// √(rise of the minimal sum/required rise), 1 at the end of the interval and nearly linear in the step.
+    root_rise: f64,
+}
+
+impl Trial {
+    /// The distance at which the line through two trials reaches 1, kept between them.
+    fn interpolate_to(self, outer: Self) -> f64 {
+        let [lowest, highest] = INTERPOLATION_RANGE;
+        let fraction = (1.0 - self.root_rise) / (outer.root_rise - self.root_rise);
+        self.step + fraction.clamp(lowest, highest) * (outer.step - self.step)
+    }
+
+    /// The distance at which the line through this trial and the closest outer one reaches 1, or through this one and the
+    /// last inner one if the outer one is not finite.
+    fn extrapolate(self, inner: Self, outer: Self) -> f64 {
+        let other = if outer.root_rise.is_finite() {
+            outer
+        } else {
+            inner
+        };
+        self.step
+            + (1.0 - self.root_rise) * (other.step - self.step) / (other.root_rise - self.root_rise)
+    }
+}
+
+/// √(rise of the minimal sum/required rise) with the parameter held at a distance from the minimum.
+///
+/// Infinite where there is no finite sum, or where the required rise is 0: the end is before.
+fn root_rise(
+    evaluate: impl FnMut(&[f64]) -> Option<QuadraticModel>,
+    best: &Minimum,
+    tangent: &[f64],
+    ranges: &[ParameterRange],
+    end: IntervalEnd,
+    step: f64,
+    target: f64,
 ) -> f64 {
-    let Profile {
-        parameter,
-        side,
-        rise,
-        close,
-        ..
-    } = profile;
-    let mut ranges = ranges.to_vec();
-    ranges[parameter].bounds = [best.parameters[parameter] + side * step; 2];
-    // Not from where another place has led, which may be another minimum.
-    let start = best.parameters.iter().zip(tangent).zip(&ranges);
+    let mut held_ranges = ranges.to_vec();
+    held_ranges[end.parameter].bounds = [best.parameters[end.parameter] + end.side * step; 2];
+    // Every trial starts from the minimum: the last trial may have led to another minimum.
+    let start = best.parameters.iter().zip(tangent).zip(&held_ranges);
     let start = start.map(|((value, slope), range)| {
         let [lowest, highest] = range.bounds;
-        (value + side * step * slope).clamp(lowest, highest)
+        (value + end.side * step * slope).clamp(lowest, highest)
     });
-    let ending = ([BY_MODEL * close * rise, below], MOST_PLACES);
-    let held = minimise_below(linearise, start.collect(), &ranges, ending);
-    let sum = held.map_or(f64::INFINITY, |held| held.linearised.sum);
-    let part = (sum - best.linearised.sum).max(0.0) / rise;
-    if part.is_nan() {
+    let rule = StoppingRule::PredictedDecrease {
+        sufficient_decrease: INNER_TOLERANCE * end.relative_tolerance * end.rise,
+        target,
+        max_evaluations: MAX_EVALUATIONS,
+    };
+    let held = descend(evaluate, start.collect(), &held_ranges, rule);
+    let sum = held.map_or(f64::INFINITY, |held| held.model.sum);
+    let relative_rise = (sum - best.model.sum).max(0.0) / end.rise;
+    if relative_rise.is_nan() {
         f64::INFINITY
     } else {
-        part.sqrt()
+        relative_rise.sqrt()
     }
 }
 
-/// The end behind a place that is close to it: on the line to the nearest place beyond, or on that from the place before.
-fn beyond([step, found]: [f64; 2], [before, after]: [[f64; 2]; 2]) -> f64 {
-    let [other, value] = if after[1].is_finite() { after } else { before };
-    step + (1.0 - found) * (other - step) / (value - found)
-}
-
-/// How the others follow a parameter by the model of the minimum.
+/// Derivatives of the other parameters with respect to one, along the minimal sum of the model at the minimum.
 fn tangent(best: &Minimum, parameter: usize) -> Vec<f64> {
     let n = best.parameters.len();
-    let alone = || (0..n).map(|k| if k == parameter { 1.0 } else { 0.0 });
-    match inverse(&best.linearised.matrix, n) {
+    match inverse(&best.model.matrix, n) {
         Some(inverse) => {
             let column = (0..n).map(|k| inverse[k * n + parameter]);
             let diagonal = inverse[parameter * (n + 1)];
             column.map(|entry| entry / diagonal).collect()
         }
-        None => alone().collect(),
+        // Without an inverse the others stay.
+        None => (0..n)
+            .map(|k| if k == parameter { 1.0 } else { 0.0 })
+            .collect(),
     }
 }
 
@@ -147,40 +185,40 @@ mod tests {
     use super::super::minimise;
     use super::*;
 
-    /// Residuals x + y − 1 and (y − 2)/2, which are linear: up to the bound of x the profile is (x + 1)²/5, and 9/5 there.
+    /// The residuals x + y − 1 and (y − 2)/2 are linear: up to the bound of x the profile is (x + 1)²/5, and 9/5 there.
     #[test]
     fn ends_are_those_of_a_parabola_or_none() {
         let linearise = |p: &[f64]| {
             let residuals = [p[0] + p[1] - 1.0, 0.5 * (p[1] - 2.0)];
-            Some(Linearised {
+            Some(QuadraticModel {
                 sum: residuals.iter().map(|r| r * r).sum(),
                 matrix: vec![1.0, 1.0, 1.0, 1.25],
                 descent: vec![-residuals[0], -residuals[0] - 0.5 * residuals[1]],
             })
         };
-        let ranges = [Range {
+        let ranges = [ParameterRange {
             bounds: [-10.0, 2.0],
             largest_step: 1.0,
         }; 2];
         let best = minimise(linearise, vec![0.0, 0.0], &ranges, 1e-14).expect("a minimum");
-        let end = |side, first_step| {
-            let profile = Profile {
+        let end = |side, initial_step| {
+            let interval_end = IntervalEnd {
                 parameter: 0,
                 side,
                 rise: 4.0,
-                first_step,
-                close: 0.01,
+                initial_step,
+                relative_tolerance: 0.01,
             };
-            profile_end(linearise, &best, &ranges, profile)
+            profile_end(linearise, &best, &ranges, interval_end)
         };
-        for first_step in [0.1, 0.9] {
-            // y stays below 2, which is where it is best, so that only the first residual rises beyond.
-            let found = end(-1.0, first_step).expect("an end");
+        for initial_step in [0.1, 0.9] {
+            // y stops at its bound 2, where the second residual is 0, so that only the first one rises beyond.
+            let found = end(-1.0, initial_step).expect("an end");
             assert!(
                 (found + 3.0).abs() < 0.01 * 2.0,
                 "{found}, and −3 is the end"
             );
-            assert_eq!(end(1.0, first_step), None, "up to the bound");
+            assert_eq!(end(1.0, initial_step), None, "up to the bound");
         }
     }
 }

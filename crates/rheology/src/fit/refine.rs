@@ -1,7 +1,7 @@
 //! Better relaxation times: least squares in the logarithms of moduli and times, which keeps both positive.
 
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
-use numerics::least_squares::{Linearised, Range, minimise};
+use numerics::least_squares::{ParameterRange, QuadraticModel, minimise};
 
 use super::system::Measurement;
 use crate::RelaxationBranch;
@@ -21,7 +21,7 @@ const LARGEST_STEP: f64 = 2.0;
 /// Moves moduli and times, all of them positive, to a local minimum of the squared residuals; the times stay within the
 /// `window`.
 pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> Series {
-    let range = |bounds| Range {
+    let range = |bounds| ParameterRange {
         bounds,
         largest_step: LARGEST_STEP,
     };
@@ -29,7 +29,7 @@ pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> S
     let within = range(window.map(f64::ln));
     let spring = start.spring.map(|_| anywhere);
     let branches = start.branches.iter().flat_map(|_| [anywhere, within]);
-    let ranges: Vec<Range> = spring.into_iter().chain(branches).collect();
+    let ranges: Vec<ParameterRange> = spring.into_iter().chain(branches).collect();
     let linearise = |logarithms: &[f64]| Some(start.at(logarithms).linearised(rows));
     let found = minimise(linearise, start.logarithms(), &ranges, SUFFICIENT);
     found.map_or_else(|| start.clone(), |found| start.at(&found.parameters))
@@ -67,14 +67,14 @@ impl Series {
         rows.iter().map(error).map(|error| error * error).sum()
     }
 
-    fn linearised(&self, rows: &[Measurement]) -> Linearised {
+    fn linearised(&self, rows: &[Measurement]) -> QuadraticModel {
         let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
         let mut slopes = DMatrix::zeros(n, rows.len());
         let errors = rows.iter().zip(slopes.column_iter_mut());
         let errors =
             errors.map(|(row, slopes)| row.weight * (row.value - self.slopes(row, slopes)));
         let errors = DVector::from_vec(errors.collect());
-        Linearised {
+        QuadraticModel {
             sum: errors.norm_squared(),
             matrix: (&slopes * slopes.transpose()).data.into(),
             descent: (slopes * errors).data.into(),

@@ -3,7 +3,7 @@
 use std::f64::consts::LN_10;
 
 use measurements::friction::{FreeParameter, FrictionPoint, Prior};
-use numerics::least_squares::{Range, inverse};
+use numerics::least_squares::{ParameterRange, inverse};
 use rheology::{
     ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, Material, RheologyError, Shift, ShiftLaw, WlfShift,
 };
@@ -397,8 +397,8 @@ impl<'a> Family<'a> {
     }
 }
 
-fn range(bounds: [f64; 2]) -> Range {
-    Range {
+fn range(bounds: [f64; 2]) -> ParameterRange {
+    ParameterRange {
         bounds: bounds.map(f64::ln),
         largest_step: STEP,
     }

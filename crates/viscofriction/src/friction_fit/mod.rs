@@ -203,7 +203,7 @@ fn first_search(
     });
     // The moduli of the scene come first.
     tried[1..].sort_by(|one, other| one.0.total_cmp(&other.0));
-    let sum = |found: &FrictionMinimum| found.minimum.linearised.sum;
+    let sum = |found: &FrictionMinimum| found.minimum.model.sum;
     let mut best: Option<FrictionMinimum> = None;
     for (done, (_, start)) in tried.iter().take(STARTS).enumerate() {
         let residual = best.as_ref().and_then(|best| of_few.mean_residual(best));
