@@ -1,7 +1,7 @@
-//! Plans of Fourier transforms, not normalised.
+//! Plans of discrete Fourier transforms, without normalisation.
 //!
-//! A planner knows algorithms for all lengths, and a crate that calls it compiles them all, which takes longer than the rest of
-//! the crate. So it is called here alone; what comes back points to what is compiled here.
+//! A planner contains algorithms for all lengths, and every crate that calls it compiles them all, which takes longer than the
+//! rest of that crate. Only this module calls it; the plans that it returns point to code that is compiled here.
 
 use std::sync::Arc;
 
@@ -9,28 +9,28 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_traits::{AsPrimitive as _, NumAssign};
 use rustfft::{Fft, FftNum, FftPlanner};
 
-/// Numbers that are transformed.
+/// Floating-point type of a transform: `f64` or `f32`.
 pub trait Real: FftNum + NumAssign + Default + Into<f64> {
-    /// The nearest of them.
-    fn of(value: f64) -> Self;
+    /// The value rounded to this type.
+    fn rounded(value: f64) -> Self;
 
-    /// Σ f_n e^(−2πikn/N) of N complex numbers.
+    /// Plan of Σ f_n e^(−2πikn/N) of N complex numbers.
     fn forward(length: usize) -> Arc<dyn Fft<Self>>;
 
-    /// Σ f_n e^(2πikn/N) of N complex numbers.
+    /// Plan of Σ f_n e^(2πikn/N) of N complex numbers.
     fn inverse(length: usize) -> Arc<dyn Fft<Self>>;
 
-    /// The first N/2 + 1 sums Σ f_n e^(−2πikn/N) of N real numbers; the others are their conjugates.
+    /// Plan of the first N/2 + 1 sums Σ f_n e^(−2πikn/N) of N real numbers; the others are their conjugates.
     fn real_forward(length: usize) -> Arc<dyn RealToComplex<Self>>;
 
-    /// N real numbers Σ f_n e^(2πikn/N) from the first N/2 + 1 of N complex ones.
+    /// Plan of N real numbers Σ f_n e^(2πikn/N) from the first N/2 + 1 of N complex ones.
     fn real_inverse(length: usize) -> Arc<dyn ComplexToReal<Self>>;
 }
 
-macro_rules! transforms_of {
+macro_rules! implement_real {
     ($real:ty) => {
         impl Real for $real {
-            fn of(value: f64) -> Self {
+            fn rounded(value: f64) -> Self {
                 value.as_()
             }
 
@@ -53,5 +53,5 @@ macro_rules! transforms_of {
     };
 }
 
-transforms_of!(f64);
-transforms_of!(f32);
+implement_real!(f64);
+implement_real!(f32);

@@ -81,7 +81,7 @@ pub(crate) fn gcr<T: Real>(
         let stagnates = step * step * products.square < STAGNATION_REDUCTION * residual_square;
         stagnant_image = stagnates.then(|| {
             // Scaled, because a preconditioner that amplifies it in every step would overflow.
-            let scale = T::of((residual_square / products.square).sqrt());
+            let scale = T::rounded((residual_square / products.square).sqrt());
             new.image.iter().map(|value| scale * *value).collect()
         });
 
@@ -93,7 +93,7 @@ pub(crate) fn gcr<T: Real>(
                 for (factor, vector) in factors.iter().zip(&basis) {
                     add(direction, *factor, &vector.direction[elements.clone()]);
                 }
-                add(solution, T::of(step), direction);
+                add(solution, T::rounded(step), direction);
             },
         );
 
@@ -102,7 +102,7 @@ pub(crate) fn gcr<T: Real>(
             [(&mut *residual, residual_bands.starts_of_blocks(1))],
             |band, [part]| {
                 let elements = residual_bands.elements(band);
-                add(part, T::of(step), &new.image[elements.clone()]);
+                add(part, T::rounded(step), &new.image[elements.clone()]);
                 product_of_parts(weights.map(|weights| &weights[elements]), part, part)
             },
             |left, right| left + right,
@@ -174,7 +174,7 @@ fn orthogonalise<T: Real>(
         );
         let component = projection / vector.image_square;
         removed_square += component * projection;
-        factors.push(T::of(-component));
+        factors.push(T::rounded(-component));
     }
     // Remove the last component, and form the products of the result.
     let last = factors.last().zip(basis.back());

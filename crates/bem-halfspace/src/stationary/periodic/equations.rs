@@ -140,7 +140,10 @@ impl Equations {
         gap.iter_mut().for_each(|gap| *gap -= sum / self.n_contact);
         let unit = gap.iter().fold(0.0, |top, gap| larger(top, gap.abs()));
         self.unit = if unit > 0.0 { unit } else { 1.0 };
-        self.gap = gap.iter().map(|gap| f32::of(gap / self.unit)).collect();
+        self.gap = gap
+            .iter()
+            .map(|gap| f32::rounded(gap / self.unit))
+            .collect();
     }
 
     /// Writes the pressure into a field, as far as the list reaches.
@@ -263,7 +266,7 @@ impl Equations {
         let total = self.total(direction);
         add(
             direction,
-            f32::of(-total / self.total_lowered),
+            f32::rounded(-total / self.total_lowered),
             &self.lowered,
         );
         self.displaced(direction, image);
@@ -295,7 +298,7 @@ impl Equations {
             let lists = [&list[places.clone()], &self.inside[places]];
             sum(lists, |[value, inside]| inside * value).into()
         });
-        let mean = f32::of(sum / self.n_contact);
+        let mean = f32::rounded(sum / self.n_contact);
         list.iter_mut().for_each(|value| *value -= mean);
     }
 

@@ -93,7 +93,7 @@ impl FarLoads {
         self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
         let total = f64::from(sum([&self.weights], |[weight]| weight));
         let weight = PART_OF_MEAN * total / self.weights.len() as f64;
-        self.one_weight = f32::of(weight);
+        self.one_weight = f32::rounded(weight);
         self.relaxation = self.kernel.relaxation(weight, self.own_displacement);
         // That of the contact before is not far from it.
         let mut lifted = std::mem::take(&mut self.lifted);

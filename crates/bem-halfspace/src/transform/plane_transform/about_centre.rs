@@ -43,7 +43,7 @@ pub(super) struct Cosines<T> {
 
 impl<T: Real> Cosines<T> {
     pub(super) fn new(length: usize) -> Self {
-        let sine = |n| T::of((PI * n as f64 / length as f64).sin());
+        let sine = |n| T::rounded((PI * n as f64 / length as f64).sin());
         if length > SHORT {
             return Self {
                 plan: T::real_forward(2 * length),
@@ -91,7 +91,7 @@ fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
     let length = folded.len();
     for (n, &sine) in sines.iter().enumerate() {
         let [near, far] = [numbers[n], numbers[length - n]];
-        let (sum, difference) = (near + far, T::of(2.0) * sine * (near - far));
+        let (sum, difference) = (near + far, T::rounded(2.0) * sine * (near - far));
         if n > 0 {
             folded[length - n] = sum + difference;
         }
@@ -113,9 +113,9 @@ fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
     let length = numbers.len() - 1;
     if !length.is_multiple_of(2) {
         // The last stands alone in the period, the others twice.
-        total -= T::of(0.5) * odd;
+        total -= T::rounded(0.5) * odd;
     }
-    let shift = mean - total * T::of(2.0) / T::of(length as f64);
+    let shift = mean - total * T::rounded(2.0) / T::rounded(length as f64);
     for number in numbers.iter_mut().skip(1).step_by(2) {
         *number += shift;
     }

@@ -45,14 +45,14 @@ pub(super) const fn place(element: usize, length: usize) -> usize {
 pub(super) fn order<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
     ordered.fill(T::default());
     for (element, value) in values.iter().enumerate() {
-        ordered[place(element, ordered.len())] = T::of((*value).into());
+        ordered[place(element, ordered.len())] = T::rounded((*value).into());
     }
 }
 
 /// Takes the first values from the order of the transform.
 pub(super) fn order_back<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
     for (element, value) in values.iter_mut().enumerate() {
-        *value = F::of(ordered[place(element, ordered.len())].into());
+        *value = F::rounded(ordered[place(element, ordered.len())].into());
     }
 }
 
@@ -60,7 +60,7 @@ pub(super) fn order_back<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
 pub(super) fn turn<T: Real>(turns: &[Complex<T>], half: &[Complex<T>], numbers: &mut [T]) {
     let length = numbers.len();
     for (k, (value, turn)) in half.iter().zip(turns).enumerate() {
-        let turned = value * turn * T::of(2.0);
+        let turned = value * turn * T::rounded(2.0);
         if k > 0 {
             numbers[length - k] = -turned.im;
         }

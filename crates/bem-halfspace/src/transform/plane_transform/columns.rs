@@ -62,7 +62,7 @@ impl<T: Real> ColumnTransform<T> {
 
     pub(super) fn forward(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
-            column[0] *= T::of(2.0);
+            column[0] *= T::rounded(2.0);
             return self.sum_of_period(scratch, column);
         }
         self.forward.process_with_scratch(column, scratch);

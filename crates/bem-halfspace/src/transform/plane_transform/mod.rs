@@ -228,7 +228,7 @@ impl<T: Real> PlaneTransform<T> {
 
 /// The nearest number of the type of a transform.
 pub(crate) fn rounded<T: Real>(value: Complex<f64>) -> Complex<T> {
-    Complex::new(T::of(value.re), T::of(value.im))
+    Complex::new(T::rounded(value.re), T::rounded(value.im))
 }
 
 /// Those of the rows that lie in a strip.

@@ -108,7 +108,7 @@ impl<T: Real> RowTransform<T> {
             }
             Self::AboutCentre(cosines) => {
                 fill(&mut buffers.row, values);
-                buffers.row[0] *= T::of(2.0);
+                buffers.row[0] *= T::rounded(2.0);
                 cosines.apply(buffers);
                 pair(&buffers.row, &mut buffers.half_row);
             }
@@ -135,7 +135,7 @@ impl<T: Real> RowTransform<T> {
             }
         }
         for (value, found) in values.iter_mut().zip(&buffers.row) {
-            *value = F::of((*found).into());
+            *value = F::rounded((*found).into());
         }
     }
 }
@@ -143,7 +143,7 @@ impl<T: Real> RowTransform<T> {
 /// Values, and zeros behind them.
 fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
     for (place, value) in row.iter_mut().zip(values) {
-        *place = T::of((*value).into());
+        *place = T::rounded((*value).into());
     }
     row[values.len()..].fill(T::default());
 }

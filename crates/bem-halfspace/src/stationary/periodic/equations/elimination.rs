@@ -38,7 +38,7 @@ impl Equations {
         for (pressure, load) in self.pressure.iter_mut().zip(&loads) {
             *pressure += unit * load;
         }
-        let added: Vec<f32> = loads.into_iter().map(f32::of).collect();
+        let added: Vec<f32> = loads.into_iter().map(f32::rounded).collect();
         let mut image = copies(0.0, added.len());
         self.displaced(&added, &mut image);
         add(&mut self.gap, 1.0, &image);
