@@ -1,4 +1,4 @@
-//! Legendre polynomials, and the points and weights of Gauss and Lobatto.
+//! Legendre polynomials, and Gauss–Lobatto rules.
 //!
 //! ```text
 //! ∫ f dt over [−1, 1] = Σ w_j f(t_j)        t_j = −1, 1 and the zeros of P'_n,  w_j = 2/(n (n + 1) P_n(t_j)²)
@@ -7,64 +7,68 @@
 
 use std::cmp::Ordering;
 
-/// Every step of Newton's method doubles the two digits of the first guess; the fourth changes less than rounding.
+/// Newton steps per node. Each doubles the two digits of the first guess; the fourth changes less than rounding.
 const NEWTON_STEPS: usize = 4;
-/// Points of a rule that are found together.
-const AT_ONCE: usize = 8;
+/// Number of nodes that are computed together, because the recursion over the degree of one node is sequential; chosen.
+const NODES_PER_BATCH: usize = 8;
 
-/// P_0(t), P_1(t), … of as many degrees as the array is long.
+/// The values P_0(t), P_1(t), …, P_(N−1)(t).
 pub fn legendre_values<const N: usize>(t: f64) -> [f64; N] {
-    let mut pair = [0.0, 1.0];
+    let (mut previous, mut current) = (0.0, 1.0);
     std::array::from_fn(|degree| {
-        let value = pair[1];
-        pair = next(degree, t, pair);
+        let value = current;
+        (previous, current) = (current, next_legendre(degree, t, previous, current));
         value
     })
 }
 
-/// From the polynomials of the degree before and of this one to those of this one and the next.
-fn next(degree: usize, t: f64, [before, this]: [f64; 2]) -> [f64; 2] {
+/// P_(n+1)(t) from P_(n−1)(t) and P_n(t): (n + 1) P_(n+1) = (2n + 1) t P_n − n P_(n−1) (NIST DLMF 18.9.1).
+fn next_legendre(degree: usize, t: f64, previous: f64, current: f64) -> f64 {
     let n = degree as f64;
-    [this, ((2.0 * n + 1.0) * t * this - n * before) / (n + 1.0)]
+    ((2.0 * n + 1.0) * t * current - n * previous) / (n + 1.0)
 }
 
-/// Points, increasing, and weights of a Gauss–Lobatto rule on [−1, 1].
+/// Nodes, increasing, and weights of a Gauss–Lobatto rule on [−1, 1].
 #[derive(Debug, Clone, PartialEq)]
 pub struct LobattoRule {
-    /// Points t_j; both ends are among them.
+    /// Nodes t_j; both ends are among them.
     pub nodes: Vec<f64>,
     /// Weights w_j.
     pub weights: Vec<f64>,
 }
 
-/// The Gauss–Lobatto rule of at least two points.
+/// The Gauss–Lobatto rule of `n_points` nodes, or of two if there are fewer.
 pub fn lobatto_rule(n_points: usize) -> LobattoRule {
     let degree = n_points.max(2) - 1;
     let n = degree as f64;
-    // Several points at once, because each polynomial waits for the one before it.
-    let last_two = |t: [f64; AT_ONCE]| {
+    // P_(n−1) and P_n at the nodes of one batch.
+    let last_two = |t: [f64; NODES_PER_BATCH]| {
         (0..degree).fold(
-            [[0.0; AT_ONCE], [1.0; AT_ONCE]],
-            |[before, this], degree| {
-                let after = |k: usize| next(degree, t[k], [before[k], this[k]])[1];
-                [this, std::array::from_fn(after)]
+            [[0.0; NODES_PER_BATCH], [1.0; NODES_PER_BATCH]],
+            |[previous, current], degree| {
+                let next = |k: usize| next_legendre(degree, t[k], previous[k], current[k]);
+                [current, std::array::from_fn(next)]
             },
         )
     };
-    let rules = |first: usize| {
+    // Nodes and weights of one batch, by Newton's method from the Chebyshev–Lobatto nodes.
+    let batch = |first: usize| {
         let guess = |k: usize| -(std::f64::consts::PI * (first + k) as f64 / n).cos();
-        let step = |t: [f64; AT_ONCE], _| {
-            let [before, last] = last_two(t);
-            std::array::from_fn(|k| t[k] - (t[k] * last[k] - before[k]) / ((n + 1.0) * last[k]))
+        let newton_step = |t: [f64; NODES_PER_BATCH], _| {
+            let [previous, last] = last_two(t);
+            std::array::from_fn(|k| t[k] - (t[k] * last[k] - previous[k]) / ((n + 1.0) * last[k]))
         };
-        let nodes = (0..NEWTON_STEPS).fold(std::array::from_fn(guess), step);
+        let nodes = (0..NEWTON_STEPS).fold(std::array::from_fn(guess), newton_step);
         let [_, last] = last_two(nodes);
-        std::array::from_fn::<_, AT_ONCE, _>(|k| {
+        std::array::from_fn::<_, NODES_PER_BATCH, _>(|k| {
             [nodes[k], 2.0 / (n * (n + 1.0) * last[k] * last[k])]
         })
     };
-    // The rule is symmetric.
-    let half: Vec<[f64; 2]> = (0..=degree / 2).step_by(AT_ONCE).flat_map(rules).collect();
+    // The rule is symmetric: half of the nodes are computed, and mirrored.
+    let half: Vec<[f64; 2]> = (0..=degree / 2)
+        .step_by(NODES_PER_BATCH)
+        .flat_map(batch)
+        .collect();
     let nodes = (0..=degree).map(|index| match (2 * index).cmp(&degree) {
         Ordering::Less => half[index][0],
         Ordering::Equal => 0.0,
@@ -83,9 +87,9 @@ mod tests {
     use super::*;
     use approx::assert_abs_diff_eq;
 
-    /// With both ends among its points, no other rule of so many does.
+    /// No other rule of as many nodes with both ends among them has this degree of exactness.
     #[test]
-    fn a_rule_integrates_products_of_its_polynomials_exactly() {
+    fn products_of_legendre_polynomials_are_integrated_exactly() {
         // Degrees up to 2n − 1: ∫ P_i P_k = 2/(2k + 1) for i = k, else 0.
         for n in [5, 12] {
             let LobattoRule { nodes, weights } = lobatto_rule(n);

@@ -1,24 +1,29 @@
 //! Integrals over an interval whose ends may carry an integrable singularity.
 //!
-//! Double-exponential rule: the substitution `x = tanh(π/2 sinh t)` pushes the ends of the interval to infinity, where
+//! The double-exponential rule: the substitution `x = tanh(π/2 sinh t)` moves the ends of the interval to infinity, where
 //! the trapezoidal rule converges exponentially (Takahasi & Mori 1974, Publ. RIMS 9, 721).
 
 use std::f64::consts::FRAC_PI_2;
 
 use crate::Estimate;
 
-/// Step of the coarsest trapezoidal sum, and how often it may be halved.
+/// Step in t of the coarsest trapezoidal sum; chosen.
 const COARSEST_STEP: f64 = 0.5;
+/// Largest number of times the step is halved; chosen.
 const MAX_HALVINGS: usize = 9;
-/// Beyond this the weights fall below the smallest normal number.
+/// Number of halvings before the change by a halving is trusted as the error; chosen.
+///
+/// The first sums may agree by chance, for example if both miss a narrow feature.
+const MIN_HALVINGS: usize = 3;
+/// Largest |t| of a node: beyond it the weights fall below the smallest normal number.
 const LAST_NODE: f64 = 6.1;
 
 /// Integrates `integrand` from `interval[0]` to `interval[1]`.
 ///
 /// The integrand receives its argument as the pair (nearer end, distance from that end with its sign), so that a
-/// singularity at an end can be resolved below the rounding of `x`; [`integrate`] is the plain form. Halving stops
-/// when the estimate of the error, which is the change by the last halving, falls below `relative_tolerance` times the
-/// integral of the modulus; the caller reads from `Estimate::error` what was reached.
+/// singularity at an end can be resolved below the rounding of `x`; [`integrate`] is the plain form. The error estimate is the
+/// change by the last halving of the step. Halving stops when it falls below `relative_tolerance` times the integral of the
+/// modulus, or after the last halving; `Estimate::error` holds the error that was reached.
 pub fn integrate_from_ends(
     integrand: impl Fn(f64, f64) -> f64,
     interval: [f64; 2],
@@ -26,11 +31,12 @@ pub fn integrate_from_ends(
 ) -> Estimate {
     let half_width = 0.5 * (interval[1] - interval[0]);
     let mut step = COARSEST_STEP;
-    let mut sums = node_sums(&integrand, interval, [0.0, step]);
+    let mut sums = node_sums(&integrand, interval, 0.0, step);
     let mut previous = half_width * step * sums.signed;
     let mut error = f64::INFINITY;
     for halving in 0..MAX_HALVINGS {
-        let between = node_sums(&integrand, interval, [0.5 * step, step]);
+        // Add the nodes halfway between the previous ones.
+        let between = node_sums(&integrand, interval, 0.5 * step, step);
         sums.signed += between.signed;
         sums.modulus += between.modulus;
         step *= 0.5;
@@ -38,8 +44,7 @@ pub fn integrate_from_ends(
         error = (value - previous).abs();
         let floor = relative_tolerance * (half_width * step * sums.modulus).abs();
         previous = value;
-        // The first sums may agree by chance, for example when both miss a narrow feature.
-        if halving >= 2 && error <= floor {
+        if halving + 1 >= MIN_HALVINGS && error <= floor {
             break;
         }
     }
@@ -58,17 +63,21 @@ pub fn integrate(
     integrate_from_ends(from_end, interval, relative_tolerance)
 }
 
+/// Weighted sums over nodes, without the step.
 #[derive(Debug, Clone, Copy, Default)]
 struct NodeSums {
+    /// Sum of the integrand.
     signed: f64,
+    /// Sum of the modulus of the integrand.
     modulus: f64,
 }
 
-/// Weighted sum of the integrand over the nodes t = ±(first + k step).
+/// Weighted sums of the integrand and its modulus over the nodes t = ±(first + k step), k = 0, 1, ….
 fn node_sums(
     integrand: &impl Fn(f64, f64) -> f64,
     interval: [f64; 2],
-    [first, step]: [f64; 2],
+    first: f64,
+    step: f64,
 ) -> NodeSums {
     let half_width = 0.5 * (interval[1] - interval[0]);
     let mut sums = NodeSums::default();
@@ -80,7 +89,7 @@ fn node_sums(
             return sums;
         }
         let u = FRAC_PI_2 * t.sinh();
-        // 1 - tanh u without cancellation.
+        // 1 − tanh u without cancellation.
         let complement = 2.0 / (1.0 + (2.0 * u).exp());
         let weight = FRAC_PI_2 * t.cosh() / u.cosh().powi(2);
         let distance = half_width * complement;
@@ -121,7 +130,7 @@ mod tests {
         assert_relative_eq!(integral.value, exact, max_relative = 1e-10);
     }
 
-    /// Nodes lie at t = ±k/32 up to 6.1, or ±k/64 for more digits, whatever the scale.
+    /// The nodes lie at t = ±k/32 up to 6.1, or at ±k/64 for more digits, for every scale of the integrand.
     #[test]
     fn no_more_nodes_are_taken_than_the_tolerance_needs() {
         for (tolerance, expected) in [(1e-3, 391), (1e-9, 781)] {
@@ -138,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_estimate_admits_a_failure() {
+    fn the_error_of_a_divergent_integral_is_large() {
         let integral = integrate(|x| 1.0 / x, [0.0, 1.0], 1e-10);
         assert!(
             integral.error > 1e-5 * integral.value.abs(),

@@ -1,20 +1,20 @@
-//! A bracketed root, to a relative tolerance.
+//! Root of a function in a bracket, and minimum of a function in a bracket, both to the last digits.
 //!
-//! Chandrupatla's method: inverse quadratic interpolation where it is safe, bisection elsewhere (Chandrupatla 1997,
-//! Adv. Eng. Softw. 28, 145).
+//! The root is found by Chandrupatla's method: inverse quadratic interpolation where it is safe, bisection elsewhere
+//! (Chandrupatla 1997, Adv. Eng. Softw. 28, 145).
 
 use std::convert::Infallible;
 
 /// Finds x with `function(x) = 0` between two positions at which the function has opposite signs (or is zero).
 ///
-/// The position is found to a few units in the last place. Returns `None` when the signs at both ends agree or one of
+/// The position is found to a few units in the last place. Returns `None` if the signs at both ends agree or one of
 /// them is NaN.
 pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
     let function = |x| Ok::<f64, Infallible>(function(x));
     try_bracketed_root(function, bracket).unwrap_or_else(|never| match never {})
 }
 
-/// Like [`bracketed_root`], of a function that may fail.
+/// Finds a root like [`bracketed_root`], for a function that may fail.
 ///
 /// # Errors
 /// The first error of the function.
@@ -37,6 +37,7 @@ pub fn try_bracketed_root<E>(
     }
     let mut fraction = 0.5;
     for _ in 0..MAX_ITERATIONS {
+        // Evaluate in the bracket; a becomes the newest point, b the other end and c the point that has left.
         let x = a + fraction * (b - a);
         let fx = function(x)?;
         let (c, fc);
@@ -47,33 +48,41 @@ pub fn try_bracketed_root<E>(
             (b, fb) = (a, fa);
         }
         (a, fa) = (x, fx);
+
+        // Stop when the bracket is as short as rounding.
         let best = if fa.abs() < fb.abs() { a } else { b };
         let tolerance = f64::EPSILON * best.abs() / (b - a).abs();
         if fa == 0.0 || tolerance >= 0.5 || b - a == 0.0 {
             return Ok(Some(best));
         }
+
+        // Interpolate where the inverse quadratic through the three points is monotone (Chandrupatla's criterion).
         let position = (a - b) / (c - b);
         let phi = (fa - fb) / (fc - fb);
         let interpolated =
             fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
-        let safe = phi * phi < position && (1.0 - phi) * (1.0 - phi) < 1.0 - position;
-        let safe = safe && interpolated.is_finite();
-        fraction = if safe { interpolated } else { 0.5 };
-        fraction = fraction.clamp(tolerance, 1.0 - tolerance);
+        let is_monotone = phi * phi < position && (1.0 - phi) * (1.0 - phi) < 1.0 - position;
+        let is_safe = is_monotone && interpolated.is_finite();
+        let step = if is_safe { interpolated } else { 0.5 };
+        fraction = step.clamp(tolerance, 1.0 - tolerance);
     }
     Ok(Some(if fa.abs() < fb.abs() { a } else { b }))
 }
 
+/// Largest number of function values of a root search.
+///
 /// Bisection alone needs about 2100 halvings between the smallest and the largest number.
 const MAX_ITERATIONS: usize = 2200;
 
-/// The position of the minimum of a function that has one in a bracket, by golden section to the last digits.
+/// Golden ratio (√5 − 1)/2 by which a golden-section step shortens the bracket.
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
+/// Number of golden-section steps: GOLDEN_RATIO⁸⁰ = 2e-17 exhausts the digits of the bracket.
+const GOLDEN_SECTION_STEPS: usize = 80;
+
+/// The position of the minimum of a function with a single minimum in a bracket, by golden-section search to the last digits.
 pub fn golden_section(function: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    // Each pass shortens the bracket by the golden ratio; 80 passes exhaust the digits.
-    const PASSES: usize = 80;
-    for _ in 0..PASSES {
-        let inner = GOLDEN * (high - low);
+    for _ in 0..GOLDEN_SECTION_STEPS {
+        let inner = GOLDEN_RATIO * (high - low);
         if function(high - inner) <= function(low + inner) {
             high = low + inner;
         } else {
@@ -112,7 +121,7 @@ mod tests {
             (|x| x.cos() - x, [0.0, 2.0], 0.739_085_133_215_160_6, 8),
             (|x| (x - 1.0).atan(), [-50.0, 100.0], 1.0, 15),
         ];
-        for (function, bracket, expected, most) in cases {
+        for (function, bracket, expected, max_steps) in cases {
             let count = Cell::new(0);
             let counted = |x: f64| {
                 count.set(count.get() + 1);
@@ -121,12 +130,12 @@ mod tests {
             let root = bracketed_root(counted, bracket).expect("a root");
             assert_relative_eq!(root, expected, max_relative = 4e-16);
             let count = count.get();
-            assert!(count <= most, "{count} steps from {bracket:?}");
+            assert!(count <= max_steps, "{count} steps from {bracket:?}");
         }
     }
 
     #[test]
-    fn equal_signs_are_refused() {
+    fn equal_signs_have_no_root() {
         let root = bracketed_root(|x| x * x + 1.0, [-1.0, 1.0]);
         assert_eq!(root, None, "x^2 + 1 has no root");
     }

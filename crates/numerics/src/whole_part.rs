@@ -1,7 +1,8 @@
-//! From numbers to counts and indices.
+//! Conversion of a number to a count or an index.
 
-/// The integer part of a number, as a count or an index; 0 for negative numbers and what is no number, the largest integer
-/// beyond it.
+/// The integer part of a number, as a count or an index.
+///
+/// It is 0 for negative numbers and NaN, and `usize::MAX` for larger numbers.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
