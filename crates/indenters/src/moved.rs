@@ -217,9 +217,9 @@ impl MotionView<'_> {
         });
         for (values, scatter) in rows {
             quantities.extend((0..OF_ROW).map(|k| Quantity {
-                size: sizes[k],
-                least: scatter[k],
-                drives: k == 0 && !self.load.is_cycle(),
+                scale: sizes[k],
+                error_floor: scatter[k],
+                controls_refinement: k == 0 && !self.load.is_cycle(),
                 ..Quantity::from(values[k])
             }));
         }
@@ -234,29 +234,29 @@ impl MotionView<'_> {
         let imbalance = record.imbalance / record.normal_work;
         [
             Quantity {
-                size: if self.is_elastic {
+                scale: if self.is_elastic {
                     steepness
                 } else if is_cycle {
                     friction.abs()
                 } else {
                     peak
                 },
-                least: if is_cycle { imbalance.abs() } else { 0.0 },
-                rounding: ROUNDING * steepness,
+                error_floor: if is_cycle { imbalance.abs() } else { 0.0 },
+                rounding_error: ROUNDING * steepness,
                 ..Quantity::from(friction)
             },
             Quantity {
-                drives: false,
+                controls_refinement: false,
                 ..Quantity::from(peak)
             },
             Quantity {
-                least: if is_cycle {
+                error_floor: if is_cycle {
                     record.imbalance.abs()
                 } else {
                     0.0
                 },
-                rounding: ROUNDING * steepness * record.normal_work,
-                drives: false,
+                rounding_error: ROUNDING * steepness * record.normal_work,
+                controls_refinement: false,
                 ..Quantity::from(record.work)
             },
         ]

@@ -122,7 +122,7 @@ pub enum MdrError {
     #[error(
         "the largest indentation depth of the history was not reached to the relative error {:e} with {} parts between two of its \
          points: it is {}",
-        missed.asked,
+        missed.relative_error,
         missed.elements,
         Estimate::new(missed.value, missed.error)
     )]

@@ -1,30 +1,30 @@
-//! What an error bar consists of.
+//! Parts of an error bar by their sources.
 
-/// Parts of an error bar, absolute, of the same unit as its value; a part that a method does not have is left out.
+/// Absolute parts of an error bar, in the unit of its value; a part is `None` if the method does not have it.
 ///
-/// The bar is not smaller than their sum.
+/// The error bar is at least their sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ErrorParts {
-    /// Of the elements, and of the steps in time where their size follows from that of the elements.
+    /// Error of elements of finite size, and of time steps if their size follows from that of the elements.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub discretisation: Option<f64>,
-    /// Of a system of equations that is solved to a tolerance.
+    /// Error of a system of equations that is solved to a tolerance.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub iteration: Option<f64>,
-    /// Of the memory of the material over a step.
+    /// Error of the history variables of the material over a time step.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub time_stepping: Option<f64>,
-    /// Of the distance that is left to the stationary state.
+    /// Error of a finite sliding distance in the place of the stationary state.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub truncation: Option<f64>,
-    /// Of a series of branches that stands for another law.
+    /// Error of a series of branches in the place of another material law.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub material: Option<f64>,
 }
 
 impl ErrorParts {
-    /// Of a method that has no such parts.
+    /// The parts of a method without any of these errors.
     pub const NONE: Self = Self {
         discretisation: None,
         iteration: None,
@@ -33,8 +33,8 @@ impl ErrorParts {
         material: None,
     };
 
-    /// An error of elements only.
-    pub const fn of_elements(error: f64) -> Self {
+    /// A discretisation error without other parts.
+    pub const fn discretisation_only(error: f64) -> Self {
         Self {
             discretisation: Some(error),
             ..Self::NONE
@@ -46,7 +46,7 @@ impl ErrorParts {
         *self == Self::NONE
     }
 
-    /// The parts by their names in JSON and CSV.
+    /// The parts with their names in JSON and CSV.
     pub const fn named(&self) -> [(&'static str, Option<f64>); 5] {
         [
             ("discretisation", self.discretisation),
@@ -62,32 +62,32 @@ impl ErrorParts {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }
 
-    /// Of a value that is so many times as large.
+    /// The parts of a value that is larger by a factor ≥ 0.
     #[must_use]
-    pub fn times(self, factor: f64) -> Self {
-        self.each_with(Self::NONE, |part, _| part.map(|part| factor * part))
+    pub fn scaled(self, factor: f64) -> Self {
+        self.combined_by(Self::NONE, |part, _| part.map(|part| factor * part))
     }
 
-    /// All parts of both; what both have is added.
+    /// The sum of both, part by part; a part that only one of them has is kept.
     #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        self.each_with(other, |part, other| match (part, other) {
+    pub fn plus(self, other: Self) -> Self {
+        self.combined_by(other, |part, other| match (part, other) {
             (Some(part), Some(other)) => Some(part + other),
             (part, other) => part.or(other),
         })
     }
 
-    fn each_with(
+    fn combined_by(
         self,
         other: Self,
-        joined: impl Fn(Option<f64>, Option<f64>) -> Option<f64>,
+        combine: impl Fn(Option<f64>, Option<f64>) -> Option<f64>,
     ) -> Self {
         Self {
-            discretisation: joined(self.discretisation, other.discretisation),
-            iteration: joined(self.iteration, other.iteration),
-            time_stepping: joined(self.time_stepping, other.time_stepping),
-            truncation: joined(self.truncation, other.truncation),
-            material: joined(self.material, other.material),
+            discretisation: combine(self.discretisation, other.discretisation),
+            iteration: combine(self.iteration, other.iteration),
+            time_stepping: combine(self.time_stepping, other.time_stepping),
+            truncation: combine(self.truncation, other.truncation),
+            material: combine(self.material, other.material),
         }
     }
 }
@@ -97,25 +97,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_part_is_lost_when_two_bars_are_joined() {
+    fn no_part_is_lost_when_two_error_bars_are_added() {
         let truncated = ErrorParts {
             discretisation: Some(2.0),
             truncation: Some(4.0),
             ..ErrorParts::NONE
         };
-        let got = ErrorParts::of_elements(1.0).and(truncated);
+        let sum = ErrorParts::discretisation_only(1.0).plus(truncated);
         let expected = ErrorParts {
             discretisation: Some(3.0),
             ..truncated
         };
-        assert_eq!(got, expected, "1, and {truncated:?}");
-        let halves = got.times(0.5).named().map(|(_, part)| part);
+        assert_eq!(sum, expected, "1, and {truncated:?}");
+        let halves = sum.scaled(0.5).named().map(|(_, part)| part);
         assert_eq!(
             halves,
             [Some(1.5), None, None, Some(2.0), None],
-            "of {got:?}"
+            "of {sum:?}"
         );
-        let known = [got, ErrorParts::NONE].map(|parts| parts.is_none());
+        let known = [sum, ErrorParts::NONE].map(|parts| parts.is_none());
         assert_eq!(known, [false, true], "no part");
     }
 }

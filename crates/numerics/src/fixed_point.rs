@@ -1,82 +1,128 @@
-//! A state that one pass of a slow process leaves as it is.
+//! Fixed point of a slowly converging map x → g(x) by Anderson acceleration.
 //!
-//! Of a contraction x → g(x) every second pass begins with the combination of the ends of those before for which g(x) − x is
-//! least (Anderson 1965, J. ACM 12, 547; Walker & Ni 2011, SIAM J. Numer. Anal. 49, 1715). One more pass without it shows how
-//! much still changes.
+//! Every second evaluation of the contraction g starts from the combination of previous values g(x_k) that minimises the
+//! combined residual (Anderson 1965, J. ACM 12, 547; Walker & Ni 2011, SIAM J. Numer. Anal. 49, 1715):
+//!
+//! ```text
+//! x = g_n − Σ γ_k (g_n − g_k),    |f_n − Σ γ_k (f_n − f_k)| least,    f_k = g(x_k) − x_k
+//! ```
+//!
+//! The evaluation after it starts from the plain value g(x). The difference between the results of both shows how much still
+//! changes. It finds limit cycles of reciprocating motions: docs/tribometer.md, "How it is computed".
 
-/// Passes that are made as they are at first.
-const FIRST_PASSES: usize = 3;
-/// Passes that are combined.
-const COMBINED: usize = 8;
-/// Smallest pivot of the equations of a combination, relative to the first.
-const SINGULAR: f64 = 1e-12;
+/// Number of evaluations before the first combination; chosen.
+const PLAIN_EVALUATIONS: usize = 3;
+/// Largest number of evaluations that are combined; chosen.
+const MAX_COMBINED: usize = 8;
+/// Smallest squared norm of a residual difference after orthogonalisation, relative to before; chosen.
+///
+/// A smaller one is rounding: the difference depends linearly on the others and is left out.
+const MIN_INDEPENDENT_PART: f64 = 1e-12;
 
-/// How a search has ended.
+/// Outcome of a fixed-point iteration.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Settled<T> {
-    /// What the last pass gave, and the number of passes.
-    Found(T, usize),
-    /// So much may be left after all passes that were allowed.
-    Missed(f64),
+pub enum FixedPoint<T> {
+    /// The remaining error is at most the tolerance.
+    Converged {
+        /// Result of the last evaluation.
+        result: T,
+        /// Number of evaluations.
+        evaluations: usize,
+    },
+    /// The remaining error exceeds the tolerance after the largest number of evaluations.
+    NotConverged {
+        /// The last known remaining error.
+        remaining_error: f64,
+    },
 }
 
-/// Lists as long as the state that [`settle`] keeps, at most.
-pub const KEPT_STATES: usize = 4 * (COMBINED + 1);
+/// Upper limit of the number of vectors as long as the state that [`anderson_fixed_point`] keeps.
+pub const MAX_STORED_STATES: usize = 4 * (MAX_COMBINED + 1);
 
-/// Makes passes until what is left, which follows from the results of two passes one after the other, is at most a
-/// tolerance; a pass gives its result and the state at its end.
+/// Iterates x → g(x) until the remaining error is at most a tolerance.
+///
+/// - `map` evaluates g at a state, and returns a result and the new state.
+/// - `remaining_error` estimates the distance to the fixed point from two consecutive results, the newer one first, and may
+///   write it into the newer one.
 ///
 /// # Errors
-/// Those of a pass.
-pub fn settle<T, E>(
+/// The first error of `map`.
+pub fn anderson_fixed_point<T, E>(
     mut state: Vec<f64>,
-    (most, tolerance): (usize, f64),
-    mut pass: impl FnMut(&[f64]) -> Result<(T, Vec<f64>), E>,
-    mut left: impl FnMut(&mut T, &T) -> f64,
-) -> Result<Settled<T>, E> {
-    let mut pairs: Vec<[Vec<f64>; 2]> = Vec::new();
-    let mut before: Option<T> = None;
-    let mut rest = f64::INFINITY;
-    for n_passes in 1..=most {
-        let (mut found, end) = pass(&state)?;
-        pairs.push([state, end.clone()]);
-        state = end;
-        let Some(last) = before.take() else {
-            before = Some(found);
+    max_evaluations: usize,
+    tolerance: f64,
+    mut map: impl FnMut(&[f64]) -> Result<(T, Vec<f64>), E>,
+    mut remaining_error: impl FnMut(&mut T, &T) -> f64,
+) -> Result<FixedPoint<T>, E> {
+    let mut evaluated: Vec<Evaluation> = Vec::new();
+    let mut previous: Option<T> = None;
+    let mut remaining = f64::INFINITY;
+    for evaluations in 1..=max_evaluations {
+        // Evaluate, and start the next evaluation from the value.
+        let (mut result, value) = map(&state)?;
+        let start = std::mem::replace(&mut state, value.clone());
+        evaluated.push(Evaluation { start, value });
+        let Some(last) = previous.take() else {
+            previous = Some(result);
             continue;
         };
-        rest = left(&mut found, &last);
-        if rest <= tolerance {
-            return Ok(Settled::Found(found, n_passes));
+
+        // Test for convergence.
+        remaining = remaining_error(&mut result, &last);
+        if remaining <= tolerance {
+            return Ok(FixedPoint::Converged {
+                result,
+                evaluations,
+            });
         }
-        if n_passes < FIRST_PASSES {
-            before = Some(found);
+
+        // Start the next evaluation from a combination; it cannot be compared with this one, hence no previous result.
+        if evaluations < PLAIN_EVALUATIONS {
+            previous = Some(result);
         } else {
-            let excess = pairs.len().saturating_sub(COMBINED);
-            pairs.drain(..excess);
-            combine(&pairs, &mut state);
+            let excess = evaluated.len().saturating_sub(MAX_COMBINED);
+            evaluated.drain(..excess);
+            combine(&evaluated, &mut state);
         }
     }
-    Ok(Settled::Missed(rest))
+    Ok(FixedPoint::NotConverged {
+        remaining_error: remaining,
+    })
 }
 
-/// The best combination of the ends of passes, of which the last is the state.
-fn combine(pairs: &[[Vec<f64>; 2]], state: &mut [f64]) {
-    let residuals: Vec<Vec<f64>> = pairs.iter().map(|[x, g]| minus(g, x)).collect();
-    let (Some((_, others)), Some((residual, before))) =
-        (pairs.split_last(), residuals.split_last())
+/// One evaluation of the map g.
+struct Evaluation {
+    /// x.
+    start: Vec<f64>,
+    /// g(x).
+    value: Vec<f64>,
+}
+
+/// Replaces the last value, which is the state, by the combination with the smallest residual.
+fn combine(evaluated: &[Evaluation], state: &mut [f64]) {
+    let residuals: Vec<Vec<f64>> = evaluated
+        .iter()
+        .map(|Evaluation { start, value }| minus(value, start))
+        .collect();
+    let (Some((_, earlier)), Some((residual, earlier_residuals))) =
+        (evaluated.split_last(), residuals.split_last())
     else {
         return;
     };
-    let changes: Vec<Vec<f64>> = before.iter().map(|one| minus(residual, one)).collect();
+    let differences: Vec<Vec<f64>> = earlier_residuals
+        .iter()
+        .map(|earlier| minus(residual, earlier))
+        .collect();
     let last = state.to_vec();
-    for (weight, [_, end]) in weights(&changes, residual).iter().zip(others) {
-        for (value, (last, end)) in state.iter_mut().zip(last.iter().zip(end)) {
-            *value -= weight * (last - end);
+    let weights = least_squares_weights(&differences, residual);
+    for (weight, Evaluation { value, .. }) in weights.iter().zip(earlier) {
+        for (state, (last, value)) in state.iter_mut().zip(last.iter().zip(value)) {
+            *state -= weight * (last - value);
         }
     }
 }
 
+/// a − b.
 fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
@@ -85,40 +131,42 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// `a` − `factor` · `b`.
+/// Replaces a by a − `factor` b.
 fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
     for (a, b) in a.iter_mut().zip(b) {
         *a -= factor * b;
     }
 }
 
-/// Weights γ for which |b − Σ γ_k a_k| is least, by orthogonalisation; 0 for what depends on the others.
-fn weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
+/// The weights γ_k that minimise |b − Σ γ_k a_k|, by modified Gram–Schmidt orthogonalisation.
+///
+/// A vector that depends linearly on later ones has the weight 0.
+fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; vectors.len()];
-    // Each basis vector is a combination of the vectors, whose weights are its row; the last passes come first.
+    // Orthonormal vectors, each with its coefficients in the given ones; the latest evaluations come first.
     let mut basis: Vec<[Vec<f64>; 2]> = Vec::new();
-    for (index, vector) in vectors.iter().enumerate().rev() {
-        let mut vector = vector.clone();
-        let mut row = vec![0.0; vectors.len()];
-        row[index] = 1.0;
-        let size = dot(&vector, &vector);
-        for [other, other_row] in &basis {
-            let part = dot(other, &vector);
-            subtract(&mut vector, part, other);
-            subtract(&mut row, part, other_row);
+    for (index, given) in vectors.iter().enumerate().rev() {
+        let mut vector = given.clone();
+        let mut coefficients = vec![0.0; vectors.len()];
+        coefficients[index] = 1.0;
+        let norm_before = dot(&vector, &vector);
+        for [other, other_coefficients] in &basis {
+            let component = dot(other, &vector);
+            subtract(&mut vector, component, other);
+            subtract(&mut coefficients, component, other_coefficients);
         }
-        let left = dot(&vector, &vector);
-        if left > SINGULAR * size && left > 0.0 {
-            let scale = left.sqrt().recip();
+        let norm = dot(&vector, &vector);
+        if norm > MIN_INDEPENDENT_PART * norm_before && norm > 0.0 {
+            let scale = norm.sqrt().recip();
             vector
                 .iter_mut()
-                .chain(&mut row)
+                .chain(&mut coefficients)
                 .for_each(|value| *value *= scale);
-            basis.push([vector, row]);
+            basis.push([vector, coefficients]);
         }
     }
-    for [vector, row] in &basis {
-        subtract(&mut weights, -dot(vector, target), row);
+    for [vector, coefficients] in &basis {
+        subtract(&mut weights, -dot(vector, target), coefficients);
     }
     weights
 }
@@ -127,27 +175,31 @@ fn weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Modes that lose from nearly all to a ten thousandth of their distance in a pass.
+    /// The error components of the map shrink by factors of 0.1 to 0.9999 per evaluation.
     #[test]
-    fn slow_modes_take_few_passes() {
+    fn slow_components_take_few_evaluations() {
         let rates = [0.1, 0.9, 0.99, 0.999, 0.9999];
-        let pass = |state: &[f64]| {
-            let modes = state.iter().zip(rates);
-            let end: Vec<f64> = modes.map(|(x, rate)| 1.0 + rate * (x - 1.0)).collect();
-            Ok::<_, ()>((end.clone(), end))
+        let map = |state: &[f64]| {
+            let components = state.iter().zip(rates);
+            let value: Vec<f64> = components.map(|(x, rate)| 1.0 + rate * (x - 1.0)).collect();
+            Ok::<_, ()>((value.clone(), value))
         };
-        let left = |now: &mut Vec<f64>, before: &Vec<f64>| {
+        let remaining_error = |now: &mut Vec<f64>, before: &Vec<f64>| {
             let changes = now.iter().zip(before).map(|(a, b)| (a - b).abs());
             1e4 * changes.fold(0.0, f64::max)
         };
-        let found = settle(vec![0.0; 5], (100, 1e-6), pass, left);
-        let Ok(Settled::Found(state, passes)) = found else {
+        let found = anderson_fixed_point(vec![0.0; 5], 100, 1e-6, map, remaining_error);
+        let Ok(FixedPoint::Converged {
+            result,
+            evaluations,
+        }) = found
+        else {
             panic!("{found:?}");
         };
-        let error = state.iter().map(|x| (x - 1.0).abs()).fold(0.0, f64::max);
+        let error = result.iter().map(|x| (x - 1.0).abs()).fold(0.0, f64::max);
         assert!(
-            error <= 1e-6 && passes < 20,
-            "{state:?} after {passes} passes"
+            error <= 1e-6 && evaluations < 20,
+            "{result:?} after {evaluations} evaluations"
         );
     }
 }

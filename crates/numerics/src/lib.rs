@@ -11,12 +11,12 @@
 //! };
 //! let goal = Goal {
 //!     request: 1e-6.into(),
-//!     first: FIRST_ELEMENTS,
-//!     largest: 100_000,
+//!     initial_elements: FIRST_ELEMENTS,
+//!     max_elements: 100_000,
 //!     order: 2.0,
-//!     work: 1.0,
-//!     others: 0.0,
-//!     selection: 1.0,
+//!     work_exponent: 1.0,
+//!     extra_work: 0.0,
+//!     selection_factor: 1.0,
 //! };
 //! let quantities = |value: &f64| vec![Quantity::from(*value)];
 //! let pi = refine(&goal, |corners, _| half_perimeter(corners), quantities, |_, _| Ok(vec![]))?;
@@ -49,8 +49,8 @@ struct ReadMe;
 
 pub use error_parts::ErrorParts;
 pub use estimate::{Estimate, ValueWithError};
-pub use fixed_point::{KEPT_STATES, Settled, settle};
-pub use fourier::wave_power;
+pub use fixed_point::{FixedPoint, MAX_STORED_STATES, anderson_fixed_point};
+pub use fourier::fourier_power;
 pub use invalid_parameter::{
     InWords, InvalidParameter, Rounded, between_zero_and_one, finite, in_range, not_negative,
     positive,

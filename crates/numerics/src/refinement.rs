@@ -1,17 +1,23 @@
-//! Refinement of a computation until its error is small enough, and the error on a given number of elements.
+//! Refinement of a computation until its error is small enough, and the discretisation error on a given number of elements.
 //!
-//! An error C/n^q of n elements differs by (2^q − 1) C/n^q from that of half as many, and by ((4/3)^q − 1) C/n^q from that
-//! of three quarters of them; half the elements and three eighths of them differ by 2^q times the latter. Each gives an
-//! estimate, and the error is the largest of them after they were weighted: which elements touch jumps from resolution to
-//! resolution, so that one or two differences alone may vanish by chance, and those of near resolutions, which are divided
-//! by little, carry most of the jumps.
+//! An error C/n^q on n elements follows from the difference between two resolutions:
+//!
+//! ```text
+//! error on n = |value(n) − value(n/2)| / (2^q − 1)
+//!            = |value(n) − value(3n/4)| / ((4/3)^q − 1)
+//!            = |value(n/2) − value(3n/8)| / ((4/3)^q − 1) / 2^q
+//! ```
+//!
+//! The error estimate is the largest of the three after weighting. Which elements touch jumps from resolution to resolution,
+//! so that one or two differences alone may vanish by chance. Differences of close resolutions are divided by little, and
+//! hence carry most of this scatter. Measured on random scenes: docs/calibration.md, "What was measured".
 
 use thiserror::Error;
 
 use crate::progress::{Progress, SilentProgress, WorkProgress};
 use crate::{ErrorParts, Estimate};
 
-/// How well a result is asked for.
+/// Requested accuracy of a result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Accuracy {
@@ -28,16 +34,16 @@ impl From<f64> for Accuracy {
     }
 }
 
-/// How well a result is asked for, and who follows the computation.
+/// Requested accuracy of a result, and the receiver of the progress.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
     /// A relative error, or a number of elements.
     pub accuracy: Accuracy,
-    /// Is told how far it is, and may end it.
+    /// Receiver of progress reports, which may stop the refinement.
     pub watch: &'a dyn Progress,
 }
 
-/// Nobody follows.
+/// A request whose progress is not reported.
 impl From<Accuracy> for Request<'_> {
     fn from(accuracy: Accuracy) -> Self {
         Self {
@@ -47,57 +53,59 @@ impl From<Accuracy> for Request<'_> {
     }
 }
 
-/// A relative error, and nobody follows.
+/// A relative error, whose progress is not reported.
 impl From<f64> for Request<'_> {
     fn from(relative_error: f64) -> Self {
         Accuracy::from(relative_error).into()
     }
 }
 
-/// What is asked, and how errors fall.
+/// Request, limits and convergence rates of a refinement.
 #[derive(Debug, Clone, Copy)]
 pub struct Goal<'a> {
-    /// A relative error, or a number of elements.
+    /// A relative error, or a number of elements, and the receiver of the progress.
     pub request: Request<'a>,
-    /// Elements with which a relative error is first sought; [`FIRST_ELEMENTS`] unless something needs more.
-    pub first: usize,
-    /// Elements that are not exceeded to reach an error.
-    pub largest: usize,
-    /// Power q of the elements with which the error falls, at least.
+    /// Number of elements on which a relative error is first sought; [`FIRST_ELEMENTS`] unless something needs more.
+    pub initial_elements: usize,
+    /// Number of elements from which on there is no further refinement towards a relative error.
+    pub max_elements: usize,
+    /// Convergence order q > 0: the error falls at least like the elements to the power −q.
     pub order: f64,
-    /// Power of the elements with which the work grows, about.
-    pub work: f64,
-    /// Work of the other errors, as a part of that on the finest resolution.
-    pub others: f64,
-    /// Factor ≥ 1 on the errors of the elements where a relative error ends the refinement: where they scatter from resolution
-    /// to resolution, those that end it are the ones that are small by chance. Not of quantities with a least error.
-    pub selection: f64,
+    /// Approximate exponent of the work as a power of the number of elements.
+    pub work_exponent: f64,
+    /// Work of the other errors, as a fraction of the work on the finest resolution.
+    pub extra_work: f64,
+    /// Factor ≥ 1 on the discretisation error if a relative error ends the refinement.
+    ///
+    /// Where errors scatter from resolution to resolution, the refinement ends on one that is small by chance. The factor
+    /// does not apply to quantities with an [error floor](Quantity::error_floor).
+    pub selection_factor: f64,
 }
 
-/// A number that is refined.
+/// One number that is refined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
-    /// Its value on one resolution.
+    /// Value on one resolution.
     pub value: f64,
-    /// What the error asked for is relative to: the size of the value, unless that may vanish.
-    pub size: f64,
-    /// Absolute error by rounding; no resolution is finer.
-    pub rounding: f64,
-    /// Least error of the elements, for values that all resolutions may have in common.
-    pub least: f64,
-    /// Whether the refinement goes on until it has the error asked for; otherwise its error is only estimated.
-    pub drives: bool,
+    /// Positive scale that the requested relative error refers to: the modulus of the value, unless the value may vanish.
+    pub scale: f64,
+    /// Absolute rounding error, which no refinement reduces.
+    pub rounding_error: f64,
+    /// Smallest discretisation error that is stated, absolute; 0 unless all resolutions may agree by chance.
+    pub error_floor: f64,
+    /// True if the refinement continues until this quantity has the requested error; otherwise its error is only estimated.
+    pub controls_refinement: bool,
 }
 
 impl From<f64> for Quantity {
-    /// A number of which rounding is that of sums.
+    /// A number whose only rounding error is that of sums, [`SUMMATION_ERROR`].
     fn from(value: f64) -> Self {
         Self {
             value,
-            size: value.abs(),
-            rounding: 0.0,
-            least: 0.0,
-            drives: true,
+            scale: value.abs(),
+            rounding_error: 0.0,
+            error_floor: 0.0,
+            controls_refinement: true,
         }
     }
 }
@@ -109,62 +117,70 @@ pub struct Refined<T> {
     pub value: T,
     /// Absolute error of each quantity: the sum of its parts and rounding.
     pub error: Vec<f64>,
-    /// Where each error comes from.
+    /// Parts of each error by their sources.
     pub parts: Vec<ErrorParts>,
-    /// Elements of the finest resolution.
+    /// Number of elements of the finest resolution.
     pub elements: usize,
-    /// What is not known well enough on it, although it is the finest one allowed; whoever asked refuses it.
+    /// The first quantity whose error is too large on the finest resolution allowed; `None` if all are small enough, or no
+    /// relative error was requested. The caller turns it into an error.
     pub missed: Option<NotReached>,
 }
 
-/// A quantity is not known well enough on the finest resolution allowed. The message is a predicate, in front of which whoever
-/// knows the quantity puts its name.
+/// A quantity whose error is too large on the finest resolution allowed.
+///
+/// The message is a predicate; the caller puts the name of the quantity in front.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "was not reached to the relative error {asked:e} with {elements} elements along the contact: it is {}{}",
+    "was not reached to the relative error {relative_error:e} with {elements} elements along the contact: it is {}{}",
     Estimate::new(*value, *error),
-    relative_to(*value, *size)
+    relative_to(*value, *scale)
 )]
 pub struct NotReached {
-    /// Which of the quantities.
+    /// Index of the quantity.
     pub quantity: usize,
-    /// Relative error asked for.
-    pub asked: f64,
+    /// Requested relative error.
+    pub relative_error: f64,
     /// Value that was reached.
     pub value: f64,
-    /// What the error asked for is relative to: the size of the value, or of the largest of its kind.
-    pub size: f64,
-    /// Its absolute error.
+    /// Scale of the relative error: the modulus of the value, or of the largest value of its kind.
+    pub scale: f64,
+    /// Absolute error of the value.
     pub error: f64,
-    /// Elements of the finest resolution.
+    /// Number of elements of the finest resolution.
     pub elements: usize,
 }
 
-/// What an error is relative to, where that is not the value itself.
-fn relative_to(value: f64, size: f64) -> String {
-    if size > value.abs() {
-        format!(", and the error asked for is relative to {size:.1e}")
+/// End of the message of [`NotReached`], which names the scale of the relative error if that is not the value itself.
+fn relative_to(value: f64, scale: f64) -> String {
+    if scale > value.abs() {
+        format!(", and the error asked for is relative to {scale:.1e}")
     } else {
         String::new()
     }
 }
 
-/// Elements with which a relative error is first sought.
+/// Number of elements on which a relative error is first sought; chosen.
 pub const FIRST_ELEMENTS: usize = 16;
-/// Fewer are too few for three eighths of them.
-const FEWEST_FOR_EIGHTHS: usize = 16;
-/// Weights of the estimates by half of the elements, three quarters, and three eighths (docs/calibration.md).
-const WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];
-/// Of the first two, where there is no third one.
-const OF_TWO: f64 = 1.7;
-/// Of the many sums behind a value, relative to it.
-const ROUNDING: f64 = 1e-12;
+/// Smallest number n of elements whose error estimate also uses 3n/8 elements; chosen, because 3/8 of fewer are too few.
+const MIN_ELEMENTS_FOR_THREE_EIGHTHS: usize = 16;
+/// Factors on the error estimates by n/2, 3n/4 and 3n/8 elements; chosen on random scenes (docs/calibration.md, "What was
+/// measured").
+const ESTIMATE_WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];
+/// Factor on the larger of the estimates by n/2 and 3n/4 elements if there is no third one (docs/calibration.md, "What was
+/// measured").
+const WEIGHT_OF_TWO_ESTIMATES: f64 = 1.7;
+/// Rounding error of the many sums behind a value, relative to it; chosen.
+const SUMMATION_ERROR: f64 = 1e-12;
 
-/// Solves with the elements asked for, or with more and more until all quantities have the relative error.
+/// Solves with the requested number of elements, or doubles them until all quantities have the requested relative error.
 ///
-/// There are as many quantities on all resolutions. `others` gives the parts of their errors that resolutions do not show
-/// because they are alike on all of them, for the first of them or for all; it is called where the rest is small enough.
-/// Both are given what is to be told of their progress, from 0 to 1.
+/// - `solve` computes the result on a number of elements.
+/// - `quantities` extracts the numbers that are refined, equally many on every resolution.
+/// - `others` returns the error parts that are the same on all resolutions and hence invisible in their differences, for the
+///   first of the quantities or for all. It is called once the discretisation error is small enough, and on the last
+///   resolution.
+///
+/// `solve` and `others` receive a function that reports their completed fraction, from 0 to 1.
 ///
 /// # Errors
 /// Those of `solve` and `others`.
@@ -175,37 +191,60 @@ pub fn refine<T, E>(
     others: impl Fn(&T, &dyn Fn(f64)) -> Result<Vec<ErrorParts>, E>,
 ) -> Result<Refined<T>, E> {
     let Request { accuracy, watch } = goal.request;
-    let (mut elements, asked) = match accuracy {
-        Accuracy::Elements(elements) => (elements, None),
-        Accuracy::RelativeError(error) => (goal.first, Some(error)),
+    let (mut elements, relative_error, selection_factor) = match accuracy {
+        Accuracy::Elements(elements) => (elements, None, 1.0),
+        Accuracy::RelativeError(error) => {
+            (goal.initial_elements, Some(error), goal.selection_factor)
+        }
     };
-    let mut progress = WorkProgress::new(watch, goal.work_before(elements));
-    let on = |eighths: usize, elements: usize, progress: &mut WorkProgress| {
+    let mut progress = WorkProgress::new(watch, goal.initial_work(elements));
+    let solve_on = |eighths: usize, elements: usize, progress: &mut WorkProgress| {
         let elements = eighths.saturating_mul(elements).div_ceil(8);
-        progress.run(goal.work_on(elements as f64), |tell| solve(elements, tell))
+        progress.run(goal.work_on(elements as f64), |report| {
+            solve(elements, report)
+        })
     };
-    let mut half = quantities(&on(4, elements, &mut progress)?);
+    // The two coarsest resolutions; later ones are the fine resolutions of the step before.
+    let mut half = quantities(&solve_on(4, elements, &mut progress)?);
     let mut three_eighths = None;
-    if elements >= FEWEST_FOR_EIGHTHS {
-        three_eighths = Some(quantities(&on(3, elements, &mut progress)?));
+    if elements >= MIN_ELEMENTS_FOR_THREE_EIGHTHS {
+        three_eighths = Some(quantities(&solve_on(3, elements, &mut progress)?));
     }
     loop {
-        let three_quarters = quantities(&on(6, elements, &mut progress)?);
-        let value = on(8, elements, &mut progress)?;
+        // Solve on this resolution and on three quarters of it.
+        let three_quarters = quantities(&solve_on(6, elements, &mut progress)?);
+        let value = solve_on(8, elements, &mut progress)?;
         let fine = quantities(&value);
-        let is_last = || elements >= goal.largest || !watch.may_refine(2 * elements);
-        let weight = asked.map_or(1.0, |_| goal.selection);
-        let grids = [&fine, &three_quarters, &half];
-        let eighths = three_eighths.as_deref();
-        let mut parts = parts_of_elements([goal.order, weight], grids, eighths);
-        if not_reached(asked, &fine, &parts, elements).is_none() || is_last() {
-            let work = goal.others * goal.work_on(elements as f64);
-            let others = progress.run(work, |tell| others(&value, tell))?;
+
+        // Estimate the discretisation error from the differences between resolutions.
+        let part = |index: usize| {
+            let value_on = |quantities: &[Quantity]| quantities[index].value;
+            let values = ResolutionValues {
+                fine: value_on(&fine),
+                three_quarters: value_on(&three_quarters),
+                half: value_on(&half),
+                three_eighths: three_eighths.as_deref().map(value_on),
+            };
+            let floor = fine[index].error_floor;
+            // An error floor already covers the scatter between resolutions.
+            let factor = if floor > 0.0 { 1.0 } else { selection_factor };
+            let error = factor * values.error(goal.order);
+            ErrorParts::discretisation_only(error.max(floor))
+        };
+        let mut parts: Vec<ErrorParts> = (0..fine.len()).map(part).collect();
+
+        // Add the other errors where the result may be final.
+        let is_last = || elements >= goal.max_elements || !watch.may_refine(2 * elements);
+        if not_reached(relative_error, &fine, &parts, elements).is_none() || is_last() {
+            let work = goal.extra_work * goal.work_on(elements as f64);
+            let others = progress.run(work, |report| others(&value, report))?;
             for (part, other) in parts.iter_mut().zip(others) {
-                *part = part.and(other);
+                *part = part.plus(other);
             }
         }
-        match not_reached(asked, &fine, &parts, elements) {
+
+        // Return, or double the elements; their half and three eighths are known then.
+        match not_reached(relative_error, &fine, &parts, elements) {
             Some(missed) if !is_last() => progress.set_remaining_work(goal.work_after(&missed)),
             missed => {
                 return Ok(Refined {
@@ -224,93 +263,90 @@ pub fn refine<T, E>(
 }
 
 impl Goal<'_> {
+    /// Work of one resolution, in units of the work on one element.
     fn work_on(&self, elements: f64) -> f64 {
-        elements.powf(self.work)
+        elements.powf(self.work_exponent)
     }
 
-    /// Of the first resolutions, up to these elements.
-    fn work_before(&self, elements: usize) -> f64 {
+    /// Work of 3/8, 1/2, 3/4 and all of the first elements, with the other errors.
+    fn initial_work(&self, elements: usize) -> f64 {
         let work = |part: f64| self.work_on(part * elements as f64);
-        work(0.375) + work(0.5) + work(0.75) + (1.0 + self.others) * work(1.0)
+        work(0.375) + work(0.5) + work(0.75) + (1.0 + self.extra_work) * work(1.0)
     }
 
-    /// Of the resolutions that are still needed, if the error falls with the order.
+    /// Work of the resolutions that are still needed if the error falls with the convergence order.
     fn work_after(&self, missed: &NotReached) -> f64 {
-        let ratio = missed.error / (missed.asked * missed.size);
+        let ratio = missed.error / (missed.relative_error * missed.scale);
         let mut elements = missed.elements as f64;
-        let needed = (elements * ratio.powf(self.order.recip())).min(self.largest as f64);
+        let needed = (elements * ratio.powf(self.order.recip())).min(self.max_elements as f64);
         let mut work = 0.0;
         loop {
             elements *= 2.0;
             work += self.work_on(elements) + self.work_on(0.75 * elements);
             if elements >= needed {
-                return work + self.others * self.work_on(elements);
+                return work + self.extra_work * self.work_on(elements);
             }
         }
     }
 }
 
-/// What the elements do to each quantity, of all elements, three quarters and a half of them, and three eighths.
-fn parts_of_elements(
-    [order, weight]: [f64; 2],
-    resolutions: [&Vec<Quantity>; 3],
-    three_eighths: Option<&[Quantity]>,
-) -> Vec<ErrorParts> {
-    let part = |index: usize| {
-        let values = resolutions.map(|quantities| quantities[index].value);
-        let three_eighths = three_eighths.map(|quantities| quantities[index].value);
-        let least = resolutions[0][index].least;
-        // A least error holds what scatters.
-        let weight = if least > 0.0 { 1.0 } else { weight };
-        let error = weight * error_of_elements(order, values, three_eighths);
-        ErrorParts::of_elements(error.max(least))
-    };
-    (0..resolutions[0].len()).map(part).collect()
-}
-
-/// Error on all elements where it falls with this power of them.
-fn error_of_elements(
-    order: f64,
-    [fine, three_quarters, half]: [f64; 3],
+/// Values of one quantity on n, 3n/4, n/2 and 3n/8 elements.
+struct ResolutionValues {
+    fine: f64,
+    three_quarters: f64,
+    half: f64,
+    /// `None` if n is too small for 3n/8 elements.
     three_eighths: Option<f64>,
-) -> f64 {
-    // ratio^q − 1, which is small for the sharpest cusps.
-    let gain = |ratio: f64| (order * ratio.ln()).exp_m1();
-    let of_half = (fine - half).abs() / gain(2.0);
-    let of_three_quarters = (fine - three_quarters).abs() / gain(4.0 / 3.0);
-    let Some(three_eighths) = three_eighths else {
-        return OF_TWO * of_half.max(of_three_quarters);
-    };
-    let of_three_eighths = (half - three_eighths).abs() / gain(4.0 / 3.0) * (-order).exp2();
-    let estimates = [of_half, of_three_quarters, of_three_eighths];
-    let weighted = estimates.iter().zip(WEIGHTS);
-    weighted.fold(0.0, |largest, (one, weight)| (weight * one).max(largest))
 }
 
+impl ResolutionValues {
+    /// Discretisation error of the fine value, if errors fall like the elements to the power −order.
+    fn error(&self, order: f64) -> f64 {
+        // ratio^q − 1 without cancellation: it is small for the sharpest cusps.
+        let gain = |ratio: f64| (order * ratio.ln()).exp_m1();
+        let from_half = (self.fine - self.half).abs() / gain(2.0);
+        let from_three_quarters = (self.fine - self.three_quarters).abs() / gain(4.0 / 3.0);
+        let Some(three_eighths) = self.three_eighths else {
+            return WEIGHT_OF_TWO_ESTIMATES * from_half.max(from_three_quarters);
+        };
+        let from_three_eighths =
+            (self.half - three_eighths).abs() / gain(4.0 / 3.0) * (-order).exp2();
+        let estimates = [from_half, from_three_quarters, from_three_eighths];
+        let weighted = estimates.iter().zip(ESTIMATE_WEIGHTS);
+        weighted.fold(0.0, |largest, (estimate, weight)| {
+            (weight * estimate).max(largest)
+        })
+    }
+}
+
+/// Absolute error of each quantity: the sum of its parts and of both kinds of rounding.
 fn errors(fine: &[Quantity], parts: &[ErrorParts]) -> Vec<f64> {
     let error = |(fine, parts): (&Quantity, &ErrorParts)| {
-        parts.sum() + ROUNDING * fine.value.abs() + fine.rounding
+        parts.sum() + SUMMATION_ERROR * fine.value.abs() + fine.rounding_error
     };
     fine.iter().zip(parts).map(error).collect()
 }
 
-/// The first quantity that is not known well enough; none where no relative error is asked.
+/// The first controlling quantity whose error exceeds the requested one, or twice its rounding error if that is larger.
+///
+/// `None` if there is no such quantity, or no relative error is requested.
 fn not_reached(
-    asked: Option<f64>,
+    relative_error: Option<f64>,
     fine: &[Quantity],
     parts: &[ErrorParts],
     elements: usize,
 ) -> Option<NotReached> {
-    let asked = asked?;
+    let relative_error = relative_error?;
     let errors = errors(fine, parts);
-    let allowed = |fine: &Quantity| (asked * fine.size).max(2.0 * fine.rounding);
+    let allowed = |fine: &Quantity| (relative_error * fine.scale).max(2.0 * fine.rounding_error);
     let missed = |quantity: &usize| errors[*quantity] > allowed(&fine[*quantity]);
-    let quantity = (0..fine.len()).find(|quantity| fine[*quantity].drives && missed(quantity))?;
+    let quantity =
+        (0..fine.len()).find(|quantity| fine[*quantity].controls_refinement && missed(quantity))?;
     Some(NotReached {
         quantity,
-        asked,
+        relative_error,
         value: fine[quantity].value,
-        size: fine[quantity].size,
+        scale: fine[quantity].scale,
         error: errors[quantity],
         elements,
     })
@@ -323,21 +359,21 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const ROUNDED: f64 = 0.5;
+    const ROUNDING_ERROR: f64 = 0.5;
 
     fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Refined<f64> {
         let goal = Goal {
             request: Accuracy::Elements(64).into(),
-            first: FIRST_ELEMENTS,
-            largest: 128,
+            initial_elements: FIRST_ELEMENTS,
+            max_elements: 128,
             order,
-            work: 0.0,
-            others: 0.0,
-            selection: 1.0,
+            work_exponent: 0.0,
+            extra_work: 0.0,
+            selection_factor: 1.0,
         };
         let quantities = |value: &f64| {
             vec![Quantity {
-                rounding: ROUNDED,
+                rounding_error: ROUNDING_ERROR,
                 ..Quantity::from(*value)
             }]
         };
@@ -346,85 +382,99 @@ mod tests {
     }
 
     #[test]
-    fn the_bar_of_a_known_order_is_the_error_times_its_largest_weight() {
+    fn the_estimate_of_a_known_order_is_the_error_times_its_largest_weight() {
         for order in [0.1, 0.2, 0.5, 1.0] {
             let got = resolved(order, |n| 3.0 + n.powf(-order));
-            let bar_over_error = (got.error[0] - ROUNDED) / (got.value - 3.0);
-            assert_relative_eq!(bar_over_error, 1.25, epsilon = 1e-9);
+            let estimate_over_error = (got.error[0] - ROUNDING_ERROR) / (got.value - 3.0);
+            assert_relative_eq!(estimate_over_error, 1.25, epsilon = 1e-9);
         }
     }
 
     #[test]
-    fn differences_that_vanish_by_chance_do_not_make_the_bar_small() {
-        // Three eighths of the elements differ from half of them by 0.1, as of 24 elements, 18 and 12, and of 9, with which
-        // a cone was once marched; or half of them from three quarters.
+    fn differences_that_vanish_by_chance_do_not_make_the_estimate_small() {
+        // Only the values on 3n/8 and n/2 elements differ, as they once did for a cone on 9, 12, 18 and 24 elements; or only
+        // those on n/2 and 3n/4 elements.
         for (jump_at, expected) in [(30.0, 0.1275), (40.0, 0.125)] {
             let got = resolved(1.0, |n| if n > jump_at { 3.1 } else { 3.2 });
-            assert_relative_eq!(got.error[0], expected + ROUNDED, epsilon = 1e-9);
+            assert_relative_eq!(got.error[0], expected + ROUNDING_ERROR, epsilon = 1e-9);
         }
     }
 
-    /// Remembers what it is told, and allows so many elements.
+    /// Records the reported fractions, and allows resolutions up to a number of elements.
     #[derive(Debug)]
-    struct Recorder(Mutex<Vec<f64>>, usize);
+    struct Recorder {
+        reported: Mutex<Vec<f64>>,
+        max_elements: usize,
+    }
+
+    impl Recorder {
+        fn new(max_elements: usize) -> Self {
+            let reported = Mutex::default();
+            Self {
+                reported,
+                max_elements,
+            }
+        }
+    }
 
     impl Progress for Recorder {
         fn may_refine(&self, elements: usize) -> bool {
-            elements <= self.1
+            elements <= self.max_elements
         }
 
         fn report(&self, fraction: f64) {
-            self.0.lock().expect("one thread").push(fraction);
+            self.reported.lock().expect("one thread").push(fraction);
         }
     }
 
-    /// Refines 4 + 4/n and its other error, each with half of its work told on the way.
+    /// Refines 4 + 4/n; the solution and its other error report half of their work on the way.
     fn watched(accuracy: Accuracy, watch: &Recorder) -> Result<Refined<f64>, NotReached> {
         let goal = Goal {
             request: Request { accuracy, watch },
-            first: FIRST_ELEMENTS,
-            largest: 1 << 20,
+            initial_elements: FIRST_ELEMENTS,
+            max_elements: 1 << 20,
             order: 1.0,
-            work: 1.0,
-            others: 0.5,
-            selection: 1.0,
+            work_exponent: 1.0,
+            extra_work: 0.5,
+            selection_factor: 1.0,
         };
-        let solve = |elements: usize, tell: &dyn Fn(f64)| {
-            tell(0.5);
+        let solve = |elements: usize, report: &dyn Fn(f64)| {
+            report(0.5);
             Ok(4.0 + 4.0 / elements as f64)
         };
-        let others = |_: &f64, tell: &dyn Fn(f64)| {
-            tell(0.5);
+        let others = |_: &f64, report: &dyn Fn(f64)| {
+            report(0.5);
             Ok(Vec::new())
         };
         refine(&goal, solve, |value| vec![Quantity::from(*value)], others)
     }
 
     #[test]
-    fn the_work_of_all_resolutions_is_told() {
-        let watch = Recorder(Mutex::default(), usize::MAX);
+    fn the_work_of_all_resolutions_is_reported() {
+        let watch = Recorder::new(usize::MAX);
         watched(Accuracy::Elements(16), &watch).expect("a value");
-        // Of 8, 6, 12 and 16 elements and half as much again.
+        // The work on 8, 6, 12 and 16 elements, and the other error with half of the work on 16.
         let done = [4, 8, 11, 14, 20, 26, 34, 42, 46, 50].map(|work| f64::from(work) / 50.0);
-        assert_eq!(watch.0.into_inner().expect("one thread"), done);
+        assert_eq!(watch.reported.into_inner().expect("one thread"), done);
     }
 
     #[test]
     fn expected_work_is_that_of_the_resolutions_that_the_order_needs() {
-        // The bar is 1.25/n of the value, so that 512 elements have the error; from the first 16 on, all of them are expected.
-        let watch = Recorder(Mutex::default(), 512);
+        // The estimate is 1.25/n of the value, so that 512 elements have the error; after the first 16 all of them are
+        // expected.
+        let watch = Recorder::new(512);
         let got = watched(Accuracy::RelativeError(1.25 / 500.0), &watch).expect("a value");
         assert_eq!(got.elements, 512, "{got:?}");
-        let told = watch.0.into_inner().expect("one thread");
+        let reported = watch.reported.into_inner().expect("one thread");
         let before = f64::from(8 + 6 + 12 + 16);
         let whole = before + 1.75 * f64::from(32 + 64 + 128 + 256 + 512) + 256.0;
-        assert_relative_eq!(told[8], (before + 12.0) / whole, max_relative = 1e-9);
-        assert_relative_eq!(told[told.len() - 1], 1.0, max_relative = 1e-9);
+        assert_relative_eq!(reported[8], (before + 12.0) / whole, max_relative = 1e-9);
+        assert_relative_eq!(reported[reported.len() - 1], 1.0, max_relative = 1e-9);
     }
 
     #[test]
     fn a_resolution_that_is_not_allowed_is_not_begun() {
-        let watch = Recorder(Mutex::default(), 100);
+        let watch = Recorder::new(100);
         let refined = watched(Accuracy::RelativeError(1e-3), &watch).expect("a value");
         let missed = refined.missed.expect("too coarse");
         assert_eq!(missed.elements, 64, "{missed}");
@@ -437,6 +487,6 @@ mod tests {
         let got = resolved(1.0, |n| if n > 60.0 { 0.0 } else { 0.1 });
         let expected = 0.625 * 0.1 / (4.0_f64 / 3.0 - 1.0);
         assert_eq!(got.elements, 64, "elements asked for and used: {got:?}");
-        assert_relative_eq!(got.error[0], expected + ROUNDED, max_relative = 1e-9);
+        assert_relative_eq!(got.error[0], expected + ROUNDING_ERROR, max_relative = 1e-9);
     }
 }

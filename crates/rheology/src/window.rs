@@ -7,7 +7,7 @@
 //! ∫ ω J''(ω) dω = ω/η_f + Σ J_k/λ_k² (x − atan x),        x = ω λ_k
 //! ```
 
-use numerics::wave_power;
+use numerics::fourier_power;
 
 use crate::CreepSpectrum;
 
@@ -94,7 +94,7 @@ impl CreepSpectrum {
         let ends = [step.sqrt().recip(), step.sqrt()].map(|end| end * velocity);
         let band = |wave: f64| StressBand {
             band: ends.map(|end| end * wave),
-            weight: wave_power(points, wave) * (compliance(wave) * wave),
+            weight: fourier_power(points, wave) * (compliance(wave) * wave),
         };
         waves.take_while(|w| *w < shortest).map(band).collect()
     }

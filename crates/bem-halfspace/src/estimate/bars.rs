@@ -71,8 +71,8 @@ impl<S, O> OnGrid<S, O> {
     /// Its quantities, of which normal force and the one with the name drive the refinement.
     fn driven_by(&self, driven: Name) -> Vec<Quantity> {
         let quantity = |(name, value): (Name, f64)| Quantity {
-            drives: name == driven || name == Name::Force,
-            least: if name == driven {
+            controls_refinement: name == driven || name == Name::Force,
+            error_floor: if name == driven {
                 self.min_relative_error * value.abs()
             } else {
                 0.0
@@ -80,7 +80,7 @@ impl<S, O> OnGrid<S, O> {
             ..Quantity::from(value)
         };
         let dissipated = self.dissipated.map(|value| Quantity {
-            drives: false,
+            controls_refinement: false,
             ..Quantity::from(value)
         });
         self.quantities
@@ -203,7 +203,7 @@ pub(crate) fn reached_or_error<E: Into<Reached>>(
         quantity: Name::ALL[missed.quantity % Name::ALL.len()].in_words(),
         value: missed.value,
         error: missed.error,
-        relative_error: missed.asked,
+        relative_error: missed.relative_error,
         reached: Box::new(found.into()),
     })
 }

@@ -10,7 +10,9 @@ use indenters::{
     Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
     SlidingLoad, Surface,
 };
-use numerics::{Accuracy, Goal, KEPT_STATES, Refined, Request, Settled, refine, settle};
+use numerics::{
+    Accuracy, FixedPoint, Goal, MAX_STORED_STATES, Refined, Request, anderson_fixed_point, refine,
+};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::elements::footprint::Footprint;
@@ -80,12 +82,12 @@ pub fn move_along<'w>(
     let problem = MovingBody::new(surface, elastomer, load, request.accuracy)?;
     let goal = Goal {
         request,
-        first: FIRST_ELEMENTS_OF_MOTION,
-        largest: MAX_ELEMENTS_OF_MOTION,
+        initial_elements: FIRST_ELEMENTS_OF_MOTION,
+        max_elements: MAX_ELEMENTS_OF_MOTION,
         order: order_of_friction(problem.plan.apex_exponent, MIN_ORDER_OF_MOTION),
-        work: MARCH_WORK_EXPONENT,
-        others: 0.0,
-        selection: 1.0,
+        work_exponent: MARCH_WORK_EXPONENT,
+        extra_work: 0.0,
+        selection_factor: 1.0,
     };
     let view = MotionView {
         load,
@@ -113,7 +115,7 @@ pub(crate) fn moved_if_reached(
         quantity: MotionView::in_words(missed.quantity),
         value: missed.value,
         error: missed.error,
-        relative_error: missed.asked,
+        relative_error: missed.relative_error,
         reached: Box::new(Reached::Moved(found)),
     })
 }
@@ -140,7 +142,11 @@ pub fn move_along_memory(
     let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
     let passed = (front - rear) / dx * across;
     let n_elements = followed * (options.footprint.n_elements(options.spacing) + passed);
-    let copies = if load.is_cycle() { KEPT_STATES } else { 1 };
+    let copies = if load.is_cycle() {
+        MAX_STORED_STATES
+    } else {
+        1
+    };
     let per_element = BYTES_PER_FOLLOWED_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
     Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
 }
@@ -360,9 +366,17 @@ impl LimitCycle {
             similarity.set(similarity.get().max(part));
             left
         };
-        match settle(first, (MAX_CYCLES, self.tolerance), pass, left)? {
-            Settled::Found(record, n_cycles) => Ok(MotionRecord { n_cycles, ..record }),
-            Settled::Missed(change) => Err(BemError::NotPeriodic {
+        match anderson_fixed_point(first, MAX_CYCLES, self.tolerance, pass, left)? {
+            FixedPoint::Converged {
+                result,
+                evaluations,
+            } => Ok(MotionRecord {
+                n_cycles: evaluations,
+                ..result
+            }),
+            FixedPoint::NotConverged {
+                remaining_error: change,
+            } => Err(BemError::NotPeriodic {
                 cycles: MAX_CYCLES,
                 change,
                 tolerance: self.tolerance,

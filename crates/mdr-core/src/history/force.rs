@@ -76,9 +76,9 @@ impl Pressed<'_> {
             reached[..grown.len()].copy_from_slice(&grown);
             let missed = NotReached {
                 quantity: 0,
-                asked,
+                relative_error: asked,
                 value: deepest,
-                size: deepest,
+                scale: deepest,
                 error: change,
                 elements: parts,
             };

@@ -51,9 +51,9 @@ pub fn work_along(
         if 2 * parts * history.len() > MOST_PARTS {
             return Err(MdrError::WorkNotReached(NotReached {
                 quantity: 0,
-                asked: options.relative_error,
+                relative_error: options.relative_error,
                 value: largest,
-                size: largest,
+                scale: largest,
                 error: change,
                 elements: parts,
             }));

@@ -104,12 +104,12 @@ pub fn move_along<'w>(
             watch: &limited,
             ..request
         },
-        first: first_elements(load, length),
-        largest: MOST_ELEMENTS,
+        initial_elements: first_elements(load, length),
+        max_elements: MOST_ELEMENTS,
         order: convergence_order(line),
-        work: WORK,
-        others: 0.0,
-        selection: 1.0,
+        work_exponent: WORK,
+        extra_work: 0.0,
+        selection_factor: 1.0,
     };
     let view = MotionView {
         load,

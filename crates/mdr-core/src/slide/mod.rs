@@ -88,12 +88,12 @@ pub fn slide<'w>(
     let motion = Motion::new(line, material, load)?;
     let goal = Goal {
         request: request.into(),
-        first: FIRST_ELEMENTS,
-        largest: MOST_ELEMENTS,
+        initial_elements: FIRST_ELEMENTS,
+        max_elements: MOST_ELEMENTS,
         order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
-        work: WORK,
-        others: f64::from(has_memory(&material.creep())),
-        selection: 1.0,
+        work_exponent: WORK,
+        extra_work: f64::from(has_memory(&material.creep())),
+        selection_factor: 1.0,
     };
     let solve = |elements, tell: &dyn Fn(f64)| motion.march(elements, tell);
     let others = |march: &OnElements, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
@@ -182,11 +182,11 @@ impl<'a> Motion<'a> {
         let [friction, depth, rear, front] = self.values(&march.transient).map(Quantity::from);
         let slope = last.indentation_depth / last.contact_length;
         let known = |quantity| Quantity {
-            drives: false,
+            controls_refinement: false,
             ..quantity
         };
         let end = |end| Quantity {
-            least: STEPS_OF_ENDS * march.options.spacing,
+            error_floor: STEPS_OF_ENDS * march.options.spacing,
             ..known(end)
         };
         // The outermost elements are loaded as wholes: at the edge of a flat end they carry as much as any.
@@ -199,12 +199,12 @@ impl<'a> Motion<'a> {
         let scatter = |value| self.scatter(&march.transient.rows, value);
         vec![
             Quantity {
-                rounding: if is_elastic { 0.0 } else { ROUNDING * slope },
-                least: scatter(|row| row.friction_coefficient),
+                rounding_error: if is_elastic { 0.0 } else { ROUNDING * slope },
+                error_floor: scatter(|row| row.friction_coefficient),
                 ..friction
             },
             Quantity {
-                least: outline.max(scatter(|row| row.indentation_depth)),
+                error_floor: outline.max(scatter(|row| row.indentation_depth)),
                 ..known(depth)
             },
             end(rear),

@@ -9,7 +9,7 @@
 //! A mode with v λ ≫ L carries the mean load of the whole track and hardly changes under the line, so that it dissipates
 //! nothing.
 
-use numerics::{Settled, settle};
+use numerics::{FixedPoint, anderson_fixed_point};
 
 use super::foundation::{Foundation, Recovery};
 use super::profile::Profile;
@@ -56,9 +56,11 @@ pub(super) fn around(
         left
     };
     let start = foundation.left_after(&Recovery::untouched(), free);
-    let ahead = match settle(start, (MOST_PASSES, tolerance), pass, rest)? {
-        Settled::Found(ahead, _) => ahead,
-        Settled::Missed(change) => {
+    let ahead = match anderson_fixed_point(start, MOST_PASSES, tolerance, pass, rest)? {
+        FixedPoint::Converged { result, .. } => result,
+        FixedPoint::NotConverged {
+            remaining_error: change,
+        } => {
             return Err(MdrError::NotPeriodic {
                 cycles: MOST_PASSES,
                 change,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use indenters::{EquivalentLine, PowerProfile};
 use mdr_core::{slide, steady};
-use numerics::{Accuracy, wave_power};
+use numerics::{Accuracy, fourier_power};
 use rheology::{Material, Prony};
 
 use crate::support::{load, prony};
@@ -18,7 +18,7 @@ fn power(load: &[[f64; 2]], material: &dyn Material, velocity: f64) -> f64 {
         let wave = 10_f64.powf(f64::from(step) / 80.0 - 4.0) / (last[0] - first[0]);
         let compliance = material.complex_compliance(wave * velocity);
         let loss = compliance.expect("a frequency").loss;
-        wave_power(load, wave) * (wave * velocity * loss) * wave
+        fourier_power(load, wave) * (wave * velocity * loss) * wave
     };
     (0..steps).map(of_wave).sum::<f64>() * (10_f64.ln() / 80.0) / (4.0 * PI)
 }

@@ -159,7 +159,7 @@ fn of_pressed(
     let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
     answer.iterations = estimate.finest.products;
     answer.friction_coefficient = None;
-    answer.error_parts = ErrorParts::of_elements(answer.requested_quantity().error);
+    answer.error_parts = ErrorParts::discretisation_only(answer.requested_quantity().error);
     if let Some(rough) = &mut answer.rough {
         rough.friction_from_dissipation = None;
     }
@@ -227,7 +227,7 @@ fn of_rough<S>(
     let is_layer = problem.thickness().is_finite();
     Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
-        error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
+        error_parts: ErrorParts::discretisation_only(estimate.friction_coefficient.error),
         indentation_depth: is_layer.then_some(estimate.mean_depth),
         contact_area: Some(estimate.area_fraction * area),
         rough: Some(RoughAnswer {

@@ -33,7 +33,7 @@ pub(crate) fn of_steady(state: SteadySliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
         indentation_depth: Some(state.indentation_depth),
-        error_parts: ErrorParts::of_elements(state.friction_coefficient.error),
+        error_parts: ErrorParts::discretisation_only(state.friction_coefficient.error),
         contact_box: Some(contact_box(state.ends)),
         unknowns: state.n_pieces,
         ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force)
@@ -129,7 +129,7 @@ pub(crate) fn pressed(
     let error = state.indentation_depth.error.max(state.normal_force.error);
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
-        error_parts: ErrorParts::of_elements(error),
+        error_parts: ErrorParts::discretisation_only(error),
         contact_box: Some(contact_box(state.ends)),
         unknowns: state.n_pieces,
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)

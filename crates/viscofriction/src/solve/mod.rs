@@ -197,9 +197,9 @@ mod tests {
         );
         let missed = NotReached {
             quantity: 0,
-            asked: 1e-12,
+            relative_error: 1e-12,
             value: 1e-5,
-            size: 1e-5,
+            scale: 1e-5,
             error: 1e-9,
             elements: 1,
         };

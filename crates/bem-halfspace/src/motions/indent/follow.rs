@@ -110,7 +110,7 @@ pub fn indent_along<'w>(
     };
     let others = |(found, _): &(IndentHistory, GridOptions), _: &dyn Fn(f64)| {
         let of_steps = |quantity: Quantity| ErrorParts {
-            time_stepping: Some(found.time_error * quantity.size),
+            time_stepping: Some(found.time_error * quantity.scale),
             ..ErrorParts::NONE
         };
         let quantities = path.quantities(found).into_iter();
@@ -262,8 +262,8 @@ impl Path {
         };
         let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
         let quantity = |(name, value): (Name, f64)| Quantity {
-            size: sizes[name.place()],
-            drives: name == sought,
+            scale: sizes[name.place()],
+            controls_refinement: name == sought,
             ..Quantity::from(value)
         };
         rows.iter()

@@ -307,12 +307,12 @@ impl Spring {
 pub(super) const fn goal(request: Request, largest: usize) -> Goal {
     Goal {
         request,
-        first: FIRST_ELEMENTS,
-        largest,
+        initial_elements: FIRST_ELEMENTS,
+        max_elements: largest,
         order: ORDER,
-        work: WORK,
-        others: 0.0,
-        selection: 2.0,
+        work_exponent: WORK,
+        extra_work: 0.0,
+        selection_factor: 2.0,
     }
 }
 

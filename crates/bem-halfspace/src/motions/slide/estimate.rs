@@ -171,12 +171,12 @@ impl<'a> PlannedSlide<'a> {
         let resolution = Resolution {
             goal: Goal {
                 request: self.request,
-                first: FIRST_ELEMENTS,
-                largest: MAX_ELEMENTS_OF_SLIDE,
+                initial_elements: FIRST_ELEMENTS,
+                max_elements: MAX_ELEMENTS_OF_SLIDE,
                 order: bars::order_of_friction(self.plan.apex_exponent, ORDER_OF_SLIDE),
-                work: MARCH_WORK_EXPONENT,
-                others: 0.0,
-                selection: 2.0,
+                work_exponent: MARCH_WORK_EXPONENT,
+                extra_work: 0.0,
+                selection_factor: 2.0,
             },
             control: self.load.control(),
             // Nothing is dissipated in an elastic half space, where the depth stands for the friction.

@@ -263,12 +263,12 @@ pub(super) fn resolution(
     Resolution {
         goal: Goal {
             request,
-            first: FIRST_ELEMENTS,
-            largest: usize::MAX,
+            initial_elements: FIRST_ELEMENTS,
+            max_elements: usize::MAX,
             order,
-            work: WORK_EXPONENT,
-            others: 0.0,
-            selection: 2.0,
+            work_exponent: WORK_EXPONENT,
+            extra_work: 0.0,
+            selection_factor: 2.0,
         },
         control,
         target: Target::Friction,

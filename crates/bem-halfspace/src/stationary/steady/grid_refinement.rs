@@ -340,7 +340,7 @@ impl Grids<'_> {
             friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
             error_parts: ErrorParts {
                 iteration: Some(iteration),
-                ..ErrorParts::of_elements(friction.error)
+                ..ErrorParts::discretisation_only(friction.error)
             },
             normal_force,
             indentation_depth: self.depth(&refinements),

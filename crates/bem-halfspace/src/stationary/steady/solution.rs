@@ -86,7 +86,7 @@ impl SteadySliding {
             dissipated: Some(self.friction_from_dissipation),
             common_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
-                ..ErrorParts::of_elements(unresolved)
+                ..ErrorParts::discretisation_only(unresolved)
             },
             min_relative_error: 0.0,
             spacing: options.spacing[0],

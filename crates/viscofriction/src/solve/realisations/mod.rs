@@ -266,7 +266,7 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         }),
         ..answers[0].clone()
     };
-    mean.error_parts = ErrorParts::of_elements(mean.requested_quantity().error);
+    mean.error_parts = ErrorParts::discretisation_only(mean.requested_quantity().error);
     mean
 }
 

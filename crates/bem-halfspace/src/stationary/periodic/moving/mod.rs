@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use indenters::rough::PeriodicSurface;
 use indenters::{Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep};
-use numerics::{Accuracy, ErrorParts, Goal, KEPT_STATES, Request, refine};
+use numerics::{Accuracy, ErrorParts, Goal, MAX_STORED_STATES, Request, refine};
 use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
@@ -90,12 +90,12 @@ pub fn move_along<'w>(
     let is_full = problem.is_full();
     let goal = Goal {
         request,
-        first,
-        largest: problem.largest(first),
+        initial_elements: first,
+        max_elements: problem.largest(first),
         order: MIN_ORDER_OF_MOTION,
-        work: MARCH_WORK_EXPONENT,
-        others: 0.0,
-        selection: 1.0,
+        work_exponent: MARCH_WORK_EXPONENT,
+        extra_work: 0.0,
+        selection_factor: 1.0,
     };
     let view = MotionView {
         load,
@@ -126,7 +126,11 @@ pub fn move_along_memory(
     let creep = &problem.spectra.creep;
     let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
     // One more is that of the grid before.
-    let copies = if load.is_cycle() { KEPT_STATES + 1 } else { 1 };
+    let copies = if load.is_cycle() {
+        MAX_STORED_STATES + 1
+    } else {
+        1
+    };
     let per_element = BYTES_PER_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
     let waves = surface.largest_numbers()[0] as f64 + 1.0;
     let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
@@ -163,9 +167,11 @@ fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         return rests;
     }
     let sizes = view.quantities(record).into_iter();
-    let wide = sizes.map(|quantity| ErrorParts::of_elements(quantity.value.abs()));
+    let wide = sizes.map(|quantity| ErrorParts::discretisation_only(quantity.value.abs()));
     let rests = rests.into_iter().chain(std::iter::repeat(ErrorParts::NONE));
-    wide.zip(rests).map(|(wide, rest)| wide.and(rest)).collect()
+    wide.zip(rests)
+        .map(|(wide, rest)| wide.plus(rest))
+        .collect()
 }
 
 struct Moving<'a> {
