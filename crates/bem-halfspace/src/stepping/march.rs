@@ -1,4 +1,6 @@
-//! Sliding, one step after the other.
+//! Constructors of a [`March`] and its public step.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions" and "Friction".
 
 use indenters::{SlidingLoad, Surface};
 use numerics::positive;
@@ -16,14 +18,15 @@ pub(crate) const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
 /// Memory per step of a march, \[bytes].
 pub(crate) const BYTES_PER_STEP: f64 = 600.0;
 
+/// Reason in the error for a load without a sliding distance.
 const DISTANCE_NEEDED: &str = "a march over a half space ends after a distance";
 
 impl<'a> March<'a> {
     /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
     /// of an element at position zero.
     ///
-    /// Of a surface that is [its own mirror image](Surface::mirrors) about y = 0, over a footprint that is so too, only the
-    /// half at y ≥ 0 is followed; where it never moves, about x = 0 too.
+    /// If surface and footprint are [their own mirror images](Surface::mirrors) about y = 0, only the half y ≥ 0 is followed. If
+    /// the indenter never moves, the same holds about x = 0.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no motions, times that do not increase from above zero, and numbers out of
@@ -43,20 +46,21 @@ impl<'a> March<'a> {
         });
         let schedule = Schedule::new(timed, spacing)?;
         Self::from_schedule(
-            (schedule, LoadInterpolation::Held),
+            schedule,
+            LoadInterpolation::Held,
             surface,
             elastomer,
             options,
         )
     }
 
-    /// Part of the steps that are done.
+    /// Fraction of the steps that are done, from 0 to 1.
     pub(crate) fn fraction_done(&self) -> f64 {
         self.steps_done as f64 / self.schedule.steps.len() as f64
     }
 
-    /// The march of [`slide_on_grid`](crate::motions::slide::slide_on_grid), over the sliding distance of the load, in steps of one
-    /// element; the last, of a half to one and a half, ends at the distance.
+    /// The march of [`slide_on_grid`](crate::motions::slide::slide_on_grid): over the sliding distance of the load in steps of one
+    /// element. The last step ends at that distance and is 0.5 to 1.5 elements long.
     ///
     /// # Errors
     /// [`BemError::SlidingDistanceMissing`]; [`BemError::TooManySteps`]; otherwise like [`new`](Self::new).
@@ -69,7 +73,7 @@ impl<'a> March<'a> {
         Self::sliding_in_steps(surface, elastomer, load, options, options.spacing[0])
     }
 
-    /// The same in steps of another length \[m].
+    /// Like [`sliding`](Self::sliding) in steps of a given length \[m].
     pub(crate) fn sliding_in_steps(
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
@@ -79,11 +83,12 @@ impl<'a> March<'a> {
     ) -> Result<Self, BemError> {
         load.require_fresh_ground()?;
         let spacing = positive("spacing along x", options.spacing[0])?;
-        let distance = load.sliding_distance();
-        let distance = distance.ok_or(BemError::SlidingDistanceMissing {
-            why: DISTANCE_NEEDED,
-        })?;
-        let (n_steps, last) = steps_of(distance, length)?;
+        let distance = load
+            .sliding_distance()
+            .ok_or(BemError::SlidingDistanceMissing {
+                why: DISTANCE_NEEDED,
+            })?;
+        let (n_steps, last) = divide_into_steps(distance, length)?;
         let motions = (1..=n_steps).map(|step| {
             let [position, length] = if step == n_steps {
                 [distance, last]
@@ -99,15 +104,16 @@ impl<'a> March<'a> {
         });
         let schedule = Schedule::new(motions, spacing)?;
         Self::from_schedule(
-            (schedule, LoadInterpolation::Held),
+            schedule,
+            LoadInterpolation::Held,
             surface,
             elastomer,
             options,
         )
     }
 
-    /// A march through motions that each take a time \[s], the first of them once and the others again and again, with loads
-    /// that are linear over each step.
+    /// A march of a motion that may be repeated, with loads linear over each step: `motions` are ends of steps and their durations
+    /// \[s], the first of them the first touch, the others the motion or one cycle.
     ///
     /// # Errors
     /// Like [`new`](Self::new).
@@ -120,24 +126,25 @@ impl<'a> March<'a> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let schedule = Schedule::new(motions, spacing)?.repeated();
         Self::from_schedule(
-            (schedule, LoadInterpolation::Linear),
+            schedule,
+            LoadInterpolation::Linear,
             surface,
             elastomer,
             options,
         )
     }
 
-    /// Goes back to the end of the first motion, where it comes from the last one.
+    /// Returns to the end of the first touch, to follow the next cycle from the present state.
     pub(crate) const fn return_to_first_step(&mut self) {
         self.steps_done = 1;
     }
 
-    /// What all elements remember.
+    /// History variables of all elements.
     pub(crate) fn history_variables_mut(&mut self) -> &mut [f64] {
         self.history.variables_mut()
     }
 
-    /// Makes the next step; none after the last.
+    /// Solves the next step; `None` after the last one.
     ///
     /// # Errors
     /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::ContactNotConverged`];
@@ -153,29 +160,29 @@ impl<'a> March<'a> {
         Ok(Some(row))
     }
 
-    /// θ, the part of the last step by which its pressure and its forces belong before its end: 0 where loads are linear.
+    /// θ: pressure and forces of the last step belong to the time θ Δt before its end; 0 for linear loads.
     pub(crate) const fn time_level(&self) -> f64 {
         self.means.time_level
     }
 
-    /// Largest rise of the body over an element in contact, \[m].
+    /// Largest rise of the body over one element in contact in the last step, \[m].
     pub(crate) fn largest_rise(&self) -> f64 {
         self.means.largest * self.options.spacing[0]
     }
 
-    /// Relative tolerance of the contact of a step.
+    /// Relative tolerance of the contact of each step.
     pub(crate) const fn tolerance(&self) -> f64 {
         self.options.contact.tolerance
     }
 
-    /// Friction coefficient if all slopes were uphill, which says what rounding is.
+    /// Pressure-weighted mean of |∂h/∂x| in the last step: the friction coefficient if all slopes were uphill, as a scale for rounding.
     pub(crate) fn mean_slope_modulus(&self) -> f64 {
         self.means.mean_slope_modulus
     }
 }
 
-/// Number of steps of a length over a distance, and the length of the last, of a half to one and a half of the others.
-fn steps_of(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
+/// Number of steps of a `length` over a `distance`, and the length of the last one: 0.5 to 1.5 of the others.
+fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
     let steps = distance / length;
     if steps > MAX_STEPS {
         return Err(BemError::TooManySteps {

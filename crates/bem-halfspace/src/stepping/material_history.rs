@@ -1,10 +1,12 @@
-//! The elements that the footprint passes, and their memory of past loads.
+//! Displacements and history variables of all elements that the footprint passes.
 //!
 //! ```text
-//! u = history + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
+//! u = H + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
 //! ```
-//! Every element keeps one number per retardation element of the material, and one for free flow. A material that
-//! remembers nothing needs no more elements than the footprint has.
+//! Every element has one history variable per retardation element of the material, one for free flow, and the last load
+//! if loads are linear over a step. An elastic material has none, and needs no more elements than the footprint.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps".
 
 use std::ops::Range;
 
@@ -13,24 +15,29 @@ use rheology::ExponentialStep;
 use crate::elements::resolution::Layout;
 use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid, Rows};
 
-/// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.
+/// Fields over all elements of a path in front of the mirrors, row-major; displacements in units of the height scale, lengths
+/// in Δx.
 pub(super) struct MaterialHistory {
     pub(super) convolution: Convolution,
     workspace: ConvolutionWorkspace,
+    /// Scaled load of the present step; valid only in the rows that were last loaded.
     load: Vec<f64>,
-    /// Displacement by the load of the present step.
+    /// 2 (1 − ν) α w of the present step; [`advance`](Self::advance) with history variables leaves 2 (1 − ν) w.
     increment: Vec<f64>,
-    /// [row][field][column], so that the rows of a step lie together.
+    /// History variables, [row][field][column]: rows that a step needs are contiguous.
     variables: Vec<f64>,
+    /// History variables per element.
     pub(super) n_fields: usize,
 }
 
 impl MaterialHistory {
+    /// A path of `n_rows` rows at rest; `aspect` is Δy/Δx, and the base has lengths in Δx.
     pub(super) fn new(
         n_rows: usize,
         layout: &Layout,
         aspect: f64,
-        (n_fields, base): (usize, Base),
+        n_fields: usize,
+        base: Base,
     ) -> Result<Self, BemError> {
         let grid = Grid::new([n_rows, layout.folded_shape()[1]], [1.0, aspect])?;
         let n_elements = grid.n_elements();
@@ -50,22 +57,23 @@ impl MaterialHistory {
         self.convolution.grid().shape()[1]
     }
 
-    /// Displacement of the step in a range of rows.
+    /// Displacement by the load of the present step in a range of rows.
     pub(super) fn increment(&self, rows: Range<usize>) -> &[f64] {
         &self.increment[rows.start * self.columns()..rows.end * self.columns()]
     }
 
+    /// History variables of a range of rows.
     fn row_variables(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
         &self.variables[rows.start * per_row..rows.end * per_row]
     }
 
-    /// What all elements remember.
+    /// All history variables, [row][field][column].
     pub(super) fn variables_mut(&mut self) -> &mut [f64] {
         &mut self.variables
     }
 
-    /// Displacement at the end of a step without load, from `first_row` on.
+    /// Writes H, the displacement at the end of a step without load, for the rows from `first_row` on.
     pub(super) fn displacement_without_load(
         &self,
         step: &ExponentialStep,
@@ -78,22 +86,23 @@ impl MaterialHistory {
         }
     }
 
-    /// Presses with loads on the elements of a footprint that begins at `first_row`, and finds how far the rows
-    /// `wanted` give way.
+    /// Computes the displacement of the rows `wanted` by the `loaded` elements of a footprint that begins at row `first_row` of the
+    /// path; `footprint_rows` are the rows of the footprint that may be loaded.
     pub(super) fn apply_load(
         &mut self,
         loaded: impl Iterator<Item = ([usize; 2], f64)>,
-        (first_row, rows): (usize, Range<usize>),
+        first_row: usize,
+        footprint_rows: Range<usize>,
         wanted: Range<usize>,
     ) {
         let columns = self.columns();
-        let rows = rows.start + first_row..rows.end + first_row;
-        self.load[rows.start * columns..rows.end * columns].fill(0.0);
+        let path_rows = footprint_rows.start + first_row..footprint_rows.end + first_row;
+        self.load[path_rows.start * columns..path_rows.end * columns].fill(0.0);
         for ([row, column], load) in loaded {
             self.load[(row + first_row) * columns + column] = load;
         }
         let rows = Rows {
-            loaded: rows,
+            loaded: path_rows,
             wanted,
         };
         let (load, increment) = (&self.load, &mut self.increment);
@@ -101,13 +110,13 @@ impl MaterialHistory {
             .apply_in(&rows, &mut self.workspace, load, increment);
     }
 
-    /// A step without load.
+    /// Sets the displacement of the present step to zero in the rows `wanted`: a step without load.
     pub(super) fn clear_increment(&mut self, wanted: Range<usize>) {
         let columns = self.columns();
         self.increment[wanted.start * columns..wanted.end * columns].fill(0.0);
     }
 
-    /// Ends the step in the rows that are still needed.
+    /// Advances the history variables of the rows `wanted` to the end of the step.
     pub(super) fn advance(&mut self, step: &ExponentialStep, wanted: Range<usize>) {
         if self.n_fields == 0 {
             return;
@@ -118,12 +127,12 @@ impl MaterialHistory {
         let increments = self.increment[wanted.start * columns..wanted.end * columns]
             .chunks_exact_mut(columns)
             .zip(self.variables[wanted.start * per_row..].chunks_exact_mut(per_row));
-        for (increment, memory) in increments {
-            // From here on the load potential that caused the displacement, times 2 (1 − ν).
+        for (increment, variables) in increments {
+            // The input of the creep law is the load potential, here times 2 (1 − ν): u = α · input.
             for value in &mut *increment {
                 *value /= compliance;
             }
-            step.advance(increment, memory);
+            step.advance(increment, variables);
         }
     }
 }

@@ -1,13 +1,17 @@
-//! One step of contact after the other, on any linear viscoelastic half space.
+//! Time stepping of the contact on any linear viscoelastic half space or layer.
 //!
 //! ```text
-//! u_new = 2 (1 − ν) α w + history,        w = K P / (4π) held over the step, or linear
+//! u_new = 2 (1 − ν) α w + H,        w = K P / (4π) held over the step, or linear
 //! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
 //! ```
-//! Every step is an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + history. The elements stay
-//! where they are in the half space; the footprint goes with the indenter by whole elements, and the indenter stands
-//! anywhere over the element in its middle. Of an indenter that is its own mirror image only the elements in front of the
-//! mirror are followed. Inside, heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
+//! α is the compliance of the step and H the displacement that its end would have without load, both exact for any Δt. Every
+//! step is therefore an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + H.
+//!
+//! The elements are fixed in the half space. The footprint follows the indenter by whole elements; the lowest point lies
+//! anywhere within the element in its middle. If the indenter is its own mirror image, only the elements in front of the
+//! mirror are followed. Heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps" and "The contact of one step".
 
 mod march;
 mod material_history;
@@ -37,16 +41,18 @@ pub use motion::{Motion, MotionRow};
 use schedule::{Schedule, ScheduledStep};
 use slopes::MeanSlopes;
 
-/// The load within a step.
+/// Time course of the load within a step (docs/theory/transient-half-space.md, "Linear loads").
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LoadInterpolation {
-    /// That of its end from its beginning on.
+    /// Constant, at the value of the end of the step; first order in Δt.
     Held,
-    /// [Linear](ExponentialStep::creep_linear) from that of its beginning, as far as the material lets it.
+    /// [Linear](ExponentialStep::creep_linear) from the value at the end of the step before; second order in Δt. Held over part of
+    /// the step where prescribed displacements would make the load alternate, or all of it on a dashpot.
     Linear,
 }
 
 impl LoadInterpolation {
+    /// Coefficients of a step of length `time_step` \[s].
     fn step(self, creep: &CreepSpectrum, time_step: f64) -> Result<ExponentialStep, RheologyError> {
         match self {
             Self::Held => ExponentialStep::creep(creep, time_step),
@@ -55,30 +61,35 @@ impl LoadInterpolation {
     }
 }
 
-/// An indenter that moves over a half space, step by step.
+/// A simulation in time of an indenter that moves over a half space or layer.
 pub struct March<'a> {
     surface: &'a dyn Surface,
     options: GridOptions,
     layout: Layout,
     creep: CreepSpectrum,
-    /// Whether the body sinks_without_limit without limit, as it does not into a layer.
+    /// True on a half space that flows: the depth grows without limit. On a layer that flows it does not.
     pub(crate) sinks_without_limit: bool,
-    /// 2 (1 − ν).
+    /// 2 (1 − ν), the factor from α w to the displacement.
     half_space_factor: f64,
     schedule: Schedule,
     steps_done: usize,
     interpolation: LoadInterpolation,
+    /// Coefficients of a step of the length `time_step`.
     creep_step: ExponentialStep,
+    /// Δt of the present step, \[s].
     time_step: f64,
-    /// Heights of the indenter over the followed elements of the footprint, and the offset for which they were sampled.
+    /// Heights of the indenter over the followed elements of the footprint, in units of `height_scale`, row-major.
     heights: Vec<f64>,
+    /// Offset of the lowest point for which `heights` were sampled, in elements; NaN before the first sampling.
     sampled_offset: f64,
-    /// Heights plus displacement without load.
+    /// h + H, the gap at zero depth and without load, in units of `height_scale`; shape of `heights`.
     initial_gap: Vec<f64>,
     history: MaterialHistory,
+    /// Part of the footprint on which the contact is solved, with the pressure of the last step.
     contact_box: ContactBox,
     /// Unit of heights, \[m].
     height_scale: f64,
+    /// Slopes under the pressure of the last step.
     means: MeanSlopes,
 }
 
@@ -89,12 +100,15 @@ impl fmt::Debug for March<'_> {
 }
 
 impl<'a> March<'a> {
+    /// A march before the first step of `schedule`, over an undeformed surface; errors as for [`new`](Self::new).
     fn from_schedule(
-        (schedule, interpolation): (Schedule, LoadInterpolation),
+        schedule: Schedule,
+        interpolation: LoadInterpolation,
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
+        // An indenter that moves along x has no symmetry about x = 0.
         let [along_x, along_y] = surface.mirrors();
         let layout = options.layout([along_x && schedule.rests(), along_y])?;
         let [dx, dy] = options.spacing;
@@ -102,6 +116,7 @@ impl<'a> March<'a> {
         let creep = elastomer.material().creep();
         let time_step = schedule.steps[0].time_step;
         let creep_step = interpolation.step(&creep, time_step)?;
+        // Without history variables the elements may move with the indenter.
         let schedule = match creep_step.n_fields() {
             0 => schedule.without_memory(),
             _ => schedule,
@@ -110,8 +125,7 @@ impl<'a> March<'a> {
         base.check_flow(creep.fluidity())?;
         let sinks_without_limit = creep.fluidity() > 0.0 && base.is_half_space();
         let n_rows = schedule.rows_from(0, layout.folded_shape()[0]).end;
-        let history =
-            MaterialHistory::new(n_rows, &layout, dy / dx, (creep_step.n_fields(), base))?;
+        let history = MaterialHistory::new(n_rows, &layout, dy / dx, creep_step.n_fields(), base)?;
         let mut march = Self {
             surface,
             options: *options,
@@ -132,14 +146,15 @@ impl<'a> March<'a> {
             history,
             means: MeanSlopes::default(),
         };
+        // Heights are sampled in the scale; the first box surrounds the lowest point.
         march.height_scale = march.find_height_scale()?;
         march.sample_heights(march.schedule.steps[0].offset)?;
         march.contact_box = march.box_at_lowest_point(&march.heights)?;
         Ok(march)
     }
 
-    /// Number of values in the memory of an element: one per retardation element of the material, one more for free
-    /// flow, and one more for the last load where it is linear over a step; none for an elastic material.
+    /// Number of history variables per element: one per retardation element of the material, one for free flow, and one for
+    /// the last load if loads are linear over a step; 0 for an elastic material.
     pub const fn n_fields(&self) -> usize {
         self.history.n_fields
     }
@@ -149,28 +164,28 @@ impl<'a> March<'a> {
         self.history.convolution.grid().n_elements()
     }
 
-    /// Elements of the footprint in front of the mirrors with load in the last step, and their loads there, of which only
-    /// the ratios matter.
+    /// Elements of the footprint in front of the mirrors that are loaded in the last step, with their scaled loads; only ratios
+    /// of the loads have a meaning.
     fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let [first_row, first_column] = self.layout.first();
         let loaded = self.contact_box.loaded_elements();
         loaded.map(move |([row, column], load)| ([first_row + row, first_column + column], load))
     }
 
-    /// The box of the footprint around all loaded elements; the element under the lowest point without any.
+    /// Bounding box of all loaded elements within the footprint; the element under the lowest point if none is loaded.
     fn contact_bounds(&self) -> Bounds {
         let lowest = Bounds::single(self.layout.apex);
         let loaded = self.loaded_bounds();
         loaded.map_or(lowest, |loaded| self.layout.unfolded(&loaded))
     }
 
-    /// The box around the loaded elements in front of the mirrors, counted from there.
+    /// Bounding box of the loaded elements in front of the mirrors, in indices of that part; `None` without contact.
     fn loaded_bounds(&self) -> Option<Bounds> {
         let loaded = self.contact_box.loaded_elements();
         Bounds::enclosing(loaded.map(|(element, _)| element))
     }
 
-    /// Pressure in the last step; a single element without pressure where there is no contact.
+    /// Pressure in the last step; a single element of zero pressure if there is no contact.
     ///
     /// # Errors
     /// None after a step that succeeded.
@@ -190,7 +205,7 @@ impl<'a> March<'a> {
         PressureField::from_elements(&bounds, spacing, origin, loaded)
     }
 
-    /// Ends along x and y of the box of the footprint around all loaded elements, relative to the lowest point, \[m].
+    /// Edges [x, y] of the bounding box of the contact relative to the lowest point, \[m].
     pub(crate) fn contact_edges(&self) -> [[f64; 2]; 2] {
         let bounds = self.contact_bounds();
         let [dx, dy] = self.options.spacing;
@@ -202,7 +217,7 @@ impl<'a> March<'a> {
         ]
     }
 
-    /// Elements of the contact along x or y, whichever are fewer.
+    /// Smaller of the numbers of elements of the contact's bounding box along x and y; 0 without contact.
     pub(crate) fn elements_across(&self) -> usize {
         self.loaded_bounds().map_or(0, |_| {
             let [rows, columns] = self.contact_bounds().shape();
@@ -210,38 +225,42 @@ impl<'a> March<'a> {
         })
     }
 
-    /// The compliance of the last step, \[1/Pa].
+    /// 2 (1 − ν) α of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
         self.half_space_factor * self.creep_step.response()
     }
 
-    /// Goes to the end of the next step, without the forces along x; none after the last.
+    /// Solves the next step but leaves the tangential forces 0; `None` after the last step.
     pub(crate) fn advance(&mut self) -> Result<Option<MotionRow>, BemError> {
         let step = self.schedule.steps.get(self.steps_done).copied();
         step.map(|step| self.solve_step(&step)).transpose()
     }
 
-    /// Goes to the end of the first step, which every march has.
+    /// Solves the first step, which every schedule has, but leaves the tangential forces 0.
     pub(crate) fn first(&mut self) -> Result<MotionRow, BemError> {
         let step = self.schedule.steps[0];
         self.solve_step(&step)
     }
 
+    /// One step in time: contact at its end, then history variables of the rows that later steps need.
     fn solve_step(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
+        // Height and displacement without load at the end of the step.
         self.set_time_step(step.time_step)?;
         self.sample_heights(step.offset)?;
         self.update_initial_gap(step.row);
+        // The contact of an elastic half space of compliance 2 (1 − ν) α on this gap.
         let row = match self.depth_without_contact(step.end.control) {
             Some(depth) => self.step_without_contact(step, depth)?,
             None => self.solve_contact(step)?,
         };
+        // The material to the end of the step.
         self.history
             .advance(&self.creep_step, self.rows_needed(self.steps_done));
         self.steps_done += 1;
         Ok(row)
     }
 
-    /// The state at the end of a step, but for depth and forces.
+    /// State at the end of a step from the contact box; depth, forces and iterations are left 0.
     fn motion_row(&self, step: &ScheduledStep) -> MotionRow {
         let [dx, dy] = self.options.spacing;
         let loaded = self.loaded_elements();
@@ -263,10 +282,12 @@ impl<'a> March<'a> {
         }
     }
 
+    /// Rows of the path that the footprint covers from step number `step` on.
     fn rows_needed(&self, step: usize) -> Range<usize> {
         self.schedule.rows_from(step, self.layout.folded_shape()[0])
     }
 
+    /// Coefficients for a step of another length, and the same starting pressure in its units.
     fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
         if time_step.total_cmp(&self.time_step).is_eq() {
             return Ok(());
@@ -274,7 +295,7 @@ impl<'a> March<'a> {
         let before = self.creep_step.response();
         self.creep_step = self.interpolation.step(&self.creep, time_step)?;
         self.time_step = time_step;
-        // The same pressure is another load now.
+        // Loads are α P / (4π), so the same pressure has another load.
         let ratio = self.creep_step.response() / before;
         for load in self.contact_box.state.pressure_mut() {
             *load *= ratio;
@@ -282,17 +303,17 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// Position of a row of the footprint in the frame of the indenter, in elements.
+    /// x of a row of the footprint relative to the lowest point, in elements.
     fn x_in_elements(&self, row: usize, offset: f64) -> f64 {
         row as f64 - self.layout.apex[0] as f64 - offset
     }
 
-    /// Position of a column of the footprint across, \[m].
+    /// y of a column of the footprint relative to the lowest point, \[m].
     fn y_of_column(&self, column: usize) -> f64 {
         (column as f64 - self.layout.apex[1] as f64) * self.options.spacing[1]
     }
 
-    /// Samples the heights with the lowest point `offset` elements ahead of the centre of its element.
+    /// Samples the heights with the lowest point `offset` elements ahead of the centre of its element, unless they are there.
     fn sample_heights(&mut self, offset: f64) -> Result<(), BemError> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
@@ -313,6 +334,7 @@ impl<'a> March<'a> {
         Ok(())
     }
 
+    /// A contact box around the minimum of `heights`, with the usual margin.
     fn box_at_lowest_point(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let [_, columns] = self.layout.folded_shape();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
@@ -321,23 +343,25 @@ impl<'a> March<'a> {
         ContactBox::of(&self.history.convolution, self.with_margin(&element))
     }
 
-    /// With room for a growing contact.
+    /// `bounds` with a margin into which the contact may grow, within the followed elements.
     fn with_margin(&self, bounds: &Bounds) -> Bounds {
         bounds.with_margin(self.layout.folded_shape(), self.layout.mirrors)
     }
 
+    /// Sets h + H for a footprint that begins at row `first_row` of the path.
     fn update_initial_gap(&mut self, first_row: usize) {
         self.history
             .displacement_without_load(&self.creep_step, first_row, &mut self.initial_gap);
-        for (separation, height) in self.initial_gap.iter_mut().zip(&self.heights) {
-            *separation += height;
+        for (gap, height) in self.initial_gap.iter_mut().zip(&self.heights) {
+            *gap += height;
         }
     }
 
-    /// The depth of an indenter that is not pressed, or held above the surface; nothing when there is contact.
+    /// Depth \[m] if the step has no contact: that of the first touch under zero force, or a given depth that does not reach
+    /// the surface; `None` if there is contact.
     fn depth_without_contact(&self, control: Control) -> Option<f64> {
-        let separation = self.initial_gap.iter().copied();
-        let lowest = separation.fold(f64::INFINITY, f64::min);
+        let gaps = self.initial_gap.iter().copied();
+        let lowest = gaps.fold(f64::INFINITY, f64::min);
         match control {
             Control::NormalForce(force) => (force == 0.0).then_some(lowest * self.height_scale),
             Control::IndentationDepth(depth) => {
@@ -346,6 +370,7 @@ impl<'a> March<'a> {
         }
     }
 
+    /// A step without load: the box returns to the lowest gap if there was contact before.
     fn step_without_contact(
         &mut self,
         step: &ScheduledStep,
@@ -362,7 +387,8 @@ impl<'a> March<'a> {
         })
     }
 
-    /// A height that the scene has: F α / (4 Δx), which is F_N/(4ηv) on a dashpot, or a depth that is given.
+    /// Unit of heights \[m], the largest over all steps: 2 (1 − ν) α F_N/(4 Δx) under a force, which is F_N/(4ηv) on an
+    /// incompressible dashpot that moves by Δx per step; the modulus of a given depth; Δx if all of these are 0.
     fn find_height_scale(&self) -> Result<f64, BemError> {
         let spacing = self.options.spacing[0];
         let mut scale = 0.0_f64;
@@ -382,8 +408,8 @@ impl<'a> March<'a> {
         Ok(positive("height scale F α / (4 Δx)", scale)?)
     }
 
-    /// F_N J(L/v) / (4 L), the depth that a force makes in the time L/v in which it passes a contact of length L:
-    /// F_N/(4ηv) on a dashpot, \[m].
+    /// Depth scale 2 (1 − ν) F_N J(t)/(4 L) of a contact of length L, \[m], with the time t = L/v in which it passes; F_N/(4ηv) on an
+    /// incompressible dashpot.
     pub(crate) fn depth_scale(
         &self,
         normal_force: f64,

@@ -1,15 +1,15 @@
-//! The steps of a march and their results.
+//! Input and result of one step of a march.
 
 use indenters::Control;
 
-/// One step of an indenter; its control holds from the step before, so that a change of it is a jump.
+/// End of one step of an indenter. The control holds during the whole step, so that a change of it is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// Time at the end of the step, since the first touch, \[s].
     pub time: f64,
-    /// Position of the lowest point along x there, \[m]; it may change by any amount, stay, or go back.
+    /// Position of the lowest point along x at the end of the step, \[m]; it may change by any amount, stay, or go back.
     pub position: f64,
-    /// Force or depth there; a force may be zero, a depth negative.
+    /// Force or depth during the step; a force may be zero, a depth negative.
     pub control: Control,
 }
 
@@ -21,19 +21,19 @@ pub struct MotionRow {
     pub time: f64,
     /// Position of the lowest point along x, \[m].
     pub position: f64,
-    /// Depth of the lowest point below the undeformed surface, \[m]; where nothing is pressed, that of the first touch.
+    /// Depth of the lowest point below the undeformed surface, \[m]; under zero force that of the first touch.
     pub indentation_depth: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
-    /// Force F_h along −x on the indenter, \[N]: the pressure of the step times the slope that it meets.
+    /// Force F_h along −x on the indenter, \[N]: the pressure of the step times the slope at the time level of that pressure.
     pub tangential_force: f64,
-    /// The same with the slope at the end of the step, \[N].
+    /// Tangential force with the slope at the end of the step, \[N].
     pub tangential_force_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
-    /// Rear and front of the contact relative to the lowest point, \[m]; none without contact.
+    /// Rear and front of the contact relative to the lowest point, \[m]; `None` without contact.
     pub contact_x: Option<[f64; 2]>,
-    /// Sides of the contact relative to the lowest point, \[m]; none without contact.
+    /// Sides of the contact relative to the lowest point, \[m]; `None` without contact.
     pub contact_y: Option<[f64; 2]>,
     /// Number of elements in contact.
     pub n_contact: usize,

@@ -1,4 +1,6 @@
-//! The path of an indenter over the elements.
+//! The steps of a march: where the indenter stands at the end of each, and which rows of elements later steps still need.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions".
 
 use std::ops::Range;
 
@@ -9,31 +11,34 @@ use crate::BemError;
 use crate::contact::check_control;
 use crate::elements::grid::whole_elements;
 
-/// One step of the path, seen from the elements.
+/// One step in time with the position of the indenter on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ScheduledStep {
-    /// What is given at the end.
+    /// Time, position and control at the end of the step.
     pub(crate) end: Motion,
-    /// Duration, \[s].
+    /// Duration Δt, \[s].
     pub(crate) time_step: f64,
-    /// Row under the lowest point at the end, from the rearmost one of the whole path.
+    /// Row under the lowest point at the end, counted from the rearmost such row of all steps.
     pub(crate) row: usize,
-    /// Distance of the lowest point from the centre of that row, in elements, at most a half.
+    /// Position of the lowest point relative to the centre of that row, in elements, from −½ to ½.
     pub(crate) offset: f64,
-    /// Motion during the step, in elements.
+    /// Displacement of the indenter during the step, in elements.
     pub(crate) advance: f64,
 }
 
-/// All steps, and which rows those to come pass.
+/// All steps of a march.
 pub(crate) struct Schedule {
     pub(crate) steps: Vec<ScheduledStep>,
-    /// Lowest and highest row under the lowest point from each step on.
+    /// Lowest and highest row under the lowest point, over each step and all later ones.
     spans: Vec<[usize; 2]>,
 }
 
 impl Schedule {
-    /// The path through the ends of motions, each with its duration \[s], from a centre of an element at time and position
-    /// zero. Refuses what [`March::new`](crate::motions::slide::March::new) does.
+    /// The steps to the ends of `motions`, each with its duration \[s], from the centre of an element at time and position 0.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for no motions, for durations that are not positive, and for positions and controls out of
+    /// range.
     pub(crate) fn new(
         motions: impl Iterator<Item = (Motion, f64)>,
         spacing: f64,
@@ -55,6 +60,7 @@ impl Schedule {
             (cell_before, offset_before) = (cell, offset);
         }
         positive("number of steps", steps.len() as f64)?;
+        // Count rows from the rearmost one.
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);
         for (step, cell) in steps.iter_mut().zip(cells) {
             step.row = whole_elements(cell - lowest)?;
@@ -69,7 +75,7 @@ impl Schedule {
         steps.all(|step| step.advance == 0.0 && step.offset == 0.0)
     }
 
-    /// The same path again and again, so that every step may still pass all rows.
+    /// The schedule of a motion that is repeated: every row is needed after every step.
     pub(crate) fn repeated(mut self) -> Self {
         if let Some(first) = self.spans.first().copied() {
             self.spans.fill(first);
@@ -77,7 +83,7 @@ impl Schedule {
         self
     }
 
-    /// The same path over a half space without memory, so that the elements may move with the indenter.
+    /// The schedule on a material without history variables: the elements move with the indenter, which stays over row 0.
     pub(crate) fn without_memory(mut self) -> Self {
         for step in &mut self.steps {
             step.row = 0;
@@ -86,14 +92,14 @@ impl Schedule {
         self
     }
 
-    /// Rows that footprints of `n_rows` rows cover from step number `first` on; none after the last.
+    /// Rows of the path that footprints of `n_rows` rows cover from step number `first` on; empty after the last step.
     pub(crate) fn rows_from(&self, first: usize, n_rows: usize) -> Range<usize> {
         let span = self.spans.get(first);
         span.map_or(0..0, |[low, high]| *low..high + n_rows)
     }
 }
 
-/// Lowest and highest row from each step on.
+/// Lowest and highest row under the lowest point over each step and all later ones: running extrema from the end.
 fn spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
     let mut spans: Vec<[usize; 2]> = steps.iter().map(|step| [step.row; 2]).collect();
     for step in (1..spans.len()).rev() {
@@ -104,7 +110,7 @@ fn spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
     spans
 }
 
-/// The nearest element to a position, and the distance from its centre, in elements.
+/// Index of the element nearest to a position \[m], and the position relative to its centre, both in elements.
 fn place(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
     let elements = finite("position", position)? / spacing;
     let cell = elements.round();

@@ -1,13 +1,16 @@
-//! The slope that the pressure of a step meets.
+//! Slope of the body under the pressure of a step, at the time level at which the two belong together.
 //!
 //! ```text
 //! F_h = Σ P ∂h/∂x ΔA,      ∂h/∂x at x + θ v Δt,      θ = ½ (1 − E G'(ω)),      ω = 2πv/L
 //! E = J₀ + Σ J_k (1 − 2 m_k)/(1 + ω²λ_k²),      m_k = λ_k/Δt − 1/(e^(Δt/λ_k) − 1)
 //! ```
-//! The pressure that moves a dashpot belongs to the motion during the step, that of a spring to its end, and so does
-//! that of an element that yields within the step. Between them the moduli at the frequency decide with which a contact
-//! of length L passes; `docs/theory/transient-half-space.md` has the derivation. A chord over an element, or over the
-//! way of a longer step, stands for the slope, so that a cusp has one too. A load that is linear over the step belongs to its end.
+//! The pressure on a dashpot belongs to the motion during the step (θ = ½). The pressure on a spring, or on a retardation
+//! element that relaxes within the step, belongs to the end of the step (θ = 0). In between, θ follows from the moduli at the
+//! frequency ω with which a contact of length L passes. A load that is linear over the step belongs to its end.
+//!
+//! The slope is that of a chord over one element, or over the distance 2 θ v Δt of a longer step, so that it exists at a cusp.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Time level of the slope" and "Linear loads".
 
 use std::f64::consts::PI;
 
@@ -16,23 +19,23 @@ use numerics::in_range;
 use crate::BemError;
 use crate::stepping::{March, ScheduledStep};
 
-/// Slopes of the loaded elements, weighted with their pressure; zero without contact.
+/// Slopes of the body over the loaded elements, weighted with their pressure; all zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeanSlopes {
-    /// θ, the part of the step by which pressure and forces belong before its end.
+    /// θ: pressure and forces belong to the time θ Δt before the end of the step, from 0 to ½.
     pub(super) time_level: f64,
-    /// Mean of the slope that the pressure of the step meets: F_h / F_N.
+    /// Mean slope at the time level θ: F_h / F_N.
     pub(super) met: f64,
     /// Mean of ∂h/∂x at the end of the step.
     pub(super) end: f64,
-    /// Mean of the modulus of the slope.
+    /// Mean modulus of the slope at the time level θ.
     pub(super) mean_slope_modulus: f64,
-    /// Largest slope.
+    /// Largest slope at the time level θ; of its modulus if the body is its own mirror image about x = 0.
     pub(super) largest: f64,
 }
 
 impl MeanSlopes {
-    /// Over the step that has been made.
+    /// Slopes under the pressure of the step that was solved last.
     pub(super) fn over(march: &March<'_>, step: &ScheduledStep) -> Result<Self, BemError> {
         let time_level = time_level(march, step)?;
         let chord = Chord::new(time_level, step);
@@ -65,7 +68,7 @@ impl MeanSlopes {
     }
 }
 
-/// The slope that an element meets and that at the end of the step.
+/// Slopes over an element: at the time level of the chord, and at the end of the step.
 fn slopes_at(
     march: &March<'_>,
     chord: &Chord,
@@ -74,7 +77,7 @@ fn slopes_at(
     let spacing = march.options.spacing[0];
     let here = march.x_in_elements(row, march.sampled_offset);
     let y = march.y_of_column(column);
-    let height = |place: f64| march.surface.height([place * spacing, y]);
+    let height = |x: f64| march.surface.height([x * spacing, y]);
     let met = chord.rise(here, height) / spacing;
     let x = here * spacing;
     if !met.is_finite() {
@@ -85,7 +88,7 @@ fn slopes_at(
     Ok([met, end])
 }
 
-/// θ, from 0 at the end of the step to ½ in its middle.
+/// θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step in which the load is held.
 fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let held = 1.0 - march.creep_step.linear_share();
     if held == 0.0 {
@@ -94,7 +97,7 @@ fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> 
     Ok(0.5 * held * (1.0 - elastic_share(march, step)?))
 }
 
-/// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
+/// E G' at the frequency ω = 2πv/L with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
 fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let (creep, advance, time_step) = (&march.creep, step.advance, step.time_step);
     let mut elastic = creep.instantaneous_compliance();
@@ -109,12 +112,12 @@ fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemErro
         return Ok(0.0);
     }
     let compliance = creep.complex_compliance(frequency)?;
-    // Relative to E, because squares of compliances may underflow.
+    // G' = J'/(J'² + J''²), relative to E because squares of compliances may underflow.
     let [storage, loss] = [compliance.storage, compliance.loss].map(|part| part / elastic);
     Ok(storage / (storage * storage + loss * loss))
 }
 
-/// A piece of the body around the place that an element meets, in elements.
+/// Interval along x over which the slope is averaged, relative to the element, in elements.
 struct Chord {
     centre: f64,
     length: f64,
@@ -124,12 +127,12 @@ impl Chord {
     fn new(time_level: f64, step: &ScheduledStep) -> Self {
         Self {
             centre: time_level * step.advance,
-            // The mean over the way of a dashpot; the element alone for a spring.
+            // On a dashpot (θ = ½) the distance of the step; on a spring the element alone.
             length: (2.0 * time_level * step.advance.abs()).max(1.0),
         }
     }
 
-    /// Rise of the body per element.
+    /// Mean rise of the body per element over the interval, for an element at x = `here`, in elements.
     fn rise(&self, here: f64, height: impl Fn(f64) -> f64) -> f64 {
         let centre = here + self.centre;
         let half = 0.5 * self.length;

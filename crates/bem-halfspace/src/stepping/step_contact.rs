@@ -1,4 +1,6 @@
-//! The contact at the end of one step.
+//! The contact at the end of one step, on a box that follows the contact.
+//!
+//! Theory: docs/theory/transient-half-space.md, "The contact of one step"; the solver: docs/theory/contact.md.
 
 use std::f64::consts::PI;
 
@@ -9,21 +11,24 @@ use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::n_images;
 
-/// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
-/// solver would take a smaller box of its own.
-const NEEDED_PART: f64 = 0.75;
+/// Area of the needed box over that of the present one below which the box shrinks; chosen, and above the ratio at which the
+/// contact solver would take a smaller box of its own.
+const SHRINKING_AREA_RATIO: f64 = 0.75;
 
 impl March<'_> {
-    /// Solves the contact at the end of a step, on a box that grows until the indenter penetrates nowhere outside.
+    /// Solves the contact at the end of a step on a box that is enlarged until the indenter penetrates nowhere outside it.
     pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
+            // Solve on the box.
             let columns = self.layout.folded_shape()[1];
             let bounds = self.contact_box.bounds;
             bounds.extract(&self.initial_gap, columns, &mut self.contact_box.separation);
             let control = self.scaled_control(step.end.control);
             let accuracy = (&self.options.contact).into();
             let solved = self.contact_box.solve(control, &accuracy)?;
+
+            // Enlarge the box by penetrating elements, and solve again.
             self.update_increment(step.row);
             let contact = self.loaded_bounds();
             if let Some(outside) = self.penetration_outside_box(step.row, solved.indentation_depth)
@@ -37,6 +42,8 @@ impl March<'_> {
                 enlarged = true;
                 continue;
             }
+
+            // Stop at the boundary of the footprint; shrink a box that the contact has left.
             if let Some(contact) = contact {
                 self.check_footprint(&self.layout.unfolded(&contact), step.end.position)?;
                 self.shrink_box(&contact)?;
@@ -53,14 +60,15 @@ impl March<'_> {
         }
     }
 
-    /// Sum of the loads in front of the mirrors that a normal force of 1 N makes.
+    /// Sum of the scaled loads in front of the mirrors per newton of normal force.
     ///
-    /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
+    /// The scaled load is x = 2 (1 − ν) α P / (4π), so that the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
         let compliance = self.compliance() / self.height_scale;
         compliance / (4.0 * PI * self.options.spacing[1]) / n_images(self.layout.mirrors)
     }
 
+    /// A control in the units of the contact box: scaled load, or depth over the height scale.
     fn scaled_control(&self, control: Control) -> Control {
         match control {
             Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),
@@ -70,6 +78,7 @@ impl March<'_> {
         }
     }
 
+    /// Computes the displacement by the load of the box in all rows that this and later steps need.
     fn update_increment(&mut self, first_row: usize) {
         let wanted = self.rows_needed(self.steps_done);
         if self.loaded_bounds().is_none() {
@@ -78,24 +87,25 @@ impl March<'_> {
         }
         let rows = self.contact_box.bounds.rows();
         let loaded = self.contact_box.loaded_elements();
-        self.history.apply_load(loaded, (first_row, rows), wanted);
+        self.history.apply_load(loaded, first_row, rows, wanted);
     }
 
-    /// Elements outside the box that the indenter penetrates.
+    /// Bounding box of the elements outside the contact box that the indenter penetrates; `None` without any.
     fn penetration_outside_box(&self, first_row: usize, depth: f64) -> Option<Bounds> {
         let [rows, columns] = self.layout.folded_shape();
         let increment = self.history.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
         // The box and the window round differently, so the box's own tolerance would be too sharp here.
         let allowed = -2.0 * self.options.contact.tolerance * deflection;
-        let gaps = self.initial_gap.iter().zip(increment).enumerate();
-        let outside = gaps
-            .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
+        let elements = self.initial_gap.iter().zip(increment).enumerate();
+        let outside = elements
+            .filter(|(_, (gap, increment))| *gap + *increment - depth < allowed)
             .map(|(index, _)| [index / columns, index % columns])
             .filter(|element| !self.contact_box.bounds.contains(*element));
         Bounds::enclosing(outside)
     }
 
+    /// Refuses a contact that touches the boundary of the footprint.
     fn check_footprint(&self, bounds: &Bounds, position: f64) -> Result<(), BemError> {
         let shape = self.layout.shape;
         let inside = (0..2).all(|axis| bounds.lower[axis] > 0 && bounds.upper[axis] < shape[axis]);
@@ -105,12 +115,12 @@ impl March<'_> {
         Err(self.options.footprint.boundary_reached(position))
     }
 
-    /// Goes on with a smaller box when the contact has left most of it.
+    /// Replaces the box by a smaller one around `contact` when that needs less than [`SHRINKING_AREA_RATIO`] of it.
     fn shrink_box(&mut self, contact: &Bounds) -> Result<(), BemError> {
         let shape = self.contact_box.bounds.shape();
         let needed = self.with_margin(contact);
         let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));
-        if ((rows * columns) as f64) < NEEDED_PART * (shape[0] * shape[1]) as f64 {
+        if ((rows * columns) as f64) < SHRINKING_AREA_RATIO * (shape[0] * shape[1]) as f64 {
             self.contact_box = self.contact_box.moved_to(needed)?;
         }
         Ok(())
