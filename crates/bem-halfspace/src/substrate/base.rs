@@ -1,13 +1,20 @@
-//! What a surface is pressed into, and what lies under its material.
+//! Elastomers, and the substrates that may lie under a layer of their material.
 //!
-//! A wave of pressure moves the surface by `û = 2 p̂ M(|q|t)/(|q| E*)`, with E* as for the half space of the material, where M
-//! is 1. So every half-space method answers for another substrate when the potential 1/r of a point is replaced by
+//! A pressure wave p̂ of the wave vector q displaces the surface by
 //!
 //! ```text
-//! 1/r + c(r/t)/t,        c(ρ) = ∫_0^∞ [M(s) − 1] J₀(sρ) ds,
+//! û = 2 p̂ M(|q|t) / (|q| E*)        with M = 1 on a half space.
 //! ```
 //!
-//! of which the second part is analytic for |Im ρ| < 2. On a rigid base both together decay like e^(−0.7 ρ) or faster.
+//! Every half-space method therefore holds on another substrate when the potential 1/r of a point is replaced by
+//!
+//! ```text
+//! 1/r + c(r/t)/t,        c(ρ) = ∫_0^∞ [M(s) − 1] J₀(sρ) ds.
+//! ```
+//!
+//! c is analytic for |Im ρ| < 2. On a rigid base the sum decays like e^(−0.7 ρ) or faster.
+//!
+//! Theory: docs/layers.md, "How it is computed" and "Other substrates".
 
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Debug;
@@ -20,13 +27,13 @@ use crate::influence;
 use crate::substrate::correction::{Correction, MAX_WAVE_NUMBER};
 use crate::substrate::rectangle::integrate_smooth;
 
-/// What a surface is pressed into: every [`Material`] stands for a half space, and [`Layer`](crate::Layer) puts a layer of it
-/// on a base.
+/// A deformable body with a plane surface: every [`Material`] is a half space, and [`Layer`](crate::Layer) is a layer of a
+/// material on a base.
 pub trait Elastomer {
-    /// What it is made of at the surface.
+    /// Material at the surface.
     fn material(&self) -> Box<dyn Material + '_>;
 
-    /// What that lies on.
+    /// Base under the material.
     fn base(&self) -> Base;
 }
 
@@ -40,52 +47,57 @@ impl<M: Material + ?Sized> Elastomer for M {
     }
 }
 
-/// What lies under a layer of the material of the surface: a rigid base, another half space, layers upon layers.
+/// Substrate under a layer of the material of the surface: a rigid base, another half space, or several layers.
 ///
-/// All of it creeps and relaxes like the material of the surface, so that its compliance to waves is at all times the same
-/// multiple of that of the half space.
+/// The whole substrate creeps and relaxes like the material of the surface. Its compliance to a pressure wave is therefore at
+/// all times the same multiple of that of the half space.
 pub trait Substrate: Debug + Send + Sync {
-    /// Thickness t of the layer of the material of the surface, \[m]. The longer waves are than that, the more of them the
-    /// substrate feels; those of t/4 and less see a half space.
+    /// Thickness t of the layer of the material of the surface, \[m]. Waves of the length t/4 and less see a half space;
+    /// the longer a wave, the more the substrate matters.
     fn thickness(&self) -> f64;
 
-    /// Ratio M of the compliance of the surface to that of the half space of its material, for a wave of pressure of the wave
-    /// number s/t, with s ≥ 0 and the Poisson ratio of the material. It tends to 1 for short waves, like s² e^(−2s) or faster.
+    /// Compliance ratio M(s): compliance of the surface to a pressure wave of the wave number s/t, s ≥ 0, over that of the half
+    /// space of its material. It must tend to 1 for short waves like s² e^(−2s) or faster.
     fn compliance_ratio(&self, s: f64, poisson_ratio: f64) -> f64;
 
-    /// M − 1; to be given where that cancels and more than 1e-12 of the displacement is wanted.
+    /// M(s) − 1. Implement it if the default, a difference, cancels and displacements are wanted to better than 1e-12.
     fn compliance_excess(&self, s: f64, poisson_ratio: f64) -> f64 {
         self.compliance_ratio(s, poisson_ratio) - 1.0
     }
 
-    /// Limit of t M(s)/s for long waves, in the unit in which the thickness t is given here: by how much the mean pressure
-    /// moves the surface, times E*/2. Infinite, as it is by default, unless the whole rests on something rigid.
+    /// Compliance to uniform pressure, lim t M(s)/s for s → 0: displacement over pressure, times E*/2, in the unit of `thickness`.
+    /// Infinite, which is the default, unless the substrate rests on a rigid base.
     fn uniform_compliance(&self, _thickness: f64, _poisson_ratio: f64) -> f64 {
         f64::INFINITY
     }
 
-    /// Distance beyond which a load moves nothing, in thicknesses; infinite by default, with which all is right but slower.
+    /// Influence radius: distance from a load beyond which the displacement is negligible, in thicknesses. The default, infinite,
+    /// is always right but slower.
     fn influence_radius(&self) -> f64 {
         f64::INFINITY
     }
 }
 
-/// What the material of a surface lies on: itself, as a half space, which is the default, or a [`Substrate`], with the
-/// table of its potential, which is made when it is first needed and shared by all clones.
+/// Base of the material at the surface: a half space of the same material, which is the default, or a [`Substrate`].
+///
+/// The table of the substrate's potential is computed at first use and shared by all clones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Base(Option<LayeredBase>);
 
-/// A substrate, with the thickness of the layer on it in the unit of the lengths of a grid.
+/// A substrate with the thickness of the layer on it.
 #[derive(Debug, Clone)]
 struct LayeredBase {
+    /// Thickness of the layer, \[m] or in the unit of [`Base::in_units_of`].
     thickness: f64,
     shared: Arc<TabulatedSubstrate>,
 }
 
+/// A substrate with the table of its potential for one Poisson ratio.
 #[derive(Debug)]
 struct TabulatedSubstrate {
     substrate: Box<dyn Substrate>,
     poisson_ratio: f64,
+    /// c(ρ), tabulated at first use.
     correction: OnceLock<Correction>,
 }
 
@@ -97,12 +109,14 @@ impl PartialEq for LayeredBase {
 }
 
 impl LayeredBase {
+    /// M(s).
     fn compliance_ratio(&self, s: f64) -> f64 {
         self.shared
             .substrate
             .compliance_ratio(s, self.shared.poisson_ratio)
     }
 
+    /// lim t M(s)/s for s → 0, in the unit of the thickness; infinite without a rigid base.
     fn uniform_compliance(&self) -> f64 {
         let TabulatedSubstrate {
             substrate,
@@ -114,15 +128,16 @@ impl LayeredBase {
 }
 
 impl Base {
-    /// A substrate under a layer of a material with the Poisson ratio.
+    /// A substrate under a layer of a material with the given Poisson ratio.
     ///
     /// # Errors
-    /// [`InvalidParameter`] for a thickness or a compliance ratio that is not finite and positive, and for one that is not 1
-    /// for short waves.
+    /// [`InvalidParameter`] for a thickness or a compliance ratio that is not finite and positive, and for a compliance ratio that
+    /// is not 1 for short waves.
     pub fn new(
         substrate: impl Substrate + 'static,
         poisson_ratio: f64,
     ) -> Result<Self, InvalidParameter> {
+        // M must be positive for wave numbers s from 2^−20 to 16, and 1 for short waves.
         let thickness = positive("thickness", substrate.thickness())?;
         for power in -20..5 {
             let ratio = substrate.compliance_ratio(f64::from(power).exp2(), poisson_ratio);
@@ -143,7 +158,10 @@ impl Base {
         })))
     }
 
-    /// The same with lengths in edges of an element; refuses a layer that is thinner by far.
+    /// The base with lengths in units of `edge`, the edge of an element.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] for a layer thinner than 1/[`MAX_EDGE_OVER_THICKNESS`] of the edge.
     pub(crate) fn in_units_of(&self, edge: f64) -> Result<Self, InvalidParameter> {
         let Some(layered) = self.0.clone() else {
             return Ok(Self(None));
@@ -159,7 +177,7 @@ impl Base {
         })))
     }
 
-    /// Refuses a material that flows on a substrate that is not rigid below: its flow is known on a half space only.
+    /// Refuses a material that flows on a substrate that is neither rigid nor the half space itself: its flow is not known.
     pub(crate) fn check_flow(&self, fluidity: f64) -> Result<(), InvalidParameter> {
         let is_known = fluidity <= 0.0 || self.is_half_space() || self.is_rigid();
         let allowed = "0 on a substrate that is neither rigid nor the half space itself";
@@ -170,36 +188,36 @@ impl Base {
         self.0.is_none()
     }
 
-    /// Whether there is something rigid below, so that a load is not felt far away.
+    /// True if the substrate rests on a rigid base, so that its compliance to uniform pressure is finite.
     pub(crate) fn is_rigid(&self) -> bool {
         self.0
             .as_ref()
             .is_some_and(|layered| layered.uniform_compliance().is_finite())
     }
 
-    /// Thickness of the layer of the material; infinite for a half space.
+    /// Thickness of the layer of the material at the surface; infinite for a half space.
     pub(crate) fn thickness(&self) -> f64 {
         self.0
             .as_ref()
             .map_or(f64::INFINITY, |layered| layered.thickness)
     }
 
-    /// M(s) for a wave of the wave number s over the thickness.
+    /// Compliance ratio M(s) for a wave of the wave number s/t; 1 on a half space.
     pub(crate) fn compliance_ratio(&self, s: f64) -> f64 {
         self.0
             .as_ref()
             .map_or(1.0, |layered| layered.compliance_ratio(s))
     }
 
-    /// |q|/M(|q|t), the |q| > 0 of the wave that a half space would resist as much.
+    /// Stiffness |q|/M(|q|t) of the surface to a pressure wave, in units of E*/2, for |q| > 0.
     pub(crate) fn stiffness(&self, wave_number: f64) -> f64 {
         self.0.as_ref().map_or(wave_number, |layered| {
             wave_number / layered.compliance_ratio(wave_number * layered.thickness)
         })
     }
 
-    /// The same, and for waves longer than about the thickness that of a wave as long: what an incompressible layer resists in
-    /// longer ones depends on the load around, which it is squeezed out under.
+    /// [`stiffness`](Self::stiffness) with wave numbers below 2/t replaced by 2/t: to longer waves an incompressible layer is stiff
+    /// because it must be squeezed aside, which depends on the load around.
     pub(crate) fn local_stiffness(&self, wave_number: f64) -> f64 {
         let longest = self
             .0
@@ -208,44 +226,46 @@ impl Base {
         self.stiffness(wave_number.max(longest))
     }
 
-    /// M/|q| of the mean: by how much a layer on a rigid base gives way under a load that is the same everywhere; 0 where
-    /// displacements are measured from their mean because that would be infinite.
+    /// Compliance to uniform pressure, lim M(|q|t)/|q| for q → 0, in units of 2/E*; 0 without a rigid base, where it would be
+    /// infinite and displacements are measured from their mean.
     pub(crate) fn uniform_compliance(&self) -> f64 {
         let mean = self.0.as_ref().map(LayeredBase::uniform_compliance);
         mean.filter(|mean| mean.is_finite()).unwrap_or(0.0)
     }
 
-    /// By how much softer than a half space the base is under a load of about that length.
+    /// Estimated compliance ratio M under a load of about the given length, which has the unit of the thickness.
     pub(crate) fn compliance_ratio_under_punch(&self, length: f64) -> f64 {
-        // A Winkler foundation gives way under a flat punch of that radius by as much.
+        // q = 4/(π length): at this q a Winkler foundation has the ratio of a flat punch of the radius `length`.
         let wave_number = FRAC_PI_4.recip() / length;
         wave_number / self.stiffness(wave_number)
     }
 
-    /// Where contact may occur over about that length from the middle of a body h ∼ r^p, as a multiple of the heights where a
-    /// half space may be touched: a thin layer that hardly shrinks rises around the contact, and meets the body up to the
-    /// height (1 + p/2) d where it does not shrink at all.
+    /// Factor on the height up to which a body h ∼ r^p may be touched, relative to a half space; p is the `exponent`.
+    ///
+    /// A thin, nearly incompressible layer piles up around the contact. If it is incompressible and thin compared with the contact
+    /// of the given half length, it meets the body up to the height (1 + p/2) d.
     pub(crate) fn pile_up_factor(&self, half_length: f64, exponent: f64) -> f64 {
         self.0.as_ref().map_or(1.0, |layered| {
             let slenderness = (half_length / layered.thickness / THIN_LAYER_RATIO).min(1.0);
-            let shrinks = (10.0 * (0.5 - layered.shared.poisson_ratio)).clamp(0.0, 1.0);
-            1.0 + slenderness * (PILE_UP_MARGIN + 0.5 * exponent * (1.0 - shrinks))
+            // From 0 at ν = 0.5 to 1 at ν ≤ 0.4.
+            let compressibility = (10.0 * (0.5 - layered.shared.poisson_ratio)).clamp(0.0, 1.0);
+            1.0 + slenderness * (PILE_UP_MARGIN + 0.5 * exponent * (1.0 - compressibility))
         })
     }
 
-    /// Distance beyond which nothing moves.
+    /// Influence radius of a load, in the unit of the thickness; infinite for a half space.
     pub(crate) fn influence_radius(&self) -> f64 {
         self.0.as_ref().map_or(f64::INFINITY, |layered| {
             layered.shared.substrate.influence_radius() * layered.thickness
         })
     }
 
-    /// Displacement by a uniformly loaded rectangle, as [`influence`].
+    /// Influence coefficient of a uniformly loaded rectangle, with arguments and unit of [`influence`].
     pub(crate) fn influence(&self, offset: [f64; 2], edges: [f64; 2]) -> f64 {
         let Some(layered) = &self.0 else {
             return influence(offset, edges);
         };
-        // Of the rectangle only what is not too far to move anything.
+        // Cut the rectangle at the influence radius.
         let reach = self.influence_radius();
         let [mut centre, mut seen] = [offset, edges];
         for axis in 0..2 {
@@ -261,6 +281,8 @@ impl Base {
                 (centre[axis], seen[axis]) = (0.5 * (first + last), last - first);
             }
         }
+
+        // Love's integral of 1/r plus the integral of the smooth correction c(r/t)/t.
         let unit = layered.thickness;
         let TabulatedSubstrate {
             substrate,
@@ -270,18 +292,20 @@ impl Base {
         let table = correction.get_or_init(|| Correction::new(&**substrate, *poisson_ratio));
         let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
         let smooth = integrate_smooth(SINGULARITY_DISTANCE, (offset, edges), &|x, y| {
-            table.at((x * x + y * y).sqrt())
+            table.value((x * x + y * y).sqrt())
         });
         influence(centre, seen) + unit * smooth
     }
 }
 
-/// Edge of an element in thicknesses, at most.
+/// Largest edge of an element over the thickness of the layer; a thinner layer is a Winkler foundation or, where it is
+/// incompressible, a film.
 const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
-/// From how many thicknesses on a layer is thin, and how much more room there is at its rim than that.
+/// Half length of the contact over the thickness from which a layer counts as thin in [`Base::pile_up_factor`].
 const THIN_LAYER_RATIO: f64 = 5.0;
+/// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height.
 const PILE_UP_MARGIN: f64 = 0.2;
-/// Distance from 0 at which c is singular, along the imaginary axis.
+/// Distance from ρ = 0 to the nearest singularities of c(ρ), which lie on the imaginary axis: from 1 − M ∼ s² e^(−2s).
 pub(super) const SINGULARITY_DISTANCE: f64 = 2.0;
 
 #[cfg(test)]

@@ -1,16 +1,19 @@
-//! The part of a point's potential that a substrate adds to that of the half space.
+//! Table of the correction c(ρ) of a point's potential on a substrate, relative to the half space.
 //!
 //! ```text
 //! c(ρ) = ∫_0^∞ [M(s) − 1] J₀(sρ) ds
 //! ```
 //!
-//! Near the load by quadrature as it stands. Far from it only the longest waves count, and with u = sρ and any n
+//! Near the load the integral is computed by quadrature as it stands. Far from the load only the longest waves count. With
+//! u = sρ and any n
 //!
 //! ```text
 //! c(ρ) = [M(0) − 1]/ρ + (1/ρ) ∫_0^∞ [M(u/ρ) − M(0)] exp(−(u/A)^n) J₀(u) du + O(A^−n ρ^−3),
 //! ```
 //!
-//! because odd powers of s have no potential beside the load.
+//! because odd powers of s have no potential outside the load.
+//!
+//! Theory: docs/layers.md, "Other substrates".
 
 use std::f64::consts::PI;
 
@@ -19,53 +22,69 @@ use numerics::{LobattoRule, lobatto_rule, whole_part};
 use crate::Substrate;
 use crate::substrate::base::SINGULARITY_DISTANCE;
 
-/// Where 1/ρ + c of a layer on a rigid base is below 1e-15 of 1; from here on c is found from long waves.
+/// Influence radius of a load on a layer on a rigid base, in thicknesses: 1/ρ + c(ρ) is below 1e-15 beyond. On other substrates
+/// c is computed from long waves beyond it.
 pub(super) const RIGID_BASE_INFLUENCE_RADIUS: f64 = 44.0;
-/// Where 1 − M is.
+/// Upper limit of the integral over s: on a layer on a rigid base 1 − M is below 1e-15 beyond.
 pub(super) const MAX_WAVE_NUMBER: f64 = 24.0;
-/// Panels and points of the integral over s: as many as follow J₀(sρ) up to the reach.
+/// Panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]; with [`POINTS_PER_WAVE_PANEL`] each they resolve J₀(sρ) up to
+/// the influence radius.
 const NEAR_WAVE_PANELS: u8 = 8;
+/// Lobatto points per panel of the integrals over s and u.
 const POINTS_PER_WAVE_PANEL: usize = 96;
-/// Length in distances to the singularities of the panels of ρ on which c is integrated, and of those on which it is kept;
-/// with as many coefficients as give 1e-12.
+/// Length of a long panel of ρ over the distance |ρ ± 2i| from its start to the singularities of c.
 const PANEL_OVER_SINGULARITY_DISTANCE: f64 = 0.5;
+/// Polynomial coefficients on a long panel, with which c has an error of 1e-12.
 const LONG_PANEL_TERMS: usize = 16;
+/// Length of the short panels of ρ below the influence radius, in thicknesses; a power of two.
 const SHORT_PANEL_LENGTH: f64 = 0.0625;
+/// Polynomial coefficients on a short panel, with which c has an error of 1e-12.
 const SHORT_PANEL_TERMS: usize = 6;
 
-/// Where the rest of c, like ρ^−3, is below rounding.
+/// End of the table, in thicknesses: the remainder of c beyond [M(0) − 1]/ρ falls like ρ^−3 and is below rounding from here on.
 const TABLE_END: f64 = 1e5;
-/// A and n, with which the last term and the transform of the window itself are below 1e-12, and the panels of u with [`POINTS_PER_WAVE_PANEL`] points each up to where the factor is below rounding.
+/// A, the width of the window exp(−(u/A)^n): with it the term O(A^−n ρ^−3) and the transform of the window are below 1e-12.
 const WINDOW_WAVE_NUMBER: f64 = 120.0;
+/// n, the power in the window exp(−(u/A)^n).
 const WINDOW_POWER: i32 = 6;
+/// Panels of the integral over u from 0 to [`FAR_MAX_WAVE_NUMBER`], of [`POINTS_PER_WAVE_PANEL`] points each.
 const FAR_WAVE_PANELS: u8 = 9;
+/// Upper limit of the integral over u, beyond which the window is below rounding.
 const FAR_MAX_WAVE_NUMBER: f64 = 220.0;
 
-/// c(ρ): on short panels of the same length up to the reach, then on longer and longer ones, and by its limit beyond.
+/// c(ρ) as piecewise polynomials: short panels of equal length up to the influence radius of a rigid base, then panels that grow
+/// with ρ, and the limit [M(0) − 1]/ρ beyond.
 #[derive(Debug)]
 pub(super) struct Correction {
+    /// c(ρ) itself.
     near: Vec<Panel<SHORT_PANEL_TERMS>>,
+    /// c(ρ) − [M(0) − 1]/ρ; empty if the substrate has no influence beyond `near`.
     far: Vec<Panel<LONG_PANEL_TERMS>>,
     /// M(0) − 1.
     limit: f64,
 }
 
 impl Correction {
+    /// Tabulates c for a substrate and a Poisson ratio.
     pub(super) fn new(substrate: &dyn Substrate, poisson_ratio: f64) -> Self {
         let waves: Vec<[f64; 2]> = wave_rule(NEAR_WAVE_PANELS, MAX_WAVE_NUMBER)
             .map(|[s, weight]| [s, weight * substrate.compliance_excess(s, poisson_ratio)])
             .collect();
         let integral = |rho: f64| -> f64 {
-            let waves = waves.iter().map(|[s, weight]| weight * libm::j0(s * rho));
-            waves.sum()
+            waves
+                .iter()
+                .map(|[s, weight]| weight * libm::j0(s * rho))
+                .sum()
         };
+        // The integral on few long panels, then cheap short ones, which are found by a division.
         let panels = growing_panels([0.0, RIGID_BASE_INFLUENCE_RADIUS], integral);
         let value = |rho: f64| {
             let panel = panels.partition_point(|panel| panel.start <= rho);
-            panels[panel.max(1) - 1].at(rho)
+            panels[panel.max(1) - 1].value(rho)
         };
-        let starts = (0..).map(|index| SHORT_PANEL_LENGTH * f64::from(index));
-        let starts = starts.take_while(|start| *start < RIGID_BASE_INFLUENCE_RADIUS);
+        let starts = (0..)
+            .map(|index| SHORT_PANEL_LENGTH * f64::from(index))
+            .take_while(|start| *start < RIGID_BASE_INFLUENCE_RADIUS);
         Self {
             near: starts
                 .map(|start| Panel::new([start, SHORT_PANEL_LENGTH], value))
@@ -75,20 +94,21 @@ impl Correction {
         }
     }
 
-    pub(super) fn at(&self, rho: f64) -> f64 {
+    /// c(ρ).
+    pub(super) fn value(&self, rho: f64) -> f64 {
         if let Some(panel) = self.near.get(whole_part(rho / SHORT_PANEL_LENGTH)) {
-            return panel.at(rho);
+            return panel.value(rho);
         }
         let panel = self.far.partition_point(|panel| panel.start <= rho);
         let rest = match panel.checked_sub(1).map(|index| &self.far[index]) {
-            Some(panel) if rho < TABLE_END => panel.at(rho),
+            Some(panel) if rho < TABLE_END => panel.value(rho),
             _ => 0.0,
         };
         rho.recip() * self.limit + rest
     }
 }
 
-/// c(ρ) − [M(0) − 1]/ρ beyond the reach; nothing where the substrate has an end to its reach.
+/// c(ρ) − [M(0) − 1]/ρ beyond the influence radius of a rigid base; empty if the substrate has no larger influence radius.
 fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_PANEL_TERMS>> {
     if substrate.influence_radius() <= RIGID_BASE_INFLUENCE_RADIUS {
         return Vec::new();
@@ -108,7 +128,7 @@ fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_P
     })
 }
 
-/// Points and weights of an integral from 0 to an end, in panels.
+/// Points and weights [s, w] of a composite Lobatto rule on [0, `end`].
 fn wave_rule(panels: u8, end: f64) -> impl Iterator<Item = [f64; 2]> {
     let LobattoRule { nodes, weights } = lobatto_rule(POINTS_PER_WAVE_PANEL);
     let half = 0.5 * end / f64::from(panels);
@@ -119,7 +139,7 @@ fn wave_rule(panels: u8, end: f64) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Panels that are a part of the distance to the singularities of c long.
+/// Consecutive panels from `start` to at least `end`, whose lengths grow with the distance to the singularities of c.
 fn growing_panels(
     [mut start, end]: [f64; 2],
     function: impl Fn(f64) -> f64,
@@ -133,25 +153,27 @@ fn growing_panels(
     panels
 }
 
-/// A polynomial on a part of the line.
+/// A polynomial on an interval of ρ.
 #[derive(Debug)]
 struct Panel<const N: usize> {
     start: f64,
-    /// 2 over its length.
+    /// 2 over the length of the interval.
     scale: f64,
-    /// Of the powers of the distance from its middle in half lengths.
+    /// Coefficients of the powers of x, the distance from the middle in half lengths, in increasing order.
     coefficients: [f64; N],
 }
 
 impl<const N: usize> Panel<N> {
-    /// The Chebyshev series of a function, as powers by the recurrence of Clenshaw (1955).
+    /// The Chebyshev interpolant of a function on [start, start + length], converted to powers by the recurrence of Clenshaw (1955).
     fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
         let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
         let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
         let values: [f64; N] = std::array::from_fn(value);
         let coefficient = |order: usize| {
-            let terms = values.iter().enumerate();
-            let terms = terms.map(|(index, value)| value * (order as f64 * angle(index)).cos());
+            let terms = values
+                .iter()
+                .enumerate()
+                .map(|(index, value)| value * (order as f64 * angle(index)).cos());
             terms.sum::<f64>() / N as f64
         };
         let [mut last, mut coefficients] = [[0.0; N]; 2];
@@ -170,7 +192,8 @@ impl<const N: usize> Panel<N> {
         }
     }
 
-    fn at(&self, rho: f64) -> f64 {
+    /// Value at ρ, by Horner's rule.
+    fn value(&self, rho: f64) -> f64 {
         let x = self.scale * (rho - self.start) - 1.0;
         let coefficients = self.coefficients.iter().rev();
         coefficients.fold(0.0, |sum, coefficient| sum * x + coefficient)
@@ -203,7 +226,7 @@ mod tests {
                 let rho = 1e-3 * (0.06 * f64::from(step)).exp();
                 let root = rho.hypot(3.0);
                 let exact = a / root + 3.0 * b / root.powi(3);
-                let error = (table.at(rho) - exact).abs() / (a.abs() + b.abs());
+                let error = (table.value(rho) - exact).abs() / (a.abs() + b.abs());
                 assert!(error < 2e-12, "c({rho}) of {a}, {b} is off by {error:e}");
             }
         }

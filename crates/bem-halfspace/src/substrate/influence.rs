@@ -1,13 +1,15 @@
-//! The potential of a uniformly loaded rectangle.
+//! Influence coefficient of a uniformly loaded rectangle on the half space.
 //!
 //! ```text
 //! K(x, y) = ∬ dA' / |r − r'|   over the rectangle around the origin        (Love 1929)
 //! ```
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps".
 
 use crate::substrate::rectangle::{PlaneKernel, distance, integrate, product_asinh};
 
-/// Distance in units of the longer edge from which the first multipoles are exact to rounding: the next one is below
-/// 0.02 r⁻⁶ of the whole.
+/// Distance from the centre, in units of the longer edge, beyond which monopole and multipoles of the orders 2 and 4 are exact
+/// to rounding: the next multipole is below 0.02 r⁻⁶ of the whole.
 const MULTIPOLE_DISTANCE: f64 = 256.0;
 
 /// Integral of 1/r over a rectangle, \[m].
@@ -26,11 +28,11 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     unit * integrate::<Reciprocal>(offset, edges)
 }
 
-/// Monopole of a uniformly loaded rectangle, and its multipoles of the orders 2 and 4: the mean of the Legendre
-/// polynomials of the angle between the field point and the points of the rectangle.
+/// Multipole expansion of K up to order 4, from the means over the rectangle of the Legendre polynomials of the angle between
+/// field point and source point.
 fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     let square = x * x + y * y;
-    // Squares of the direction cosines, and moments of the orders 2 and 4.
+    // Squares of the direction cosines, and mean moments of the rectangle of the orders 2 and 4.
     let [p, q] = [x * x / square, y * y / square];
     let [x2, y2] = [a * a / 12.0, b * b / 12.0];
     let [x4, x2y2, y4] = [1.8 * x2 * x2, x2 * y2, 1.8 * y2 * y2];
@@ -42,7 +44,7 @@ fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     a * b / square.sqrt() * (1.0 + correction)
 }
 
-/// 1/r.
+/// The kernel 1/r.
 struct Reciprocal;
 
 impl PlaneKernel for Reciprocal {
@@ -63,11 +65,11 @@ impl PlaneKernel for Reciprocal {
     }
 }
 
-/// ∫ dx' / √(x'² + height²) over the edge around `x` ≥ 0.
+/// ∫ dx' / √(x'² + height²) over an interval of the length `edge` around `x` ≥ 0.
 fn strip(x: f64, edge: f64, height: f64) -> f64 {
     let (lower, upper) = (x - 0.5 * edge, x + 0.5 * edge);
     if lower > 0.0 {
-        // Also right where the height vanishes.
+        // A form that also holds for a height of 0.
         return ((upper + distance(upper, height)) / (lower + distance(lower, height))).ln();
     }
     (upper / height.abs()).asinh() - (lower / height.abs()).asinh()

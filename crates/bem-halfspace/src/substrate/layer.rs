@@ -1,6 +1,9 @@
-//! A layer of finite thickness t, bonded to a rigid base and free of friction above.
+//! A layer of finite thickness t, bonded to a rigid base or another substrate and free of friction above.
 //!
-//! A wave of pressure moves its surface by `û = 2 p̂ M(|q|t)/(|q| E*)`, with E* as for the half space, where M is 1.
+//! A pressure wave displaces its surface by `û = 2 p̂ M(|q|t)/(|q| E*)`, with E* as for the half space, where M is 1. M on a
+//! rigid base is [`rheology::layer_factor`].
+//!
+//! Theory: docs/layers.md, "How it is computed".
 
 use numerics::{InvalidParameter, in_range};
 use rheology::{Material, layer_deficit, layer_factor};
@@ -16,10 +19,10 @@ pub struct Layer<'a, M: ?Sized> {
 }
 
 impl<'a, M: Material + ?Sized> Layer<'a, M> {
-    /// A layer of a thickness greater than 0 \[m], bonded to a rigid base; an infinite one is a half space.
+    /// A layer of a thickness greater than 0 \[m], bonded to a rigid base. An infinite thickness gives a half space.
     ///
     /// # Errors
-    /// [`InvalidParameter`] for another number.
+    /// [`InvalidParameter`] for a thickness that is not greater than 0.
     pub fn new(material: &'a M, thickness: f64) -> Result<Self, InvalidParameter> {
         in_range("thickness", thickness, thickness > 0.0, "greater than 0")?;
         if thickness.is_infinite() {
@@ -28,10 +31,10 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
         Self::on(material, RigidBase { thickness })
     }
 
-    /// A layer of the thickness that a substrate gives, on this substrate.
+    /// A layer on a substrate, of the thickness [`Substrate::thickness`].
     ///
     /// # Errors
-    /// Those of [`Base::new`].
+    /// As for [`Base::new`].
     pub fn on(
         material: &'a M,
         substrate: impl Substrate + 'static,
@@ -40,7 +43,7 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
         Ok(Self::over(material, base))
     }
 
-    /// The material on what was found for another of the same Poisson ratio.
+    /// A layer on a base that was made for the same Poisson ratio.
     pub(crate) const fn over(material: &'a M, base: Base) -> Self {
         Self { material, base }
     }
@@ -56,9 +59,10 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
     }
 }
 
-/// A rigid base under a layer of a thickness.
+/// A rigid base to which a layer is bonded.
 #[derive(Debug)]
 struct RigidBase {
+    /// Thickness of the layer, \[m].
     thickness: f64,
 }
 

@@ -1,4 +1,8 @@
-//! What pressure does to the surface at rest: the influence of an element on a half space, on a layer and on other substrates.
+//! Influence coefficients: displacement of the surface by a uniformly loaded element, on a half space, on a layer and on
+//! other substrates.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps" (half space); docs/layers.md, "How it is computed" and
+//! "Other substrates".
 
 pub(crate) mod base;
 mod correction;

@@ -1,18 +1,24 @@
-//! Integrals of a kernel over a rectangle, accurate near and far.
+//! Integrals of a kernel over a rectangle, accurate to rounding near and far.
 //!
-//! The closed form, a difference of the double antiderivative between the four corners, is exact near the rectangle; far
-//! away it loses (r/Δ)² units in the last place. Along a direction whose edge is short compared with the distance of
-//! the singularities, a Gauss rule of at most eight points integrates to rounding without any cancellation. The two are chosen
-//! per direction, so that slender rectangles are as accurate as squares.
+//! The closed form, a second difference of the double antiderivative between the four corners, is exact near the rectangle.
+//! Far away it loses (r/Δ)² units in the last place. Along a direction whose edge is short compared with the distance to the
+//! singularities, a Gauss rule of at most eight points has no cancellation. The choice is made per direction, so that slender
+//! rectangles are as accurate as squares.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps".
 
-/// From this many edges on the Gauss rule errs by less than (1/16)^16 of the integrand.
+/// Distance to the singularities, in edges, from which the Gauss rule of eight points has an error below (1/16)^16 of the
+/// integrand.
 pub(crate) const EIGHT_POINT_DISTANCE: f64 = 8.0;
 
 /// A Gauss–Legendre rule on [−1, 1] (NIST DLMF 3.5): the weight of the middle, and positive nodes with their weights.
 type Rule = (f64, &'static [(f64, f64)]);
 
+/// Gauss–Legendre rule of two points.
 const TWO_POINTS: Rule = (0.0, &[(0.577_350_269_189_625_8, 1.0)]);
+/// Gauss–Legendre rule of three points.
 const THREE_POINTS: Rule = (8.0 / 9.0, &[(0.774_596_669_241_483_4, 5.0 / 9.0)]);
+/// Gauss–Legendre rule of four points.
 const FOUR_POINTS: Rule = (
     0.0,
     &[
@@ -20,6 +26,7 @@ const FOUR_POINTS: Rule = (
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
     ],
 );
+/// Gauss–Legendre rule of five points.
 const FIVE_POINTS: Rule = (
     0.568_888_888_888_888_9,
     &[
@@ -27,6 +34,7 @@ const FIVE_POINTS: Rule = (
         (0.906_179_845_938_664, 0.236_926_885_056_189_1),
     ],
 );
+/// Gauss–Legendre rule of six points.
 const SIX_POINTS: Rule = (
     0.0,
     &[
@@ -35,6 +43,7 @@ const SIX_POINTS: Rule = (
         (0.932_469_514_203_152, 0.171_324_492_379_170_35),
     ],
 );
+/// Gauss–Legendre rule of eight points.
 const EIGHT_POINTS: Rule = (
     0.0,
     &[
@@ -45,8 +54,8 @@ const EIGHT_POINTS: Rule = (
     ],
 );
 
-/// Rules, each with the distance in edges from which it errs by less than rounding: with n points the error is below
-/// (1/2·distance)^(2n) of the integrand.
+/// Rules for kernels that are singular on the plane, each with the smallest distance in edges at which its error is below rounding:
+/// with n points the error is below (1/(2 distance))^(2n) of the integrand.
 const SINGULAR_KERNEL_RULES: [(f64, Rule); 6] = [
     (8192.0, TWO_POINTS),
     (320.0, THREE_POINTS),
@@ -55,7 +64,9 @@ const SINGULAR_KERNEL_RULES: [(f64, Rule); 6] = [
     (12.0, SIX_POINTS),
     (EIGHT_POINT_DISTANCE, EIGHT_POINTS),
 ];
-/// The same of a smooth part of a kernel, to 1e-12 of the whole on the rectangle itself, which is as many times greater.
+
+/// Rules for the smooth correction of a kernel, each with the smallest distance in edges. Their error is 1e-12 of the integral of
+/// the singular kernel over the rectangle itself, which is larger than the correction.
 const SMOOTH_KERNEL_RULES: [(f64, Rule); 4] = [
     (250.0, TWO_POINTS),
     (25.0, THREE_POINTS),
@@ -63,7 +74,7 @@ const SMOOTH_KERNEL_RULES: [(f64, Rule); 4] = [
     (2.5, SIX_POINTS),
 ];
 
-/// A kernel on the plane, singular on the axis y = 0 only, and its antiderivatives.
+/// A kernel k on the plane that is singular on the axis y = 0 only, with its antiderivatives.
 pub(crate) trait PlaneKernel {
     /// k(x, y).
     fn value(x: f64, y: f64) -> f64;
@@ -80,7 +91,7 @@ pub(crate) trait PlaneKernel {
 
 /// ∬ k(x − x', y − y') dA' over the rectangle with edges [a, b] around the origin, for y ≥ 0.
 pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
-    // How far the singularities of the integrand lie from the edge along x, and along y.
+    // Distance from the rectangle to the singularities of the integrand along x, and along y.
     let clearance = [
         distance(x, (y - 0.5 * b).max(0.0)),
         distance(y, (x - 0.5 * a).max(0.0)),
@@ -94,6 +105,7 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         }),
         (Some(along_x), None) => gauss((along_x, x, a), |x| K::strip_along_y(x, y, b)),
         (None, Some(along_y)) => gauss((along_y, y, b), |y| K::strip_along_x(x, a, y)),
+        // Near in both directions: the closed form.
         (None, None) => {
             let [left, right, lower, upper] = [x - 0.5 * a, x + 0.5 * a, y - 0.5 * b, y + 0.5 * b];
             K::corner(right, upper) - K::corner(left, upper) - K::corner(right, lower)
@@ -102,7 +114,8 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
     }
 }
 
-/// The same of a function of the distance from the origin that is singular at an imaginary one.
+/// ∬ f(x', y') dA' over the rectangle with edges [a, b] around [x, y], for a function of the distance r from the origin that is
+/// singular at r = ±i `singular`. Rectangles that are too large for all rules are halved.
 pub(crate) fn integrate_smooth(
     singular: f64,
     ([x, y], [a, b]): ([f64; 2], [f64; 2]),
@@ -129,13 +142,13 @@ pub(crate) fn integrate_smooth(
     }
 }
 
-/// The shortest rule for an edge whose singularities are that far; none near.
+/// Rule of fewest points for an edge at a distance `clearance` from the singularities; `None` if they are too near for all rules.
 fn rule(rules: &[(f64, Rule)], clearance: f64, edge: f64) -> Option<Rule> {
     let suits = |(distance, _): &&(f64, Rule)| clearance >= distance * edge;
     rules.iter().find(suits).map(|(_, rule)| *rule)
 }
 
-/// Integral of a function by a rule over the edge around `centre`.
+/// Integral of a function by a Gauss rule over the interval of the length `edge` around `centre`.
 fn gauss(((middle, nodes), centre, edge): (Rule, f64, f64), function: impl Fn(f64) -> f64) -> f64 {
     let half = 0.5 * edge;
     let pair = |&(node, weight): &(f64, f64)| {
