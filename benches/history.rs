@@ -6,7 +6,7 @@ use std::error::Error;
 use benches::report_error;
 use criterion::Criterion;
 use indenters::{Control, HistoryPoint, PowerProfile};
-use mdr_core::{Follow, force_derivatives, indent_along};
+use mdr_core::{HistoryOptions, force_derivatives, indent_along};
 use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
 /// 8 ∫ G(1 − s) √(0.01 s) 0.01 ds by quadrature with 40 digits (mpmath 1.3).
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     };
     let history: Vec<HistoryPoint> = (0..=1000).map(point).collect();
-    let run = || indent_along(&body, &material, &history, &Follow::default());
+    let run = || indent_along(&body, &material, &history, &HistoryOptions::default());
     let peak = run()?[500].normal_force.value;
     report_error("history/1000 segments", "peak force", [peak, PEAK]);
     let mut group = criterion.benchmark_group("history");

@@ -48,7 +48,7 @@ struct ReadMe;
 pub use ::{indenters, numerics, rheology};
 pub use error::MdrError;
 pub use history::{
-    CurvePoint, Follow, ForceDerivatives, force_derivatives, indent_along, work_along,
+    CurvePoint, ForceDerivatives, HistoryOptions, force_derivatives, indent_along, work_along,
 };
 pub use motion::{elements_of_motion, move_along, move_along_memory};
 pub use numerics::InvalidParameter;

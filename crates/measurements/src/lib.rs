@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use indenters::{Control, HistoryPoint, Sphere};
-//! use mdr_core::{Follow, indent_along};
+//! use mdr_core::{HistoryOptions, indent_along};
 //! use measurements::indentation::{FitOptions, IndentationCurve, fit_indentation};
 //! use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 //!
@@ -21,7 +21,7 @@
 //!     control: Control::IndentationDepth(depth),
 //! });
 //! let history: Vec<HistoryPoint> = history.collect();
-//! let pressed = indent_along(&ball, &gel, &history, &Follow::default())?;
+//! let pressed = indent_along(&ball, &gel, &history, &HistoryOptions::default())?;
 //! let force = pressed.iter().map(|point| point.normal_force.value).collect();
 //! let curve = IndentationCurve { time, depth, force };
 //! let fit = fit_indentation(&ball, &curve, &FitOptions::default())?;

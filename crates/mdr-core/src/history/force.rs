@@ -13,7 +13,7 @@ use rheology::{CreepSpectrum, Material};
 use super::contact::Contact;
 use super::path::{Path, decay_and_mean};
 use super::radius::Radii;
-use super::{CurvePoint, Follow};
+use super::{CurvePoint, HistoryOptions};
 use crate::MdrError;
 
 /// Parts of all segments together after which the refinement is given up.
@@ -29,7 +29,7 @@ const QUADRATURE: f64 = 1e-3;
 pub(super) struct Pressed<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     pub(super) material: &'a dyn Material,
-    pub(super) options: Follow,
+    pub(super) options: HistoryOptions,
     /// Times and forces; the last force of a time holds from there on.
     pub(super) points: Vec<[f64; 2]>,
 }

@@ -46,9 +46,9 @@ pub struct CurvePoint {
     pub contact_radius: Estimate,
 }
 
-/// How a history is followed.
+/// Options of [`indent_along`] and [`work_along`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Follow {
+pub struct HistoryOptions {
     /// Relative error of the modulus of a material that stands for another one, as a Prony series for a springpot
     /// ([`PronyExpansion::relative_error`](rheology::PronyExpansion::relative_error)), which is part of all error bars.
     pub modulus_error: f64,
@@ -56,7 +56,7 @@ pub struct Follow {
     pub relative_error: f64,
 }
 
-impl Default for Follow {
+impl Default for HistoryOptions {
     /// A material that stands for itself, and depths to one part in a thousand.
     fn default() -> Self {
         Self {
@@ -77,7 +77,7 @@ impl Default for Follow {
 /// ```
 /// use mdr_core::indenters::{Control, HistoryPoint, PowerProfile};
 /// use mdr_core::rheology::{StandardSolid, StandardSolidParameters};
-/// use mdr_core::{Follow, indent_along};
+/// use mdr_core::{HistoryOptions, indent_along};
 ///
 /// let ball = PowerProfile::paraboloid(50.0)?;
 /// let rubber = StandardSolid::new(StandardSolidParameters {
@@ -87,7 +87,7 @@ impl Default for Follow {
 /// })?;
 /// let depth = |time, depth| HistoryPoint { time, control: Control::IndentationDepth(depth) };
 /// let history = [depth(0.0, 0.0), depth(1.0, 1e-4), depth(2.0, 0.0)];
-/// let curve = indent_along(&ball, &rubber, &history, &Follow::default())?;
+/// let curve = indent_along(&ball, &rubber, &history, &HistoryOptions::default())?;
 /// // The surface has not recovered, so that the body leaves it before it is back.
 /// assert!(curve[1].normal_force.value > 0.0 && curve[2].normal_force.value == 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -104,7 +104,7 @@ pub fn indent_along(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
     history: &[HistoryPoint],
-    options: &Follow,
+    options: &HistoryOptions,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     not_negative("modulus_error", options.modulus_error)?;
     between_zero_and_one("relative_error", options.relative_error)?;
@@ -174,7 +174,7 @@ fn along_depth(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
     points: &[[f64; 2]],
-    options: &Follow,
+    options: &HistoryOptions,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
     let mut bars = Bars {

@@ -4,7 +4,7 @@ use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{Estimate, NotReached};
 use rheology::Material;
 
-use super::{CurvePoint, Follow, indent_along};
+use super::{CurvePoint, HistoryOptions, indent_along};
 use crate::MdrError;
 
 /// Places and weights of Gauss's rule of three points from 0 to 1, √0.15 around the middle.
@@ -20,7 +20,7 @@ const MOST_PARTS: usize = 1 << 13;
 /// the end of a history without contact what was dissipated and is left in a surface that has not recovered.
 ///
 /// [`indent_along`] is asked for the force, or the depth, at the points of Gauss's rule on parts of each segment, which are
-/// halved until the work changes by [`Follow::relative_error`] of the largest; the change is a part of its error.
+/// halved until the work changes by [`HistoryOptions::relative_error`] of the largest; the change is a part of its error.
 ///
 /// # Errors
 /// As for [`indent_along`], and [`MdrError::WorkNotReached`].
@@ -28,7 +28,7 @@ pub fn work_along(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
     history: &[HistoryPoint],
-    options: &Follow,
+    options: &HistoryOptions,
 ) -> Result<Vec<Estimate>, MdrError> {
     let on = |parts: usize| {
         let curve = indent_along(body, material, &divided(history, parts), options)?;

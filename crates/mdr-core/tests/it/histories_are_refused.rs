@@ -3,7 +3,7 @@
 use casebook::{assert_matches, superposition};
 use friction_analytic::{BondedLayer, LayerProfile};
 use indenters::{Axisymmetric, Control, HistoryPoint, PowerProfile, Sphere};
-use mdr_core::{CurvePoint, Follow, MdrError, indent_along};
+use mdr_core::{CurvePoint, HistoryOptions, MdrError, indent_along};
 
 use crate::histories_match_quadrature::{body, material};
 use crate::support::history;
@@ -15,7 +15,7 @@ fn follow(
     on: &str,
     history: &[HistoryPoint],
 ) -> Result<Vec<CurvePoint>, MdrError> {
-    indent_along(&body, &material(on), history, &Follow::default())
+    indent_along(&body, &material(on), history, &HistoryOptions::default())
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn a_profile_of_a_layer_is_not_pressed_again() {
     let solid = material("solid");
     let follow = |points: &[[f64; 2]], control| {
         let history = history(points.iter().copied(), control);
-        indent_along(&profile, &solid, &history, &Follow::default())
+        indent_along(&profile, &solid, &history, &HistoryOptions::default())
     };
     let once = [[0.0, 0.0], [1.0, 0.02], [2.0, 0.02], [3.0, 0.0]];
     let again = [[0.0, 0.0], [1.0, 0.02], [1.2, 0.01], [3.0, 0.01]];

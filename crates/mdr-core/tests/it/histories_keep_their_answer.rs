@@ -3,7 +3,7 @@
 use indenters::{
     Axisymmetric, Control, FlatCone, FlatPunch, HistoryPoint, PiecewiseLinearProfile, PowerProfile,
 };
-use mdr_core::{CurvePoint, Follow, indent_along};
+use mdr_core::{CurvePoint, HistoryOptions, indent_along};
 use numerics::Estimate;
 use rheology::{Compressible, Material, Prony};
 
@@ -17,9 +17,9 @@ fn follow(
     material: &dyn Material,
     path: &[HistoryPoint],
 ) -> Vec<CurvePoint> {
-    let options = Follow {
+    let options = HistoryOptions {
         relative_error: 0.02,
-        ..Follow::default()
+        ..HistoryOptions::default()
     };
     indent_along(&body, material, path, &options).expect("a curve")
 }

@@ -4,7 +4,7 @@ pub(crate) use casebook::numbers;
 use indenters::{
     Axisymmetric, Control, FlatCone, FlatPunch, HistoryPoint, Hyperboloid, PowerProfile, Sphere,
 };
-use mdr_core::{CurvePoint, Follow, indent_along, work_along};
+use mdr_core::{CurvePoint, HistoryOptions, indent_along, work_along};
 use numerics::Estimate;
 use rheology::{Material, Prony, Springpot};
 
@@ -83,7 +83,7 @@ pub(crate) fn follow(
     material: &dyn Material,
     path: &[HistoryPoint],
 ) -> Vec<CurvePoint> {
-    indent_along(&body, material, path, &Follow::default()).expect("a disc")
+    indent_along(&body, material, path, &HistoryOptions::default()).expect("a disc")
 }
 
 /// Every bar holds the reference, which has so many digits, and no bar is above 1e-10 of the largest value.
@@ -176,9 +176,9 @@ fn power_laws_come_back_as_theory_says() {
         let end = 1.0 / (1.0 - 0.5_f64.powf(1.0 / (1.0 - exponent)));
         let times = [0.1, 0.3, 0.5, 0.8].map(|part| 1.0 + part * (end - 1.0));
         let path = path(&knots("triangle"), &times);
-        let options = Follow {
+        let options = HistoryOptions {
             modulus_error: error,
-            ..Follow::default()
+            ..HistoryOptions::default()
         };
         let curve = indent_along(&body("paraboloid"), &material, &path, &options);
         let curve = curve.expect("a disc");
@@ -196,9 +196,9 @@ fn power_laws_come_back_as_theory_says() {
 
 fn under(body: &dyn Axisymmetric, forces: &[[f64; 2]], relative_error: f64) -> Vec<CurvePoint> {
     let history = history(forces.iter().copied(), Control::NormalForce);
-    let options = Follow {
+    let options = HistoryOptions {
         relative_error,
-        ..Follow::default()
+        ..HistoryOptions::default()
     };
     indent_along(&body, &material("solid"), &history, &options).expect("a depth")
 }
@@ -275,9 +275,9 @@ fn a_contact_that_has_relaxed_carries_nothing() {
 fn work_is_the_area_under_the_curve() {
     let body = body("paraboloid");
     let work = |name: &str, solid: &str| {
-        let options = Follow {
+        let options = HistoryOptions {
             relative_error: 1e-4,
-            ..Follow::default()
+            ..HistoryOptions::default()
         };
         let work = work_along(&body, &material(solid), &path(&knots(name), &[]), &options);
         work.expect("work")
@@ -321,14 +321,24 @@ fn a_flat_punch_follows_force_and_depth() {
     for (point, expected) in curve.iter().zip(expected) {
         assert_agree([point.normal_force, Estimate::exact(expected)], point);
     }
-    let work = work_along(&punch, &material("solid"), &path, &Follow::default());
+    let work = work_along(
+        &punch,
+        &material("solid"),
+        &path,
+        &HistoryOptions::default(),
+    );
     let loading = Estimate::exact(0.08 * 0.02 * 0.02 * (0.5 + 4.0 * f64::exp(-1.0)));
     assert_agree([work.expect("work")[1], loading], &"work of loading");
     let peak = expected[1];
     let forces = [[0.0, 0.0], [1.0, peak], [2.0, 0.5 * peak]];
-    let curve = under(&punch, &forces, Follow::default().relative_error);
+    let curve = under(&punch, &forces, HistoryOptions::default().relative_error);
     let rising = history(forces[..2].iter().copied(), Control::NormalForce);
-    let work = work_along(&punch, &material("solid"), &rising, &Follow::default());
+    let work = work_along(
+        &punch,
+        &material("solid"),
+        &rising,
+        &HistoryOptions::default(),
+    );
     // ∫ F dd with F ∝ t and d as below.
     let creeping = 0.5 - 0.8 * (25.0 - 30.0 * f64::exp(-0.2));
     let loading = Estimate::exact(peak * peak / 0.08 * creeping);

@@ -3,7 +3,7 @@
 
 use casebook::Case;
 use indenters::{Axisymmetric, Control, EquivalentLine, HistoryPoint, PowerProfile, PressingLoad};
-use mdr_core::{CurvePoint, Follow, indent, indent_along};
+use mdr_core::{CurvePoint, HistoryOptions, indent, indent_along};
 use rheology::Material;
 
 use crate::support::{assert_agree, line_power, material, material_of};
@@ -18,7 +18,7 @@ fn follow(
 ) -> Vec<CurvePoint> {
     let point = |&(time, control): &(f64, Control)| HistoryPoint { time, control };
     let history: Vec<HistoryPoint> = points.iter().map(point).collect();
-    indent_along(&body, material, &history, &Follow::default()).expect("a disc")
+    indent_along(&body, material, &history, &HistoryOptions::default()).expect("a disc")
 }
 
 /// A control that is there from first touch on, as a history and on springs.

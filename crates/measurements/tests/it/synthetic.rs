@@ -2,7 +2,7 @@
 
 use friction_analytic::{BondedLayer, LayerProfile};
 use indenters::{Axisymmetric, Control, HistoryPoint, Sphere};
-use mdr_core::{Follow, indent_along};
+use mdr_core::{HistoryOptions, indent_along};
 use measurements::indentation::{
     FitOptions, IndentationCurve, IndentationFit, Rheology, Thickness, fit_indentation,
 };
@@ -79,7 +79,14 @@ impl Case {
             control: Control::IndentationDepth(depth - CONTACT_POINT),
         });
         let history: Vec<HistoryPoint> = history.collect();
-        let follow = |profile| indent_along(profile, &self.material, &history, &Follow::default());
+        let follow = |profile| {
+            indent_along(
+                profile,
+                &self.material,
+                &history,
+                &HistoryOptions::default(),
+            )
+        };
         let exact = match self.thickness {
             None => follow(&self.body),
             Some(thickness) => follow(&on_layer(&self.body, thickness)),

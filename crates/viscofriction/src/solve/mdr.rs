@@ -5,7 +5,7 @@ use indenters::{
     SlidingLoad,
 };
 use mdr_core::{
-    CurvePoint, Follow, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along,
+    CurvePoint, HistoryOptions, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along,
     move_along, slide, steady,
 };
 use numerics::{ErrorParts, Estimate, Request};
@@ -174,8 +174,8 @@ pub(super) fn curve_of(points: &[CurvePoint]) -> Curve {
     Curve::of(points, |point| point.time, columns)
 }
 
-pub(super) fn following(problem: &Problem, relative_error: f64) -> Follow {
-    Follow {
+pub(super) fn following(problem: &Problem, relative_error: f64) -> HistoryOptions {
+    HistoryOptions {
         relative_error,
         modulus_error: problem.modulus_error(),
     }

@@ -172,7 +172,7 @@ fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer
 
 #[cfg(test)]
 mod tests {
-    use mdr_core::{Follow, indent_along};
+    use mdr_core::{HistoryOptions, indent_along};
     use numerics::NotReached;
 
     use super::*;
@@ -193,7 +193,7 @@ mod tests {
             &&**body,
             problem.material(),
             problem.history(),
-            &Follow::default(),
+            &HistoryOptions::default(),
         );
         let missed = NotReached {
             quantity: 0,
