@@ -9,8 +9,8 @@
 
 use rheology::RelaxationSpectrum;
 
-use super::Measured;
-use super::memory::{Late, Memory, Ring, Step};
+use super::ContactSums;
+use super::integrals::{HistoryIntegrals, Ring, StepIntegrals, TimeWeightedIntegrals};
 use super::path::{ROUNDING, change_of_edge, decay_and_mean};
 use super::radius::{ORDER, Radii};
 
@@ -48,28 +48,28 @@ pub(super) struct Approach {
     pub(super) moduli: Vec<f64>,
     pub(super) rates: Vec<f64>,
     pub(super) viscosity: f64,
-    pub(super) now: Memory,
+    pub(super) now: HistoryIntegrals,
     /// Time and depth, and the speed up to there.
     pub(super) point: [f64; 2],
     pub(super) speed: f64,
     rings: Vec<Ring>,
     coefficients: Vec<f64>,
     /// At the beginning of every ring, q of all branches, then P.
-    touched: Vec<f64>,
-    touched_late: Vec<Late>,
+    integrals_at_rings: Vec<f64>,
+    time_weighted_at_rings: Vec<TimeWeightedIntegrals>,
     /// At the end of the last one, and when the element at the edge was touched.
-    front: Memory,
-    pub(super) then: Memory,
+    at_front: HistoryIntegrals,
+    pub(super) at_contact: HistoryIntegrals,
     pub(super) edge: Edge,
     /// Whether the depth has been less than it was.
-    is_held: bool,
+    front_is_behind: bool,
     /// Whether elements were left, and touched again.
-    left: bool,
-    pub(super) is_touched_again: bool,
+    has_receded: bool,
+    pub(super) has_recontact: bool,
     /// Change of the depth of the edge in the last step.
-    last_shift: f64,
-    step: Step,
-    partial: Step,
+    last_edge_shift: f64,
+    step: StepIntegrals,
+    partial: StepIntegrals,
 }
 
 /// Steps towards the edge before every other one halves a bracket, and until it is as narrow as rounding.
@@ -90,10 +90,13 @@ impl Approach {
         let rates = branches.map(|branch| branch.relaxation_time.recip());
         let rates: Vec<f64> = rates.chain([0.0]).collect();
         let n = rates.len();
-        let now = Memory {
+        let now = HistoryIntegrals {
             depth: vec![0.0; n],
             load: vec![0.0; n],
-            late: vec![Late::default(); if differentiates { n } else { 0 }],
+            time_weighted: vec![
+                TimeWeightedIntegrals::default();
+                if differentiates { n } else { 0 }
+            ],
         };
         let moduli: Vec<f64> = moduli.chain([spectrum.equilibrium_modulus()]).collect();
         Self {
@@ -101,27 +104,27 @@ impl Approach {
             radii,
             moduli,
             viscosity: spectrum.viscosity(),
-            front: now.clone(),
-            then: now.clone(),
+            at_front: now.clone(),
+            at_contact: now.clone(),
             now,
             point: [0.0; 2],
             speed: 0.0,
             rings: Vec::with_capacity(n_points),
             coefficients: Vec::with_capacity(8 * n_points),
-            touched: Vec::with_capacity(2 * n * n_points),
-            touched_late: Vec::new(),
+            integrals_at_rings: Vec::with_capacity(2 * n * n_points),
+            time_weighted_at_rings: Vec::new(),
             edge: Edge {
                 decays: vec![1.0; n],
                 strains: vec![0.0; n],
                 sums: vec![0.0; n],
                 ..Edge::default()
             },
-            is_held: false,
-            left: false,
-            is_touched_again: false,
-            last_shift: 0.0,
-            step: Step::default(),
-            partial: Step::default(),
+            front_is_behind: false,
+            has_receded: false,
+            has_recontact: false,
+            last_edge_shift: 0.0,
+            step: StepIntegrals::default(),
+            partial: StepIntegrals::default(),
             rates,
         }
     }
@@ -131,11 +134,11 @@ impl Approach {
         self.point = [time, depth.min(0.0)];
     }
 
-    pub(super) fn measured(&self) -> Measured {
+    pub(super) fn measured(&self) -> ContactSums {
         let Some([radius, slope, _]) = self.edge.place else {
-            return Measured {
+            return ContactSums {
                 point: self.point,
-                ..Measured::default()
+                ..ContactSums::default()
             };
         };
         let viscous = self.viscosity * self.speed * radius;
@@ -145,7 +148,7 @@ impl Approach {
             terms += modulus * sum.abs();
         }
         let [scale, _] = self.scales();
-        Measured {
+        ContactSums {
             point: self.point,
             load,
             terms: terms + radius * scale,
@@ -194,27 +197,27 @@ impl Approach {
             [start + part * (end - start), there]
         };
         let mut here = if depth < 0.0 { at(0.0) } else { [start, depth] };
-        self.is_touched_again |= end > start && self.turns();
+        self.has_recontact |= end > start && self.reverses();
         let deepest = self.deepest();
         if next <= deepest {
             self.hold(here, [end, next]);
             let before = self.radius();
             self.find_edge();
-            let wider = self.left && self.radius() > before * (1.0 + LEFT);
-            self.is_touched_again |= wider || (end > start && self.turns());
+            let wider = self.has_receded && self.radius() > before * (1.0 + LEFT);
+            self.has_recontact |= wider || (end > start && self.reverses());
             let edge = self.edge.place.map(|[.., depth]| depth);
-            self.left |= edge.is_none_or(|depth| depth < (1.0 - LEFT) * deepest);
+            self.has_receded |= edge.is_none_or(|depth| depth < (1.0 - LEFT) * deepest);
             return;
         }
-        self.is_touched_again |= self.left;
-        self.left = false;
+        self.has_recontact |= self.has_receded;
+        self.has_receded = false;
         if here[1] < deepest {
             let there = at(deepest);
             self.hold(here, there);
             here = there;
         }
-        if self.is_held {
-            self.resume(here[0]);
+        if self.front_is_behind {
+            self.catch_up_from_front(here[0]);
         }
         while self.deepest() < next {
             let limit = self.radii.end_of_piece(self.deepest()).min(next);
@@ -222,29 +225,31 @@ impl Approach {
             self.grow(here, there);
             here = there;
         }
-        self.edge_at_front();
+        self.put_edge_at_front();
     }
 
     /// The body is above the surface, which is taken as undeformed.
     fn recover(&mut self) {
-        self.left |= !self.rings.is_empty();
+        self.has_receded |= !self.rings.is_empty();
         self.rings.clear();
         self.coefficients.clear();
-        self.touched.clear();
-        self.touched_late.clear();
+        self.integrals_at_rings.clear();
+        self.time_weighted_at_rings.clear();
         self.now.depth.fill(0.0);
         self.now.load.fill(0.0);
-        self.now.late.fill(Late::default());
+        self.now
+            .time_weighted
+            .fill(TimeWeightedIntegrals::default());
         self.edge.place = None;
     }
 
     /// Whether an edge that has moved inwards turns, at the speed of now.
-    fn turns(&self) -> bool {
-        self.left && self.edge.place.is_some() && self.tendency() > 0.0
+    fn reverses(&self) -> bool {
+        self.has_receded && self.edge.place.is_some() && self.edge_direction() > 0.0
     }
 
     /// Whether the element at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
-    fn tendency(&self) -> f64 {
+    fn edge_direction(&self) -> f64 {
         let [mut load, mut rate] = [self.viscosity * self.speed, 0.0];
         for (k, strain) in self.edge.strains.iter().enumerate() {
             load += self.moduli[k] * strain;
@@ -264,15 +269,15 @@ impl Approach {
         if self.rings.is_empty() {
             return;
         }
-        self.is_held = true;
+        self.front_is_behind = true;
         let step = to[0] - from[0];
         self.step.set(&self.rates, step, 2, rounding(to[0], step));
         self.step.hold(&mut self.now, to[1] - from[1]);
     }
 
     /// What is remembered at the front, later.
-    fn resume(&mut self, time: f64) {
-        self.is_held = false;
+    fn catch_up_from_front(&mut self, time: f64) {
+        self.front_is_behind = false;
         let Some(ring) = self.rings.last().copied() else {
             return;
         };
@@ -280,15 +285,16 @@ impl Approach {
         let [radius, slope, depth] = self.place(self.rings.len() - 1, 1.0);
         for (k, rate) in self.rates.iter().enumerate() {
             let decay = (-rate * lag).exp();
-            let [then, load] = [self.front.depth[k], self.front.load[k]];
-            let strain = self.now.depth[k] - decay * then;
+            let [at_contact, load] = [self.at_front.depth[k], self.at_front.load[k]];
+            let strain = self.now.depth[k] - decay * at_contact;
             self.now.load[k] = radius * strain + decay * load;
-            if let Some(late) = self.now.late.get_mut(k) {
-                let before = self.front.late[k];
-                late.load = radius * (late.depth - decay * (before.depth + lag * then))
+            if let Some(time_weighted) = self.now.time_weighted.get_mut(k) {
+                let before = self.at_front.time_weighted[k];
+                time_weighted.load = radius
+                    * (time_weighted.depth - decay * (before.depth + lag * at_contact))
                     + decay * (before.load + lag * load);
-                late.edge = decay * before.edge + slope * strain;
-                late.stretch = decay * before.stretch - depth * slope * strain;
+                time_weighted.edge = decay * before.edge + slope * strain;
+                time_weighted.stretch = decay * before.stretch - depth * slope * strain;
             }
         }
     }
@@ -308,19 +314,20 @@ impl Approach {
         self.coefficients.extend_from_slice(terms);
         if self.rings.is_empty() {
             // A flat end is touched at once.
-            for late in &mut self.now.late {
-                late.edge = terms[0];
+            for time_weighted in &mut self.now.time_weighted {
+                time_weighted.edge = terms[0];
             }
         }
         self.rings.push(ring);
-        self.touched.extend_from_slice(&self.now.depth);
-        self.touched.extend_from_slice(&self.now.load);
-        self.touched_late.extend_from_slice(&self.now.late);
-        let n_moments = terms.len() + usize::from(!self.now.late.is_empty());
+        self.integrals_at_rings.extend_from_slice(&self.now.depth);
+        self.integrals_at_rings.extend_from_slice(&self.now.load);
+        self.time_weighted_at_rings
+            .extend_from_slice(&self.now.time_weighted);
+        let n_moments = terms.len() + usize::from(!self.now.time_weighted.is_empty());
         let rounding = rounding(to[0], ring.step);
         self.step.set(&self.rates, ring.step, n_moments, rounding);
         self.step.grow(&mut self.now, &ring, terms);
-        self.front.copy_from(&self.now);
+        self.at_front.copy_from(&self.now);
     }
 
     /// a, a' and D at θ of a ring.
@@ -333,7 +340,7 @@ impl Approach {
         [radius, slope / ring.rise, ring.start[1] + theta * ring.rise]
     }
 
-    fn edge_at_front(&mut self) {
+    fn put_edge_at_front(&mut self) {
         let ring = self.rings.len() - 1;
         let place = self.place(ring, 1.0);
         (self.edge.place, self.edge.radius) = (Some(place), place[0]);
@@ -343,16 +350,16 @@ impl Approach {
         self.edge.decays.fill(1.0);
         self.edge.strains.fill(0.0);
         self.edge.sums.copy_from_slice(&self.now.load);
-        self.then.copy_from(&self.now);
-        self.last_shift = 0.0;
+        self.at_contact.copy_from(&self.now);
+        self.last_edge_shift = 0.0;
         (self.edge.shift, self.edge.correction) = (0.0, 0.0);
     }
 
     /// The element of a ring that was touched at a depth: how much deeper the edge is by Halley's method, and by how much the
     /// modulus changes on the way there; where that is much, by Newton's.
-    fn load_at(&mut self, index: usize, depth: f64) -> [f64; 2] {
+    fn step_to_edge(&mut self, index: usize, depth: f64) -> [f64; 2] {
         let n = self.rates.len();
-        let touched = &self.touched[2 * index * n..(2 * index + 1) * n];
+        let integrals_at_rings = &self.integrals_at_rings[2 * index * n..(2 * index + 1) * n];
         let ring = &self.rings[index];
         let theta = ((depth - ring.start[1]) / ring.rise).clamp(0.0, 1.0);
         let (step, rise) = (theta * ring.step, theta * ring.rise);
@@ -360,12 +367,12 @@ impl Approach {
         (edge.ring, edge.theta, edge.lag) = (index, theta, self.point[0] - (ring.start[0] + step));
         edge.load = self.viscosity * self.speed;
         let [mut modulus, mut slope] = [0.0; 2];
-        for (k, then) in touched.iter().enumerate() {
+        for (k, at_contact) in integrals_at_rings.iter().enumerate() {
             let (rate, glass) = (self.rates[k], self.moduli[k]);
             let [decay, mean] = decay_and_mean(rate * step);
-            let then = decay * then + rise * mean;
+            let at_contact = decay * at_contact + rise * mean;
             let decay = (-rate * edge.lag).exp();
-            let strain = self.now.depth[k] - decay * then;
+            let strain = self.now.depth[k] - decay * at_contact;
             (edge.decays[k], edge.strains[k]) = (decay, strain);
             edge.load += glass * strain;
             modulus += glass * decay;
@@ -377,10 +384,10 @@ impl Approach {
             return [edge.load * f64::INFINITY, 0.0].map(|x| if x.is_nan() { 0.0 } else { x });
         }
         let shift = edge.load / modulus;
-        let bend = 0.5 * shift * slope / modulus * (ring.step / ring.rise);
-        match bend.abs() < 0.25 {
-            true => [shift / (1.0 + bend), bend],
-            false => [shift, bend],
+        let curvature = 0.5 * shift * slope / modulus * (ring.step / ring.rise);
+        match curvature.abs() < 0.25 {
+            true => [shift / (1.0 + curvature), curvature],
+            false => [shift, curvature],
         }
     }
 
@@ -395,7 +402,7 @@ impl Approach {
             Some([.., depth]) => (self.edge.ring, depth + self.edge.shift),
             None => (0, 0.0),
         };
-        let mut depth = (before + self.last_shift).clamp(0.0, deepest);
+        let mut depth = (before + self.last_edge_shift).clamp(0.0, deepest);
         self.edge.place = None;
         let mut bracket = [0.0, deepest];
         for step in 0..MOST_STEPS {
@@ -405,7 +412,7 @@ impl Approach {
             while ring < last && depth > self.rings[ring + 1].start[1] {
                 ring += 1;
             }
-            let [shift, bend] = self.load_at(ring, depth);
+            let [shift, curvature] = self.step_to_edge(ring, depth);
             let is_left = self.edge.load < 0.0;
             if depth <= 0.0 && is_left {
                 return;
@@ -413,11 +420,11 @@ impl Approach {
             bracket[usize::from(is_left)] = depth;
             let next = (depth + shift).clamp(0.0, deepest);
             let change = (next - depth).abs() / next;
-            let of_force = change * change * (change + bend.abs()) <= CLOSE * CLOSE;
+            let of_force = change * change * (change + curvature.abs()) <= CLOSE * CLOSE;
             let is_still = next.total_cmp(&depth).is_eq();
-            if is_still || change <= CLOSE || (of_force && self.now.late.is_empty()) {
-                self.last_shift = next - before;
-                self.sum_up(next - depth);
+            if is_still || change <= CLOSE || (of_force && self.now.time_weighted.is_empty()) {
+                self.last_edge_shift = next - before;
+                self.integrate_to_edge(next - depth);
                 return;
             }
             depth = match step {
@@ -427,21 +434,21 @@ impl Approach {
                 _ => next,
             };
         }
-        self.sum_up(0.0);
+        self.integrate_to_edge(0.0);
     }
 
     /// Φ_k/G_k from the edge as it was found but for a last shift of its depth.
-    fn sum_up(&mut self, shift: f64) {
+    fn integrate_to_edge(&mut self, shift: f64) {
         let Edge { ring, theta, .. } = self.edge;
         let [radius, slope, depth] = self.place(ring, theta);
         if ring + 1 == self.rings.len() && theta >= 1.0 {
-            self.then.copy_from(&self.front);
+            self.at_contact.copy_from(&self.at_front);
         } else {
-            self.find_then();
+            self.find_integrals_at_edge();
         }
         let edge = &mut self.edge;
         for (k, sum) in edge.sums.iter_mut().enumerate() {
-            *sum = radius * edge.strains[k] + edge.decays[k] * self.then.load[k];
+            *sum = radius * edge.strains[k] + edge.decays[k] * self.at_contact.load[k];
         }
         // ∂F/∂D = a' w at constant t, and w falls to 0 within the shift.
         (edge.shift, edge.correction) = (shift, 0.5 * slope * edge.load * shift);
@@ -466,19 +473,24 @@ impl Approach {
     }
 
     /// What the branches remembered when the element at the edge was touched.
-    fn find_then(&mut self) {
+    fn find_integrals_at_edge(&mut self) {
         let (n, index) = (self.rates.len(), self.edge.ring);
         let (ring, terms) = self.part(index, self.edge.theta);
-        let touched = &self.touched[2 * index * n..2 * (index + 1) * n];
-        let n_late = self.now.late.len();
-        self.then.depth.copy_from_slice(&touched[..n]);
-        self.then.load.copy_from_slice(&touched[n..]);
-        let late = &self.touched_late[index * n_late..(index + 1) * n_late];
-        self.then.late.copy_from_slice(late);
-        let n_moments = ring.n_terms + usize::from(n_late > 0);
+        let integrals_at_rings = &self.integrals_at_rings[2 * index * n..2 * (index + 1) * n];
+        let n_time_weighted = self.now.time_weighted.len();
+        self.at_contact
+            .depth
+            .copy_from_slice(&integrals_at_rings[..n]);
+        self.at_contact
+            .load
+            .copy_from_slice(&integrals_at_rings[n..]);
+        let time_weighted =
+            &self.time_weighted_at_rings[index * n_time_weighted..(index + 1) * n_time_weighted];
+        self.at_contact.time_weighted.copy_from_slice(time_weighted);
+        let n_moments = ring.n_terms + usize::from(n_time_weighted > 0);
         self.partial.set(&self.rates, ring.step, n_moments, 0.0);
         self.partial
-            .grow(&mut self.then, &ring, &terms[..ring.n_terms]);
+            .grow(&mut self.at_contact, &ring, &terms[..ring.n_terms]);
     }
 }
 

@@ -15,9 +15,9 @@ mod sums;
 use indenters::EquivalentProfile;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
-use super::Measured;
-use super::element::{Elements, Leg, Motion, State};
-use super::path::{Instant, Path, ROUNDING, change_of_edge};
+use super::ContactSums;
+use super::element::{EdgeDirection, EdgeMove, ElementState, LineElements};
+use super::path::{Path, ROUNDING, SegmentTime, change_of_edge};
 use super::radius::Radii;
 use crate::MdrError;
 use edge::Edge;
@@ -29,11 +29,11 @@ pub(super) struct Contact<'a> {
     pub(super) path: Path,
     pub(super) radii: Radii,
     /// Rings in contact, from the centre outwards.
-    pub(super) rings: Vec<Leg>,
+    pub(super) rings: Vec<EdgeMove>,
     /// Φ_k inside each ring when it began, ring by ring.
     pub(super) inside: Vec<f64>,
     /// All that happened.
-    pub(super) legs: Vec<Leg>,
+    pub(super) edge_moves: Vec<EdgeMove>,
     /// Φ_k of the whole contact now, and σ_k at its edge.
     pub(super) sums: Vec<f64>,
     edge: Vec<f64>,
@@ -47,7 +47,7 @@ pub(super) struct Contact<'a> {
     /// Modulus G(t − s) of the element at the edge; none while it is being touched.
     pub(super) edge_modulus: Option<f64>,
     /// What comes after the edge has turned within a segment.
-    turned: Option<Motion>,
+    direction_after_turn: Option<EdgeDirection>,
 }
 
 /// Tolerance of the quadrature along a path of the depth, of which all else is exact.
@@ -71,7 +71,7 @@ impl<'a> Contact<'a> {
             radii,
             rings: Vec::new(),
             inside: Vec::new(),
-            legs: Vec::new(),
+            edge_moves: Vec::new(),
             sums: nothing.clone(),
             edge: nothing,
             widest: [0.0; 2],
@@ -79,7 +79,7 @@ impl<'a> Contact<'a> {
             tolerance: TO_ROUNDING,
             quadrature_error: 0.0,
             edge_modulus: None,
-            turned: None,
+            direction_after_turn: None,
         }
     }
 
@@ -101,7 +101,7 @@ impl<'a> Contact<'a> {
         [sum, viscous.abs() + inner + shared]
     }
 
-    pub(super) fn measured(&self) -> Measured {
+    pub(super) fn measured(&self) -> ContactSums {
         let [load, terms] = self.load();
         let at_edge = self.rings.last().zip(self.edge_modulus);
         let edge = at_edge.map(|(ring, modulus)| {
@@ -109,7 +109,7 @@ impl<'a> Contact<'a> {
             let slope = self.radii.at(depths)[1];
             change_of_edge(slope, modulus, self.path.scale(self.path.end()))
         });
-        Measured {
+        ContactSums {
             point: self.path.last(),
             load,
             terms,
@@ -119,8 +119,8 @@ impl<'a> Contact<'a> {
         }
     }
 
-    pub(super) fn elements(&self) -> Elements<'_> {
-        Elements {
+    pub(super) fn elements(&self) -> LineElements<'_> {
+        LineElements {
             body: self.body,
             path: &self.path,
         }
@@ -132,7 +132,7 @@ impl<'a> Contact<'a> {
         let mut at = self.path.end();
         at.part = 0.0;
         while at.part < 1.0 {
-            at = self.move_on(at)?;
+            at = self.advance_edge(at)?;
         }
         Ok(())
     }
@@ -145,36 +145,38 @@ impl<'a> Contact<'a> {
         }
         self.path.push(time, depth);
         let centre = depth + self.gap(f64::MIN_POSITIVE, self.path.end());
-        self.path.end_at(centre);
+        self.path.set_last_depth(centre);
         Ok(())
     }
 
     /// One leg; returns its end.
-    fn move_on(&mut self, at: Instant) -> Result<Instant, MdrError> {
-        let end = Instant { part: 1.0, ..at };
+    fn advance_edge(&mut self, at: SegmentTime) -> Result<SegmentTime, MdrError> {
+        let end = SegmentTime { part: 1.0, ..at };
         if self.rings.is_empty() {
-            if let State::Free(centre) = self.elements().follow(f64::MIN_POSITIVE, &self.legs) {
+            if let ElementState::Free(centre) =
+                self.elements().follow(f64::MIN_POSITIVE, &self.edge_moves)
+            {
                 // A contact that begins and ends within one segment is not seen.
                 if self.elements().gap(&centre, end) > 0.0 {
                     return Ok(end);
                 }
-                return self.grow_again([at, end], true);
+                return self.grow_over_free([at, end], true);
             }
             if self.path.depth(end) <= 0.0 || self.path.rise(at.segment) <= 0.0 {
                 return Ok(end);
             }
-            let touch = self.path.passes(at.segment, 0.0);
+            let touch = self.path.time_of_depth(at.segment, 0.0);
             return Ok(self.grow(if touch.part > at.part { touch } else { at }, end));
         }
-        let turned = self.turned.take();
-        let tendency = match turned {
-            Some(Motion::Leaving) => -1.0,
+        let direction_after_turn = self.direction_after_turn.take();
+        let tendency = match direction_after_turn {
+            Some(EdgeDirection::Separation) => -1.0,
             Some(_) => 1.0,
             None => self.path.tendency(&self.edge, at),
         };
         // At a flat end all elements were touched at once, and rounding leaves none of them.
         if tendency > 0.0 && self.radius() < (1.0 - LEFT) * self.widest[0] {
-            return self.grow_again([at, end], turned.is_some());
+            return self.grow_over_free([at, end], direction_after_turn.is_some());
         }
         if tendency > 0.0 && self.path.depth(end) > self.widest[1] {
             return Ok(self.grow(at, end));
@@ -185,59 +187,59 @@ impl<'a> Contact<'a> {
             self.hold(end);
             return Ok(end);
         }
-        self.shrink([at, end], turned.is_some())
+        self.shrink([at, end], direction_after_turn.is_some())
     }
 
     /// Over elements that were never touched.
-    fn grow(&mut self, at: Instant, end: Instant) -> Instant {
+    fn grow(&mut self, at: SegmentTime, end: SegmentTime) -> SegmentTime {
         let deepest = self.widest[1];
         let path = &self.path;
-        let passes = path.passes(at.segment, deepest);
-        if path.depth(at) < deepest && passes.part > at.part {
-            self.hold(passes);
-            return passes;
+        let time_of_depth = path.time_of_depth(at.segment, deepest);
+        if path.depth(at) < deepest && time_of_depth.part > at.part {
+            self.hold(time_of_depth);
+            return time_of_depth;
         }
         let mut depths = [path.depth(at).max(deepest), path.depth(end)];
         let mut to = end;
         let limit = self.radii.end_of_piece(depths[0]);
         if limit < depths[1] {
             depths[1] = limit;
-            to = path.passes(at.segment, limit);
+            to = path.time_of_depth(at.segment, limit);
         }
         let [outer, _] = self.radii.at(depths);
         self.widest = [outer, depths[1]];
         self.edge.fill(0.0);
-        self.add(Motion::First, [at, to], outer);
+        self.add(EdgeDirection::FirstContact, [at, to], outer);
         to
     }
 
     /// Over elements that recover, up to the last one that was ever touched.
-    fn grow_again(
+    fn grow_over_free(
         &mut self,
-        [at, end]: [Instant; 2],
+        [at, end]: [SegmentTime; 2],
         has_turned: bool,
-    ) -> Result<Instant, MdrError> {
+    ) -> Result<SegmentTime, MdrError> {
         let [widest, deepest] = self.widest;
-        let instant = |part: f64| Instant { part, ..at };
+        let instant = |part: f64| SegmentTime { part, ..at };
         let mut to = end;
-        let passes = self.path.rise(at.segment) > 0.0 && self.path.depth(end) > deepest;
-        if passes {
-            to = self.path.passes(at.segment, deepest);
+        let time_of_depth = self.path.rise(at.segment) > 0.0 && self.path.depth(end) > deepest;
+        if time_of_depth {
+            to = self.path.time_of_depth(at.segment, deepest);
         } else {
             let tendency = |part: f64| {
                 let at = instant(part);
                 self.path
-                    .tendency(&self.touching(self.edge_outwards(at), at), at)
+                    .tendency(&self.stresses_on_contact(self.edge_outwards(at), at), at)
             };
             if tendency(1.0) < 0.0
                 && let Some(turn) = turn(tendency, at, has_turned)
             {
                 to = turn;
-                self.turned = Some(Motion::Leaving);
+                self.direction_after_turn = Some(EdgeDirection::Separation);
             }
         }
         // Where it passes, whatever rounding makes of a gap there.
-        let outer = if passes {
+        let outer = if time_of_depth {
             widest
         } else {
             self.edge_outwards(to)
@@ -246,32 +248,32 @@ impl<'a> Contact<'a> {
             self.hold(to);
             return Ok(to);
         }
-        self.check_gaps([outer, widest], to)?;
-        self.edge = self.touching(outer, to);
-        self.add(Motion::Again, [at, to], outer);
+        self.check_contact_order([outer, widest], to)?;
+        self.edge = self.stresses_on_contact(outer, to);
+        self.add(EdgeDirection::Recontact, [at, to], outer);
         Ok(to)
     }
 
     /// Height of the body over an element that is not in contact.
-    pub(super) fn gap(&self, radius: f64, at: Instant) -> f64 {
+    pub(super) fn gap(&self, radius: f64, at: SegmentTime) -> f64 {
         let radius = radius.max(self.radius().next_up());
-        match self.elements().follow(radius, &self.legs) {
-            State::Free(free) => self.elements().gap(&free, at),
+        match self.elements().follow(radius, &self.edge_moves) {
+            ElementState::Free(free) => self.elements().gap(&free, at),
             _ => self.body.height_at(radius) - self.path.depth(at),
         }
     }
 
     /// σ_k of an element that is touched at that moment.
-    fn touching(&self, radius: f64, at: Instant) -> Vec<f64> {
+    fn stresses_on_contact(&self, radius: f64, at: SegmentTime) -> Vec<f64> {
         let radius = radius.max(self.radius().next_up());
-        match self.elements().follow(radius, &self.legs) {
-            State::Free(free) => self.elements().free_stresses(&free, at),
+        match self.elements().follow(radius, &self.edge_moves) {
+            ElementState::Free(free) => self.elements().free_stresses(&free, at),
             _ => vec![0.0; self.path.n_branches()],
         }
     }
 
     /// The radius up to which free elements are touched.
-    fn edge_outwards(&self, at: Instant) -> f64 {
+    fn edge_outwards(&self, at: SegmentTime) -> f64 {
         let (inner, widest) = (self.radius(), self.widest[0]);
         match bracketed_root(|radius| self.gap(radius, at), [inner, widest]) {
             Some(edge) => edge,
@@ -281,7 +283,11 @@ impl<'a> Contact<'a> {
     }
 
     /// Refuses a body that touches free elements in another order than from inside outwards.
-    fn check_gaps(&self, [edge, widest]: [f64; 2], at: Instant) -> Result<(), MdrError> {
+    fn check_contact_order(
+        &self,
+        [edge, widest]: [f64; 2],
+        at: SegmentTime,
+    ) -> Result<(), MdrError> {
         let inner = self.radius();
         let allowed = WRONG_SIGN * self.widest[1];
         for node in &self.rule.nodes[1..NODES - 1] {
@@ -298,7 +304,7 @@ impl<'a> Contact<'a> {
     }
 
     /// The contact stays as it is up to an instant.
-    fn hold(&mut self, to: Instant) {
+    fn hold(&mut self, to: SegmentTime) {
         if let Some(edge) = self.outermost(to) {
             self.edge = edge.stresses;
         }
@@ -306,33 +312,37 @@ impl<'a> Contact<'a> {
     }
 
     /// A ring around the contact, which ends with the σ_k at the edge.
-    fn add(&mut self, motion: Motion, span: [Instant; 2], outer: f64) {
-        let leg = self.record(motion, span, [self.radius(), outer]);
-        self.rings.push(leg);
+    fn add(&mut self, motion: EdgeDirection, span: [SegmentTime; 2], outer: f64) {
+        let edge_move = self.record(motion, span, [self.radius(), outer]);
+        self.rings.push(edge_move);
         self.inside.extend_from_slice(&self.sums);
-        self.sums = self.sums_at(leg.to);
+        self.sums = self.sums_at(edge_move.to);
     }
 
     fn record(
         &mut self,
-        motion: Motion,
-        [from, to]: [Instant; 2],
+        motion: EdgeDirection,
+        [from, to]: [SegmentTime; 2],
         [inner, outer]: [f64; 2],
-    ) -> Leg {
-        let leg = Leg {
+    ) -> EdgeMove {
+        let edge_move = EdgeMove {
             motion,
             from,
             to,
             inner,
             outer,
-            before: self.legs.len(),
+            before: self.edge_moves.len(),
         };
-        self.legs.push(leg);
-        leg
+        self.edge_moves.push(edge_move);
+        edge_move
     }
 
-    fn shrink(&mut self, [at, end]: [Instant; 2], has_turned: bool) -> Result<Instant, MdrError> {
-        let instant = |part: f64| Instant { part, ..at };
+    fn shrink(
+        &mut self,
+        [at, end]: [SegmentTime; 2],
+        has_turned: bool,
+    ) -> Result<SegmentTime, MdrError> {
+        let instant = |part: f64| SegmentTime { part, ..at };
         let tendency = |edge: &Option<Edge>, part: f64| match edge {
             Some(edge) => self.path.tendency(&edge.stresses, instant(part)),
             None => -1.0,
@@ -345,12 +355,12 @@ impl<'a> Contact<'a> {
             && let Some(turn) = turn(later, at, has_turned)
         {
             to = turn;
-            self.turned = Some(Motion::Again);
+            self.direction_after_turn = Some(EdgeDirection::Recontact);
             edge = self.edge_inwards(to);
         }
         let [inner, outer] = [edge.as_ref().map_or(0.0, |edge| edge.radius), self.radius()];
         if inner < outer {
-            self.record(Motion::Leaving, [at, to], [inner, outer]);
+            self.record(EdgeDirection::Separation, [at, to], [inner, outer]);
         }
         let Some(edge) = edge else {
             self.rings.clear();
@@ -365,13 +375,13 @@ impl<'a> Contact<'a> {
         ring.outer = edge.radius;
         self.edge = edge.stresses;
         self.sums = self.sums_at(to);
-        self.check_load(to)?;
+        self.check_compressive(to)?;
         Ok(to)
     }
 }
 
 /// The instant after another one in its segment at which the edge turns; right after a turn none, lest the edge stands still.
-fn turn(tendency: impl Fn(f64) -> f64, at: Instant, has_turned: bool) -> Option<Instant> {
+fn turn(tendency: impl Fn(f64) -> f64, at: SegmentTime, has_turned: bool) -> Option<SegmentTime> {
     let part = bracketed_root(tendency, [at.part, 1.0])?;
-    (part > at.part || !has_turned).then_some(Instant { part, ..at })
+    (part > at.part || !has_turned).then_some(SegmentTime { part, ..at })
 }

@@ -7,8 +7,8 @@ use numerics::{in_range, positive};
 use rheology::Material;
 
 use super::approach::Approach;
-use super::checked;
 use super::radius::Radii;
+use super::validated_points;
 use crate::{MdrError, error};
 
 /// The force of a history and its derivatives; every list has an entry for every point, 0 without contact.
@@ -50,7 +50,7 @@ pub fn force_derivatives(
     material: &dyn Material,
     history: &[HistoryPoint],
 ) -> Result<ForceDerivatives, MdrError> {
-    let points = checked(history)?;
+    let points = validated_points(history)?;
     if let Control::NormalForce(force) = history[0].control {
         let allowed = "a depth, whose force is differentiated";
         in_range("control", force, false, allowed)?;
@@ -79,7 +79,7 @@ pub fn force_derivatives(
         let place = approach.edge.place;
         result.push(place.map(|place| (&approach, place)), factor);
         error::finite("normal force", result.normal_force[index], point[0])?;
-        if !approach.is_touched_again {
+        if !approach.has_recontact {
             result.exact_until = index + 1;
         }
     }
@@ -95,18 +95,19 @@ impl ForceDerivatives {
         if let Some((approach, place)) = contact {
             let [radius, slope, depth] = place;
             contact_radius = approach.radius();
-            let (edge, then, rates) = (&approach.edge, &approach.then, &approach.rates);
+            let (edge, at_contact, rates) = (&approach.edge, &approach.at_contact, &approach.rates);
             by_viscosity = approach.speed * radius;
             force = approach.viscosity * by_viscosity;
             by_depth = slope * edge.load;
             by_stretch = -depth * slope * edge.load;
-            for (k, late) in then.late.iter().enumerate() {
+            for (k, time_weighted) in at_contact.time_weighted.iter().enumerate() {
                 let (modulus, decay, lag) = (approach.moduli[k], edge.decays[k], edge.lag);
-                by_depth += modulus * decay * late.edge;
-                by_stretch += modulus * decay * late.stretch;
-                let slower =
-                    approach.now.late[k].depth - decay * (late.depth + lag * then.depth[k]);
-                let by_rate = -radius * slower - decay * (late.load + lag * then.load[k]);
+                by_depth += modulus * decay * time_weighted.edge;
+                by_stretch += modulus * decay * time_weighted.stretch;
+                let slower = approach.now.time_weighted[k].depth
+                    - decay * (time_weighted.depth + lag * at_contact.depth[k]);
+                let by_rate =
+                    -radius * slower - decay * (time_weighted.load + lag * at_contact.load[k]);
                 force += modulus * edge.sums[k];
                 columns[k] = [edge.sums[k], -modulus * by_rate * rates[k] * rates[k]];
             }

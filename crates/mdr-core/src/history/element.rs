@@ -10,25 +10,25 @@
 use indenters::EquivalentProfile;
 use numerics::bracketed_root;
 
-use super::path::{Instant, Mode, Path, fading};
+use super::path::{Path, RecoveryMode, SegmentTime, decay};
 
 /// How the edge moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Motion {
+pub(super) enum EdgeDirection {
     /// Outwards, over elements that were never touched.
-    First,
+    FirstContact,
     /// Outwards, over elements that were touched before.
-    Again,
+    Recontact,
     /// Inwards.
-    Leaving,
+    Separation,
 }
 
 /// A ring over which the edge moves in one direction, within one segment of the path.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Leg {
-    pub(super) motion: Motion,
-    pub(super) from: Instant,
-    pub(super) to: Instant,
+pub(super) struct EdgeMove {
+    pub(super) motion: EdgeDirection,
+    pub(super) from: SegmentTime,
+    pub(super) to: SegmentTime,
     /// Radii of the ring, \[m].
     pub(super) inner: f64,
     pub(super) outer: f64,
@@ -37,61 +37,63 @@ pub(super) struct Leg {
 }
 
 /// An element in contact.
-pub(super) struct Touched {
-    since: Instant,
+pub(super) struct Loaded {
+    since: SegmentTime,
     /// σ_k at that moment.
     stresses: Vec<f64>,
 }
 
 /// An element that the body has left.
 pub(super) struct Free {
-    since: Instant,
+    since: SegmentTime,
     height: f64,
     /// y_j.
     amplitudes: Vec<f64>,
 }
 
 /// What became of an element in the last event of its history.
-pub(super) enum State {
+pub(super) enum ElementState {
     Untouched,
-    Touched(Touched),
+    Loaded(Loaded),
     Free(Free),
 }
 
 /// Elements of one line under one path.
-pub(super) struct Elements<'a> {
+pub(super) struct LineElements<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     pub(super) path: &'a Path,
 }
 
-impl Elements<'_> {
+impl LineElements<'_> {
     /// The element at a radius after the legs of a contact.
-    pub(super) fn follow(&self, radius: f64, legs: &[Leg]) -> State {
-        let inside = |leg: &&Leg| leg.inner < radius && radius <= leg.outer;
+    pub(super) fn follow(&self, radius: f64, edge_moves: &[EdgeMove]) -> ElementState {
+        let inside = |edge_move: &&EdgeMove| edge_move.inner < radius && radius <= edge_move.outer;
         // Beyond the end of a body is only what rounding of its radius puts there.
         let height = self.body.height_at(radius.min(self.body.end()));
-        let mut state = State::Untouched;
-        for leg in legs.iter().filter(inside) {
-            state = match (leg.motion, state) {
-                (Motion::First, State::Untouched) => {
-                    let at = self.path.passes(leg.from.segment, height);
-                    let part = at.part.clamp(leg.from.part, leg.to.part);
-                    State::Touched(Touched {
-                        since: Instant { part, ..at },
+        let mut state = ElementState::Untouched;
+        for edge_move in edge_moves.iter().filter(inside) {
+            state = match (edge_move.motion, state) {
+                (EdgeDirection::FirstContact, ElementState::Untouched) => {
+                    let at = self.path.time_of_depth(edge_move.from.segment, height);
+                    let part = at.part.clamp(edge_move.from.part, edge_move.to.part);
+                    ElementState::Loaded(Loaded {
+                        since: SegmentTime { part, ..at },
                         stresses: vec![0.0; self.path.n_branches()],
                     })
                 }
-                (Motion::Again, State::Free(free)) => {
-                    let at = within(leg, |at| self.gap(&free, at));
-                    State::Touched(Touched {
+                (EdgeDirection::Recontact, ElementState::Free(free)) => {
+                    let at = zero_in(edge_move, |at| self.gap(&free, at));
+                    ElementState::Loaded(Loaded {
                         since: at,
                         stresses: self.free_stresses(&free, at),
                     })
                 }
-                (Motion::Leaving, State::Touched(touched)) => {
-                    let before = self.stresses(&touched, leg.from);
-                    let at = within(leg, |at| self.path.load_later(&before, leg.from, at));
-                    State::Free(self.release(height, &self.stresses(&touched, at), at))
+                (EdgeDirection::Separation, ElementState::Loaded(touched)) => {
+                    let before = self.stresses(&touched, edge_move.from);
+                    let at = zero_in(edge_move, |at| {
+                        self.path.load_later(&before, edge_move.from, at)
+                    });
+                    ElementState::Free(self.release(height, &self.stresses(&touched, at), at))
                 }
                 (_, state) => state,
             };
@@ -100,7 +102,7 @@ impl Elements<'_> {
     }
 
     /// σ_k of an element in contact.
-    pub(super) fn stresses(&self, touched: &Touched, at: Instant) -> Vec<f64> {
+    pub(super) fn stresses(&self, touched: &Loaded, at: SegmentTime) -> Vec<f64> {
         let lag = self.path.lag(touched.since, at);
         let held = touched.stresses.iter().zip(&lag.decays);
         let held = held.map(|(stress, decay)| stress * decay);
@@ -108,13 +110,13 @@ impl Elements<'_> {
         both.map(|(held, gained)| held + gained).collect()
     }
 
-    fn release(&self, height: f64, stresses: &[f64], since: Instant) -> Free {
+    fn release(&self, height: f64, stresses: &[f64], since: SegmentTime) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
         let viscous = path.moduli.iter().zip(stresses);
         let viscous = viscous.map(|(modulus, stress)| modulus * displacement - stress);
         let viscous: Vec<f64> = viscous.collect();
-        let amplitude = |(mode, row): (&Mode, &[f64])| {
+        let amplitude = |(mode, row): (&RecoveryMode, &[f64])| {
             let held: f64 = row.iter().zip(&viscous).map(|(c, held)| c * held).sum();
             mode.fluidity * (path.viscosity * displacement + held)
         };
@@ -126,19 +128,19 @@ impl Elements<'_> {
     }
 
     /// Height of the body over a free element, \[m].
-    pub(super) fn gap(&self, free: &Free, at: Instant) -> f64 {
+    pub(super) fn gap(&self, free: &Free, at: SegmentTime) -> f64 {
         free.height + self.recovering(free, at).sum::<f64>() - self.path.depth(at)
     }
 
     /// y_j e^(−(t − s)/λ_j).
-    fn recovering(&self, free: &Free, at: Instant) -> impl Iterator<Item = f64> {
+    fn recovering(&self, free: &Free, at: SegmentTime) -> impl Iterator<Item = f64> {
         let lag = self.path.time(at) - self.path.time(free.since);
         let modes = self.path.modes().zip(&free.amplitudes);
-        modes.map(move |((mode, _), amplitude)| amplitude * fading(mode.rate * lag))
+        modes.map(move |((mode, _), amplitude)| amplitude * decay(mode.rate * lag))
     }
 
     /// σ_k = G_k (u − z_k) of a free element; in one mode z is y/(1 − τ_k/λ_j).
-    pub(super) fn free_stresses(&self, free: &Free, at: Instant) -> Vec<f64> {
+    pub(super) fn free_stresses(&self, free: &Free, at: SegmentTime) -> Vec<f64> {
         let path = self.path;
         let (mut strains, mut height) = (vec![0.0; path.n_branches()], 0.0);
         for (y, (mode, row)) in self.recovering(free, at).zip(path.modes()) {
@@ -158,11 +160,14 @@ impl Elements<'_> {
 }
 
 /// The instant of a leg at which a falling quantity vanishes; its beginning or end where it does not.
-fn within(leg: &Leg, falling: impl Fn(Instant) -> f64) -> Instant {
-    let at = |part| Instant { part, ..leg.from };
-    let ends = [leg.from.part, leg.to.part];
+fn zero_in(edge_move: &EdgeMove, falling: impl Fn(SegmentTime) -> f64) -> SegmentTime {
+    let at = |part| SegmentTime {
+        part,
+        ..edge_move.from
+    };
+    let ends = [edge_move.from.part, edge_move.to.part];
     let end = || {
-        let is_past = falling(leg.from) <= 0.0;
+        let is_past = falling(edge_move.from) <= 0.0;
         if is_past { ends[0] } else { ends[1] }
     };
     at(bracketed_root(|part| falling(at(part)), ends).unwrap_or_else(end))

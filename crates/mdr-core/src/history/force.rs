@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1e-13;
 const QUADRATURE: f64 = 1e-3;
 
 /// A body under a force.
-pub(super) struct Pressed<'a> {
+pub(super) struct ForceHistory<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     pub(super) material: &'a dyn Material,
     pub(super) options: HistoryOptions,
@@ -34,15 +34,15 @@ pub(super) struct Pressed<'a> {
     pub(super) points: Vec<[f64; 2]>,
 }
 
-impl Pressed<'_> {
+impl ForceHistory<'_> {
     /// Depth and contact radius at all points.
     pub(super) fn curve(&self) -> Result<Vec<CurvePoint>, MdrError> {
         let factor = 8.0 / self.material.half_space_factor();
         let duration = self.points[self.points.len() - 1][0] - self.points[0][0];
         let radii = self.reaching(self.material.creep_compliance(duration)? / factor)?;
-        let grown = self.grown(&self.points, &radii, factor);
-        if grown.len() == self.points.len() {
-            return Ok(grown);
+        let before_shrinking = self.before_shrinking(&self.points, &radii, factor);
+        if before_shrinking.len() == self.points.len() {
+            return Ok(before_shrinking);
         }
         let mut parts = 1;
         let mut change_before = f64::INFINITY;
@@ -73,7 +73,7 @@ impl Pressed<'_> {
             let rounding = ROUNDING + QUADRATURE * asked;
             let bars = [change + rounding * deepest, radius_change];
             let mut reached = self.with_bars(better, &radii, bars);
-            reached[..grown.len()].copy_from_slice(&grown);
+            reached[..before_shrinking.len()].copy_from_slice(&before_shrinking);
             let missed = NotReached {
                 quantity: 0,
                 relative_error: asked,
@@ -146,7 +146,7 @@ impl Pressed<'_> {
     }
 
     /// The points before the contact shrinks for the first time, as it does not wherever ∫ J dF grows.
-    fn grown(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
+    fn before_shrinking(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
         let creep = self.material.creep();
         let mut delayed = vec![0.0; creep.elements().len()];
         let mut flown = 0.0;
@@ -219,7 +219,7 @@ impl Pressed<'_> {
         let forces: Vec<[f64; 2]> = points.iter().map(|(point, _)| *point).collect();
         let factor = 8.0 / self.material.half_space_factor();
         let largest = forces.iter().map(|[_, force]| *force).fold(0.0, f64::max);
-        let grown = self.grown(&forces, radii, factor);
+        let before_shrinking = self.before_shrinking(&forces, radii, factor);
         let mut path = Path::new(self.material);
         path.push(self.points[0][0], 0.0);
         let mut contact = Contact::new(self.body, path, radii.clone());
@@ -230,7 +230,7 @@ impl Pressed<'_> {
         let mut pressed = true;
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
             let was_pressed = std::mem::replace(&mut pressed, force > 0.0 || !lifts);
-            if let Some(point) = grown.get(index) {
+            if let Some(point) = before_shrinking.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
             } else if !pressed && !was_pressed {
                 contact.rise(time)?;

@@ -12,7 +12,8 @@ mod contact;
 mod derivatives;
 mod element;
 mod force;
-mod memory;
+mod integrals;
+
 mod path;
 mod radius;
 mod work;
@@ -26,7 +27,7 @@ pub use self::work::work_along;
 
 use self::approach::Approach;
 use self::contact::Contact;
-use self::force::Pressed;
+use self::force::ForceHistory;
 use self::path::Path;
 use self::radius::Radii;
 use crate::MdrError;
@@ -108,23 +109,23 @@ pub fn indent_along(
 ) -> Result<Vec<CurvePoint>, MdrError> {
     not_negative("modulus_error", options.modulus_error)?;
     between_zero_and_one("relative_error", options.relative_error)?;
-    let points = checked(history)?;
+    let points = validated_points(history)?;
     if points.iter().all(|[_, value]| *value <= 0.0) {
-        return Ok(points.into_iter().map(free).collect());
+        return Ok(points.into_iter().map(unloaded_point).collect());
     }
     // As a pointer to it, a material of any size is one that can be an object.
     let material: &dyn Material = &material;
     check_spectra(material)?;
     let curve = match history[0].control {
-        Control::IndentationDepth(_) => along_depth(body, material, &points, options)?,
-        Control::NormalForce(_) => Pressed {
+        Control::IndentationDepth(_) => follow_depths(body, material, &points, options)?,
+        Control::NormalForce(_) => ForceHistory {
             body,
             material,
             options: *options,
             points,
         }
         .curve()
-        .and_then(|curve| grown_and_shrunk(body, curve))?,
+        .and_then(|curve| refuse_inexact_recontact(body, curve))?,
     };
     for point in &curve {
         let (force, depth) = (point.normal_force, point.indentation_depth);
@@ -135,7 +136,7 @@ pub fn indent_along(
 }
 
 /// A body without load.
-const fn free([time, depth]: [f64; 2]) -> CurvePoint {
+const fn unloaded_point([time, depth]: [f64; 2]) -> CurvePoint {
     CurvePoint {
         time,
         indentation_depth: Estimate::exact(depth),
@@ -145,7 +146,7 @@ const fn free([time, depth]: [f64; 2]) -> CurvePoint {
 }
 
 /// Times and depths, or times and forces.
-fn checked(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
+fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
     let is_force = |point: &HistoryPoint| matches!(point.control, Control::NormalForce(_));
     let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
     let mut before = first.time;
@@ -170,14 +171,14 @@ fn checked(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
     Ok(points)
 }
 
-fn along_depth(
+fn follow_depths(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
     points: &[[f64; 2]],
     options: &HistoryOptions,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
-    let mut bars = Bars {
+    let mut bars = ErrorBars {
         factor: 8.0 / material.half_space_factor(),
         modulus_error: options.modulus_error,
         largest: 0.0,
@@ -196,12 +197,12 @@ fn along_depth(
     let mut curve = Vec::with_capacity(points.len());
     for point in points {
         approach.follow(*point);
-        if approach.is_touched_again {
+        if approach.has_recontact {
             if !body.is_exact_where_touched_again() {
                 return Err(MdrError::TouchedAgain { time: point[0] });
             }
             bars.largest = 0.0;
-            return touched_again(body, material, points, radii, bars);
+            return follow_recontact(body, material, points, radii, bars);
         }
         curve.push(bars.point(&approach.measured()));
     }
@@ -209,7 +210,7 @@ fn along_depth(
 }
 
 /// Refuses a contact under a force that grows again after it has shrunk, unless that is exact too.
-fn grown_and_shrunk(
+fn refuse_inexact_recontact(
     body: &dyn EquivalentProfile,
     curve: Vec<CurvePoint>,
 ) -> Result<Vec<CurvePoint>, MdrError> {
@@ -237,19 +238,19 @@ fn grown_and_shrunk(
 }
 
 /// A contact that grows again over elements which it left.
-fn touched_again(
+fn follow_recontact(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
     points: &[[f64; 2]],
     radii: Radii,
-    mut bars: Bars,
+    mut bars: ErrorBars,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let mut path = Path::new(material);
     // A body that begins above the surface is there; one below it jumps there.
     path.push(points[0][0], points[0][1].min(0.0));
     let begins_above = points[0][1] <= 0.0;
     let mut curve = Vec::with_capacity(points.len());
-    curve.extend(begins_above.then(|| free(points[0])));
+    curve.extend(begins_above.then(|| unloaded_point(points[0])));
     let mut contact = Contact::new(body, path, radii);
     for [time, depth] in &points[curve.len()..] {
         contact.follow(*time, *depth)?;
@@ -259,7 +260,7 @@ fn touched_again(
 }
 
 /// What errors are made of.
-struct Bars {
+struct ErrorBars {
     /// 8/(2 (1 − ν)).
     factor: f64,
     modulus_error: f64,
@@ -272,7 +273,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A contact as it is computed, and what its rounding is made of.
 #[derive(Debug, Clone, Copy, Default)]
-struct Measured {
+struct ContactSums {
     point: [f64; 2],
     /// Sum of the loads of all elements, \[Pa m²], and of the sizes of the terms in it.
     load: f64,
@@ -284,9 +285,9 @@ struct Measured {
     edge: f64,
 }
 
-impl Bars {
+impl ErrorBars {
     /// The next contact of a curve.
-    fn point(&mut self, contact: &Measured) -> CurvePoint {
+    fn point(&mut self, contact: &ContactSums) -> CurvePoint {
         let [time, depth] = contact.point;
         let force = self.factor * contact.load;
         self.largest = self.largest.max(force);

@@ -13,14 +13,14 @@ use rheology::Material;
 
 /// A time in a segment between two points, `part` ∈ [0, 1] of it after its beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Instant {
+pub(super) struct SegmentTime {
     pub(super) segment: usize,
     pub(super) part: f64,
 }
 
 /// An exponential in which a free element recovers; free flow has the rate 0.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mode {
+pub(super) struct RecoveryMode {
     /// 1/λ, \[1/s].
     pub(super) rate: f64,
     /// J/λ, [1/(Pa s)].
@@ -36,7 +36,7 @@ pub(super) struct Path {
     pub(super) rates: Vec<f64>,
     /// Viscosity η₀ of the lone dashpot.
     pub(super) viscosity: f64,
-    modes: Vec<Mode>,
+    modes: Vec<RecoveryMode>,
     /// 1/(1/τ_k − 1/λ_j), mode by mode.
     couplings: Arc<[f64]>,
     /// Times and depths.
@@ -53,14 +53,14 @@ impl Path {
         let branches = branches.map(|branch| [branch.modulus, branch.relaxation_time.recip()]);
         let spring = Some([relaxation.equilibrium_modulus(), 0.0]).filter(|[g, _]| *g > 0.0);
         let branches: Vec<[f64; 2]> = branches.chain(spring).collect();
-        let delayed = creep.elements().iter().map(|element| Mode {
+        let delayed = creep.elements().iter().map(|element| RecoveryMode {
             rate: element.retardation_time.recip(),
             fluidity: element.fluidity(),
         });
         let (rate, fluidity) = (0.0, creep.fluidity());
-        let flow = (fluidity > 0.0).then_some(Mode { rate, fluidity });
-        let modes: Vec<Mode> = delayed.chain(flow).collect();
-        let coupling = |mode: &Mode, rate: f64| match rate {
+        let flow = (fluidity > 0.0).then_some(RecoveryMode { rate, fluidity });
+        let modes: Vec<RecoveryMode> = delayed.chain(flow).collect();
+        let coupling = |mode: &RecoveryMode, rate: f64| match rate {
             0.0 => 0.0,
             rate => (rate - mode.rate).recip(),
         };
@@ -93,7 +93,7 @@ impl Path {
     }
 
     /// Puts the last point at another depth.
-    pub(super) fn end_at(&mut self, depth: f64) {
+    pub(super) fn set_last_depth(&mut self, depth: f64) {
         self.memory.truncate(self.memory.len() - self.n_branches());
         if let Some([time, _]) = self.points.pop() {
             self.push(time, depth);
@@ -106,8 +106,8 @@ impl Path {
     }
 
     /// The end of the last segment.
-    pub(super) fn end(&self) -> Instant {
-        Instant {
+    pub(super) fn end(&self) -> SegmentTime {
+        SegmentTime {
             segment: self.points.len() - 2,
             part: 1.0,
         }
@@ -118,7 +118,7 @@ impl Path {
     }
 
     /// The modes with 1/(1/τ_k − 1/λ) of each branch; 0 of a lone spring.
-    pub(super) fn modes(&self) -> impl Iterator<Item = (&Mode, &[f64])> {
+    pub(super) fn modes(&self) -> impl Iterator<Item = (&RecoveryMode, &[f64])> {
         let n = self.n_branches();
         let row = move |j: usize| &self.couplings[j * n..(j + 1) * n];
         self.modes
@@ -148,25 +148,25 @@ impl Path {
         }
     }
 
-    pub(super) fn time(&self, at: Instant) -> f64 {
+    pub(super) fn time(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][0] + at.part * self.step(at.segment)
     }
 
-    pub(super) fn depth(&self, at: Instant) -> f64 {
+    pub(super) fn depth(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][1] + at.part * self.rise(at.segment)
     }
 
     /// The instant of a segment at which the body has a depth; its beginning or end where that is outside.
-    pub(super) fn passes(&self, segment: usize, depth: f64) -> Instant {
+    pub(super) fn time_of_depth(&self, segment: usize, depth: f64) -> SegmentTime {
         let part = (depth - self.points[segment][1]) / self.rise(segment);
-        Instant {
+        SegmentTime {
             segment,
             part: part.clamp(0.0, 1.0),
         }
     }
 
     /// q_k of all branches.
-    pub(super) fn remembered(&self, at: Instant) -> Cow<'_, [f64]> {
+    pub(super) fn strain_integrals(&self, at: SegmentTime) -> Cow<'_, [f64]> {
         let n = self.n_branches();
         let here = &self.memory[at.segment * n..];
         if at.part == 0.0 {
@@ -186,39 +186,39 @@ impl Path {
     }
 
     /// What became of the branches from one instant to another.
-    pub(super) fn lag(&self, since: Instant, at: Instant) -> Lag {
+    pub(super) fn lag(&self, since: SegmentTime, at: SegmentTime) -> DecayedHistory {
         let time = self.time(at) - self.time(since);
-        let decays: Vec<f64> = self.rates.iter().map(|rate| fading(rate * time)).collect();
-        let (then, now) = (self.remembered(since), self.remembered(at));
+        let decays: Vec<f64> = self.rates.iter().map(|rate| decay(rate * time)).collect();
+        let (then, now) = (self.strain_integrals(since), self.strain_integrals(at));
         let gained =
             (0..self.n_branches()).map(|k| self.moduli[k] * (now[k] - decays[k] * then[k]));
-        Lag {
+        DecayedHistory {
             stresses: gained.collect(),
             decays,
         }
     }
 
     /// G(t − s), \[Pa].
-    pub(super) fn modulus(&self, lag: &Lag) -> f64 {
+    pub(super) fn modulus(&self, lag: &DecayedHistory) -> f64 {
         let branches = self.moduli.iter().zip(&lag.decays);
         branches.map(|(modulus, decay)| modulus * decay).sum()
     }
 
     /// Size of the terms that cancel in the load of an element, \[Pa m].
-    pub(super) fn scale(&self, at: Instant) -> f64 {
-        let remembered = self.remembered(at);
-        let stresses = self.moduli.iter().zip(remembered.iter());
+    pub(super) fn scale(&self, at: SegmentTime) -> f64 {
+        let strain_integrals = self.strain_integrals(at);
+        let stresses = self.moduli.iter().zip(strain_integrals.iter());
         let stresses = stresses.map(|(modulus, strain)| modulus * strain.abs());
         self.viscosity * self.speed(at.segment).abs() + stresses.sum::<f64>()
     }
 
     /// w of an element of these stresses, \[Pa m].
-    pub(super) fn load(&self, stresses: &[f64], at: Instant) -> f64 {
+    pub(super) fn load(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         self.viscosity * self.speed(at.segment) + stresses.iter().sum::<f64>()
     }
 
     /// w at a later instant of a segment, of an element in contact that has these stresses before, \[Pa m].
-    pub(super) fn load_later(&self, stresses: &[f64], from: Instant, at: Instant) -> f64 {
+    pub(super) fn load_later(&self, stresses: &[f64], from: SegmentTime, at: SegmentTime) -> f64 {
         let step = self.time(at) - self.time(from);
         let rise = self.depth(at) - self.depth(from);
         let branches = self.rates.iter().zip(&self.moduli).zip(stresses);
@@ -230,16 +230,16 @@ impl Path {
     }
 
     /// Whether an element of these stresses at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
-    pub(super) fn tendency(&self, stresses: &[f64], at: Instant) -> f64 {
+    pub(super) fn tendency(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         let speed = self.speed(at.segment);
         if self.step(at.segment) == 0.0 {
             return speed;
         }
         let (mut rate, mut rate_scale) = (self.glass_modulus() * speed, 0.0);
-        let remembered = self.remembered(at);
+        let strain_integrals = self.strain_integrals(at);
         for (k, stress) in stresses.iter().enumerate() {
             rate -= self.rates[k] * stress;
-            rate_scale += self.rates[k] * self.moduli[k] * remembered[k].abs();
+            rate_scale += self.rates[k] * self.moduli[k] * strain_integrals[k].abs();
         }
         let load = self.load(stresses, at);
         if self.viscosity > 0.0 && load.abs() > ROUNDING * self.scale(at) {
@@ -256,7 +256,7 @@ impl Path {
 pub(super) const ROUNDING: f64 = 1e-14;
 
 /// The branches between two instants.
-pub(super) struct Lag {
+pub(super) struct DecayedHistory {
     /// e^(−(t − s)/τ_k).
     pub(super) decays: Vec<f64>,
     /// σ_k of an element that was touched for the first time at the earlier instant.
@@ -274,7 +274,7 @@ pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
 
 /// e^(−x) at x ≥ 0. The library takes long for numbers that are hardly there.
 #[inline]
-pub(super) fn fading(x: f64) -> f64 {
+pub(super) fn decay(x: f64) -> f64 {
     if x > LONG_GONE { 0.0 } else { (-x).exp() }
 }
 
@@ -282,7 +282,7 @@ pub(super) fn fading(x: f64) -> f64 {
 #[inline]
 pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
     if x > 1.0 {
-        let decay = fading(x);
+        let decay = decay(x);
         return [decay, (1.0 - decay) / x];
     }
     let mean = if x > SERIES_UP_TO {
@@ -297,8 +297,8 @@ pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
 
 /// e^(−x) where its mean up to x is known.
 #[inline]
-pub(super) fn decayed(x: f64, mean: f64) -> f64 {
-    if x > 1.0 { fading(x) } else { 1.0 - x * mean }
+pub(super) fn decay_from_mean(x: f64, mean: f64) -> f64 {
+    if x > 1.0 { decay(x) } else { 1.0 - x * mean }
 }
 
 /// So many terms; even and odd ones are summed side by side, which does not wait for one chain.

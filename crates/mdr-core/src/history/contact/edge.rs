@@ -4,8 +4,8 @@ use numerics::bracketed_root;
 
 use super::{Contact, WRONG_SIGN};
 use crate::MdrError;
-use crate::history::element::{Leg, Motion, State};
-use crate::history::path::Instant;
+use crate::history::element::{EdgeDirection, EdgeMove, ElementState};
+use crate::history::path::SegmentTime;
 
 /// The edge of a contact that shrinks.
 pub(super) struct Edge {
@@ -15,18 +15,18 @@ pub(super) struct Edge {
     /// σ_k there.
     pub(super) stresses: Vec<f64>,
     /// In a ring over new elements: when the one at the edge was touched.
-    pub(super) since: Option<Instant>,
+    pub(super) since: Option<SegmentTime>,
 }
 
 impl Contact<'_> {
     /// Refuses a tension half way between the beginning of a ring of elements touched again and the edge in it.
-    pub(super) fn check_load(&self, at: Instant) -> Result<(), MdrError> {
+    pub(super) fn check_compressive(&self, at: SegmentTime) -> Result<(), MdrError> {
         let last = self.rings.last();
-        let pulls = |ring: &Leg| {
+        let pulls = |ring: &EdgeMove| {
             let stresses = self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at);
             self.path.load(&stresses, at) < -WRONG_SIGN * self.path.scale(at)
         };
-        if last.is_some_and(|ring| ring.motion == Motion::Again && pulls(ring)) {
+        if last.is_some_and(|ring| ring.motion == EdgeDirection::Recontact && pulls(ring)) {
             let time = self.path.time(at);
             return Err(MdrError::NotADisc { time });
         }
@@ -34,9 +34,9 @@ impl Contact<'_> {
     }
 
     /// The edge as it is, later.
-    pub(super) fn outermost(&self, at: Instant) -> Option<Edge> {
+    pub(super) fn outermost(&self, at: SegmentTime) -> Option<Edge> {
         let ring = self.rings.last()?;
-        let is_first = ring.motion == Motion::First;
+        let is_first = ring.motion == EdgeDirection::FirstContact;
         Some(Edge {
             n_rings: self.rings.len(),
             radius: ring.outer,
@@ -50,12 +50,12 @@ impl Contact<'_> {
     }
 
     /// The edge of a contact that can only shrink; none where nothing is loaded.
-    pub(super) fn edge_inwards(&self, at: Instant) -> Option<Edge> {
+    pub(super) fn edge_inwards(&self, at: SegmentTime) -> Option<Edge> {
         let mut rings = self.rings.iter().enumerate().rev();
         rings.find_map(|(below, ring)| {
             let mut edge = match ring.motion {
-                Motion::First => self.edge_in_first(ring, at)?,
-                _ => self.edge_in_again(ring, at)?,
+                EdgeDirection::FirstContact => self.edge_in_first_contact(ring, at)?,
+                _ => self.edge_in_recontact(ring, at)?,
             };
             edge.n_rings = below + 1;
             Some(edge)
@@ -63,9 +63,9 @@ impl Contact<'_> {
     }
 
     /// The edge in a ring over new elements: the load falls outwards.
-    fn edge_in_first(&self, ring: &Leg, at: Instant) -> Option<Edge> {
+    fn edge_in_first_contact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
         let path = &self.path;
-        let since = |part: f64| Instant { part, ..ring.from };
+        let since = |part: f64| SegmentTime { part, ..ring.from };
         let load = |part: f64| path.load(&path.lag(since(part), at).stresses, at);
         let ends = [ring.from.part, ring.to.part];
         if load(ends[0]) < 0.0 {
@@ -81,7 +81,7 @@ impl Contact<'_> {
     }
 
     /// The edge in a ring of elements that were touched again.
-    fn edge_in_again(&self, ring: &Leg, at: Instant) -> Option<Edge> {
+    fn edge_in_recontact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
         let load = |radius| self.path.load(&self.stresses_in(ring, radius, at), at);
         let radius = if load(ring.outer) >= 0.0 {
             ring.outer
@@ -97,10 +97,13 @@ impl Contact<'_> {
     }
 
     /// σ_k of an element in a ring of elements that were touched again.
-    pub(super) fn stresses_in(&self, ring: &Leg, radius: f64, at: Instant) -> Vec<f64> {
+    pub(super) fn stresses_in(&self, ring: &EdgeMove, radius: f64, at: SegmentTime) -> Vec<f64> {
         let radius = radius.max(ring.inner.next_up());
-        match self.elements().follow(radius, &self.legs[..=ring.before]) {
-            State::Touched(touched) => self.elements().stresses(&touched, at),
+        match self
+            .elements()
+            .follow(radius, &self.edge_moves[..=ring.before])
+        {
+            ElementState::Loaded(touched) => self.elements().stresses(&touched, at),
             // Rounding puts an element of no extent beside the ring.
             _ => self.path.lag(ring.to, at).stresses,
         }

@@ -1,8 +1,8 @@
 //! The stresses of all elements in contact, summed.
 
 use super::{Contact, TO_ROUNDING};
-use crate::history::element::{Leg, Motion};
-use crate::history::path::{Instant, Lag, decayed, moments};
+use crate::history::element::{EdgeDirection, EdgeMove};
+use crate::history::path::{DecayedHistory, SegmentTime, decay_from_mean, moments};
 use crate::history::radius::ORDER;
 
 /// How often a panel of the quadrature may be divided.
@@ -12,15 +12,15 @@ const LEFT_OF_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
     /// Φ_k.
-    pub(super) fn sums_at(&mut self, at: Instant) -> Vec<f64> {
+    pub(super) fn sums_at(&mut self, at: SegmentTime) -> Vec<f64> {
         let n_branches = self.path.n_branches();
         let Some(ring) = self.rings.last().copied() else {
             return vec![0.0; n_branches];
         };
         let mut sums = self.inside[(self.rings.len() - 1) * n_branches..].to_vec();
         self.edge_modulus = None;
-        if ring.motion == Motion::First {
-            self.grown(&ring, &mut sums);
+        if ring.motion == EdgeDirection::FirstContact {
+            self.before_shrinking(&ring, &mut sums);
             if ring.to != at {
                 let lag = self.path.lag(ring.to, at);
                 held(&mut sums, ring.outer, &lag);
@@ -38,7 +38,7 @@ impl Contact<'_> {
     }
 
     /// Φ_k when a ring over new elements has grown.
-    fn grown(&self, ring: &Leg, sums: &mut [f64]) {
+    fn before_shrinking(&self, ring: &EdgeMove, sums: &mut [f64]) {
         let path = &self.path;
         let step = path.time(ring.to) - path.time(ring.from);
         let depths = [ring.from, ring.to].map(|at| path.depth(at));
@@ -49,18 +49,23 @@ impl Contact<'_> {
             moments(rate * step, row);
             let terms = radius.terms().iter().zip(&*row);
             let mean: f64 = terms.map(|(a, moment)| a * moment).sum();
-            *sum = decayed(rate * step, row[0]) * *sum + modulus * (depths[1] - depths[0]) * mean;
+            *sum = decay_from_mean(rate * step, row[0]) * *sum
+                + modulus * (depths[1] - depths[0]) * mean;
         }
     }
 
     /// ∫ σ_k dx over a ring of elements that were touched again.
-    fn ring_sums(&mut self, ring: &Leg, at: Instant) -> Vec<f64> {
+    fn ring_sums(&mut self, ring: &EdgeMove, at: SegmentTime) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
         // Kinks that are small do not matter where the sums need not be exact.
         let is_exact = self.tolerance <= TO_ROUNDING;
         let inside = |radius: &f64| is_exact && *radius > ring.inner && *radius < ring.outer;
-        let known = self.legs[..ring.before].iter();
-        radii.extend(known.flat_map(|leg| [leg.inner, leg.outer]).filter(inside));
+        let known = self.edge_moves[..ring.before].iter();
+        radii.extend(
+            known
+                .flat_map(|edge_move| [edge_move.inner, edge_move.outer])
+                .filter(inside),
+        );
         radii.sort_by(f64::total_cmp);
         radii.dedup();
         let mut sums = vec![0.0; self.path.n_branches()];
@@ -87,7 +92,7 @@ impl Contact<'_> {
         sums
     }
 
-    fn panel(&self, ring: &Leg, [inner, outer]: [f64; 2], at: Instant) -> Vec<f64> {
+    fn panel(&self, ring: &EdgeMove, [inner, outer]: [f64; 2], at: SegmentTime) -> Vec<f64> {
         let mut sums = vec![0.0; self.path.n_branches()];
         let half = 0.5 * (outer - inner);
         for (node, weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
@@ -101,7 +106,7 @@ impl Contact<'_> {
 }
 
 /// Φ_k later, inside a radius in which all elements stay in contact.
-fn held(sums: &mut [f64], radius: f64, lag: &Lag) {
+fn held(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
     for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
         *sum = decay * *sum + radius * stress;
     }

@@ -1,6 +1,6 @@
 //! What the branches remember of a contact that grows over new elements.
 
-use super::path::{RECIPROCALS, decayed, moments};
+use super::path::{RECIPROCALS, decay_from_mean, moments};
 use super::radius::ORDER;
 
 /// A sweep over new elements, the radius a polynomial of θ ∈ [0, 1].
@@ -17,27 +17,27 @@ pub(super) struct Ring {
 
 /// Integrals of e^(−(t − s)/τ) f ds up to now, branch by branch.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Memory {
+pub(super) struct HistoryIntegrals {
     /// q, f = ḋ.
     pub(super) depth: Vec<f64>,
     /// P, f = a ḋ.
     pub(super) load: Vec<f64>,
     /// Empty where no derivatives are wanted.
-    pub(super) late: Vec<Late>,
+    pub(super) time_weighted: Vec<TimeWeightedIntegrals>,
 }
 
-impl Memory {
+impl HistoryIntegrals {
     /// Takes the values of another one of as many branches.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.depth.copy_from_slice(&other.depth);
         self.load.copy_from_slice(&other.load);
-        self.late.copy_from_slice(&other.late);
+        self.time_weighted.copy_from_slice(&other.time_weighted);
     }
 }
 
 /// The same of f (t − s), and of what the force changes by with first contact and body.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Late {
+pub(super) struct TimeWeightedIntegrals {
     /// f = (t − s) ḋ.
     pub(super) depth: f64,
     /// f = (t − s) a ḋ.
@@ -50,7 +50,7 @@ pub(super) struct Late {
 
 /// A step of a length, branch by branch.
 #[derive(Debug, Default)]
-pub(super) struct Step {
+pub(super) struct StepIntegrals {
     length: f64,
     pub(super) decays: Vec<f64>,
     /// ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ, order by order.
@@ -61,7 +61,7 @@ pub(super) struct Step {
 /// Orders above the last one whose error has fallen below rounding there, for steps up to τ.
 const FORGOTTEN: usize = 16;
 
-impl Step {
+impl StepIntegrals {
     /// Orders below `n_moments` of a length that may differ from the last one by rounding of the time at its end.
     pub(super) fn set(&mut self, rates: &[f64], length: f64, n_moments: usize, rounding: f64) {
         let n = rates.len();
@@ -91,7 +91,7 @@ impl Step {
                     moments[k] = moment;
                 }
             }
-            *decay = decayed(*decay, self.moments[k]);
+            *decay = decay_from_mean(*decay, self.moments[k]);
         }
     }
 
@@ -101,10 +101,11 @@ impl Step {
     }
 
     /// Over elements that were touched before: only the depth goes on.
-    pub(super) fn hold(&self, memory: &mut Memory, rise: f64) {
-        for (k, late) in memory.late.iter_mut().enumerate() {
+    pub(super) fn hold(&self, memory: &mut HistoryIntegrals, rise: f64) {
+        for (k, time_weighted) in memory.time_weighted.iter_mut().enumerate() {
             let gained = rise * self.length * (self.moment(0, k) - self.moment(1, k));
-            late.depth = self.decays[k] * (late.depth + self.length * memory.depth[k]) + gained;
+            time_weighted.depth =
+                self.decays[k] * (time_weighted.depth + self.length * memory.depth[k]) + gained;
         }
         for ((depth, decay), mean) in memory.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
             *depth = decay * *depth + rise * mean;
@@ -112,14 +113,15 @@ impl Step {
     }
 
     /// Over new elements.
-    pub(super) fn grow(&mut self, memory: &mut Memory, ring: &Ring, terms: &[f64]) {
-        for (k, late) in memory.late.iter_mut().enumerate() {
-            let gained = self.late(k, ring, terms);
+    pub(super) fn grow(&mut self, memory: &mut HistoryIntegrals, ring: &Ring, terms: &[f64]) {
+        for (k, time_weighted) in memory.time_weighted.iter_mut().enumerate() {
+            let gained = self.time_weighted(k, ring, terms);
             let (decay, step) = (self.decays[k], self.length);
-            late.depth = decay * (late.depth + step * memory.depth[k]) + gained.depth;
-            late.load = decay * (late.load + step * memory.load[k]) + gained.load;
-            late.edge = decay * late.edge + gained.edge;
-            late.stretch = decay * late.stretch + gained.stretch;
+            time_weighted.depth =
+                decay * (time_weighted.depth + step * memory.depth[k]) + gained.depth;
+            time_weighted.load = decay * (time_weighted.load + step * memory.load[k]) + gained.load;
+            time_weighted.edge = decay * time_weighted.edge + gained.edge;
+            time_weighted.stretch = decay * time_weighted.stretch + gained.stretch;
         }
         let n = self.decays.len();
         self.sums.clear();
@@ -138,7 +140,7 @@ impl Step {
     }
 
     /// What a branch gains.
-    fn late(&self, k: usize, ring: &Ring, terms: &[f64]) -> Late {
+    fn time_weighted(&self, k: usize, ring: &Ring, terms: &[f64]) -> TimeWeightedIntegrals {
         let [mut load, mut edge, mut stretch] = [0.0; 3];
         let mut before = 0.0;
         for (j, term) in terms.iter().enumerate() {
@@ -149,7 +151,7 @@ impl Step {
             before = here;
         }
         let scale = ring.rise * self.length;
-        Late {
+        TimeWeightedIntegrals {
             depth: scale * (self.moment(0, k) - self.moment(1, k)),
             load: scale * load,
             edge,
