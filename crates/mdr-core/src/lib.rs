@@ -30,9 +30,9 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod compensated;
-mod contact;
 mod element_heights;
 mod error;
+mod force_balance;
 mod history;
 mod motion;
 mod press;

@@ -6,10 +6,10 @@
 
 use indenters::{Control, MotionRecord, MovingStep};
 
-use super::chain::Chain;
-use super::contacts::{Contacts, Response};
-use super::march::Problem;
-use super::time_step::n_slots;
+use super::contact_history::{ContactHistory, CycleJacobian};
+use super::march::MotionProblem;
+use super::time_step::n_history_variables;
+use super::winkler::WinklerFoundation;
 use crate::MdrError;
 use crate::steady::Mode;
 
@@ -33,41 +33,41 @@ const WORST: f64 = 0.9;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The cycle that comes back, to the tolerance; nothing when the chain was not high enough.
-pub(super) fn cycle(
-    problem: &Problem<'_>,
-    mut chain: Chain<'_>,
-    legs: &[MovingStep],
-    tell: &dyn Fn(f64),
+pub(super) fn find_limit_cycle(
+    problem: &MotionProblem<'_>,
+    mut winkler: WinklerFoundation<'_>,
+    steps: &[MovingStep],
+    report: &dyn Fn(f64),
 ) -> Result<Option<MotionRecord>, MdrError> {
     let tolerance = problem.tolerance;
-    chain.lift(0.0);
-    if let Some(kept) = problem.kept.take() {
-        chain.recall(&kept);
+    winkler.unload_all(0.0);
+    if let Some(saved_recovery) = problem.saved_recovery.take() {
+        winkler.restore_recovery(&saved_recovery);
     }
-    let mut search = Search::new(problem, chain.memory().to_vec());
+    let mut search = CycleSearch::new(problem, winkler.recovery_amplitudes().to_vec());
     let mut before: Option<MotionRecord> = None;
     let mut rest = f64::INFINITY;
     for n_cycles in 1..=MOST_CYCLES {
-        chain.memory().copy_from_slice(&search.state);
-        let Some((mut record, contacts)) = pass(problem, &mut chain, legs)? else {
+        winkler.recovery_amplitudes().copy_from_slice(&search.state);
+        let Some((mut record, contact_history)) = run_steps(problem, &mut winkler, steps)? else {
             return Ok(None);
         };
-        let deviation = search.arrive(&contacts, chain.memory());
+        let deviation = search.update_residual(&contact_history, winkler.recovery_amplitudes());
         if let Some(before) = before {
-            rest = record.rest_after(&before, search.left(deviation));
-            tell((rest.ln() / tolerance.ln()).clamp(0.0, 1.0));
+            rest = record.rest_after(&before, search.remaining_change_factor(deviation));
+            report((rest.ln() / tolerance.ln()).clamp(0.0, 1.0));
             let lenience = if n_cycles > MANY_CYCLES {
                 LENIENCE
             } else {
                 1.0
             };
             if rest <= lenience * tolerance {
-                problem.at_once.set(search.at_once);
+                problem.cycles_per_step.set(search.cycles_per_step);
                 return Ok(Some(MotionRecord { n_cycles, ..record }));
             }
-            search.adapt(deviation);
+            search.adapt_step_length(deviation);
         }
-        search.go_on(&contacts);
+        search.newton_step(&contact_history);
         before = Some(record);
     }
     Err(MdrError::NotPeriodic {
@@ -78,46 +78,48 @@ pub(super) fn cycle(
 }
 
 /// One cycle from what the chain remembers.
-fn pass(
-    problem: &Problem<'_>,
-    chain: &mut Chain<'_>,
-    legs: &[MovingStep],
-) -> Result<Option<(MotionRecord, Contacts)>, MdrError> {
-    let returned = chain.lower()?;
-    let depth = chain.depth();
-    chain.note();
-    let record = problem.pass(chain, legs, depth, &|_| ())?;
-    let contacts = chain.noted();
-    let kept = chain.lift(0.0);
-    problem.kept.replace(Some(chain.kept()));
+fn run_steps(
+    problem: &MotionProblem<'_>,
+    winkler: &mut WinklerFoundation<'_>,
+    steps: &[MovingStep],
+) -> Result<Option<(MotionRecord, ContactHistory)>, MdrError> {
+    let returned = winkler.reload()?;
+    let depth = winkler.depth();
+    winkler.start_recording();
+    let record = problem.run_steps(winkler, steps, depth, &|_| ())?;
+    let contact_history = winkler.take_contact_history();
+    let released = winkler.unload_all(0.0);
+    problem
+        .saved_recovery
+        .replace(Some(winkler.save_recovery()));
     Ok(record.map(|mut record| {
-        record.imbalance -= problem.unit(chain.spacing()) * (kept - returned);
-        (record, contacts)
+        record.imbalance -= problem.force_unit(winkler.spacing()) * (released - returned);
+        (record, contact_history)
     }))
 }
 
 /// On the way to what is remembered when a cycle comes back.
-struct Search<'a> {
-    problem: &'a Problem<'a>,
+struct CycleSearch<'a> {
+    problem: &'a MotionProblem<'a>,
     state: Vec<f64>,
     /// What is missing at the state.
     residual: Vec<f64>,
     /// What should be missing after the step, and was before.
-    expected: Vec<f64>,
-    missing: f64,
+    expected_residual: Vec<f64>,
+    step_residual: f64,
     /// Cycles by which a step goes on.
-    at_once: f64,
+    cycles_per_step: f64,
 }
 
-impl<'a> Search<'a> {
-    fn new(problem: &'a Problem<'a>, state: Vec<f64>) -> Self {
+impl<'a> CycleSearch<'a> {
+    fn new(problem: &'a MotionProblem<'a>, state: Vec<f64>) -> Self {
         Self {
             problem,
             residual: Vec::new(),
-            expected: vec![0.0; state.len()],
-            missing: 0.0,
+            expected_residual: vec![0.0; state.len()],
+            step_residual: 0.0,
             state,
-            at_once: (CARRIED_OVER * problem.at_once.get()).max(1.0),
+            cycles_per_step: (CARRIED_OVER * problem.cycles_per_step.get()).max(1.0),
         }
     }
 
@@ -126,18 +128,18 @@ impl<'a> Search<'a> {
     }
 
     /// Part of a mode that a cycle forgets.
-    fn lost(&self, mode: &Mode) -> f64 {
+    fn recovered_fraction(&self, mode: &Mode) -> f64 {
         mode.recovered(self.problem.load.duration())
     }
 
     /// Compares the cycle from the state, which has this end, with what was expected.
-    fn arrive(&mut self, contacts: &Contacts, end: &[f64]) -> f64 {
-        self.residual = contacts.residual(self.modes(), &self.state, end);
-        let pairs = self.residual.iter().zip(&self.expected);
-        let deviation = norm(pairs.map(|(found, expected)| found - expected));
+    fn update_residual(&mut self, contact_history: &ContactHistory, end: &[f64]) -> f64 {
+        self.residual = contact_history.residual(self.modes(), &self.state, end);
+        let pairs = self.residual.iter().zip(&self.expected_residual);
+        let deviation = norm(pairs.map(|(found, expected_residual)| found - expected_residual));
         let noise = self.rounding();
         if deviation > noise {
-            (deviation - noise) / self.missing
+            (deviation - noise) / self.step_residual
         } else {
             0.0
         }
@@ -145,54 +147,56 @@ impl<'a> Search<'a> {
 
     /// Of what is missing.
     fn rounding(&self) -> f64 {
-        let n_slots = n_slots(&self.problem.foundation);
+        let n_history_variables = n_history_variables(&self.problem.foundation);
         let weights: Vec<f64> = self
             .modes()
             .iter()
-            .map(|mode| ROUNDING / self.lost(mode).max(Contacts::SLOW))
+            .map(|mode| ROUNDING / self.recovered_fraction(mode).max(ContactHistory::SLOW))
             .collect();
-        let rows = self.state.chunks(n_slots);
+        let rows = self.state.chunks(n_history_variables);
         norm(rows.flat_map(|row| row.iter().zip(&weights).map(|(slot, weight)| slot * weight)))
     }
 
     /// How many times the change by the last step may be left: it covers at least these cycles of those that are remembered, and
     /// what it does not cover as expected follows like a geometric series.
-    fn left(&self, deviation: f64) -> f64 {
+    fn remaining_change_factor(&self, deviation: f64) -> f64 {
         let remembered = self
             .modes()
             .iter()
-            .map(|mode| self.lost(mode).recip() - 1.0);
-        let uncovered = remembered.fold(0.0, f64::max) / self.at_once;
+            .map(|mode| self.recovered_fraction(mode).recip() - 1.0);
+        let uncovered = remembered.fold(0.0, f64::max) / self.cycles_per_step;
         let deviation = deviation.min(WORST);
         SAFETY * (deviation / (1.0 - deviation)).max(1.0) + uncovered
     }
 
-    fn adapt(&mut self, deviation: f64) {
+    fn adapt_step_length(&mut self, deviation: f64) {
         let factor = (DEVIATION / deviation).clamp(SLOWER, FASTER);
-        self.at_once = (factor * self.at_once).clamp(1.0, MOST_AT_ONCE);
+        self.cycles_per_step = (factor * self.cycles_per_step).clamp(1.0, MOST_AT_ONCE);
     }
 
-    fn go_on(&mut self, contacts: &Contacts) {
+    fn newton_step(&mut self, contact_history: &ContactHistory) {
         let foundation = &self.problem.foundation;
         let is_force = matches!(self.problem.load.largest_control(), Control::NormalForce(_));
-        let response = Response::new(contacts, foundation, is_force);
-        let step = response.step(self.modes(), self.at_once, &self.residual);
+        let response = CycleJacobian::new(contact_history, foundation, is_force);
+        let step = response.step(self.modes(), self.cycles_per_step, &self.residual);
         let left: Vec<f64> = self
             .modes()
             .iter()
             .map(|mode| {
-                let lost = self.lost(mode);
-                (1.0 - lost) / lost / self.at_once
+                let lost = self.recovered_fraction(mode);
+                (1.0 - lost) / lost / self.cycles_per_step
             })
             .collect();
-        self.missing = norm(self.residual.iter().copied());
+        self.step_residual = norm(self.residual.iter().copied());
         let rows = self
-            .expected
-            .chunks_mut(n_slots(foundation))
-            .zip(step.chunks(n_slots(foundation)));
-        for (expected, step) in rows {
-            for ((expected, step), left) in expected.iter_mut().zip(step).zip(&left) {
-                *expected = left * step;
+            .expected_residual
+            .chunks_mut(n_history_variables(foundation))
+            .zip(step.chunks(n_history_variables(foundation)));
+        for (expected_residual, step) in rows {
+            for ((expected_residual, step), left) in
+                expected_residual.iter_mut().zip(step).zip(&left)
+            {
+                *expected_residual = left * step;
             }
         }
         self.state

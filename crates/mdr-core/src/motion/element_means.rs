@@ -7,38 +7,39 @@ use indenters::MotionRecord;
 
 /// Replaces the tangential force of every step by its mean over the way of one element around the step, within its stage; `ways`
 /// are the lengths of the steps, \[m].
-pub(super) fn average_tangential_forces(record: &mut MotionRecord, ways: &[f64]) {
+pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths: &[f64]) {
     let spacing = record.spacing;
     let stages = record.steps.chunk_by_mut(|a, b| a.stage == b.stage);
     let mut first = 0;
     for steps in stages {
-        let ways = &ways[first..first + steps.len()];
+        let step_lengths = &step_lengths[first..first + steps.len()];
         first += steps.len();
-        let work = Work::new(ways, steps.iter().map(|step| step.tangential_force));
+        let work =
+            CumulativeWork::new(step_lengths, steps.iter().map(|step| step.tangential_force));
         let whole = work.way[steps.len()];
         let window = spacing.min(whole);
         if window > 0.0 {
             for (step, ends) in steps.iter_mut().zip(work.way.windows(2)) {
                 let middle = ends[0].midpoint(ends[1]);
                 let start = (middle - 0.5 * window).clamp(0.0, whole - window);
-                step.tangential_force = (work.at(start + window) - work.at(start)) / window;
+                step.tangential_force = (work.up_to(start + window) - work.up_to(start)) / window;
             }
         }
     }
 }
 
 /// The work done on the way.
-struct Work {
+struct CumulativeWork {
     /// Lengths \[m] and works \[J] up to the beginning of each step, and to the end of the last.
     way: Vec<f64>,
     done: Vec<f64>,
 }
 
-impl Work {
-    fn new(ways: &[f64], forces: impl Iterator<Item = f64>) -> Self {
+impl CumulativeWork {
+    fn new(step_lengths: &[f64], forces: impl Iterator<Item = f64>) -> Self {
         let (mut way, mut done) = (vec![0.0], vec![0.0]);
         let mut sums = [0.0, 0.0];
-        for (length, force) in ways.iter().zip(forces) {
+        for (length, force) in step_lengths.iter().zip(forces) {
             sums = [sums[0] + length, sums[1] + force * length];
             way.push(sums[0]);
             done.push(sums[1]);
@@ -47,7 +48,7 @@ impl Work {
     }
 
     /// After a length of the way.
-    fn at(&self, length: f64) -> f64 {
+    fn up_to(&self, length: f64) -> f64 {
         let last = self.way.len() - 1;
         let after = self.way.partition_point(|end| *end < length).clamp(1, last);
         let [from, to] = [self.way[after - 1], self.way[after]];
@@ -96,8 +97,8 @@ mod tests {
         let mut record = record(&forces, 1.0);
         average_tangential_forces(&mut record, &[0.25; 24]);
         for (index, step) in record.steps.iter().enumerate() {
-            let expected = if index < 12 { 3.0 } else { -3.0 };
-            assert_close!(step.tangential_force => expected, within 1e-12; "step {index}");
+            let expected_residual = if index < 12 { 3.0 } else { -3.0 };
+            assert_close!(step.tangential_force => expected_residual, within 1e-12; "step {index}");
         }
     }
 

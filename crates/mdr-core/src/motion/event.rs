@@ -1,6 +1,6 @@
 //! An element that is touched or let go inside a step.
 
-use super::time_step::{Driven, TimeStep};
+use super::time_step::{StepWork, TimeStep};
 use crate::steady::Foundation;
 
 /// Change of the part of a step with which Newton's method ends: the next change is about its square.
@@ -9,54 +9,54 @@ const CLOSE: f64 = 1e-9;
 const MOST_ITERATIONS: usize = 60;
 
 /// One element in a step of which a part is contact.
-pub(super) struct Event<'a> {
+pub(super) struct ContactEvent<'a> {
     pub(super) foundation: &'a Foundation,
     pub(super) duration: f64,
     /// Stresses, or amplitudes of recovery.
-    pub(super) slots: &'a mut [f64],
+    pub(super) history: &'a mut [f64],
 }
 
-impl Event<'_> {
+impl ContactEvent<'_> {
     /// Lets go of a loaded element when it carries nothing any more, on the way from one displacement to another; gives
     /// the displacement to which it recovers. What is stored then is lost while it recovers.
-    pub(super) fn release(self, [from, to]: [f64; 2]) -> (f64, Driven) {
+    pub(super) fn separate(self, [from, to]: [f64; 2]) -> (f64, StepWork) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
         let carried = |part: f64| {
-            let branches = foundation.branches.iter().zip(&self.slots[..n_branches]);
-            let at_once = foundation.dashpot * rise / self.duration;
+            let branches = foundation.branches.iter().zip(&self.history[..n_branches]);
+            let cycles_per_step = foundation.dashpot * rise / self.duration;
             let start = [
-                foundation.spring * (from + part * rise) + at_once,
+                foundation.spring * (from + part * rise) + cycles_per_step,
                 foundation.spring * rise,
             ];
             branches.fold(start, |[carried, rate], (branch, stress)| {
                 let a = self.duration / branch.length;
-                let driven = branch.modulus * rise;
+                let work = branch.modulus * rise;
                 let change = (-part * a).exp_m1();
                 let left = 1.0 + change;
-                let stress_then = stress * left - driven * change / a;
-                [carried + stress_then, rate + (driven - a * stress) * left]
+                let stress_then = stress * left - work * change / a;
+                [carried + stress_then, rate + (work - a * stress) * left]
             })
         };
         // With a dashpot the load jumps where the speed does.
         let part = crossing(carried);
-        let mut driven = Driven::default();
+        let mut work = StepWork::default();
         if part > 0.0 {
             let step = TimeStep::of_branches(foundation, part * self.duration);
-            driven = step.drive(from, part * rise, self.slots);
+            work = step.compress(from, part * rise, self.history);
         }
         let displacement = from + part * rise;
-        driven.lost += foundation.stored_energy(displacement, &self.slots[..n_branches]);
+        work.lost += foundation.stored_energy(displacement, &self.history[..n_branches]);
         let rest = (1.0 - part) * self.duration;
-        (self.recover(displacement, rest), driven)
+        (self.recover(displacement, rest), work)
     }
 
     /// Lets go of a loaded element at once; gives also what is stored in it.
-    pub(super) fn lift(self, displacement: f64) -> (f64, f64) {
+    pub(super) fn separate_instantly(self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
-        let stresses = &mut self.slots[..n_branches];
+        let stresses = &mut self.history[..n_branches];
         let stored = foundation.stored_energy(displacement, stresses);
         if foundation.has_dashpot() {
             return (self.recover(displacement, 0.0), stored);
@@ -64,16 +64,16 @@ impl Event<'_> {
         let carried = foundation.spring * displacement + stresses.iter().sum::<f64>();
         let moduli = foundation.branches.iter().map(|branch| branch.modulus);
         let back = carried / (foundation.spring + moduli.sum::<f64>());
-        foundation.strike(stresses, -back);
+        foundation.apply_strain_jump(stresses, -back);
         (self.recover(displacement - back, 0.0), stored)
     }
 
     /// Amplitudes of recovery instead of stresses, a time after the element was let go.
     fn recover(self, displacement: f64, time: f64) -> f64 {
         let foundation = self.foundation;
-        let stresses = self.slots[..foundation.branches.len()].to_vec();
+        let stresses = self.history[..foundation.branches.len()].to_vec();
         let mut limit = displacement;
-        for (slot, mode) in self.slots.iter_mut().zip(&foundation.modes) {
+        for (slot, mode) in self.history.iter_mut().zip(&foundation.modes) {
             let amplitude = foundation.amplitude(mode, displacement, &stresses);
             limit += amplitude;
             *slot = amplitude * (-time / mode.length).exp();
@@ -83,53 +83,53 @@ impl Event<'_> {
     }
 
     /// Touches an element that recovers to a `limit`, where the line goes from one displacement to another.
-    pub(super) fn touch(self, limit: f64, [from, to]: [f64; 2]) -> Driven {
+    pub(super) fn make_contact(self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
         let gap = |part: f64| {
-            let slots = self.slots.iter().zip(&foundation.modes);
+            let history = self.history.iter().zip(&foundation.modes);
             let start = [limit - (from + part * rise), -rise];
-            slots.fold(start, |[gap, rate], (slot, mode)| {
+            history.fold(start, |[gap, rate], (slot, mode)| {
                 let a = self.duration / mode.length;
                 let left = slot * (-part * a).exp();
                 [gap - left, rate + a * left]
             })
         };
         let part = crossing(gap);
-        for (slot, mode) in self.slots.iter_mut().zip(&foundation.modes) {
+        for (slot, mode) in self.history.iter_mut().zip(&foundation.modes) {
             *slot *= (-part * self.duration / mode.length).exp();
         }
         let start = from + part * rise;
         let duration = self.duration;
-        let stresses = &mut *self.slots;
-        let again = Event {
+        let stresses = &mut *self.history;
+        let again = ContactEvent {
             foundation,
             duration,
-            slots: stresses,
+            history: stresses,
         };
-        let (displacement, recovered) = again.strike(limit, start);
+        let (displacement, recovered) = again.make_contact_instantly(limit, start);
         let rest = (1.0 - part) * self.duration;
-        let mut driven = Driven::default();
+        let mut work = StepWork::default();
         if rest > 0.0 {
             let step = TimeStep::of_branches(foundation, rest);
-            driven = step.drive(displacement, to - displacement, self.slots);
+            work = step.compress(displacement, to - displacement, self.history);
         }
-        driven.lost -= recovered;
-        driven
+        work.lost -= recovered;
+        work
     }
 
     /// Stresses instead of amplitudes, of an element that is touched at once; gives its displacement, and what is stored.
-    pub(super) fn strike(self, limit: f64, under: f64) -> (f64, f64) {
+    pub(super) fn make_contact_instantly(self, limit: f64, under: f64) -> (f64, f64) {
         let foundation = self.foundation;
-        let left = self.slots[..foundation.modes.len()].to_vec();
+        let left = self.history[..foundation.modes.len()].to_vec();
         let mut displacement = limit - left.iter().sum::<f64>();
-        for (slot, branch) in self.slots.iter_mut().zip(&foundation.branches) {
+        for (slot, branch) in self.history.iter_mut().zip(&foundation.branches) {
             *slot = Foundation::free_stress(branch, &left);
         }
-        let stresses = &mut self.slots[..foundation.branches.len()];
+        let stresses = &mut self.history[..foundation.branches.len()];
         // A dashpot holds against a jump.
         if !foundation.has_dashpot() {
-            foundation.strike(stresses, under - displacement);
+            foundation.apply_strain_jump(stresses, under - displacement);
             displacement = under;
         }
         (

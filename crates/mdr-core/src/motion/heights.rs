@@ -13,7 +13,7 @@ const CELLS: usize = 4;
 const SMOOTH: f64 = 1e-10;
 
 /// Heights above the lowest point, \[m].
-pub(super) struct Heights<'a> {
+pub(super) struct HeightTable<'a> {
     line: &'a dyn RigidLine,
     lowest: f64,
     start: f64,
@@ -23,7 +23,7 @@ pub(super) struct Heights<'a> {
     is_smooth: [Vec<bool>; CELLS],
 }
 
-impl<'a> Heights<'a> {
+impl<'a> HeightTable<'a> {
     /// Of the part that a chain can touch.
     pub(super) fn new(line: &'a dyn RigidLine, sampled: &ElementHeights) -> Result<Self, MdrError> {
         let spacing = sampled.spacing / CELLS as f64;
@@ -54,8 +54,8 @@ impl<'a> Heights<'a> {
             lowest,
             start,
             cells_per_metre,
-            is_smooth: by_place(&is_smooth),
-            nodes: by_place(&nodes),
+            is_smooth: split_by_subcell(&is_smooth),
+            nodes: split_by_subcell(&nodes),
         })
     }
 
@@ -108,12 +108,12 @@ impl<'a> Heights<'a> {
 
 /// The heights of a line at one position, over one element after the other.
 #[derive(Debug, Default)]
-pub(super) struct Row {
+pub(super) struct HeightRow {
     pub(super) first: usize,
     pub(super) heights: Vec<f64>,
 }
 
-impl Row {
+impl HeightRow {
     /// Over an element that is covered.
     pub(super) fn over(&self, element: usize) -> f64 {
         self.heights[element - self.first]
@@ -122,7 +122,7 @@ impl Row {
     /// Covers some elements at places `x` on the line, of which most were covered before.
     pub(super) fn cover(
         &mut self,
-        line: &Heights<'_>,
+        line: &HeightTable<'_>,
         [first, last]: [usize; 2],
         x: impl Fn(usize) -> f64,
     ) -> Result<(), MdrError> {
@@ -146,7 +146,7 @@ impl Row {
 }
 
 /// Of a table of cells those at each place of an element.
-fn by_place<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS] {
+fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS] {
     std::array::from_fn(|place| cells.iter().skip(place).step_by(CELLS).copied().collect())
 }
 

@@ -5,10 +5,10 @@ use std::cell::{Cell, RefCell};
 use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep, RigidLine};
 use rheology::Material;
 
-use super::chain::{Chain, Given, Kept, Stepped};
-use super::cycle::cycle;
+use super::cycle::find_limit_cycle;
 use super::element_means::average_tangential_forces;
-use super::time_step::n_slots;
+use super::time_step::n_history_variables;
+use super::winkler::{FoundationStep, Prescribed, SavedRecovery, WinklerFoundation};
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
 use crate::error::enough_elements;
@@ -33,7 +33,7 @@ const PER_ELEMENT: f64 = 200.0;
 const KEPT_STATES: f64 = 8.0;
 
 /// What moves, on what, and how.
-pub(super) struct Problem<'a> {
+pub(super) struct MotionProblem<'a> {
     pub(super) line: &'a dyn RigidLine,
     pub(super) foundation: Foundation,
     pub(super) load: &'a MovingLoad,
@@ -42,13 +42,13 @@ pub(super) struct Problem<'a> {
     /// Relative error by which cycles may differ.
     pub(super) tolerance: f64,
     /// What the cycle on the resolution before remembers, with which the next one begins.
-    pub(super) kept: RefCell<Option<Kept>>,
+    pub(super) saved_recovery: RefCell<Option<SavedRecovery>>,
     /// How far its search went on at once, in cycles, and the height of the chain that it took, \[m].
-    pub(super) at_once: Cell<f64>,
+    pub(super) cycles_per_step: Cell<f64>,
     height: Cell<f64>,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> MotionProblem<'a> {
     pub(super) fn new(
         line: &'a dyn RigidLine,
         material: &dyn Material,
@@ -65,16 +65,20 @@ impl<'a> Problem<'a> {
             load,
             length,
             tolerance,
-            kept: RefCell::new(None),
-            at_once: Cell::new(1.0),
+            saved_recovery: RefCell::new(None),
+            cycles_per_step: Cell::new(1.0),
             height: Cell::new(0.0),
         })
     }
 
     /// Follows the motion with a number of elements along the contact.
-    pub(super) fn on(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<MotionRecord, MdrError> {
+    pub(super) fn solve_on(
+        &self,
+        elements: usize,
+        report: &dyn Fn(f64),
+    ) -> Result<MotionRecord, MdrError> {
         let spacing = self.length / elements as f64;
-        let legs = self.load.steps(elements, spacing, MOST_STEPS)?;
+        let steps = self.load.steps(elements, spacing, MOST_STEPS)?;
         let mut height = match self.load.largest_control() {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) => self.rise().max(self.height.get()),
@@ -90,14 +94,14 @@ impl<'a> Problem<'a> {
                     height,
                 });
             }
-            if let Some(mut record) = self.follow(&sampled, &legs, tell)? {
-                let contacts = record.steps.iter().map(|step| step.n_contact);
-                enough_elements(contacts.max().unwrap_or(0), spacing)?;
+            if let Some(mut record) = self.run(&sampled, &steps, report)? {
+                let contact_history = record.steps.iter().map(|step| step.n_contact);
+                enough_elements(contact_history.max().unwrap_or(0), spacing)?;
                 if self.load.is_cycle() {
                     self.height.set(height);
                 }
                 if has_steep_kinks(self.line) {
-                    average_tangential_forces(&mut record, &self.ways(&legs));
+                    average_tangential_forces(&mut record, &self.step_lengths(&steps));
                 }
                 return Ok(record);
             }
@@ -106,27 +110,27 @@ impl<'a> Problem<'a> {
     }
 
     /// Lengths of the steps, \[m].
-    fn ways(&self, legs: &[MovingStep]) -> Vec<f64> {
+    fn step_lengths(&self, steps: &[MovingStep]) -> Vec<f64> {
         let mut position = self.load.stages()[0].start.position;
-        let way = |leg: &MovingStep| {
-            (leg.end.position - std::mem::replace(&mut position, leg.end.position)).abs()
+        let way = |step: &MovingStep| {
+            (step.end.position - std::mem::replace(&mut position, step.end.position)).abs()
         };
-        legs.iter().map(way).collect()
+        steps.iter().map(way).collect()
     }
 
     /// Memory of all resolutions up to these elements, \[bytes].
-    pub(super) fn memory_on(&self, elements: usize) -> Result<f64, MdrError> {
+    pub(super) fn memory_for(&self, elements: usize) -> Result<f64, MdrError> {
         let spacing = self.length / elements as f64;
         let n_steps = self.load.n_steps(elements, spacing, MOST_STEPS)?;
         let [rear, front] = self.load.range();
         let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
-        let n_slots = n_slots(&self.foundation);
+        let n_history_variables = n_history_variables(&self.foundation);
         let copies = if self.load.is_cycle() {
             KEPT_STATES
         } else {
             1.0
         };
-        let per_element = copies * (n_slots * size_of::<f64>()) as f64 + PER_ELEMENT;
+        let per_element = copies * (n_history_variables * size_of::<f64>()) as f64 + PER_ELEMENT;
         // The values on four resolutions, and a list grows by doubling.
         let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)
@@ -146,79 +150,84 @@ impl<'a> Problem<'a> {
     }
 
     /// The motion, or nothing when the chain was not high enough.
-    fn follow(
+    fn run(
         &self,
         sampled: &ElementHeights,
-        legs: &[MovingStep],
-        tell: &dyn Fn(f64),
+        steps: &[MovingStep],
+        report: &dyn Fn(f64),
     ) -> Result<Option<MotionRecord>, MdrError> {
         let start = self.load.stages()[0].start;
-        let touch = TOUCH * legs[0].duration;
-        let place = [start.time - touch, start.position];
-        let mut chain = Chain::new(
+        let make_contact = TOUCH * steps[0].duration;
+        let place = [start.time - make_contact, start.position];
+        let mut winkler = WinklerFoundation::new(
             self.line,
             &self.foundation,
             sampled,
             self.load.range(),
             place,
         )?;
-        let first = self.given(start.control, sampled.spacing);
-        let Some(touched) = chain.advance(touch, start.position, first)? else {
+        let first = self.prescribed(start.control, sampled.spacing);
+        let Some(touched) = winkler.advance(make_contact, start.position, first)? else {
             return Ok(None);
         };
         if self.load.is_cycle() {
-            return cycle(self, chain, legs, tell);
+            return find_limit_cycle(self, winkler, steps, report);
         }
-        self.pass(&mut chain, legs, touched.depth, tell)
+        self.run_steps(&mut winkler, steps, touched.depth, report)
     }
 
-    fn given(&self, control: Control, spacing: f64) -> Given {
+    fn prescribed(&self, control: Control, spacing: f64) -> Prescribed {
         match control {
-            Control::IndentationDepth(depth) => Given::Depth(depth),
+            Control::IndentationDepth(depth) => Prescribed::Depth(depth),
             // In this order forces whose square is no number stay in range.
             Control::NormalForce(force) => {
-                Given::Load(0.25 * force / spacing / self.foundation.unit)
+                Prescribed::Load(0.25 * force / spacing / self.foundation.unit)
             }
         }
     }
 
     /// Force of all elements \[N] per what they add up to.
-    pub(super) fn unit(&self, spacing: f64) -> f64 {
+    pub(super) fn force_unit(&self, spacing: f64) -> f64 {
         4.0 * spacing * self.foundation.unit
     }
 
     /// All steps once.
-    pub(super) fn pass(
+    pub(super) fn run_steps(
         &self,
-        chain: &mut Chain<'_>,
-        legs: &[MovingStep],
+        winkler: &mut WinklerFoundation<'_>,
+        steps: &[MovingStep],
         depth: f64,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<Option<MotionRecord>, MdrError> {
-        let spacing = chain.spacing();
-        let unit = self.unit(spacing);
+        let spacing = winkler.spacing();
+        let force_unit = self.force_unit(spacing);
         let mut record = MotionRecord {
-            steps: Vec::with_capacity(legs.len()),
+            steps: Vec::with_capacity(steps.len()),
             spacing,
             ..MotionRecord::default()
         };
         let (mut lost, mut more) = (0.0, 1.0);
         let first = self.load.stages()[0].start;
         let mut before = (first.position, first.control, depth);
-        for (index, leg) in legs.iter().enumerate() {
-            let given = match self.given(leg.end.control, spacing) {
-                Given::Load(load) => Given::Load(more * load),
-                depth @ Given::Depth(_) => depth,
+        for (index, scheduled) in steps.iter().enumerate() {
+            let prescribed = match self.prescribed(scheduled.end.control, spacing) {
+                Prescribed::Load(load) => Prescribed::Load(more * load),
+                depth @ Prescribed::Depth(_) => depth,
             };
-            let Some(stepped) = chain.advance(leg.duration, leg.end.position, given)? else {
+            let Some(stepped) =
+                winkler.advance(scheduled.duration, scheduled.end.position, prescribed)?
+            else {
                 return Ok(None);
             };
-            lost += unit * stepped.sums.lost;
-            let step = step_of(leg, &stepped, before, unit);
-            more += missing(&step, unit * stepped.sums.normal_impulse / leg.duration);
-            record.push(step, leg.end.position - before.0);
-            before = (leg.end.position, leg.end.control, stepped.depth);
-            tell((index + 1) as f64 / legs.len() as f64);
+            lost += force_unit * stepped.sums.lost;
+            let step = step_of(scheduled, &stepped, before, force_unit);
+            more += step_residual(
+                &step,
+                force_unit * stepped.sums.normal_impulse / scheduled.duration,
+            );
+            record.push(step, scheduled.end.position - before.0);
+            before = (scheduled.end.position, scheduled.end.control, stepped.depth);
+            report((index + 1) as f64 / steps.len() as f64);
         }
         record.imbalance = record.work - lost;
         Ok(Some(record))
@@ -228,10 +237,10 @@ impl<'a> Problem<'a> {
 /// What the force at the end of the next step is to be more, relative to that which is given, when the mean over this step
 /// was another: chords lie below the path of an element under a round body, and with the same force at all ends the mean
 /// is too small, by the square of a step. Half of it, because a step in which much flows has its mean at once.
-fn missing(step: &MotionStep, mean: f64) -> f64 {
-    let missing = 1.0 - mean / step.normal_force;
-    if missing.abs() < SMALL {
-        0.5 * missing
+fn step_residual(step: &MotionStep, mean: f64) -> f64 {
+    let step_residual = 1.0 - mean / step.normal_force;
+    if step_residual.abs() < SMALL {
+        0.5 * step_residual
     } else {
         0.0
     }
@@ -239,20 +248,20 @@ fn missing(step: &MotionStep, mean: f64) -> f64 {
 
 /// The step of a leg, from a position, control and depth.
 fn step_of(
-    leg: &MovingStep,
-    stepped: &Stepped,
+    step: &MovingStep,
+    stepped: &FoundationStep,
     (position, control, depth): (f64, Control, f64),
-    unit: f64,
+    force_unit: f64,
 ) -> MotionStep {
-    let force = |impulse: f64| unit * impulse / leg.duration;
+    let force = |impulse: f64| force_unit * impulse / step.duration;
     let normal_force = match control {
-        Control::NormalForce(force) => force.midpoint(leg.end.control.value()),
+        Control::NormalForce(force) => force.midpoint(step.end.control.value()),
         Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
     };
     MotionStep {
-        stage: leg.stage,
-        time: leg.end.time - 0.5 * leg.duration,
-        position: position.midpoint(leg.end.position),
+        stage: step.stage,
+        time: step.end.time - 0.5 * step.duration,
+        position: position.midpoint(step.end.position),
         tangential_force: force(stepped.sums.tangential_impulse),
         normal_force,
         indentation_depth: depth.midpoint(stepped.depth),
@@ -289,8 +298,9 @@ mod tests {
                 shape: Shape::Sinusoidal,
             };
             let load = MovingLoad::reciprocating(control, stroke).expect("a load");
-            let problem = Problem::new(&line, &material, &load, (2e-3, 1e-9)).expect("a problem");
-            let record = problem.on(elements, &|_| ()).expect("a cycle");
+            let problem =
+                MotionProblem::new(&line, &material, &load, (2e-3, 1e-9)).expect("a problem");
+            let record = problem.solve_on(elements, &|_| ()).expect("a cycle");
             let difference = (record.imbalance / record.work).abs();
             assert!(
                 record.work > 0.0 && difference < allowed,

@@ -6,14 +6,14 @@
 //! Steps in time are as long as elements, or grow after a stop, so that both become finer together; values on several
 //! resolutions tell their errors.
 
-mod chain;
-mod contacts;
+mod contact_history;
 mod cycle;
 mod element_means;
 mod event;
 mod heights;
 mod march;
 mod time_step;
+mod winkler;
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -24,7 +24,7 @@ use rheology::Material;
 
 use crate::MdrError;
 use crate::steady::{LineProblem, has_steep_kinks};
-use march::Problem;
+use march::MotionProblem;
 
 /// Elements along the contact after which a motion is given up.
 const MOST_ELEMENTS: usize = 4096;
@@ -91,8 +91,8 @@ pub fn move_along<'w>(
         Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
         Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
     };
-    let problem = Problem::new(line, material, load, (length, tolerance))?;
-    let limited = LimitedWork {
+    let problem = MotionProblem::new(line, material, load, (length, tolerance))?;
+    let limited = WorkLimit {
         watch: request.watch,
         load,
         length,
@@ -117,8 +117,8 @@ pub fn move_along<'w>(
     };
     let refined = refine(
         &goal,
-        |elements, tell: &dyn Fn(f64)| {
-            let record = problem.on(elements, tell)?;
+        |elements, report: &dyn Fn(f64)| {
+            let record = problem.solve_on(elements, report)?;
             limited.note(elements, &record);
             Ok(record)
         },
@@ -138,7 +138,7 @@ pub fn move_along<'w>(
 /// Ends a refinement before a resolution with more work than [`MOST_WORK`], if that takes as many cycles as the one before, and where
 /// the friction is not told from none.
 #[derive(Debug)]
-struct LimitedWork<'a> {
+struct WorkLimit<'a> {
     watch: &'a dyn Progress,
     load: &'a MovingLoad,
     /// Of the contact, \[m].
@@ -148,7 +148,7 @@ struct LimitedWork<'a> {
     solved: Mutex<BTreeMap<usize, (f64, usize)>>,
 }
 
-impl LimitedWork<'_> {
+impl WorkLimit<'_> {
     fn note(&self, elements: usize, record: &MotionRecord) {
         let mut solved = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
         solved.insert(elements, (record.friction(), record.n_cycles.max(1)));
@@ -160,7 +160,7 @@ impl LimitedWork<'_> {
     }
 
     /// Whether the friction on so many elements is smaller than its change from half of them.
-    fn is_lost(&self, elements: usize) -> bool {
+    fn is_unresolved(&self, elements: usize) -> bool {
         let pair = self.solved(elements).zip(self.solved(elements / 2));
         let is_smaller =
             pair.is_some_and(|((fine, _), (half, _))| fine.abs() < (fine - half).abs());
@@ -168,10 +168,10 @@ impl LimitedWork<'_> {
     }
 }
 
-impl Progress for LimitedWork<'_> {
+impl Progress for WorkLimit<'_> {
     fn may_refine(&self, elements: usize) -> bool {
         let before = elements / 2;
-        if before >= ELEMENTS_OF_A_FRICTION && self.is_lost(before) {
+        if before >= ELEMENTS_OF_A_FRICTION && self.is_unresolved(before) {
             return false;
         }
         let n_cycles = self.solved(before).map_or(1, |(_, n_cycles)| n_cycles) as f64;
@@ -239,5 +239,5 @@ pub fn move_along_memory(
     elements: usize,
 ) -> Result<f64, MdrError> {
     let length = contact_length(line, material, load)?;
-    Problem::new(line, material, load, (length, TOLERANCE_ON_ELEMENTS))?.memory_on(elements)
+    MotionProblem::new(line, material, load, (length, TOLERANCE_ON_ELEMENTS))?.memory_for(elements)
 }

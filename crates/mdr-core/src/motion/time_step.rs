@@ -34,7 +34,7 @@ pub(super) struct TimeStep {
     spring: f64,
     /// η₀/Δt.
     dashpot: f64,
-    branches: Vec<Branches>,
+    branches: Vec<BranchGroup>,
     /// Of all branches the parts of mean and loss that have no stress in them.
     mean: f64,
     lost: f64,
@@ -44,7 +44,7 @@ pub(super) struct TimeStep {
 
 /// What [`LANES`] branches make of their stresses e and the compression u: a e + b u, and of the energy that they lose e (c e + d u).
 #[derive(Debug, Clone, Copy, Default)]
-struct Branches {
+struct BranchGroup {
     decay: Lanes,
     gain: Lanes,
     mean: Lanes,
@@ -53,7 +53,7 @@ struct Branches {
 
 /// What an element does in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Driven {
+pub(super) struct StepWork {
     /// ∫ w dt.
     pub(super) impulse: f64,
     /// Energy that its dashpots take.
@@ -61,7 +61,7 @@ pub(super) struct Driven {
 }
 
 /// Numbers that an element remembers, stresses of branches or amplitudes of modes: whole [`LANES`].
-pub(super) fn n_slots(foundation: &Foundation) -> usize {
+pub(super) fn n_history_variables(foundation: &Foundation) -> usize {
     let used = foundation.branches.len().max(foundation.modes.len());
     used.max(1).next_multiple_of(LANES)
 }
@@ -119,7 +119,7 @@ impl TimeStep {
             self.mean -= modulus[k] * lag[k] / a[k];
             self.lost += modulus[k] * lost_alone[k] / a[k];
         }
-        self.branches.push(Branches {
+        self.branches.push(BranchGroup {
             decay,
             gain,
             mean: once,
@@ -131,22 +131,22 @@ impl TimeStep {
     }
 
     /// The sum of what recovers, at the end.
-    pub(super) fn recovering(&self, slots: &[f64]) -> f64 {
-        let decays = self.decays.iter().zip(slots.as_chunks().0);
-        total(decays.fold([0.0; LANES], |sum, (decays, slots)| {
-            add(sum, *decays, *slots)
+    pub(super) fn remaining_recovery(&self, history: &[f64]) -> f64 {
+        let decays = self.decays.iter().zip(history.as_chunks().0);
+        total(decays.fold([0.0; LANES], |sum, (decays, history)| {
+            add(sum, *decays, *history)
         }))
     }
 
     /// What recovers does so for the step.
-    pub(super) fn recover(&self, slots: &mut [f64]) {
-        for (decays, slots) in self.decays.iter().zip(slots.as_chunks_mut().0) {
-            *slots = product(*decays, *slots);
+    pub(super) fn recover(&self, history: &mut [f64]) {
+        for (decays, history) in self.decays.iter().zip(history.as_chunks_mut().0) {
+            *history = product(*decays, *history);
         }
     }
 
     /// What is carried at the end without compression.
-    pub(super) fn left(&self, displacement: f64, stresses: &[f64]) -> f64 {
+    pub(super) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses.as_chunks().0);
         let left = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
             add(sum, branches.decay, *stresses)
@@ -155,12 +155,12 @@ impl TimeStep {
     }
 
     /// Compresses an element by so much during the step; there are whole [`LANES`] of stresses.
-    pub(super) fn drive(
+    pub(super) fn compress(
         &self,
         displacement: f64,
         compression: f64,
         stresses: &mut [f64],
-    ) -> Driven {
+    ) -> StepWork {
         let u = [compression; LANES];
         let [mut mean, mut lost] = [[0.0; LANES]; 2];
         for (branches, stresses) in self.branches.iter().zip(stresses.as_chunks_mut().0) {
@@ -173,7 +173,7 @@ impl TimeStep {
         }
         let spring = self.spring * (displacement + 0.5 * compression);
         let mean = total(mean) + spring + (self.dashpot + self.mean) * compression;
-        Driven {
+        StepWork {
             impulse: mean * self.duration,
             lost: total(lost) + (self.dashpot + self.lost) * compression * compression,
         }
@@ -181,8 +181,8 @@ impl TimeStep {
 }
 
 /// Numbers of up to [`LANES`] things, and of those that are missing.
-fn lanes<T>(of: &[T], missing: f64, number: impl Fn(&T) -> f64) -> Lanes {
-    std::array::from_fn(|lane| of.get(lane).map_or(missing, &number))
+fn lanes<T>(of: &[T], step_residual: f64, number: impl Fn(&T) -> f64) -> Lanes {
+    std::array::from_fn(|lane| of.get(lane).map_or(step_residual, &number))
 }
 
 /// sum + a b.
@@ -237,15 +237,15 @@ mod tests {
             let (displacement, compression) = (0.7, -0.3);
             let mut stresses = vec![0.2, 0.0, 0.0, 0.0];
             let before = foundation.stored_energy(displacement, &stresses);
-            let driven = step.drive(displacement, compression, &mut stresses);
+            let done = step.compress(displacement, compression, &mut stresses);
             let after = foundation.stored_energy(displacement + compression, &stresses);
-            let work = driven.impulse * compression;
-            let error = work - (after - before) - driven.lost;
+            let work = done.impulse * compression;
+            let error = work - (after - before) - done.lost;
             assert!(
                 error.abs() < 1e-13,
-                "time {time}: {work}, {driven:?}, {error:e}"
+                "time {time}: {work}, {done:?}, {error:e}"
             );
-            assert!(driven.lost > 0.0, "time {time}: {driven:?}");
+            assert!(done.lost > 0.0, "time {time}: {done:?}");
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Sliding from first touch, by marching in time: to the error asked for, or on one stated resolution.
 
-mod march;
-mod memory;
+mod foundation_march;
+mod half_step_shift;
 mod on_grid;
-mod unresolved;
+mod subgrid;
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::{ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Quantity, Request, refine};
@@ -12,7 +12,7 @@ use rheology::Material;
 use crate::MdrError;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{LineProblem, has_steep_kinks};
-use memory::{ahead, has_memory};
+use half_step_shift::{depends_on_step, half_step_shifted};
 use on_grid::march;
 pub use on_grid::{SlideOptions, SlideRow, Transient, slide_memory, slide_on_grid};
 
@@ -92,11 +92,11 @@ pub fn slide<'w>(
         max_elements: MOST_ELEMENTS,
         order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
         work_exponent: WORK,
-        extra_work: f64::from(has_memory(&material.creep())),
+        extra_work: f64::from(depends_on_step(&material.creep())),
         selection_factor: 1.0,
     };
-    let solve = |elements, tell: &dyn Fn(f64)| motion.march(elements, tell);
-    let others = |march: &OnElements, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
+    let solve = |elements, report: &dyn Fn(f64)| motion.march(elements, report);
+    let others = |march: &OnElements, report: &dyn Fn(f64)| motion.other_errors(march, report);
     let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
     let (march, mut error) = (refined.value, refined.error);
     let error_parts = refined.parts[0];
@@ -104,9 +104,9 @@ pub fn slide<'w>(
         let elements = refined.parts[1].discretisation.into_iter().sum::<f64>();
         error[1] += (KINKED - 1.0) * elements;
     }
-    let values = motion.values(&march.transient);
+    let end_values = motion.end_values(&march.transient);
     let [friction_coefficient, indentation_depth, rear, front] =
-        std::array::from_fn(|k| Estimate::new(values[k], error[k]));
+        std::array::from_fn(|k| Estimate::new(end_values[k], error[k]));
     let found = Sliding {
         friction_coefficient,
         error_parts,
@@ -154,10 +154,10 @@ impl<'a> Motion<'a> {
         })
     }
 
-    fn march(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<OnElements, MdrError> {
+    fn march(&self, elements: usize, report: &dyn Fn(f64)) -> Result<OnElements, MdrError> {
         let options = SlideOptions::with_elements(elements, self.line, self.material, self.load)?;
         Ok(OnElements {
-            transient: march(self.line, self.material, self.load, &options, tell)?,
+            transient: march(self.line, self.material, self.load, &options, report)?,
             options,
         })
     }
@@ -165,7 +165,7 @@ impl<'a> Motion<'a> {
     /// Friction, depth, rear and front.
     ///
     /// The friction of a step belongs to its middle; before the stationary state the end is half a step further.
-    fn values(&self, transient: &Transient) -> [f64; 4] {
+    fn end_values(&self, transient: &Transient) -> [f64; 4] {
         let last = &transient.last;
         let friction = match transient.rows[..] {
             [.., before, last] if self.load.sliding_distance().is_some() => {
@@ -179,7 +179,7 @@ impl<'a> Motion<'a> {
 
     fn quantities(&self, march: &OnElements) -> Vec<Quantity> {
         let last = &march.transient.last;
-        let [friction, depth, rear, front] = self.values(&march.transient).map(Quantity::from);
+        let [friction, depth, rear, front] = self.end_values(&march.transient).map(Quantity::from);
         let slope = last.indentation_depth / last.contact_length;
         let known = |quantity| Quantity {
             controls_refinement: false,
@@ -227,18 +227,18 @@ impl<'a> Motion<'a> {
     fn other_errors(
         &self,
         march: &OnElements,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<Vec<ErrorParts>, MdrError> {
-        let steps = self.errors_of_step(march, tell)?;
-        let rest = self.remainders(&march.transient.rows);
+        let steps = self.errors_of_step(march, report)?;
+        let rest = self.remaining_changes(&march.transient.rows);
         let part = |quantity: usize| ErrorParts {
             time_stepping: steps.map(|errors| errors[quantity]),
             truncation: rest.and_then(|errors| errors[quantity]),
             ..ErrorParts::NONE
         };
         let mut parts: Vec<ErrorParts> = (0..4).map(part).collect();
-        for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
-            part.discretisation = Some(unresolved);
+        for (part, subgrid_errors) in parts.iter_mut().zip(march.transient.subgrid_errors) {
+            part.discretisation = Some(subgrid_errors);
         }
         Ok(parts)
     }
@@ -247,22 +247,31 @@ impl<'a> Motion<'a> {
     fn errors_of_step(
         &self,
         marched: &OnElements,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<Option<[f64; 4]>, MdrError> {
         let time_step = marched.options.spacing / self.load.velocity();
-        let Some(ahead) = ahead(self.material, time_step)? else {
+        let Some(half_step_shifted) = half_step_shifted(self.material, time_step)? else {
             return Ok(None);
         };
-        let transient = march(self.line, &ahead, self.load, &marched.options, tell)?;
-        let [values, ahead] = [&marched.transient, &transient].map(|march| self.values(march));
-        Ok(Some(std::array::from_fn(|k| (ahead[k] - values[k]).abs())))
+        let transient = march(
+            self.line,
+            &half_step_shifted,
+            self.load,
+            &marched.options,
+            report,
+        )?;
+        let [end_values, half_step_shifted] =
+            [&marched.transient, &transient].map(|march| self.end_values(march));
+        Ok(Some(std::array::from_fn(|k| {
+            (half_step_shifted[k] - end_values[k]).abs()
+        })))
     }
 
     /// What is left of an exponential approach, by its change over the last contact length and over the one before; nothing
     /// where the given distance was slid to its end and not only until the state was stationary.
     ///
     /// A march may end after little more than one contact length; then the change before it is that since the first step.
-    fn remainders(&self, rows: &[SlideRow]) -> Option<[Option<f64>; 4]> {
+    fn remaining_changes(&self, rows: &[SlideRow]) -> Option<[Option<f64>; 4]> {
         let last = rows.last()?;
         let is_there = |distance: f64| last.sliding_distance >= distance * (1.0 - ROUNDING);
         if self.load.sliding_distance().is_some_and(is_there) {

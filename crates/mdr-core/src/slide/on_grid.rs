@@ -16,7 +16,7 @@ use indenters::{RigidLine, SlidingLoad};
 use numerics::{between_zero_and_one, in_range, positive};
 use rheology::{ExponentialStep, Material};
 
-use super::march::{ChainMarch, Stepped};
+use super::foundation_march::{FoundationMarch, MarchStep};
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS, checked_height};
 use crate::error::{enough_elements, finite};
@@ -126,7 +126,7 @@ pub struct Transient {
     pub load: Vec<[f64; 2]>,
     /// What is shorter than one element may do to friction and depth.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(super) unresolved: [f64; 2],
+    pub(super) subgrid_errors: [f64; 2],
 }
 
 /// Elements of a chain per element of the stationary contact, at most about, and what each takes besides its memory, \[bytes].
@@ -148,7 +148,7 @@ pub fn slide_memory(
     let distance = load.sliding_distance();
     let steps = distance.unwrap_or(options.max_sliding_distance) / options.spacing;
     // Lists grow by doubling, and their rows are taken out of them.
-    let per_step = 3 * size_of::<Stepped>() + 2 * size_of::<SlideRow>();
+    let per_step = 3 * size_of::<MarchStep>() + 2 * size_of::<SlideRow>();
     let length = LineProblem::new(line, material, load.velocity())?.contact_span(load.control())?;
     let n_elements = (FOOTPRINT * length / options.spacing).min(2.0 * MAX_ELEMENTS as f64);
     let n_fields = material.creep().elements().len() + 1;
@@ -183,18 +183,18 @@ pub(super) fn march(
     material: &dyn Material,
     load: &SlidingLoad,
     options: &SlideOptions,
-    tell: &dyn Fn(f64),
+    report: &dyn Fn(f64),
 ) -> Result<Transient, MdrError> {
     options.check()?;
     let mut elements = first_elements(line, material, load, options.spacing)?;
     loop {
         let ceiling = elements.ceiling;
-        let mut march = ChainMarch::from_first_touch(line, elements, material, load)?;
-        match march_on(&mut march, load, options, tell)? {
+        let mut march = FoundationMarch::from_first_touch(line, elements, material, load)?;
+        match march_to_end(&mut march, load, options, report)? {
             Some(transient) => {
-                let unresolved = march.unresolved(line, &transient.last);
+                let subgrid_errors = march.subgrid_errors(line, &transient.last);
                 return Ok(Transient {
-                    unresolved,
+                    subgrid_errors,
                     load: march.load(),
                     ..transient
                 });
@@ -205,13 +205,13 @@ pub(super) fn march(
 }
 
 /// The transient, or nothing when the chain was not high enough.
-fn march_on(
-    march: &mut ChainMarch,
+fn march_to_end(
+    march: &mut FoundationMarch,
     load: &SlidingLoad,
     options: &SlideOptions,
-    tell: &dyn Fn(f64),
+    report: &dyn Fn(f64),
 ) -> Result<Option<Transient>, MdrError> {
-    let mut steps: Vec<Stepped> = Vec::new();
+    let mut steps: Vec<MarchStep> = Vec::new();
     let mut drift = 1.0;
     // Half a step more than the distance, so that rounding does not lose the last one.
     let given = load.sliding_distance();
@@ -226,7 +226,7 @@ fn march_on(
         // Towards the stationary state the changes fall exponentially.
         let settled = drift.ln() / options.drift_tolerance.ln();
         let travelled = march.next_sliding_distance() / farthest;
-        tell(travelled.max(settled).clamp(0.0, 1.0));
+        report(travelled.max(settled).clamp(0.0, 1.0));
         if drift <= options.drift_tolerance {
             enough_elements(step.row.n_contact, options.spacing)?;
             break;
@@ -237,7 +237,7 @@ fn march_on(
         Some(last) if given.is_some() || drift <= options.drift_tolerance => Ok(Some(Transient {
             last: *last,
             load: Vec::new(),
-            unresolved: [0.0; 2],
+            subgrid_errors: [0.0; 2],
             drift,
             rows,
         })),
@@ -295,7 +295,7 @@ fn check_leading_edge(
 }
 
 /// Change of depth and friction over the last contact; 1, as from nothing, when the distance was not as long.
-fn relative_change(steps: &[Stepped]) -> f64 {
+fn relative_change(steps: &[MarchStep]) -> f64 {
     let n_steps = steps.len();
     let span = steps[n_steps - 1].span;
     if n_steps <= span {

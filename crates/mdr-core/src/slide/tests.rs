@@ -57,7 +57,7 @@ fn a_longer_march_changes_the_friction_by_less_than_the_truncation() {
         // Rounding is far below what is left after the shorter one.
         let [shorter, longer] = [1e-5, 1e-10].map(march);
         let [friction, limit] = [&shorter, &longer].map(|march| march.last.friction_coefficient);
-        let parts = motion.remainders(&shorter.rows).expect("parts");
+        let parts = motion.remaining_changes(&shorter.rows).expect("parts");
         let part = parts[0].expect("a part");
         let change = (limit - friction).abs();
         assert!(

@@ -60,7 +60,7 @@ pub(super) struct Layer {
 }
 
 /// What the foundation does under one segment.
-pub(super) struct Passage {
+pub(super) struct SegmentSolution {
     smooth: [f64; MAX_TERMS],
     n_terms: usize,
     pub(super) layers: Vec<Layer>,
@@ -77,7 +77,7 @@ pub(super) struct Passage {
 }
 
 /// A part of the surface that nothing touches, since it was last left.
-pub(super) struct Recovery {
+pub(super) struct FreeSurface {
     /// Displacement when it was left, in depths.
     pub(super) displacement: f64,
     /// β_k, in depths.
@@ -107,15 +107,18 @@ impl Foundation {
         let times = relaxation.branches().iter().map(|b| b.relaxation_time);
         let relaxing = lengths(times.collect(), "distance of relaxation")?;
         let times = creep.elements().iter().map(|e| e.retardation_time);
-        let recovering = lengths(times.collect(), "distance of retardation")?;
+        let recovery_lengths = lengths(times.collect(), "distance of retardation")?;
         let ratio = |branch: f64, mode: f64| branch / (mode - branch);
         let branches = relaxation.branches().iter().zip(&relaxing);
         let branches = branches.map(|(branch, &length)| Branch {
             modulus: branch.modulus / factor / unit,
             length,
-            ratios: recovering.iter().map(|&mode| ratio(length, mode)).collect(),
+            ratios: recovery_lengths
+                .iter()
+                .map(|&mode| ratio(length, mode))
+                .collect(),
         });
-        let modes = creep.elements().iter().zip(&recovering);
+        let modes = creep.elements().iter().zip(&recovery_lengths);
         let modes = modes.map(|(element, &length)| Mode {
             compliance: element.compliance * factor * unit,
             length,
@@ -169,7 +172,7 @@ impl Foundation {
     }
 
     /// Compresses the branches at once.
-    pub(crate) fn strike(&self, stresses: &mut [f64], compression: f64) {
+    pub(crate) fn apply_strain_jump(&self, stresses: &mut [f64], compression: f64) {
         for (stress, branch) in stresses.iter_mut().zip(&self.branches) {
             *stress += branch.modulus * compression;
         }
@@ -200,13 +203,13 @@ impl Foundation {
     }
 
     /// Follows the foundation under a segment of the line.
-    pub(super) fn pass(&self, segment: &Segment, stresses: &[f64]) -> Passage {
+    pub(super) fn pass(&self, segment: &Segment, stresses: &[f64]) -> SegmentSolution {
         let rates = derivative(&segment.displacements);
         let per_length = 2.0 / segment.length;
         let square_rate = square_integral(&rates);
         let dashpot = self.dashpot * per_length;
         let rise = segment.end() - start_value(&segment.displacements);
-        let mut passage = Passage {
+        let mut solution = SegmentSolution {
             smooth: [0.0; MAX_TERMS],
             n_terms: rates.len(),
             layers: Vec::with_capacity(self.branches.len()),
@@ -217,26 +220,26 @@ impl Foundation {
             stresses: Vec::with_capacity(self.branches.len()),
         };
         for (k, rate) in rates.iter().enumerate() {
-            passage.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
+            solution.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
         }
         let n_rates = segment.degree.max(1);
         for (branch, start) in self.branches.iter().zip(stresses) {
             let ratio = 0.5 * segment.length / branch.length;
             let driven = rates.map(|rate| branch.modulus * rate);
             let stress = branch_stress(ratio, *start, &driven[..n_rates]);
-            passage.add(&stress, ratio);
-            passage.load += 0.5 * segment.length * stress.integral;
-            passage.dissipation += ratio * (stress.square_integral / branch.modulus);
-            passage.dissipation_change +=
+            solution.add(&stress, ratio);
+            solution.load += 0.5 * segment.length * stress.integral;
+            solution.dissipation += ratio * (stress.square_integral / branch.modulus);
+            solution.dissipation_change +=
                 SENSITIVITY * ratio.min(1.0) * stress.square_integral.sqrt();
         }
-        passage
+        solution
     }
 
     /// Lets go of a surface with this displacement and these stresses.
-    pub(super) fn release(&self, displacement: f64, stresses: &[f64]) -> Recovery {
+    pub(super) fn release(&self, displacement: f64, stresses: &[f64]) -> FreeSurface {
         let amplitude = |mode: &Mode| self.amplitude(mode, displacement, stresses);
-        Recovery {
+        FreeSurface {
             displacement,
             amplitudes: self.modes.iter().map(amplitude).collect(),
             distance: 0.0,
@@ -250,8 +253,8 @@ impl Foundation {
     }
 
     /// A free surface that recovers to where it was before all loads, of which so much is left in each mode.
-    pub(super) fn recovering(&self, left: &[f64]) -> Recovery {
-        Recovery {
+    pub(super) fn surface_with_remainders(&self, left: &[f64]) -> FreeSurface {
+        FreeSurface {
             displacement: -left.iter().sum::<f64>(),
             amplitudes: left.to_vec(),
             distance: 0.0,
@@ -259,7 +262,7 @@ impl Foundation {
     }
 
     /// What is left in each mode of a free surface, a distance after where it is now.
-    pub(super) fn left_after(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
+    pub(super) fn remaining_amplitudes(&self, recovery: &FreeSurface, distance: f64) -> Vec<f64> {
         let xi = recovery.distance + distance;
         let amplitude = |k: usize| recovery.amplitudes.get(k).copied().unwrap_or(0.0);
         let modes = self.modes.iter().enumerate();
@@ -277,7 +280,7 @@ impl Foundation {
     }
 
     /// Displacement of a free surface, a distance after where it is now, in depths.
-    pub(super) fn free_displacement(&self, recovery: &Recovery, distance: f64) -> f64 {
+    pub(super) fn free_displacement(&self, recovery: &FreeSurface, distance: f64) -> f64 {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
         let recovered = modes.map(|(mode, beta)| -beta * (-xi / mode.length).exp_m1());
@@ -285,7 +288,7 @@ impl Foundation {
     }
 
     /// Stresses in the branches of a free surface, a distance after where it is now.
-    pub(super) fn free_stresses(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
+    pub(super) fn free_stresses(&self, recovery: &FreeSurface, distance: f64) -> Vec<f64> {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
         let left = modes.map(|(mode, beta)| beta * (-xi / mode.length).exp());
@@ -301,7 +304,7 @@ impl Foundation {
     }
 }
 
-impl Passage {
+impl SegmentSolution {
     fn add(&mut self, stress: &BranchStress, ratio: f64) {
         self.n_terms = self.n_terms.max(stress.n_terms);
         for (sum, term) in self.smooth.iter_mut().zip(&stress.smooth[..stress.n_terms]) {
@@ -324,7 +327,7 @@ impl Passage {
     }
 }
 
-impl Recovery {
+impl FreeSurface {
     /// A surface that was never touched.
     pub(super) fn untouched() -> Self {
         Self {

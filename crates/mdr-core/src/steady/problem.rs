@@ -6,12 +6,12 @@ use rheology::Material;
 
 use super::SteadySliding;
 use super::depth::{depth_of_load, polished_depth};
-use super::foundation::{Foundation, Recovery};
+use super::foundation::{Foundation, FreeSurface};
 use super::profile::{Profile, Resolution};
-use super::range::{Edge, Range, vertical_edge};
+use super::range::{Range, VerticalEdge, vertical_edge};
 use super::steep_kinks::SteepKink;
-use super::sweep::{Sweep, sweep};
-use super::track::{around, check_length};
+use super::sweep::{SweepSums, sweep};
+use super::track::{check_length, sweep_until_periodic};
 use crate::MdrError;
 use crate::error::finite;
 
@@ -86,7 +86,7 @@ impl<'a> LineProblem<'a> {
         if !self.foundation.has_dashpot() {
             return Ok(());
         }
-        let kinks = SteepKink::of(self.line);
+        let kinks = SteepKink::all_of(self.line);
         if kinks.is_empty() {
             return Ok(());
         }
@@ -137,8 +137,8 @@ impl<'a> LineProblem<'a> {
         Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.load))
     }
 
-    fn beyond(&self, edge: Edge, control: Control) -> Result<MdrError, MdrError> {
-        let Edge { position, height } = edge;
+    fn beyond(&self, edge: VerticalEdge, control: Control) -> Result<MdrError, MdrError> {
+        let VerticalEdge { position, height } = edge;
         Ok(match control {
             Control::NormalForce(normal_force) => MdrError::ForceBeyondEdge {
                 position,
@@ -154,7 +154,7 @@ impl<'a> LineProblem<'a> {
         })
     }
 
-    fn solve(&self, depth: f64, tolerance: f64) -> Result<Sweep, MdrError> {
+    fn solve(&self, depth: f64, tolerance: f64) -> Result<SweepSums, MdrError> {
         self.solve_with(depth, tolerance, None)
     }
 
@@ -163,7 +163,7 @@ impl<'a> LineProblem<'a> {
         depth: f64,
         tolerance: f64,
         loads: Option<Vec<[f64; 2]>>,
-    ) -> Result<Sweep, MdrError> {
+    ) -> Result<SweepSums, MdrError> {
         let range = Range::below(self.line, depth)?;
         let resolution = Resolution {
             depth,
@@ -173,8 +173,8 @@ impl<'a> LineProblem<'a> {
         let profile = Profile::new(self.line, &range, resolution)?;
         range.check_front(depth * profile.lowest, depth)?;
         match self.track {
-            None => Ok(sweep(&self.foundation, &profile, Recovery::untouched(), loads)?.0),
-            Some(track) => around(&self.foundation, &profile, track, loads),
+            None => Ok(sweep(&self.foundation, &profile, FreeSurface::untouched(), loads)?.0),
+            Some(track) => sweep_until_periodic(&self.foundation, &profile, track, loads),
         }
     }
 
@@ -190,7 +190,7 @@ impl<'a> LineProblem<'a> {
         }
         let ends = sums.ends();
         sums.contacts.reverse();
-        let Sweep { load, work, .. } = sums;
+        let SweepSums { load, work, .. } = sums;
         let force = 4.0 * self.foundation.unit * (depth * load);
         let force = finite("normal force", force, 0.0)?;
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;

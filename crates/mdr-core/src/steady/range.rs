@@ -79,14 +79,14 @@ impl Range {
 
 /// Where a body ends with a vertical edge in front.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Edge {
+pub(super) struct VerticalEdge {
     pub(super) position: f64,
     /// Above the lowest point, next to the edge, \[m].
     pub(super) height: f64,
 }
 
 /// The vertical edge at the front end of a line, if it has one.
-pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<Edge>, MdrError> {
+pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>, MdrError> {
     let [_, position] = line.domain();
     if position.is_infinite() || checked_height(line, position)?.is_finite() {
         return Ok(None);
@@ -94,7 +94,7 @@ pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<Edge>, MdrErr
     let anchor = lowest_candidate(line)?;
     let inside = position - EDGE * (position - anchor);
     let height = checked_height(line, inside)? - checked_height(line, anchor)?;
-    Ok(Some(Edge { position, height }))
+    Ok(Some(VerticalEdge { position, height }))
 }
 
 /// The outermost position between the anchor and the end, also of the pieces between kinks, of which the outermost comes

@@ -23,12 +23,12 @@ pub(super) struct SteepKink {
 
 /// Whether a line has kinks at which it is steeper than any number.
 pub(crate) fn has_steep_kinks(line: &dyn RigidLine) -> bool {
-    !SteepKink::of(line).is_empty()
+    !SteepKink::all_of(line).is_empty()
 }
 
 impl SteepKink {
     /// Those of a line, apart from x = 0, where a cusp is resolved as far as numbers reach.
-    pub(super) fn of(line: &dyn RigidLine) -> Vec<Self> {
+    pub(super) fn all_of(line: &dyn RigidLine) -> Vec<Self> {
         let kinks = line.kinks().into_iter().filter(|kink| *kink != 0.0);
         let sides = kinks.flat_map(|position| [-1.0, 1.0].map(|side| (position, side)));
         let steep = sides.filter(|&(position, side)| is_steep(line, position, side));

@@ -4,7 +4,7 @@
 
 use numerics::bracketed_root;
 
-use super::foundation::{Foundation, Passage, Recovery};
+use super::foundation::{Foundation, FreeSurface, SegmentSolution};
 use super::profile::{Piece, Profile};
 use super::segment::Segment;
 use crate::MdrError;
@@ -29,7 +29,7 @@ const MAX_CONTACTS: usize = 1 << 12;
 
 /// What a pass sums up to.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Sweep {
+pub(super) struct SweepSums {
     /// ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
     pub(super) load: f64,
     /// ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress.
@@ -47,7 +47,7 @@ pub(super) struct Sweep {
     pub(super) loads: Option<Vec<[f64; 2]>>,
 }
 
-impl Sweep {
+impl SweepSums {
     /// Rear and front of the whole contact, \[m].
     pub(super) fn ends(&self) -> [f64; 2] {
         let front = self.contacts.first().map_or(0.0, |[_, front]| *front);
@@ -57,7 +57,7 @@ impl Sweep {
 }
 
 enum Surface {
-    Free(Recovery),
+    Free(FreeSurface),
     Loaded { stresses: Vec<f64>, fresh: bool },
 }
 
@@ -66,16 +66,16 @@ enum Surface {
 pub(super) fn sweep(
     foundation: &Foundation,
     profile: &Profile,
-    ahead: Recovery,
+    ahead: FreeSurface,
     loads: Option<Vec<[f64; 2]>>,
-) -> Result<(Sweep, Recovery), MdrError> {
+) -> Result<(SweepSums, FreeSurface), MdrError> {
     let mut march = SurfaceMarch {
         foundation,
         profile,
-        sums: Sweep {
+        sums: SweepSums {
             n_pieces: profile.pieces.len(),
             loads,
-            ..Sweep::default()
+            ..SweepSums::default()
         },
         surface: Surface::Free(ahead),
     };
@@ -98,25 +98,25 @@ pub(super) fn sweep(
 struct SurfaceMarch<'a> {
     foundation: &'a Foundation,
     profile: &'a Profile,
-    sums: Sweep,
+    sums: SweepSums,
     surface: Surface,
 }
 
 impl SurfaceMarch<'_> {
     /// Moves on to the next event, or the end of the segment; returns where that is.
     fn advance(&mut self, segment: &Segment, piece: &Piece) -> Result<f64, MdrError> {
-        match std::mem::replace(&mut self.surface, Surface::Free(Recovery::untouched())) {
+        match std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched())) {
             Surface::Free(recovery) => self.recover(recovery, segment),
             Surface::Loaded { stresses, fresh } => {
                 if piece.singular && self.foundation.has_dashpot() {
                     self.sums.too_steep.get_or_insert(piece.segment.ends[1]);
                 }
-                let passage = self.foundation.pass(segment, &stresses);
-                match release(&passage, self.foundation.has_dashpot() && !fresh) {
+                let solution = self.foundation.pass(segment, &stresses);
+                match release(&solution, self.foundation.has_dashpot() && !fresh) {
                     None => {
-                        self.add(&passage, segment, piece.tail);
+                        self.add(&solution, segment, piece.tail);
                         self.surface = Surface::Loaded {
-                            stresses: passage.stresses,
+                            stresses: solution.stresses,
                             fresh: false,
                         };
                         Ok(1.0)
@@ -130,7 +130,7 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    fn recover(&mut self, mut recovery: Recovery, segment: &Segment) -> Result<f64, MdrError> {
+    fn recover(&mut self, mut recovery: FreeSurface, segment: &Segment) -> Result<f64, MdrError> {
         let Some(t) = self.touch(&recovery, segment) else {
             recovery.distance += segment.length;
             self.surface = Surface::Free(recovery);
@@ -148,11 +148,12 @@ impl SurfaceMarch<'_> {
         let free = self.foundation.free_displacement(&recovery, distance);
         let mut stresses = self.foundation.free_stresses(&recovery, distance);
         let position = segment.position(t);
-        let displacement = self.strain(free);
+        let displacement = self.nonelastic_displacement(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         let compression = segment.displacement(t) - free;
         if compression > LARGEST_MISS {
-            self.foundation.strike(&mut stresses, compression);
+            self.foundation
+                .apply_strain_jump(&mut stresses, compression);
         }
         self.miss(compression, segment, t);
         self.sums.contacts.push([position; 2]);
@@ -165,7 +166,7 @@ impl SurfaceMarch<'_> {
     }
 
     /// Where the line touches a free surface.
-    fn touch(&self, recovery: &Recovery, segment: &Segment) -> Option<f64> {
+    fn touch(&self, recovery: &FreeSurface, segment: &Segment) -> Option<f64> {
         let gap = |t: f64| {
             let distance = 0.5 * (1.0 + t) * segment.length;
             self.foundation.free_displacement(recovery, distance) - segment.displacement(t)
@@ -183,7 +184,7 @@ impl SurfaceMarch<'_> {
     }
 
     /// A spring that is touched or let go is not strained; rounding must not count as friction.
-    fn strain(&self, displacement: f64) -> f64 {
+    fn nonelastic_displacement(&self, displacement: f64) -> f64 {
         let is_elastic = self.foundation.is_elastic();
         if is_elastic { 0.0 } else { displacement }
     }
@@ -205,22 +206,22 @@ impl SurfaceMarch<'_> {
         let mut stresses = stresses.to_vec();
         if 1.0 + t > SHORTEST {
             let loaded = segment.part(&self.profile.interpolation, [-1.0, t]);
-            let passage = self.foundation.pass(&loaded, &stresses);
-            self.add(&passage, &loaded, tail);
-            stresses = passage.stresses;
+            let solution = self.foundation.pass(&loaded, &stresses);
+            self.add(&solution, &loaded, tail);
+            stresses = solution.stresses;
         }
-        let displacement = self.strain(segment.displacement(t));
+        let displacement = self.nonelastic_displacement(segment.displacement(t));
         self.close(displacement, &stresses, segment.position(t));
         self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
     }
 
-    fn add(&mut self, passage: &Passage, segment: &Segment, tail: f64) {
-        self.sums.load += passage.load;
-        self.sums.work += passage.dissipation;
+    fn add(&mut self, solution: &SegmentSolution, segment: &Segment, tail: f64) {
+        self.sums.load += solution.load;
+        self.sums.work += solution.dissipation;
         self.sums.load_error += tail * self.foundation.stiffness(segment.length);
-        self.sums.work_error += tail * passage.dissipation_change + passage.dissipation_rounding;
+        self.sums.work_error += tail * solution.dissipation_change + solution.dissipation_rounding;
         if let Some(loads) = &mut self.sums.loads {
-            let places = straight_parts(|t| passage.potential(t));
+            let places = straight_parts(|t| solution.potential(t));
             loads.extend(places.map(|[t, load]| [segment.position(t), load]));
         }
         if let Some(contact) = self.sums.contacts.last_mut() {
@@ -245,19 +246,19 @@ impl SurfaceMarch<'_> {
     }
 
     /// The line has passed: what is still loaded springs back.
-    fn end(mut self) -> (Sweep, Recovery) {
-        let surface = std::mem::replace(&mut self.surface, Surface::Free(Recovery::untouched()));
+    fn end(mut self) -> (SweepSums, FreeSurface) {
+        let surface = std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched()));
         let behind = match (surface, self.profile.pieces.last()) {
             (Surface::Loaded { stresses, .. }, Some(piece)) => {
                 let mut end = piece.segment.end();
                 if end.abs() < LEFT_BY_ROUNDING {
-                    end = self.strain(end);
+                    end = self.nonelastic_displacement(end);
                 }
                 self.close(end, &stresses, piece.segment.ends[1]);
                 self.foundation.release(end, &stresses)
             }
             (Surface::Free(recovery), _) => recovery,
-            (Surface::Loaded { .. }, None) => Recovery::untouched(),
+            (Surface::Loaded { .. }, None) => FreeSurface::untouched(),
         };
         (self.sums, behind)
     }
@@ -291,15 +292,15 @@ fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> 
 }
 
 /// Where the load would turn to tension.
-fn release(passage: &Passage, may_jump: bool) -> Option<f64> {
+fn release(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     // With a lone dashpot the load jumps where the slope does.
-    if may_jump && passage.potential(-1.0) < 0.0 {
+    if may_jump && solution.potential(-1.0) < 0.0 {
         return Some(-1.0);
     }
     let mut before = -1.0;
-    for t in layer_samples(passage).into_iter().chain(samples()) {
-        if passage.potential(t) < 0.0 {
-            let inside = |t: f64| passage.potential(t);
+    for t in layer_samples(solution).into_iter().chain(samples()) {
+        if solution.potential(t) < 0.0 {
+            let inside = |t: f64| solution.potential(t);
             return Some(bracketed_root(inside, [before, t]).unwrap_or(before));
         }
         before = t;
@@ -308,9 +309,13 @@ fn release(passage: &Passage, may_jump: bool) -> Option<f64> {
 }
 
 /// Positions inside the boundary layers that the other samples step over.
-fn layer_samples(passage: &Passage) -> Vec<f64> {
+fn layer_samples(solution: &SegmentSolution) -> Vec<f64> {
     let first = samples().next().unwrap_or(1.0);
-    let thin = passage.layers.iter().rev().map(|layer| layer.ratio.recip());
+    let thin = solution
+        .layers
+        .iter()
+        .rev()
+        .map(|layer| layer.ratio.recip());
     let thin = thin.filter(|width| *width > THINNEST && width - 1.0 < first);
     let mut samples: Vec<f64> = thin.map(|width| width - 1.0).collect();
     samples.sort_by(f64::total_cmp);

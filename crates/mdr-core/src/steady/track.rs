@@ -11,10 +11,10 @@
 
 use numerics::{FixedPoint, anderson_fixed_point};
 
-use super::foundation::{Foundation, Recovery};
+use super::foundation::{Foundation, FreeSurface};
 use super::profile::Profile;
 use super::range::Range;
-use super::sweep::{Sweep, sweep};
+use super::sweep::{SweepSums, sweep};
 use crate::MdrError;
 
 /// Passes after which the search is given up.
@@ -33,20 +33,25 @@ pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
 }
 
 /// The pass in which the surface ahead is what the pass before has left.
-pub(super) fn around(
+pub(super) fn sweep_until_periodic(
     foundation: &Foundation,
     profile: &Profile,
     track: f64,
     loads: Option<Vec<[f64; 2]>>,
-) -> Result<Sweep, MdrError> {
+) -> Result<SweepSums, MdrError> {
     // Of depths that are too large for the track, on the way to one that is not, a monotone force is all that is needed.
     let free = (track - profile.length).max(0.0);
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
     let tolerance = TOLERANCE.max(ROUNDING * slowness);
     let mut left = 0.0;
     let pass = |ahead: &[f64]| {
-        let (_, behind) = sweep(foundation, profile, foundation.recovering(ahead), None)?;
-        let end = foundation.left_after(&behind, free);
+        let (_, behind) = sweep(
+            foundation,
+            profile,
+            foundation.surface_with_remainders(ahead),
+            None,
+        )?;
+        let end = foundation.remaining_amplitudes(&behind, free);
         Ok::<_, MdrError>((end.clone(), end))
     };
     let rest = |now: &mut Vec<f64>, before: &Vec<f64>| {
@@ -55,7 +60,7 @@ pub(super) fn around(
         left = slowness * changes.fold(0.0, f64::max);
         left
     };
-    let start = foundation.left_after(&Recovery::untouched(), free);
+    let start = foundation.remaining_amplitudes(&FreeSurface::untouched(), free);
     let ahead = match anderson_fixed_point(start, MOST_PASSES, tolerance, pass, rest)? {
         FixedPoint::Converged { result, .. } => result,
         FixedPoint::NotConverged {
@@ -68,7 +73,12 @@ pub(super) fn around(
             });
         }
     };
-    let (mut sums, _) = sweep(foundation, profile, foundation.recovering(&ahead), loads)?;
+    let (mut sums, _) = sweep(
+        foundation,
+        profile,
+        foundation.surface_with_remainders(&ahead),
+        loads,
+    )?;
     // The surface is that much higher or lower under the whole line.
     let [carried, resisted] = foundation.resistance(profile.length.recip(), profile.length);
     sums.load_error += left * carried;

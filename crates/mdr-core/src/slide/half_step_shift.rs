@@ -16,18 +16,18 @@ use rheology::{Compressible, CreepSpectrum, ExponentialStep, Material, Prony, Re
 use crate::MdrError;
 
 /// Whether a step changes the memory of a material: not without memory, nor without a spring that acts at once.
-pub(super) fn has_memory(creep: &CreepSpectrum) -> bool {
+pub(super) fn depends_on_step(creep: &CreepSpectrum) -> bool {
     !creep.is_elastic() && creep.instantaneous_compliance() > 0.0
 }
 
 /// The material whose memory is ahead by what a step \[s] does; none for one without memory or without a spring.
-pub(super) fn ahead(
+pub(super) fn half_step_shifted(
     material: &dyn Material,
     time_step: f64,
 ) -> Result<Option<Compressible>, MdrError> {
     let creep = material.creep();
     let at_once = creep.instantaneous_compliance();
-    if !has_memory(&creep) {
+    if !depends_on_step(&creep) {
         return Ok(None);
     }
     let share = at_once / ExponentialStep::creep(&creep, time_step)?.response();

@@ -12,7 +12,7 @@ use crate::compensated::CompensatedSum;
 
 /// A rigid line over a chain, before the depth of the instant is known.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Instant<'a> {
+pub(crate) struct ForceBalance<'a> {
     /// Heights h_i of the line over each element, above its lowest point, \[m]; `+∞` where there is no body.
     pub(crate) heights: &'a [f64],
     /// Displacements u_i that the elements would have at the end of the step without load, \[m].
@@ -21,13 +21,13 @@ pub(crate) struct Instant<'a> {
 
 /// The elements below a depth, and the sum of their compressions.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Level {
+pub(crate) struct TrialDepth {
     pub(crate) depth: f64,
     pub(crate) n_below: usize,
     pub(crate) compression: f64,
 }
 
-impl Instant<'_> {
+impl ForceBalance<'_> {
     /// The depth at which the compressions add up to what is `needed` ≥ 0 \[m], beginning with the elements below `guess`;
     /// where that is 0 the line touches the first element.
     ///
@@ -35,15 +35,15 @@ impl Instant<'_> {
     /// when the contact has not lost an element, the equation is linear between the last two depths and solved. If f is
     /// the excess of force and g the number of elements, convexity gives f'/f + g'/g ≤ 1 from step to step, so that
     /// f g falls by a factor of four or more: the number of passes is logarithmic, with a guess two or three.
-    pub(crate) fn solve(&self, needed: f64, guess: f64) -> Level {
-        let guessed = self.level(guess);
-        let mut level = self.level(match guessed.n_below {
-            0 => self.first_touch() + needed,
-            _ => guessed.newton(needed),
+    pub(crate) fn solve(&self, needed: f64, guess: f64) -> TrialDepth {
+        let guessed = self.at_depth(guess);
+        let mut level = self.at_depth(match guessed.n_below {
+            0 => self.first_contact_depth() + needed,
+            _ => guessed.newton_depth(needed),
         });
         while level.n_below > 0 {
             let before = level;
-            level = self.level(before.newton(needed));
+            level = self.at_depth(before.newton_depth(needed));
             // A step from far above carries the rounding of the larger depth; it is then repeated from here.
             if level.n_below >= before.n_below && before.depth.abs() <= 2.0 * level.depth.abs() {
                 break;
@@ -52,16 +52,16 @@ impl Instant<'_> {
         level
     }
 
-    pub(crate) fn level(&self, depth: f64) -> Level {
+    pub(crate) fn at_depth(&self, depth: f64) -> TrialDepth {
         let mut n_below = 0;
         let mut compression = CompensatedSum::default();
-        for touch in self.touch_depths() {
+        for touch in self.contact_depths() {
             if touch < depth {
                 n_below += 1;
                 compression.add(depth - touch);
             }
         }
-        Level {
+        TrialDepth {
             depth,
             n_below,
             compression: compression.value(),
@@ -69,20 +69,20 @@ impl Instant<'_> {
     }
 
     /// Depth at which the line touches the first element.
-    pub(crate) fn first_touch(&self) -> f64 {
-        self.touch_depths().fold(f64::INFINITY, f64::min)
+    pub(crate) fn first_contact_depth(&self) -> f64 {
+        self.contact_depths().fold(f64::INFINITY, f64::min)
     }
 
     /// Depth at which the line touches each element.
-    fn touch_depths(&self) -> impl Iterator<Item = f64> {
+    fn contact_depths(&self) -> impl Iterator<Item = f64> {
         let elements = self.heights.iter().zip(self.displacements);
         elements.map(|(height, displacement)| height + displacement)
     }
 }
 
-impl Level {
+impl TrialDepth {
     /// The depth at which the same elements are compressed by `needed` in sum.
-    fn newton(self, needed: f64) -> f64 {
+    fn newton_depth(self, needed: f64) -> f64 {
         self.depth + (needed - self.compression) / self.n_below as f64
     }
 }

@@ -23,9 +23,9 @@ proptest! {
         let displacements: Vec<f64> = displacements.collect();
         let touch: Vec<f64> = heights.iter().zip(&displacements).map(|(h, u)| h + u).collect();
         let needed = 10.0_f64.powf(exponents.0);
-        let instant = Instant { heights: &heights, displacements: &displacements };
-        let level = instant.solve(needed, f64::NEG_INFINITY);
-        let Level { depth, n_below, compression } = level;
+        let balance = ForceBalance { heights: &heights, displacements: &displacements };
+        let level = balance.solve(needed, f64::NEG_INFINITY);
+        let TrialDepth { depth, n_below, compression } = level;
         let below = touch.iter().filter(|t| **t < depth);
         prop_assert_eq!(n_below, below.clone().count(), "complementarity: loaded below the depth");
 

@@ -12,15 +12,15 @@ use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material, check_spectra};
 
 use super::on_grid::SlideRow;
-use super::unresolved::{Fast, LastStep};
+use super::subgrid::{LastStep, StepScaleModuli};
 use crate::MdrError;
 use crate::compensated::CompensatedSum;
-use crate::contact::Instant;
 use crate::element_heights::ElementHeights;
 use crate::error::{enough_elements, finite};
+use crate::force_balance::ForceBalance;
 
 /// A line moving over a chain. All lists run from the rear to the front of the line.
-pub(super) struct ChainMarch {
+pub(super) struct FoundationMarch {
     line: ElementHeights,
     /// Mean slope that an element meets during the step to which its force belongs.
     mean_slopes: Vec<f64>,
@@ -30,14 +30,14 @@ pub(super) struct ChainMarch {
     half_space_factor: f64,
     step: ExponentialStep,
     state: Vec<f64>,
-    /// Load potentials of the last step.
-    values: Vec<f64>,
+    /// Displacement without load \[m] of each element within a step, load potential w \[Pa] after it.
+    element_values: Vec<f64>,
     /// Depth after the last step, \[m].
     depth: f64,
     /// Compliance α of a step, [1/Pa], and what all elements are compressed by in sum, \[m].
     compliance: f64,
     compression: f64,
-    fast: Fast,
+    step_scale_moduli: StepScaleModuli,
     normal_force: f64,
     time_step: f64,
     n_steps: usize,
@@ -45,7 +45,7 @@ pub(super) struct ChainMarch {
 
 /// The state at the end of a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stepped {
+pub(super) struct MarchStep {
     pub(super) row: SlideRow,
     /// Number of elements from the rearmost to the foremost loaded one.
     pub(super) span: usize,
@@ -55,7 +55,7 @@ pub(super) struct Stepped {
 
 /// What the loaded elements of a step sum up to: parts of the force times slopes.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
+struct MarchSums {
     /// With the mean slope that an element meets during the step.
     mean_slope: CompensatedSum,
     /// The same with the modulus of the slope.
@@ -66,7 +66,7 @@ struct Sums {
     ends: Option<[usize; 2]>,
 }
 
-impl ChainMarch {
+impl FoundationMarch {
     /// A chain at rest under the elements of the line, touched at the lowest one.
     pub(super) fn from_first_touch(
         line: &dyn RigidLine,
@@ -98,11 +98,11 @@ impl ChainMarch {
             mean_slopes,
             end_slopes,
             state: vec![0.0; step.n_fields() * n_elements],
-            values: vec![0.0; n_elements],
+            element_values: vec![0.0; n_elements],
             depth: 0.0,
             compliance,
             compression: positive("compression", compression)?,
-            fast: Fast::of(material, load.velocity(), spacing),
+            step_scale_moduli: StepScaleModuli::new(material, load.velocity(), spacing),
             creep,
             half_space_factor,
             step,
@@ -113,18 +113,18 @@ impl ChainMarch {
     }
 
     /// What this resolution does not see of the `last` step: errors of friction and depth \[m].
-    pub(super) fn unresolved(&self, line: &dyn RigidLine, last: &SlideRow) -> [f64; 2] {
+    pub(super) fn subgrid_errors(&self, line: &dyn RigidLine, last: &SlideRow) -> [f64; 2] {
         if self.creep.is_elastic() {
             return [0.0; 2];
         }
         let step = LastStep {
             elements: &self.line,
-            loads: &self.values,
+            loads: &self.element_values,
             depth: self.depth,
             normal_force: self.normal_force,
-            fast: &self.fast,
+            step_scale_moduli: &self.step_scale_moduli,
         };
-        let [tangential, normal] = step.unresolved(line);
+        let [tangential, normal] = step.subgrid_errors(line);
         // The force grows with the depth at least in proportion, and a change of the depth moves the friction again.
         let friction = tangential + 2.0 * last.friction_coefficient.abs() * normal;
         [friction, normal * self.depth]
@@ -134,11 +134,16 @@ impl ChainMarch {
     /// loads per length \[N/m].
     pub(super) fn load(&self) -> Vec<[f64; 2]> {
         let is_loaded = |load: &f64| *load > 0.0;
-        let rear = self.values.iter().position(is_loaded).unwrap_or(0);
-        let front = self.values.iter().rposition(is_loaded).unwrap_or(0);
-        let last = (front + 1).min(self.values.len() - 1);
+        let rear = self.element_values.iter().position(is_loaded).unwrap_or(0);
+        let front = self.element_values.iter().rposition(is_loaded).unwrap_or(0);
+        let last = (front + 1).min(self.element_values.len() - 1);
         let elements = rear.saturating_sub(1)..=last;
-        let load = |element: usize| [self.line.position(element), 4.0 * self.values[element]];
+        let load = |element: usize| {
+            [
+                self.line.position(element),
+                4.0 * self.element_values[element],
+            ]
+        };
         elements.map(load).collect()
     }
 
@@ -148,28 +153,28 @@ impl ChainMarch {
     }
 
     /// One step; nothing at a depth at which elements would be needed that the chain has not.
-    pub(super) fn advance(&mut self) -> Result<Option<Stepped>, MdrError> {
+    pub(super) fn advance(&mut self) -> Result<Option<MarchStep>, MdrError> {
         self.n_steps += 1;
         let time = self.n_steps as f64 * self.time_step;
         // The line moves on by one element: each comes under the place behind, and one that is at rest enters in front.
-        let n_elements = self.values.len();
+        let n_elements = self.element_values.len();
         for field in self.state.chunks_exact_mut(n_elements) {
             field.copy_within(1.., 0);
             field[n_elements - 1] = 0.0;
         }
         let depth_before = self.depth;
-        self.step.history(&self.state, &mut self.values);
-        for value in &mut self.values {
+        self.step.history(&self.state, &mut self.element_values);
+        for value in &mut self.element_values {
             *value *= self.half_space_factor;
         }
-        let instant = Instant {
+        let balance = ForceBalance {
             heights: &self.line.heights,
-            displacements: &self.values,
+            displacements: &self.element_values,
         };
-        let level = instant.solve(self.compression, depth_before);
+        let level = balance.solve(self.compression, depth_before);
         self.depth = finite("indentation depth", level.depth, time)?;
-        let mut sums = self.press();
-        self.step.advance(&self.values, &mut self.state);
+        let mut sums = self.load_elements();
+        self.step.advance(&self.element_values, &mut self.state);
         if self.depth > self.line.ceiling {
             return Ok(None);
         }
@@ -183,7 +188,7 @@ impl ChainMarch {
         if self.creep.is_elastic() && rear > 0 {
             sums.mean_slope = CompensatedSum::default();
         }
-        Ok(Some(Stepped {
+        Ok(Some(MarchStep {
             row: self.row(level.n_below, [rear, front], &sums, depth_before)?,
             span: front + 1 - rear,
             steepness: sums.steepness,
@@ -191,9 +196,9 @@ impl ChainMarch {
     }
 
     /// Loads the elements that would be above the line, from the rear to the front.
-    fn press(&mut self) -> Sums {
-        let mut sums = Sums::default();
-        let elements = self.values.iter_mut().zip(&self.line.heights);
+    fn load_elements(&mut self) -> MarchSums {
+        let mut sums = MarchSums::default();
+        let elements = self.element_values.iter_mut().zip(&self.line.heights);
         for (here, (value, height)) in elements.enumerate() {
             let compression = self.depth - (height + *value);
             if compression <= 0.0 {
@@ -215,7 +220,7 @@ impl ChainMarch {
         &self,
         n_contact: usize,
         ends: [usize; 2],
-        sums: &Sums,
+        sums: &MarchSums,
         depth_before: f64,
     ) -> Result<SlideRow, MdrError> {
         let line = &self.line;

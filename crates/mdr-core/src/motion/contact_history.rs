@@ -18,7 +18,7 @@ const MOST_ITERATIONS: usize = 200;
 
 /// What happened to the elements of a chain; by default it has no elements, and notes nothing.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Contacts {
+pub(super) struct ContactHistory {
     /// Duration of each step, \[s], and the number of runs up to its end.
     steps: Vec<(f64, usize)>,
     /// First loaded element, and the one after the last.
@@ -37,7 +37,7 @@ struct Element {
     moment: f64,
 }
 
-impl Contacts {
+impl ContactHistory {
     /// Times T/λ below which F is found from the impulse of the load, which loses no digits against x.
     pub(super) const SLOW: f64 = 1e-4;
 
@@ -83,19 +83,21 @@ impl Contacts {
 
     /// F of all elements, of a cycle from a state to an end.
     pub(super) fn residual(&self, modes: &[Mode], state: &[f64], end: &[f64]) -> Vec<f64> {
-        let n_slots = state.len() / self.elements.len();
+        let n_history_variables = state.len() / self.elements.len();
         let mut residual = vec![0.0; state.len()];
-        let rows = residual.chunks_mut(n_slots).zip(&self.elements);
-        let states = state.chunks(n_slots).zip(end.chunks(n_slots));
+        let rows = residual.chunks_mut(n_history_variables).zip(&self.elements);
+        let states = state
+            .chunks(n_history_variables)
+            .zip(end.chunks(n_history_variables));
         for ((row, element), (state, end)) in rows.zip(states) {
             for (k, mode) in modes.iter().enumerate() {
                 let periods = self.period / mode.length;
                 let lost = mode.recovered(self.period);
                 row[k] = if periods < Self::SLOW {
                     let since = self.period * element.impulse - element.moment;
-                    let given = element.impulse - since / mode.length;
+                    let prescribed = element.impulse - since / mode.length;
                     // What recovers is counted upwards.
-                    -mode.compliance * given / mode.length / lost - state[k]
+                    -mode.compliance * prescribed / mode.length / lost - state[k]
                 } else {
                     (end[k] - state[k]) / lost
                 };
@@ -105,7 +107,7 @@ impl Contacts {
     }
 
     /// Durations of the steps, and the runs of elements that were loaded at their ends.
-    fn of_steps(&self) -> impl Iterator<Item = (f64, &[[usize; 2]])> {
+    fn steps_with_runs(&self) -> impl Iterator<Item = (f64, &[[usize; 2]])> {
         let starts = std::iter::once(0).chain(self.steps.iter().map(|(_, end)| *end));
         let steps = self.steps.iter().zip(starts);
         steps.map(|((duration, end), start)| (*duration, &self.runs[start..*end]))
@@ -113,39 +115,50 @@ impl Contacts {
 }
 
 /// How the elements answer to what they remember.
-pub(super) struct Response<'a> {
-    contacts: &'a Contacts,
+pub(super) struct CycleJacobian<'a> {
+    contact_history: &'a ContactHistory,
     is_force: bool,
     /// k of each element; 0 if it is never touched.
     moduli: Vec<f64>,
     /// Part of the cycle for which it is touched.
-    parts: Vec<f64>,
+    contact_fractions: Vec<f64>,
 }
 
-impl<'a> Response<'a> {
-    pub(super) fn new(contacts: &'a Contacts, foundation: &Foundation, is_force: bool) -> Self {
-        let mut times = vec![0.0; contacts.elements.len() + 1];
-        for (duration, runs) in contacts.of_steps() {
-            add_over(&mut times, runs, duration);
+impl<'a> CycleJacobian<'a> {
+    pub(super) fn new(
+        contact_history: &'a ContactHistory,
+        foundation: &Foundation,
+        is_force: bool,
+    ) -> Self {
+        let mut times = vec![0.0; contact_history.elements.len() + 1];
+        for (duration, runs) in contact_history.steps_with_runs() {
+            add_to_runs(&mut times, runs, duration);
         }
         accumulate(&mut times);
-        let moduli = contacts.elements.iter().zip(&times).map(|(element, time)| {
-            let time = time / element.n_touches.max(1.0);
-            foundation.mean_modulus(time)
-        });
+        let moduli = contact_history
+            .elements
+            .iter()
+            .zip(&times)
+            .map(|(element, time)| {
+                let time = time / element.n_touches.max(1.0);
+                foundation.mean_modulus(time)
+            });
         Self {
-            contacts,
+            contact_history,
             is_force,
             moduli: moduli.collect(),
-            parts: times.iter().map(|time| time / contacts.period).collect(),
+            contact_fractions: times
+                .iter()
+                .map(|time| time / contact_history.period)
+                .collect(),
         }
     }
 
     /// δ over n cycles at once instead of all: with κ = e^(−T/λ), F and β count for (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
-        let n_slots = residual.len() / self.contacts.elements.len();
+        let n_history_variables = residual.len() / self.contact_history.elements.len();
         let weights = modes.iter().map(|mode| {
-            let period = self.contacts.period;
+            let period = self.contact_history.period;
             let lost = mode.recovered(period);
             let now = lost / (lost + (1.0 - lost) / cycles);
             let part = lost * mode.length / period;
@@ -153,27 +166,30 @@ impl<'a> Response<'a> {
         });
         let weights: Vec<[f64; 3]> = weights.collect();
         let mut step = residual.to_vec();
-        let rows = step.chunks_mut(n_slots).map(|row| {
-            let slots = row.iter_mut().zip(&weights);
-            slots.fold(0.0, |sum, (slot, [now, part, _])| {
+        let rows = step.chunks_mut(n_history_variables).map(|row| {
+            let history = row.iter_mut().zip(&weights);
+            history.fold(0.0, |sum, (slot, [now, part, _])| {
                 *slot *= now;
                 sum + part * *slot
             })
         });
         let free: Vec<f64> = rows.collect();
-        let compliance = weights.iter().map(|[_, part, given]| part * given).sum();
-        let resisted = self.resisted(&free, compliance);
-        for (row, resisted) in step.chunks_mut(n_slots).zip(&resisted) {
-            for (slot, [_, _, given]) in row.iter_mut().zip(&weights) {
-                *slot -= given * resisted;
+        let compliance = weights
+            .iter()
+            .map(|[_, part, prescribed]| part * prescribed)
+            .sum();
+        let load_response = self.load_response(&free, compliance);
+        for (row, load_response) in step.chunks_mut(n_history_variables).zip(&load_response) {
+            for (slot, [_, _, prescribed]) in row.iter_mut().zip(&weights) {
+                *slot -= prescribed * load_response;
             }
         }
         step
     }
 
     /// M v.
-    fn times(&self, v: &[f64]) -> Vec<f64> {
-        let weights = self.moduli.iter().zip(&self.parts);
+    fn multiply(&self, v: &[f64]) -> Vec<f64> {
+        let weights = self.moduli.iter().zip(&self.contact_fractions);
         let mut product: Vec<f64> = weights.zip(v).map(|((k, part), v)| k * part * v).collect();
         if !self.is_force {
             return product;
@@ -185,10 +201,14 @@ impl<'a> Response<'a> {
         }
         accumulate(&mut loads);
         accumulate(&mut moduli);
-        for (duration, runs) in self.contacts.of_steps() {
-            let mean = sum_over(&loads, runs) / sum_over(&moduli, runs);
+        for (duration, runs) in self.contact_history.steps_with_runs() {
+            let mean = sum_over_runs(&loads, runs) / sum_over_runs(&moduli, runs);
             if mean.is_finite() {
-                add_over(&mut means, runs, duration / self.contacts.period * mean);
+                add_to_runs(
+                    &mut means,
+                    runs,
+                    duration / self.contact_history.period * mean,
+                );
             }
         }
         accumulate(&mut means);
@@ -199,16 +219,16 @@ impl<'a> Response<'a> {
     }
 
     /// M v of the v = free − compliance · M v, by conjugate gradients, which take the M of a depth first.
-    fn resisted(&self, free: &[f64], compliance: f64) -> Vec<f64> {
+    fn load_response(&self, free: &[f64], compliance: f64) -> Vec<f64> {
         let over = |r: &[f64]| -> Vec<f64> {
-            let weights = self.moduli.iter().zip(&self.parts);
+            let weights = self.moduli.iter().zip(&self.contact_fractions);
             let scaled = r.iter().zip(weights);
             scaled
                 .map(|(r, (k, part))| r / (1.0 + compliance * k * part))
                 .collect()
         };
         let applied = |v: &[f64]| -> Vec<f64> {
-            let product = self.times(v);
+            let product = self.multiply(v);
             v.iter()
                 .zip(&product)
                 .map(|(v, m)| v + compliance * m)
@@ -226,19 +246,19 @@ impl<'a> Response<'a> {
             }
             let a = applied(&p);
             let step = size / dot(&p, &a);
-            add_to(&mut v, step, &p);
-            add_to(&mut r, -step, &a);
+            add_scaled(&mut v, step, &p);
+            add_scaled(&mut r, -step, &a);
             z = over(&r);
             let before = std::mem::replace(&mut size, dot(&r, &z));
             let ratio = size / before;
             p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + ratio * *p);
         }
-        self.times(&v)
+        self.multiply(&v)
     }
 }
 
 /// Adds a number to the differences of a list whose elements in the runs become that much larger.
-fn add_over(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
+fn add_to_runs(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
     for [start, end] in runs {
         differences[*start] += number;
         differences[*end] -= number;
@@ -246,7 +266,7 @@ fn add_over(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
 }
 
 /// Over the elements of the runs, from the sums of all up to each.
-fn sum_over(sums: &[f64], runs: &[[usize; 2]]) -> f64 {
+fn sum_over_runs(sums: &[f64], runs: &[[usize; 2]]) -> f64 {
     runs.iter()
         .map(|[start, end]| sums[*end] - sums[*start])
         .sum()
@@ -263,6 +283,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn add_to(a: &mut [f64], factor: f64, b: &[f64]) {
+fn add_scaled(a: &mut [f64], factor: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }

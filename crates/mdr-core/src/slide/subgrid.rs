@@ -28,7 +28,7 @@ const NEXT_CHORD: f64 = 0.75;
 const LEFT_OUT: f64 = 1.25;
 
 /// What a material does within a step, in terms of its moduli over 2 (1 − ν).
-pub(super) struct Fast {
+pub(super) struct StepScaleModuli {
     /// η₀ v, \[Pa m].
     viscous: f64,
     /// Σ G_k min(1, Δx/(v τ_k)), \[Pa].
@@ -46,11 +46,11 @@ pub(super) struct LastStep<'a> {
     pub(super) loads: &'a [f64],
     pub(super) depth: f64,
     pub(super) normal_force: f64,
-    pub(super) fast: &'a Fast,
+    pub(super) step_scale_moduli: &'a StepScaleModuli,
 }
 
-impl Fast {
-    pub(super) fn of(material: &dyn Material, velocity: f64, spacing: f64) -> Self {
+impl StepScaleModuli {
+    pub(super) fn new(material: &dyn Material, velocity: f64, spacing: f64) -> Self {
         let relaxation = material.relaxation();
         let sum = |weight: fn(f64, f64) -> f64| -> f64 {
             let branches = relaxation.branches().iter();
@@ -68,42 +68,43 @@ impl Fast {
 
 impl LastStep<'_> {
     /// H'/F_N and F'/F_N.
-    pub(super) fn unresolved(&self, line: &dyn RigidLine) -> [f64; 2] {
+    pub(super) fn subgrid_errors(&self, line: &dyn RigidLine) -> [f64; 2] {
         let is_loaded = |load: &f64| *load > 0.0;
         let Some(rear) = self.loads.iter().position(is_loaded) else {
             return [0.0; 2];
         };
-        let mut parts = self.behind(line, rear);
-        parts[0] += (self.fast.viscous + self.fast.carried) * self.in_tip(line);
+        let mut parts = self.behind_rearmost(line, rear);
+        parts[0] += (self.step_scale_moduli.viscous + self.step_scale_moduli.carried)
+            * self.tip_excess(line);
         if has_steep_kinks(line) {
-            let at_kinks = self.at_kinks();
-            parts = [0, 1].map(|k| parts[k] + at_kinks[k]);
+            let at_steep_kinks = self.at_steep_kinks();
+            parts = [0, 1].map(|k| parts[k] + at_steep_kinks[k]);
         }
         parts.map(|part| 4.0 * part / self.normal_force)
     }
 
     /// Of what follows the rearmost element, where the line goes on.
-    fn behind(&self, line: &dyn RigidLine, rear: usize) -> [f64; 2] {
+    fn behind_rearmost(&self, line: &dyn RigidLine, rear: usize) -> [f64; 2] {
         let position = self.elements.position(rear);
-        let [slope, behind] = [position, position.next_down()].map(|x| line.slope(x));
+        let [slope, behind_rearmost] = [position, position.next_down()].map(|x| line.slope(x));
         let mean = self.rise(rear) / self.elements.spacing;
-        if rear == 0 || !(slope.is_finite() && behind.is_finite() && mean.is_finite()) {
+        if rear == 0 || !(slope.is_finite() && behind_rearmost.is_finite() && mean.is_finite()) {
             return [0.0; 2];
         }
-        let at_once = self.fast.viscous + self.fast.carried;
-        let load = (self.loads[rear] - at_once * (mean - behind)).max(0.0);
+        let at_once = self.step_scale_moduli.viscous + self.step_scale_moduli.carried;
+        let load = (self.loads[rear] - at_once * (mean - behind_rearmost)).max(0.0);
         let spacing = self.elements.spacing;
         // A load that fades is a convex function of the distance: its mean is at most half of what it begins with.
-        let fading = self.fast.left * (slope - behind).abs();
+        let fading = self.step_scale_moduli.left * (slope - behind_rearmost).abs();
         let carried = 0.5 * load * spacing + fading.min(0.5 * self.loads[rear] * spacing);
         [
-            carried * behind.abs(),
-            carried + self.fast.left * (mean - slope).abs(),
+            carried * behind_rearmost.abs(),
+            carried + self.step_scale_moduli.left * (mean - slope).abs(),
         ]
     }
 
     /// ∫ h̃'² dx beyond that of the mean slopes in the loaded elements around the lowest point, by ever shorter chords.
-    fn in_tip(&self, line: &dyn RigidLine) -> f64 {
+    fn tip_excess(&self, line: &dyn RigidLine) -> f64 {
         let ElementHeights {
             anchor_index,
             lowest_height,
@@ -136,7 +137,7 @@ impl LastStep<'_> {
     }
 
     /// Of lines that rise by more than their neighbours do within one element.
-    fn at_kinks(&self) -> [f64; 2] {
+    fn at_steep_kinks(&self) -> [f64; 2] {
         let (mut beyond, mut jumps, mut squares) = (0.0, 0.0, 0.0);
         let n_elements = self.elements.heights.len();
         let loaded = self.loads.iter().enumerate().take(n_elements - 1);
@@ -152,8 +153,8 @@ impl LastStep<'_> {
             beyond = load * (self.elements.heights[element + 1] - self.depth).max(0.0);
         }
         [
-            beyond + 0.5 * self.fast.stored * squares,
-            2.0 * self.fast.carried * jumps,
+            beyond + 0.5 * self.step_scale_moduli.stored * squares,
+            2.0 * self.step_scale_moduli.carried * jumps,
         ]
     }
 

@@ -7,20 +7,20 @@
 //! Over a step position and depth are straight in time, and so is the displacement of an element that is compressed. It is
 //! touched and let go at times inside the step, so that all work of the line is stored or lost, exactly.
 
-mod kept;
+mod saved_recovery;
 
 use indenters::RigidLine;
 
-pub(super) use kept::Kept;
+pub(super) use saved_recovery::SavedRecovery;
 
-use super::contacts::Contacts;
-use super::event::Event;
-use super::heights::{Heights, Row};
-use super::time_step::{Driven, TimeStep, n_slots};
+use super::contact_history::ContactHistory;
+use super::event::ContactEvent;
+use super::heights::{HeightRow, HeightTable};
+use super::time_step::{StepWork, TimeStep, n_history_variables};
 use crate::MdrError;
-use crate::contact::Instant;
 use crate::element_heights::ElementHeights;
 use crate::error::finite;
+use crate::force_balance::ForceBalance;
 use crate::steady::Foundation;
 
 /// Elements beyond the footprint that are looked at, because a step takes it on by up to one.
@@ -34,8 +34,8 @@ const AT_REST: f64 = 1e-7;
 const LOOKOUT: f64 = 1.25;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Touch {
-    Never,
+enum ElementState {
+    Untouched,
     /// Recovers to a displacement at last; its amplitudes are those at a time.
     Free {
         limit: f64,
@@ -48,7 +48,7 @@ enum Touch {
 
 /// What is given at the end of a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Given {
+pub(super) enum Prescribed {
     /// Σ w over the elements.
     Load(f64),
     Depth(f64),
@@ -56,38 +56,38 @@ pub(super) enum Given {
 
 /// Where the line is.
 #[derive(Debug, Clone, Copy, Default)]
-struct Place {
+struct BodyState {
     time: f64,
     position: f64,
     depth: f64,
 }
 
 /// The elements that a motion can touch, and what they remember.
-pub(super) struct Chain<'a> {
-    line: Heights<'a>,
+pub(super) struct WinklerFoundation<'a> {
+    line: HeightTable<'a>,
     foundation: &'a Foundation,
     sampled: &'a ElementHeights,
     /// Position of the first element over the spacing.
     first: f64,
-    touches: Vec<Touch>,
+    states: Vec<ElementState>,
     /// Stresses of a loaded element, amplitudes of one that recovers.
-    slots: Vec<f64>,
-    n_slots: usize,
+    history: Vec<f64>,
+    n_history_variables: usize,
     step: TimeStep,
-    place: Place,
+    place: BodyState,
     /// Elements that were looked at last, and the heights over them.
     window: [usize; 2],
     heights: Vec<f64>,
     /// Where the line is.
-    before: Row,
+    before: HeightRow,
     /// Displacements at which the elements carry nothing at the end of the step.
-    at_rest: Vec<f64>,
-    contacts: Contacts,
+    unloaded_displacements: Vec<f64>,
+    contact_history: ContactHistory,
 }
 
 /// What the elements add up to in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sums {
+pub(super) struct StepSums {
     /// ∫ Σ w dt.
     pub(super) normal_impulse: f64,
     /// ∫ Σ w h̃' dt.
@@ -101,14 +101,14 @@ pub(super) struct Sums {
 
 /// The state at the end of a step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stepped {
+pub(super) struct FoundationStep {
     pub(super) depth: f64,
-    pub(super) sums: Sums,
+    pub(super) sums: StepSums,
     /// Rearmost and foremost loaded element relative to the lowest point, \[m].
     pub(super) contact: Option<[f64; 2]>,
 }
 
-impl<'a> Chain<'a> {
+impl<'a> WinklerFoundation<'a> {
     /// At rest, under the elements of a line that will be between two positions \[m].
     pub(super) fn new(
         line: &'a dyn RigidLine,
@@ -122,27 +122,27 @@ impl<'a> Chain<'a> {
         let first = ((range[0] + rear) / spacing).floor() - MARGIN;
         let last = ((range[1] + front) / spacing).ceil() + MARGIN;
         let n_elements = whole(last - first) + 1;
-        let n_slots = n_slots(foundation);
+        let n_history_variables = n_history_variables(foundation);
         let [time, position] = place;
         Ok(Self {
-            line: Heights::new(line, sampled)?,
+            line: HeightTable::new(line, sampled)?,
             foundation,
             sampled,
             first,
-            touches: vec![Touch::Never; n_elements],
-            slots: vec![0.0; n_elements * n_slots],
-            n_slots,
+            states: vec![ElementState::Untouched; n_elements],
+            history: vec![0.0; n_elements * n_history_variables],
+            n_history_variables,
             step: TimeStep::default(),
-            place: Place {
+            place: BodyState {
                 time,
                 position,
                 depth: 0.0,
             },
             window: [0; 2],
             heights: Vec::new(),
-            before: Row::default(),
-            at_rest: Vec::new(),
-            contacts: Contacts::default(),
+            before: HeightRow::default(),
+            unloaded_displacements: Vec::new(),
+            contact_history: ContactHistory::default(),
         })
     }
 
@@ -151,17 +151,17 @@ impl<'a> Chain<'a> {
         &mut self,
         duration: f64,
         position: f64,
-        given: Given,
-    ) -> Result<Option<Stepped>, MdrError> {
+        prescribed: Prescribed,
+    ) -> Result<Option<FoundationStep>, MdrError> {
         let time = self.place.time + duration;
         if duration.total_cmp(&self.step.duration).is_ne() {
             self.step = TimeStep::new(self.foundation, duration);
         }
         let mut limit = self.sampled.ceiling.min(LOOKOUT * self.place.depth);
         let depth = loop {
-            self.look(position, limit)?;
-            self.find_rest();
-            let depth = finite("indentation depth", self.depth_of(given), time)?;
+            self.update_window(position, limit)?;
+            self.find_unloaded_displacements();
+            let depth = finite("indentation depth", self.solve_depth(prescribed), time)?;
             if depth <= limit {
                 break depth;
             }
@@ -170,21 +170,21 @@ impl<'a> Chain<'a> {
             }
             limit = self.sampled.ceiling;
         };
-        let to = Place {
+        let to = BodyState {
             time,
             position,
             depth,
         };
-        let mut sums = Sums::default();
+        let mut sums = StepSums::default();
         for index in 0..self.heights.len() {
-            self.settle(index, to, &mut sums);
+            self.advance_element(index, to, &mut sums);
         }
-        self.contacts.end_step(duration);
+        self.contact_history.end_step(duration);
         self.place = to;
         std::mem::swap(&mut self.heights, &mut self.before.heights);
         self.before.first = self.window[0];
         self.check_edge(&sums)?;
-        Ok(Some(Stepped {
+        Ok(Some(FoundationStep {
             depth,
             sums,
             contact: sums
@@ -207,7 +207,7 @@ impl<'a> Chain<'a> {
         (self.first + element as f64) * self.sampled.spacing - self.place.position
     }
 
-    fn check_edge(&self, sums: &Sums) -> Result<(), MdrError> {
+    fn check_edge(&self, sums: &StepSums) -> Result<(), MdrError> {
         let Some([rear, front]) = sums.ends else {
             return Ok(());
         };
@@ -228,7 +228,7 @@ impl<'a> Chain<'a> {
     }
 
     /// The heights up to a limit over the elements around a position, there and where the line is.
-    fn look(&mut self, position: f64, limit: f64) -> Result<(), MdrError> {
+    fn update_window(&mut self, position: f64, limit: f64) -> Result<(), MdrError> {
         let spacing = self.sampled.spacing;
         let heights = &self.sampled.heights;
         let is_low = |height: &f64| *height <= limit;
@@ -244,7 +244,7 @@ impl<'a> Chain<'a> {
         let places = [self.place.position, position];
         let low = (places[0].min(places[1]) + rear) / spacing - self.first;
         let high = (places[0].max(places[1]) + front) / spacing - self.first;
-        let last = self.touches.len() - 1;
+        let last = self.states.len() - 1;
         let window = [whole(low.floor() - 1.0), whole(high.ceil() + 1.0).min(last)];
         let start = (self.first + window[0] as f64) * spacing;
         let count = window[1] + 1 - window[0];
@@ -255,91 +255,96 @@ impl<'a> Chain<'a> {
     }
 
     /// Displacements at which the elements carry nothing at the end of the step.
-    fn find_rest(&mut self) {
+    fn find_unloaded_displacements(&mut self) {
         let start = self.window[0];
-        self.at_rest.clear();
+        self.unloaded_displacements.clear();
         for element in start..=self.window[1] {
-            let slots = element * self.n_slots..(element + 1) * self.n_slots;
-            let slots = &mut self.slots[slots];
-            let at_rest = match &mut self.touches[element] {
-                Touch::Never => 0.0,
-                Touch::Loaded { displacement } => {
-                    *displacement - self.step.left(*displacement, slots) / self.step.stiffness
+            let history =
+                element * self.n_history_variables..(element + 1) * self.n_history_variables;
+            let history = &mut self.history[history];
+            let unloaded_displacements = match &mut self.states[element] {
+                ElementState::Untouched => 0.0,
+                ElementState::Loaded { displacement } => {
+                    *displacement
+                        - self.step.relaxed_load(*displacement, history) / self.step.stiffness
                 }
-                Touch::Free { limit, since } => {
+                ElementState::Free { limit, since } => {
                     let waited = self.place.time - *since;
                     if waited > 0.0 {
-                        for (slot, mode) in slots.iter_mut().zip(&self.foundation.modes) {
+                        for (slot, mode) in history.iter_mut().zip(&self.foundation.modes) {
                             *slot *= (-waited / mode.length).exp();
                         }
                         *since = self.place.time;
                     }
-                    *limit - self.step.recovering(slots)
+                    *limit - self.step.remaining_recovery(history)
                 }
             };
-            self.at_rest.push(at_rest);
+            self.unloaded_displacements.push(unloaded_displacements);
         }
     }
 
-    fn depth_of(&self, given: Given) -> f64 {
-        let instant = Instant {
+    fn solve_depth(&self, prescribed: Prescribed) -> f64 {
+        let balance = ForceBalance {
             heights: &self.heights,
-            displacements: &self.at_rest,
+            displacements: &self.unloaded_displacements,
         };
-        match given {
-            Given::Depth(depth) => depth,
-            Given::Load(load) if load > 0.0 => {
+        match prescribed {
+            Prescribed::Depth(depth) => depth,
+            Prescribed::Load(load) if load > 0.0 => {
                 let compression = load / self.step.stiffness;
-                instant.solve(compression, self.place.depth).depth
+                balance.solve(compression, self.place.depth).depth
             }
             // Without a force the line touches the first element.
-            Given::Load(_) => instant.first_touch(),
+            Prescribed::Load(_) => balance.first_contact_depth(),
         }
     }
 
     /// Takes one element of the window to the end of the step.
-    fn settle(&mut self, index: usize, to: Place, sums: &mut Sums) {
+    fn advance_element(&mut self, index: usize, to: BodyState, sums: &mut StepSums) {
         let element = self.window[0] + index;
         let heights = [self.before.over(element), self.heights[index]];
         let under = [self.place.depth - heights[0], to.depth - heights[1]];
-        let slots = element * self.n_slots..(element + 1) * self.n_slots;
-        let event = Event {
+        let history = element * self.n_history_variables..(element + 1) * self.n_history_variables;
+        let event = ContactEvent {
             foundation: self.foundation,
             duration: self.step.duration,
-            slots: &mut self.slots[slots],
+            history: &mut self.history[history],
         };
-        let is_loaded = under[1] > self.at_rest[index];
-        let loaded = Touch::Loaded {
+        let is_loaded = under[1] > self.unloaded_displacements[index];
+        let loaded = ElementState::Loaded {
             displacement: under[1],
         };
-        let free = |limit| Touch::Free {
+        let free = |limit| ElementState::Free {
             limit,
             since: to.time,
         };
-        let (touch, driven) = match self.touches[element] {
-            Touch::Loaded { displacement } if is_loaded => {
+        let (state, work) = match self.states[element] {
+            ElementState::Loaded { displacement } if is_loaded => {
                 let compression = under[1] - displacement;
-                let driven = self.step.drive(displacement, compression, event.slots);
-                (loaded, driven)
+                let work = self.step.compress(displacement, compression, event.history);
+                (loaded, work)
             }
-            Touch::Loaded { displacement } => {
-                let (limit, driven) = event.release([displacement, under[1]]);
-                (free(limit), driven)
+            ElementState::Loaded { displacement } => {
+                let (limit, work) = event.separate([displacement, under[1]]);
+                (free(limit), work)
             }
-            Touch::Free { limit, .. } if is_loaded => (loaded, event.touch(limit, under)),
-            Touch::Never if is_loaded => (loaded, event.touch(0.0, under)),
-            Touch::Free { limit, .. } => {
-                self.step.recover(event.slots);
-                self.touches[element] = free(limit);
+            ElementState::Free { limit, .. } if is_loaded => {
+                (loaded, event.make_contact(limit, under))
+            }
+            ElementState::Untouched if is_loaded => (loaded, event.make_contact(0.0, under)),
+            ElementState::Free { limit, .. } => {
+                self.step.recover(event.history);
+                self.states[element] = free(limit);
                 return;
             }
-            Touch::Never => return,
+            ElementState::Untouched => return,
         };
-        let was_loaded = matches!(self.touches[element], Touch::Loaded { .. });
-        let given = (driven.impulse, self.step.duration);
-        self.contacts.note(element, given, [was_loaded, is_loaded]);
-        self.touches[element] = touch;
-        sums.add(driven, self.slope(element, heights, to.position));
+        let was_loaded = matches!(self.states[element], ElementState::Loaded { .. });
+        let prescribed = (work.impulse, self.step.duration);
+        self.contact_history
+            .note(element, prescribed, [was_loaded, is_loaded]);
+        self.states[element] = state;
+        sums.add(work, self.slope(element, heights, to.position));
         if is_loaded {
             sums.n_loaded += 1;
             sums.ends = Some([sums.ends.map_or(element, |[rear, _]| rear), element]);
@@ -361,23 +366,24 @@ impl<'a> Chain<'a> {
     /// Lets go of everything, so that what recovers is all that is remembered, and the time begins anew.
     ///
     /// Where a spring acts at once, what it gives back is taken again when the line comes back to the same place.
-    pub(super) fn lift(&mut self, time: f64) -> f64 {
+    pub(super) fn unload_all(&mut self, time: f64) -> f64 {
         let mut lost = 0.0;
         let elapsed = self.place.time - time;
-        for (element, touch) in self.touches.iter_mut().enumerate() {
-            let slots = element * self.n_slots..(element + 1) * self.n_slots;
-            match touch {
-                Touch::Never => {}
-                Touch::Free { since, .. } => *since -= elapsed,
-                Touch::Loaded { displacement } => {
-                    let event = Event {
+        for (element, state) in self.states.iter_mut().enumerate() {
+            let history =
+                element * self.n_history_variables..(element + 1) * self.n_history_variables;
+            match state {
+                ElementState::Untouched => {}
+                ElementState::Free { since, .. } => *since -= elapsed,
+                ElementState::Loaded { displacement } => {
+                    let event = ContactEvent {
                         foundation: self.foundation,
                         duration: 0.0,
-                        slots: &mut self.slots[slots],
+                        history: &mut self.history[history],
                     };
-                    let (limit, lent) = event.lift(*displacement);
+                    let (limit, lent) = event.separate_instantly(*displacement);
                     lost += lent;
-                    *touch = Touch::Free { limit, since: time };
+                    *state = ElementState::Free { limit, since: time };
                 }
             }
         }
@@ -386,8 +392,8 @@ impl<'a> Chain<'a> {
     }
 
     /// Presses again what was let go, at the place where the line is; gives the energy that comes back.
-    pub(super) fn lower(&mut self) -> Result<f64, MdrError> {
-        self.look(
+    pub(super) fn reload(&mut self) -> Result<f64, MdrError> {
+        self.update_window(
             self.place.position,
             self.sampled.ceiling.min(LOOKOUT * self.place.depth),
         )?;
@@ -398,20 +404,21 @@ impl<'a> Chain<'a> {
         };
         let mut stored = 0.0;
         for (element, height) in (self.window[0]..=self.window[1]).zip(&self.heights) {
-            let slots = element * self.n_slots..(element + 1) * self.n_slots;
-            let slots = &mut self.slots[slots];
-            let Touch::Free { limit, .. } = self.touches[element] else {
+            let history =
+                element * self.n_history_variables..(element + 1) * self.n_history_variables;
+            let history = &mut self.history[history];
+            let ElementState::Free { limit, .. } = self.states[element] else {
                 continue;
             };
             let under = self.place.depth - height;
-            if under + noise > limit - slots.iter().sum::<f64>() {
-                let event = Event {
+            if under + noise > limit - history.iter().sum::<f64>() {
+                let event = ContactEvent {
                     foundation: self.foundation,
                     duration: 0.0,
-                    slots,
+                    history,
                 };
-                let (displacement, returned) = event.strike(limit, under);
-                self.touches[element] = Touch::Loaded { displacement };
+                let (displacement, returned) = event.make_contact_instantly(limit, under);
+                self.states[element] = ElementState::Loaded { displacement };
                 stored += returned;
             }
         }
@@ -419,37 +426,38 @@ impl<'a> Chain<'a> {
     }
 
     /// Notes what happens to the elements from now on.
-    pub(super) fn note(&mut self) {
-        self.contacts = Contacts::of(self.touches.len());
+    pub(super) fn start_recording(&mut self) {
+        self.contact_history = ContactHistory::of(self.states.len());
     }
 
     /// What was noted.
-    pub(super) fn noted(&mut self) -> Contacts {
-        std::mem::take(&mut self.contacts)
+    pub(super) fn take_contact_history(&mut self) -> ContactHistory {
+        std::mem::take(&mut self.contact_history)
     }
 
     /// What recovers, of all elements one after the other, at one time.
-    pub(super) fn memory(&mut self) -> &mut [f64] {
+    pub(super) fn recovery_amplitudes(&mut self) -> &mut [f64] {
         let time = self.place.time;
-        for (element, touch) in self.touches.iter_mut().enumerate() {
-            if let Touch::Free { since, .. } = touch {
-                let slots = element * self.n_slots..(element + 1) * self.n_slots;
-                let slots = self.slots[slots].iter_mut();
-                for (slot, mode) in slots.zip(&self.foundation.modes) {
+        for (element, state) in self.states.iter_mut().enumerate() {
+            if let ElementState::Free { since, .. } = state {
+                let history =
+                    element * self.n_history_variables..(element + 1) * self.n_history_variables;
+                let history = self.history[history].iter_mut();
+                for (slot, mode) in history.zip(&self.foundation.modes) {
                     *slot *= (-(time - *since) / mode.length).exp();
                 }
                 *since = time;
             }
         }
-        &mut self.slots
+        &mut self.history
     }
 }
 
-impl Sums {
-    fn add(&mut self, driven: Driven, slope: f64) {
-        self.normal_impulse += driven.impulse;
-        self.tangential_impulse += driven.impulse * slope;
-        self.lost += driven.lost;
+impl StepSums {
+    fn add(&mut self, work: StepWork, slope: f64) {
+        self.normal_impulse += work.impulse;
+        self.tangential_impulse += work.impulse * slope;
+        self.lost += work.lost;
     }
 }
 

@@ -1,0 +1,48 @@
+//! What a chain remembers, for a chain of other elements.
+
+use super::{ElementState, WinklerFoundation, whole};
+
+/// What a chain remembers.
+#[derive(Debug, Clone)]
+pub(crate) struct SavedRecovery {
+    /// Position of its first element, \[m].
+    first: f64,
+    spacing: f64,
+    history: Vec<f64>,
+}
+
+impl WinklerFoundation<'_> {
+    /// What recovers, for a chain of other elements.
+    pub(crate) fn save_recovery(&mut self) -> SavedRecovery {
+        let spacing = self.sampled.spacing;
+        SavedRecovery {
+            first: self.first * spacing,
+            spacing,
+            history: self.recovery_amplitudes().to_vec(),
+        }
+    }
+
+    /// Remembers what other elements do, straight between them.
+    pub(crate) fn restore_recovery(&mut self, saved_recovery: &SavedRecovery) {
+        let (spacing, since) = (self.sampled.spacing, self.place.time);
+        let last = saved_recovery.history.len() / self.n_history_variables;
+        for (element, state) in self.states.iter_mut().enumerate() {
+            let x = (self.first + element as f64) * spacing;
+            let place = ((x - saved_recovery.first) / saved_recovery.spacing).max(0.0);
+            let (at, part) = (whole(place), place.fract());
+            if at + 1 >= last {
+                continue;
+            }
+            let history =
+                &mut self.history[element * self.n_history_variables..][..self.n_history_variables];
+            let (rear, front) = saved_recovery.history[at * self.n_history_variables..]
+                .split_at(self.n_history_variables);
+            for (slot, (rear, front)) in history.iter_mut().zip(rear.iter().zip(front)) {
+                *slot = rear + part * (front - rear);
+            }
+            if history.iter().any(|slot| *slot != 0.0) {
+                *state = ElementState::Free { limit: 0.0, since };
+            }
+        }
+    }
+}
