@@ -14,7 +14,7 @@ pub(crate) struct Run {
     /// The first element.
     element: usize,
     /// Its place in the part of a list that belongs to the band.
-    place: usize,
+    packed_start: usize,
     length: usize,
 }
 
@@ -28,15 +28,15 @@ impl Run {
         self.element - first..self.element - first + self.length
     }
 
-    pub(crate) fn places(&self) -> Range<usize> {
-        self.place..self.place + self.length
+    pub(crate) fn packed_range(&self) -> Range<usize> {
+        self.packed_start..self.packed_start + self.length
     }
 }
 
 /// Elements in contact, as runs of neighbours.
 #[derive(Debug, Clone)]
 pub(crate) struct ActiveSet {
-    in_contact: Vec<bool>,
+    is_active: Vec<bool>,
     pub(crate) columns: usize,
     pub(crate) bands: Bands,
     /// Of each band, with room for as many as there can be, so that a change does not allocate.
@@ -52,7 +52,7 @@ impl ActiveSet {
         let most_runs = |band| bands.rows(band).len() * shape[1].div_ceil(2);
         let runs = (0..bands.n_bands()).map(|band| Vec::with_capacity(most_runs(band)));
         Self {
-            in_contact: vec![false; shape[0] * shape[1]],
+            is_active: vec![false; shape[0] * shape[1]],
             columns: shape[1],
             bands,
             runs: runs.collect(),
@@ -63,18 +63,18 @@ impl ActiveSet {
     /// Replaces the active set by the elements for which `in_contact` is true.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
-    pub(crate) fn assign(&mut self, in_contact: impl Fn(usize) -> bool + Sync) {
-        self.change(|element, is| in_contact(element) != is);
+    pub(crate) fn assign(&mut self, is_active: impl Fn(usize) -> bool + Sync) {
+        self.toggle(|element, is| is_active(element) != is);
     }
 
     /// Moves the elements for which `changes` is true into the contact or out of it; it gets the element and whether that is
     /// in contact.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
-    pub(crate) fn change(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
+    pub(crate) fn toggle(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
         let bands = self.bands;
-        bands.for_each([&mut self.in_contact], |band, [in_contact]| {
-            for (element, is) in bands.elements(band).zip(in_contact) {
+        bands.for_each([&mut self.is_active], |band, [is_active]| {
+            for (element, is) in bands.elements(band).zip(is_active) {
                 *is ^= changes(element, *is);
             }
         });
@@ -82,17 +82,17 @@ impl ActiveSet {
 
     /// Finds the runs after changes.
     pub(crate) fn find_runs(&mut self) {
-        let (bands, columns, in_contact) = (self.bands, self.columns, &self.in_contact);
+        let (bands, columns, is_active) = (self.bands, self.columns, &self.is_active);
         let in_band = |band, [runs]: [&mut [Vec<Run>]; 1]| {
             let elements = bands.elements(band);
-            let rows = in_contact[elements.clone()].chunks_exact(columns);
+            let rows = is_active[elements.clone()].chunks_exact(columns);
             find_runs_in(rows, elements.start, &mut runs[0]);
         };
         let runs = [(&mut self.runs[..], Starts::Every(1))];
         bands.for_each_part(runs, in_band);
         let mut before = 0;
         for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
-            before += runs.last().map_or(0, |run| run.places().end);
+            before += runs.last().map_or(0, |run| run.packed_range().end);
             *start = before;
         }
     }
@@ -107,12 +107,12 @@ impl ActiveSet {
     }
 
     /// The part of a list that belongs to a band.
-    pub(crate) fn places(&self, band: usize) -> Range<usize> {
+    pub(crate) fn packed_range(&self, band: usize) -> Range<usize> {
         self.starts[band]..self.starts[band + 1]
     }
 
     /// The elements of a band outside the contact as ranges, increasing.
-    pub(crate) fn gaps(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
+    pub(crate) fn inactive_ranges(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = self.bands.elements(band);
         let runs = self.runs(band).iter().map(Run::elements);
         let starts = std::iter::once(start).chain(runs.clone().map(|run| run.end));
@@ -121,7 +121,7 @@ impl ActiveSet {
     }
 
     /// A list, for [`Bands::fold`].
-    pub(crate) fn list<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
+    pub(crate) fn packed<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (list, Starts::Listed(&self.starts))
     }
 
@@ -140,20 +140,21 @@ impl ActiveSet {
     }
 
     /// Sum over bands, from the places of the elements of each.
-    pub(crate) fn sum(&self, of_places: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
-        self.bands.sum(|band| of_places(self.places(band)))
+    pub(crate) fn sum(&self, of_range: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
+        self.bands.sum(|band| of_range(self.packed_range(band)))
     }
 
     /// Lists the values of a field.
     pub(crate) fn gather<T: Copy + Send + Sync>(&self, field: &[T], list: &mut [T]) {
-        self.bands.for_each_part([self.list(list)], |band, [list]| {
-            self.gather_in(band, field, list);
-        });
+        self.bands
+            .for_each_part([self.packed(list)], |band, [list]| {
+                self.gather_in(band, field, list);
+            });
     }
 
     pub(crate) fn gather_in<T: Copy>(&self, band: usize, field: &[T], list: &mut [T]) {
         for run in self.runs(band) {
-            list[run.places()].copy_from_slice(&field[run.elements()]);
+            list[run.packed_range()].copy_from_slice(&field[run.elements()]);
         }
     }
 
@@ -161,7 +162,7 @@ impl ActiveSet {
     pub(crate) fn scatter<T: Copy + Send + Sync>(&self, list: &[T], field: &mut [T]) {
         self.bands
             .for_each_part([self.field(field)], |band, [field]| {
-                self.scatter_in(band, &list[self.places(band)], field);
+                self.scatter_in(band, &list[self.packed_range(band)], field);
             });
     }
 
@@ -169,7 +170,7 @@ impl ActiveSet {
     pub(crate) fn scatter_in<T: Copy>(&self, band: usize, list: &[T], field: &mut [T]) {
         let first = self.bands.elements(band).start;
         for run in self.runs(band) {
-            field[run.elements_from(first)].copy_from_slice(&list[run.places()]);
+            field[run.elements_from(first)].copy_from_slice(&list[run.packed_range()]);
         }
     }
 
@@ -177,7 +178,7 @@ impl ActiveSet {
     /// them.
     pub(crate) fn find_last(&self, is: impl Fn(usize, bool) -> bool + Sync) -> (usize, usize) {
         let in_band = |band| {
-            let found = |&element: &usize| is(element, self.in_contact[element]);
+            let found = |&element: &usize| is(element, self.is_active[element]);
             let found = self.bands.elements(band).filter(found);
             found.fold((0, 0), |(count, _), element| (count + 1, element))
         };
@@ -187,7 +188,7 @@ impl ActiveSet {
     }
 
     pub(crate) fn contains(&self, element: usize) -> bool {
-        self.in_contact[element]
+        self.is_active[element]
     }
 }
 
@@ -201,7 +202,7 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs
         if equal[0] {
             runs.push(Run {
                 element,
-                place,
+                packed_start: place,
                 length,
             });
             place += length;
@@ -225,7 +226,7 @@ pub(crate) fn sum_blocks<const EDGE: usize>(
         let row = start / columns;
         let sums = &mut sums[(row - first_row) / EDGE * columns.div_ceil(EDGE)..];
         let (mut column, end) = (start - row * columns, end - row * columns);
-        let mut place = run.places().start;
+        let mut place = run.packed_range().start;
         while column < end {
             let block = column / EDGE;
             let length = ((block + 1) * EDGE).min(end) - column;

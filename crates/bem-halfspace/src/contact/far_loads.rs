@@ -81,9 +81,9 @@ impl FarLoads {
 
     /// Takes the list of the `loads` that the inverse finds for the gap one.
     pub(super) fn weigh(&mut self, contact: &ActiveSet, loads: &[f64]) {
-        let weights = [contact.list(&mut self.weights)];
+        let weights = [contact.packed(&mut self.weights)];
         contact.bands.for_each_part(weights, |band, [weights]| {
-            for (weight, value) in weights.iter_mut().zip(&loads[contact.places(band)]) {
+            for (weight, value) in weights.iter_mut().zip(&loads[contact.packed_range(band)]) {
                 *weight = value.max(0.0);
             }
         });
@@ -94,7 +94,7 @@ impl FarLoads {
         let (weights, levels) = (&self.weights, &mut self.levels);
         let sums = [contact.blocks(SMALLEST, &mut levels[0].sums)];
         contact.bands.for_each_part(sums, |band, [sums]| {
-            let weights = &weights[contact.places(band)];
+            let weights = &weights[contact.packed_range(band)];
             sum_blocks::<SMALLEST>(contact, band, |place| weights[place], sums);
         });
         levels[0].find_own();

@@ -79,8 +79,8 @@ impl Listed {
 
     /// Mean height of the deformed surface above a level; there is contact.
     pub(super) fn mean_height_above(&self, contact: &ActiveSet, level: f64) -> f64 {
-        let sum_in = |places: Range<usize>| {
-            let lists = [&self.separation, &self.displacement].map(|list| &list[places.clone()]);
+        let sum_in = |range: Range<usize>| {
+            let lists = [&self.separation, &self.displacement].map(|list| &list[range.clone()]);
             sum(lists, |[height, displacement]| {
                 height + displacement - level
             })

@@ -172,7 +172,7 @@ impl<'a> Iteration<'a> {
         };
         let sum = self.total_load();
         let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
-        let load = [contact.list(&mut listed.load)];
+        let load = [contact.packed(&mut listed.load)];
         contact.bands.for_each_part(load, |_, [load]| {
             for load in load {
                 // Multiplied last, because the quotient of extreme forces may overflow.
@@ -183,7 +183,7 @@ impl<'a> Iteration<'a> {
 
     fn total_load(&self) -> f64 {
         let (contact, listed) = (&self.fields.contact, &self.fields.listed);
-        contact.sum(|places| sum([&listed.load[places]], |[load]| load))
+        contact.sum(|range| sum([&listed.load[range]], |[load]| load))
     }
 
     fn write_load(&mut self) {
@@ -222,7 +222,7 @@ impl<'a> Iteration<'a> {
             self.patience = self.patience.saturating_sub(1);
         }
         let first = if self.patience == 0 { last } else { 0 };
-        contact.change(|element, inside| element >= first && is_wrong(element, inside));
+        contact.toggle(|element, inside| element >= first && is_wrong(element, inside));
         self.clear_left();
         self.list_contact();
         self.improved = false;

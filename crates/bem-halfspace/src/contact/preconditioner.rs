@@ -106,12 +106,15 @@ impl Preconditioner {
             .apply(&mut self.workspace, &self.means, &mut self.images);
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
-        let result = [contact.list(result)];
+        let result = [contact.packed(result)];
         contact.bands.for_each_part(result, |band, [result]| {
-            let residual = &residual[contact.places(band)];
+            let residual = &residual[contact.packed_range(band)];
             this.take_blocks((contact, band), result);
             for run in contact.runs(band) {
-                let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
+                let (residual, result) = (
+                    &residual[run.packed_range()],
+                    &mut result[run.packed_range()],
+                );
                 this.add_differences((run, residual, field), result);
             }
         });
@@ -128,7 +131,8 @@ impl Preconditioner {
         ];
         let bands = contact.bands;
         bands.for_each_part(fields, |band, [field, means, loads]| {
-            let [residual, weights] = [residual, weights].map(|list| &list[contact.places(band)]);
+            let [residual, weights] =
+                [residual, weights].map(|list| &list[contact.packed_range(band)]);
             contact.scatter_in(band, residual, field);
             sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
             let first = bands.elements(band).start;
@@ -137,7 +141,7 @@ impl Preconditioner {
                     let element = run.elements_from(first).start + index;
                     let [row, column] = [element / columns, element % columns];
                     means[row / BLOCK * columns.div_ceil(BLOCK) + column / BLOCK] -=
-                        0.25 * (1.0 - weight) * residual[run.places().start + index];
+                        0.25 * (1.0 - weight) * residual[run.packed_range().start + index];
                 }
             }
             let load = |place: usize| weights[place] * residual[place];
@@ -149,13 +153,16 @@ impl Preconditioner {
     fn take_blocks(&self, (contact, band): (&ActiveSet, usize), result: &mut [f64]) {
         let columns = self.shape[1];
         let (weights, displacements) = self.far_loads.weights_and_displacements();
-        let weights = &weights[contact.places(band)];
+        let weights = &weights[contact.packed_range(band)];
         for run in contact.runs(band) {
             let start = run.elements().start;
             let (row, column) = (start / columns, start % columns);
             let images = &self.images[row / BLOCK * columns.div_ceil(BLOCK)..];
             let displacements = &displacements[row / SMALLEST * columns.div_ceil(SMALLEST)..];
-            let (result, weights) = (&mut result[run.places()], &weights[run.places()]);
+            let (result, weights) = (
+                &mut result[run.packed_range()],
+                &weights[run.packed_range()],
+            );
             for (column, (value, weight)) in (column..).zip(result.iter_mut().zip(weights)) {
                 *value = images[column / BLOCK] - weight * displacements[column / SMALLEST];
             }

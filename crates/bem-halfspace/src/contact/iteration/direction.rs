@@ -14,10 +14,13 @@ impl Iteration<'_> {
             .apply(self.workspace, &self.fields.spread, image);
         let direction = &listed.direction;
         let energy = contact.bands.fold(
-            [contact.list(&mut listed.image)],
+            [contact.packed(&mut listed.image)],
             |band, [listed]| {
                 contact.gather_in(band, image, listed);
-                sum([&direction[contact.places(band)], listed], |[a, b]| a * b)
+                sum(
+                    [&direction[contact.packed_range(band)], listed],
+                    |[a, b]| a * b,
+                )
             },
             |left, right| left + right,
         );
@@ -43,7 +46,7 @@ impl Iteration<'_> {
         preconditioner.apply(contact, (residual, spread), preconditioned);
         let preconditioned = &*preconditioned;
         let by_band = |band| {
-            let [r, z] = [residual, preconditioned].map(|list| &list[contact.places(band)]);
+            let [r, z] = [residual, preconditioned].map(|list| &list[contact.packed_range(band)]);
             [
                 sum([r], |[r]| r),
                 sum([z], |[z]| z),
@@ -63,10 +66,10 @@ impl Iteration<'_> {
         } else {
             0.0
         };
-        let fields = [contact.field(spread), contact.list(direction)];
+        let fields = [contact.field(spread), contact.packed(direction)];
         let bands = contact.bands;
         bands.for_each_part(fields, |band, [spread, direction]| {
-            let values = &preconditioned[contact.places(band)];
+            let values = &preconditioned[contact.packed_range(band)];
             for (direction, value) in direction.iter_mut().zip(values) {
                 *direction = value - mean + conjugation * *direction;
             }

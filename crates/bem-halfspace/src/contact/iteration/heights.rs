@@ -31,7 +31,10 @@ impl Heights {
             reduce(fields, f64::INFINITY, height, lower)
         };
         Self {
-            lowest_outside: contact.gaps(band).map(lowest_in).fold(f64::INFINITY, lower),
+            lowest_outside: contact
+                .inactive_ranges(band)
+                .map(lowest_in)
+                .fold(f64::INFINITY, lower),
             sum_inside: sum(inside, |heights| height(heights) - depth),
         }
     }
@@ -56,10 +59,10 @@ impl Iteration<'_> {
         let in_band = |band, [displacement]: [&mut [f64]; 1]| {
             contact.gather_in(band, fields[1], displacement);
             let outside = fields.map(|field| &field[contact.bands.elements(band)]);
-            let inside = [&separation[contact.places(band)], displacement];
+            let inside = [&separation[contact.packed_range(band)], displacement];
             Heights::of_band((contact, band), outside, inside, depth)
         };
-        let displacement = [contact.list(&mut listed.displacement)];
+        let displacement = [contact.packed(&mut listed.displacement)];
         self.heights = contact.bands.fold(displacement, in_band, Heights::both);
         self.fresh = true;
         self.previous_product = 0.0;
@@ -72,18 +75,18 @@ impl Iteration<'_> {
         let separation = &listed.separation;
         let (heights, depth) = (self.separation, self.indentation_depth);
         let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
-            let (elements, places) = (contact.bands.elements(band), contact.places(band));
+            let (elements, range) = (contact.bands.elements(band), contact.packed_range(band));
             add(field, length, &image[elements.clone()]);
-            add(displacement, length, &listed.image[places.clone()]);
-            add(load, length, &listed.direction[places.clone()]);
+            add(displacement, length, &listed.image[range.clone()]);
+            add(load, length, &listed.direction[range.clone()]);
             let outside = [&heights[elements], field];
-            let inside = [&separation[places], displacement];
+            let inside = [&separation[range], displacement];
             Heights::of_band((contact, band), outside, inside, depth)
         };
         let moved = [
             contact.field(self.displacement),
-            contact.list(&mut listed.displacement),
-            contact.list(&mut listed.load),
+            contact.packed(&mut listed.displacement),
+            contact.packed(&mut listed.load),
         ];
         self.heights = contact.bands.fold(moved, in_band, Heights::both);
         self.fresh = false;
@@ -122,7 +125,7 @@ impl Iteration<'_> {
         let depth = self.indentation_depth;
         let in_band = |band, [residual]: [&mut [f64]; 1]| {
             let [separation, displacement, load] =
-                [separation, displacement, load].map(|list| &list[contact.places(band)]);
+                [separation, displacement, load].map(|list| &list[contact.packed_range(band)]);
             for (residual, (separation, displacement)) in
                 residual.iter_mut().zip(separation.iter().zip(displacement))
             {
@@ -130,7 +133,7 @@ impl Iteration<'_> {
             }
             Violations::inside(residual, [load, displacement], own_influence)
         };
-        let residual = [contact.list(&mut listed.residual)];
+        let residual = [contact.packed(&mut listed.residual)];
         let inside = contact.bands.fold(residual, in_band, Violations::worst);
         Violations {
             penetration: (depth - self.heights.lowest_outside).max(0.0),

@@ -229,8 +229,8 @@ impl Equations {
 
     /// Root mean square of a gap in the contact, in its unit.
     fn residual(&self, gap: &[f32]) -> f64 {
-        let square = self.near.sum(|places| {
-            let lists = [&self.inside[places.clone()], &gap[places]];
+        let square = self.near.sum(|range| {
+            let lists = [&self.inside[range.clone()], &gap[range]];
             sum(lists, |[inside, gap]| inside * gap * gap).into()
         });
         (square / self.n_contact).sqrt()
@@ -239,8 +239,8 @@ impl Equations {
     /// Largest |gap| in the contact.
     fn largest(&self, gap: &[f32]) -> f64 {
         let largest = |band: usize| {
-            let places = self.near.places(band);
-            let pairs = self.inside[places.clone()].iter().zip(&gap[places]);
+            let range = self.near.packed_range(band);
+            let pairs = self.inside[range.clone()].iter().zip(&gap[range]);
             pairs.fold(0.0, |top, (inside, gap)| {
                 larger(top, f64::from(inside * gap.abs()))
             })
@@ -251,14 +251,14 @@ impl Equations {
     /// Pressures without mean that about close the gaps, and the gaps that they cause.
     fn find_direction(&mut self, gap: &[f32], [direction, image]: [&mut [f32]; 2]) {
         let closing = |band, [direction]: [&mut [f32]; 1]| {
-            let places = self.near.places(band);
-            let pairs = gap[places.clone()].iter().zip(&self.inside[places]);
+            let range = self.near.packed_range(band);
+            let pairs = gap[range.clone()].iter().zip(&self.inside[range]);
             for (place, (gap, inside)) in direction.iter_mut().zip(pairs) {
                 *place = -inside * gap;
             }
         };
         let bands = self.near.bands;
-        bands.for_each_part([self.near.list(direction)], closing);
+        bands.for_each_part([self.near.packed(direction)], closing);
         self.invert(direction);
         if let Some(far) = &mut self.far {
             far.correct(&self.near, &self.weights, direction);
@@ -278,12 +278,13 @@ impl Equations {
         self.kernel
             .apply_roughly(&self.symbols[1], &self.spread, &mut self.image);
         let (near, image, inside) = (&self.near, &self.image, &self.inside);
-        near.bands.for_each_part([near.list(list)], |band, [list]| {
-            near.gather_in(band, image, list);
-            for (value, inside) in list.iter_mut().zip(&inside[near.places(band)]) {
-                *value *= inside;
-            }
-        });
+        near.bands
+            .for_each_part([near.packed(list)], |band, [list]| {
+                near.gather_in(band, image, list);
+                for (value, inside) in list.iter_mut().zip(&inside[near.packed_range(band)]) {
+                    *value *= inside;
+                }
+            });
     }
 
     fn listed(&self, field: &[f64]) -> Vec<f64> {
@@ -294,8 +295,8 @@ impl Equations {
 
     /// Subtracts the mean over the contact.
     fn subtract_mean(&self, list: &mut [f32]) {
-        let sum = self.near.sum(|places| {
-            let lists = [&list[places.clone()], &self.inside[places]];
+        let sum = self.near.sum(|range| {
+            let lists = [&list[range.clone()], &self.inside[range]];
             sum(lists, |[value, inside]| inside * value).into()
         });
         let mean = f32::rounded(sum / self.n_contact);
@@ -304,7 +305,7 @@ impl Equations {
 
     fn total(&self, list: &[f32]) -> f64 {
         self.near
-            .sum(|places| sum([&list[places]], |[value]| value).into())
+            .sum(|range| sum([&list[range]], |[value]| value).into())
     }
 }
 

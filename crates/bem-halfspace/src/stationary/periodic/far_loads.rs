@@ -119,15 +119,15 @@ impl FarLoads {
         pressures: &mut [f32],
     ) {
         let columns = self.columns;
-        let list = [near.list(pressures)];
+        let list = [near.packed(pressures)];
         near.bands.for_each_part(list, |band, [pressures]| {
-            let weights = &weights[near.places(band)];
+            let weights = &weights[near.packed_range(band)];
             for run in near.runs(band) {
                 let first = run.elements().start;
                 let block = first / columns / BLOCK * columns + first % columns;
                 let blocks = displacement[block..].iter().zip(&self.weights[block..]);
-                let places = run.places();
-                let parts = pressures[places.clone()].iter_mut().zip(&weights[places]);
+                let range = run.packed_range();
+                let parts = pressures[range.clone()].iter_mut().zip(&weights[range]);
                 for ((pressure, weight), (displacement, of_block)) in parts.zip(blocks) {
                     let takes_part = *of_block > 0.0;
                     *pressure -= if takes_part {
@@ -148,11 +148,11 @@ impl FarLoads {
         let parts = [(&mut means[..], starts)];
         near.bands.for_each_part(parts, |band, [means]| {
             let first_row = near.bands.rows(band).start;
-            let list = &list[near.places(band)];
+            let list = &list[near.packed_range(band)];
             for run in near.runs(band) {
                 let first = run.elements().start;
                 let block = (first / columns - first_row) / BLOCK * columns + first % columns;
-                add(&mut means[block..], ONE_OF_BLOCK, &list[run.places()]);
+                add(&mut means[block..], ONE_OF_BLOCK, &list[run.packed_range()]);
             }
         });
         means
