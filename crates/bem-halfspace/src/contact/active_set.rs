@@ -213,15 +213,15 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs
 /// Sums over the elements of each block of a band that are in contact, of the terms that their places in the part of a
 /// list have that belongs to the band.
 pub(crate) fn sum_blocks<const EDGE: usize>(
-    contact: &ActiveSet,
+    active: &ActiveSet,
     band: usize,
     term: impl Fn(usize) -> f64,
     sums: &mut [f64],
 ) {
-    let columns = contact.columns;
-    let first_row = contact.bands.rows(band).start;
+    let columns = active.columns;
+    let first_row = active.bands.rows(band).start;
     sums.fill(0.0);
-    for run in contact.runs(band) {
+    for run in active.runs(band) {
         let Range { start, end } = run.elements();
         let row = start / columns;
         let sums = &mut sums[(row - first_row) / EDGE * columns.div_ceil(EDGE)..];

@@ -73,29 +73,29 @@ impl FarLoads {
     }
 
     /// Takes another contact, with the weights w = 0.
-    pub(super) fn forget(&mut self, contact: &ActiveSet) {
+    pub(super) fn forget(&mut self, active: &ActiveSet) {
         self.weights.clear();
-        resize(&mut self.weights, 0.0, contact.len());
-        self.find_sums(contact);
+        resize(&mut self.weights, 0.0, active.len());
+        self.find_sums(active);
     }
 
     /// Takes the list of the `loads` that the inverse finds for the gap one.
-    pub(super) fn weigh(&mut self, contact: &ActiveSet, loads: &[f64]) {
-        let weights = [contact.packed(&mut self.weights)];
-        contact.bands.for_each_part(weights, |band, [weights]| {
-            for (weight, value) in weights.iter_mut().zip(&loads[contact.packed_range(band)]) {
+    pub(super) fn weigh(&mut self, active: &ActiveSet, loads: &[f64]) {
+        let weights = [active.packed(&mut self.weights)];
+        active.bands.for_each_part(weights, |band, [weights]| {
+            for (weight, value) in weights.iter_mut().zip(&loads[active.packed_range(band)]) {
                 *weight = value.max(0.0);
             }
         });
-        self.find_sums(contact);
+        self.find_sums(active);
     }
 
-    fn find_sums(&mut self, contact: &ActiveSet) {
+    fn find_sums(&mut self, active: &ActiveSet) {
         let (weights, levels) = (&self.weights, &mut self.levels);
-        let sums = [contact.blocks(SMALLEST, &mut levels[0].sums)];
-        contact.bands.for_each_part(sums, |band, [sums]| {
-            let weights = &weights[contact.packed_range(band)];
-            sum_blocks::<SMALLEST>(contact, band, |place| weights[place], sums);
+        let sums = [active.blocks(SMALLEST, &mut levels[0].sums)];
+        active.bands.for_each_part(sums, |band, [sums]| {
+            let weights = &weights[active.packed_range(band)];
+            sum_blocks::<SMALLEST>(active, band, |place| weights[place], sums);
         });
         levels[0].find_own();
         for_each_larger(levels, |smaller, level| {

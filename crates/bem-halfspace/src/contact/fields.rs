@@ -12,10 +12,10 @@ use crate::parallel::reductions::sum;
 #[derive(Debug, Clone)]
 pub(super) struct Fields {
     pub(super) preconditioner: Preconditioner,
-    pub(super) contact: ActiveSet,
-    pub(super) listed: Listed,
+    pub(super) active: ActiveSet,
+    pub(super) vectors: ActiveVectors,
     /// Of the list that was last spread over the field, residual or direction; zero outside the contact.
-    pub(super) spread: Vec<f64>,
+    pub(super) scattered: Vec<f64>,
     /// Displacement under the direction.
     pub(super) image: Vec<f64>,
 }
@@ -26,9 +26,9 @@ impl Fields {
         let n = grid.n_elements();
         Self {
             preconditioner: Preconditioner::new(convolution, weights),
-            contact: ActiveSet::new(grid.shape()),
-            listed: Listed::new(n),
-            spread: vec![0.0; n],
+            active: ActiveSet::new(grid.shape()),
+            vectors: ActiveVectors::new(n),
+            scattered: vec![0.0; n],
             image: vec![0.0; n],
         }
     }
@@ -36,7 +36,7 @@ impl Fields {
 
 /// One value per element in contact, in the order of the field.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Listed {
+pub(super) struct ActiveVectors {
     pub(super) separation: Vec<f64>,
     pub(super) displacement: Vec<f64>,
     pub(super) load: Vec<f64>,
@@ -47,14 +47,14 @@ pub(super) struct Listed {
     pub(super) image: Vec<f64>,
 }
 
-impl Listed {
+impl ActiveVectors {
     /// With room for as many elements as there are, so that a change of the contact does not allocate.
     pub(super) fn new(n_elements: usize) -> Self {
-        let mut listed = Self::default();
-        for list in listed.all() {
+        let mut vectors = Self::default();
+        for list in vectors.all() {
             list.reserve(n_elements);
         }
-        listed
+        vectors
     }
 
     const fn all(&mut self) -> [&mut Vec<f64>; 6] {
@@ -69,22 +69,22 @@ impl Listed {
     }
 
     /// Takes another contact, with the values of the fields of separation and load there.
-    pub(super) fn take(&mut self, contact: &ActiveSet, [separation, load]: [&[f64]; 2]) {
+    pub(super) fn take(&mut self, active: &ActiveSet, [separation, load]: [&[f64]; 2]) {
         for list in self.all() {
-            resize(list, 0.0, contact.len());
+            resize(list, 0.0, active.len());
         }
-        contact.gather(separation, &mut self.separation);
-        contact.gather(load, &mut self.load);
+        active.gather(separation, &mut self.separation);
+        active.gather(load, &mut self.load);
     }
 
     /// Mean height of the deformed surface above a level; there is contact.
-    pub(super) fn mean_height_above(&self, contact: &ActiveSet, level: f64) -> f64 {
+    pub(super) fn mean_height_above(&self, active: &ActiveSet, level: f64) -> f64 {
         let sum_in = |range: Range<usize>| {
             let lists = [&self.separation, &self.displacement].map(|list| &list[range.clone()]);
             sum(lists, |[height, displacement]| {
                 height + displacement - level
             })
         };
-        contact.sum(sum_in) / contact.len() as f64
+        active.sum(sum_in) / active.len() as f64
     }
 }

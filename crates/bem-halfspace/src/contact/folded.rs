@@ -8,7 +8,7 @@ use crate::contact::hardness::solve_below;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
-use crate::contact::{Accuracy, ContactState, Solved, map_force};
+use crate::contact::{ContactState, LoadSolution, StoppingCriterion, map_force};
 use crate::elements::mirror::{Mirror, NO_MIRRORS, n_images};
 use crate::parallel::bands::Bands;
 use crate::parallel::chunks::in_pool;
@@ -19,12 +19,12 @@ pub(super) fn solve_in_front_of_mirrors(
     problem: LoadProblem,
     largest_load: f64,
     state: &mut ContactState,
-    accuracy: &Accuracy,
-) -> Result<Solved, BemError> {
+    criterion: &StoppingCriterion,
+) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
     let mirrors = find_mirrors(convolution, [problem.separation, &state.load]);
     if mirrors == NO_MIRRORS {
-        return solve_below(largest_load, problem, state, accuracy);
+        return solve_below(largest_load, problem, state, criterion);
     }
     let mut front = match state.front.take() {
         Some(front) if front.convolution.mirrors == mirrors => front,
@@ -47,11 +47,11 @@ pub(super) fn solve_in_front_of_mirrors(
         control,
     };
     let solved = in_pool(bounds.n_elements(), || {
-        solve_below(largest_load, problem, part, accuracy)
+        solve_below(largest_load, problem, part, criterion)
     });
     front.unfold([&mut state.load, &mut state.displacement], whole);
     state.front = Some(front);
-    solved.map(|solved| Solved {
+    solved.map(|solved| LoadSolution {
         total_load: images * solved.total_load,
         ..solved
     })

@@ -8,9 +8,9 @@
 //! primal-dual active set: while their load is given, the others make an elastic contact in which they have no part. Loads
 //! above X reach the limit, and an element at the limit whose gap opens leaves it.
 
-use crate::contact::iteration::PATIENCE;
+use crate::contact::iteration::MAX_NON_IMPROVING_UPDATES;
 use crate::contact::mirror_weights::MirrorWeights;
-use crate::contact::problem::{Accuracy, LoadProblem, Solved};
+use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::solve::solve_loads;
 use crate::contact::{ContactState, Control, map_force};
 use crate::{BemError, ConvolutionWorkspace};
@@ -23,12 +23,12 @@ pub(super) fn solve_below(
     largest_load: f64,
     problem: LoadProblem,
     state: &mut ContactState,
-    accuracy: &Accuracy,
-) -> Result<Solved, BemError> {
+    criterion: &StoppingCriterion,
+) -> Result<LoadSolution, BemError> {
     if largest_load.is_infinite() {
-        return solve_loads(problem, state, accuracy);
+        return solve_loads(problem, state, criterion);
     }
-    Limited::new(largest_load, problem, state).run(state, accuracy)
+    Limited::new(largest_load, problem, state).run(state, criterion)
 }
 
 /// The elements at the limit, and what their loads do to the others.
@@ -82,22 +82,26 @@ impl<'a> Limited<'a> {
         limited
     }
 
-    fn run(mut self, state: &mut ContactState, accuracy: &Accuracy) -> Result<Solved, BemError> {
-        let (mut tolerance, mut iterations) = (accuracy.tolerance.max(ROUGH), 0);
-        let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+    fn run(
+        mut self,
+        state: &mut ContactState,
+        criterion: &StoppingCriterion,
+    ) -> Result<LoadSolution, BemError> {
+        let (mut tolerance, mut iterations) = (criterion.tolerance.max(ROUGH), 0);
+        let (mut fewest, mut block_updates_left) = (usize::MAX, MAX_NON_IMPROVING_UPDATES);
         loop {
-            let solved = self.solve_others(state, tolerance, accuracy)?;
+            let solved = self.solve_others(state, tolerance, criterion)?;
             iterations += solved.iterations + 1;
             let depth = solved.indentation_depth;
             let wrong = self.find_wrong(state, depth, tolerance * solved.deflection);
             if wrong.count == 0 {
-                if tolerance <= accuracy.tolerance {
+                if tolerance <= criterion.tolerance {
                     return Ok(self.finish(state, solved, iterations));
                 }
-                tolerance = accuracy.tolerance;
+                tolerance = criterion.tolerance;
                 continue;
             }
-            if iterations >= accuracy.max_iterations {
+            if iterations >= criterion.max_iterations {
                 return Err(BemError::ContactNotConverged {
                     iterations,
                     residual: wrong.worst / solved.deflection,
@@ -106,11 +110,15 @@ impl<'a> Limited<'a> {
             }
             // As in the contact, one element at a time changes where the number of violations does not fall.
             if wrong.count < fewest {
-                (fewest, patience) = (wrong.count, PATIENCE);
+                (fewest, block_updates_left) = (wrong.count, MAX_NON_IMPROVING_UPDATES);
             } else {
-                patience = patience.saturating_sub(1);
+                block_updates_left = block_updates_left.saturating_sub(1);
             }
-            let first = if patience == 0 { wrong.last } else { 0 };
+            let first = if block_updates_left == 0 {
+                wrong.last
+            } else {
+                0
+            };
             self.change(state, first, (depth, tolerance * solved.deflection));
         }
     }
@@ -144,19 +152,19 @@ impl<'a> Limited<'a> {
         &self,
         state: &mut ContactState,
         tolerance: f64,
-        accuracy: &Accuracy,
-    ) -> Result<Solved, BemError> {
+        criterion: &StoppingCriterion,
+    ) -> Result<LoadSolution, BemError> {
         let problem = LoadProblem {
             separation: &self.separation,
             control: map_force(self.problem.control, |total| total - self.total),
             ..self.problem
         };
-        let accuracy = Accuracy {
+        let criterion = StoppingCriterion {
             tolerance,
             given_deflection: self.displacement.iter().copied().fold(0.0, f64::max),
-            ..*accuracy
+            ..*criterion
         };
-        solve_loads(problem, state, &accuracy)
+        solve_loads(problem, state, &criterion)
     }
 
     /// By how much an element is on the wrong side of the limit, as a displacement; not above zero on the right side.
@@ -200,14 +208,19 @@ impl<'a> Limited<'a> {
     }
 
     /// Adds the loads at the limit to the others.
-    fn finish(self, state: &mut ContactState, solved: Solved, iterations: usize) -> Solved {
+    fn finish(
+        self,
+        state: &mut ContactState,
+        solved: LoadSolution,
+        iterations: usize,
+    ) -> LoadSolution {
         for (sum, load) in state.load.iter_mut().zip(&self.load) {
             *sum += load;
         }
         for (sum, displacement) in state.displacement.iter_mut().zip(&self.displacement) {
             *sum += displacement;
         }
-        Solved {
+        LoadSolution {
             total_load: solved.total_load + self.total,
             iterations,
             ..solved

@@ -15,27 +15,27 @@ use crate::contact::active_set::Run;
 use crate::contact::fields::Fields;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::Weights;
-use crate::contact::problem::{Accuracy, LoadProblem, Solved};
+use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::{ContactState, Control};
 use crate::parallel::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
-pub(super) const PATIENCE: usize = 10;
+pub(super) const MAX_NON_IMPROVING_UPDATES: usize = 10;
 
 /// The active set changes when its violations are this many times the residual: earlier, the directions start anew too
 /// often, and later, they converge on a wrong set. The number of iterations alone depends on it.
-const PRIORITY: f64 = 2.0;
+const SET_UPDATE_RATIO: f64 = 2.0;
 
 pub(super) struct Iteration<'a> {
     convolution: &'a Convolution,
     separation: &'a [f64],
     control: Control,
     tolerance: f64,
-    /// See [`Accuracy`].
+    /// See [`StoppingCriterion`].
     given_deflection: f64,
-    /// That of the list when it was last [written](Self::write_load); zero outside the contact.
+    /// That of the list when it was last [written](Self::scatter_load); zero outside the contact.
     load: &'a mut [f64],
     displacement: &'a mut [f64],
     workspace: &'a mut ConvolutionWorkspace,
@@ -45,11 +45,11 @@ pub(super) struct Iteration<'a> {
     /// Residual times preconditioned residual in the previous iteration; 0 starts a new set of directions.
     previous_product: f64,
     /// Whether the displacement was computed from the load, and not updated along a direction.
-    fresh: bool,
+    displacement_is_exact: bool,
     /// Whether the load has been improved on the present active set.
     improved: bool,
-    fewest_wrong: usize,
-    patience: usize,
+    fewest_violations: usize,
+    block_updates_left: usize,
 }
 
 impl<'a> Iteration<'a> {
@@ -72,34 +72,34 @@ impl<'a> Iteration<'a> {
             indentation_depth: 0.0,
             heights: Heights::default(),
             previous_product: 0.0,
-            fresh: false,
+            displacement_is_exact: false,
             improved: false,
-            fewest_wrong: usize::MAX,
-            patience: PATIENCE,
+            fewest_violations: usize::MAX,
+            block_updates_left: MAX_NON_IMPROVING_UPDATES,
         }
     }
 
-    pub(super) fn run(mut self, accuracy: &Accuracy) -> Result<Solved, BemError> {
-        self.given_deflection = accuracy.given_deflection;
+    pub(super) fn run(mut self, criterion: &StoppingCriterion) -> Result<LoadSolution, BemError> {
+        self.given_deflection = criterion.given_deflection;
         self.start();
         let mut iterations = 0;
         loop {
-            self.find_depth();
+            self.update_depth();
             let violations = self.measure();
             let residual = violations.relative();
             if iterations == 0 {
-                self.tolerance = accuracy.target(residual);
+                self.tolerance = criterion.target(residual);
             }
             if residual <= self.tolerance && violations.tension <= 0.0 {
-                if self.fresh {
+                if self.displacement_is_exact {
                     return Ok(self.solved(iterations, &violations));
                 }
-                self.refresh();
+                self.recompute_displacement();
                 continue;
             }
             // The numbers have overflowed.
-            if iterations >= accuracy.max_iterations || residual.is_nan() {
-                self.write_load();
+            if iterations >= criterion.max_iterations || residual.is_nan() {
+                self.scatter_load();
                 let residual = Some(residual).filter(|residual| !residual.is_nan());
                 return Err(BemError::ContactNotConverged {
                     iterations,
@@ -116,8 +116,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    fn solved(&self, iterations: usize, violations: &Violations) -> Solved {
-        Solved {
+    fn solved(&self, iterations: usize, violations: &Violations) -> LoadSolution {
+        LoadSolution {
             indentation_depth: self.indentation_depth,
             total_load: self.total_load(),
             iterations,
@@ -136,44 +136,44 @@ impl<'a> Iteration<'a> {
         };
         let vanishes = self.control == Control::NormalForce(0.0);
         let separation = self.separation;
-        let (contact, spread) = (&mut self.fields.contact, &mut self.fields.spread);
+        let (active, scattered) = (&mut self.fields.active, &mut self.fields.scattered);
         let load = &*self.load;
-        contact.assign(|element| {
+        active.assign(|element| {
             let guessed = load[element] > 0.0 && separation[element].is_finite();
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
         let weights = MirrorWeights::of(self.convolution);
-        let bands = contact.bands;
-        bands.for_each([&mut *self.load, spread], |band, [load, spread]| {
-            spread.fill(0.0);
+        let bands = active.bands;
+        bands.for_each([&mut *self.load, scattered], |band, [load, scattered]| {
+            scattered.fill(0.0);
             for (load, element) in load.iter_mut().zip(bands.elements(band)) {
-                *load = match (contact.contains(element), loaded) {
+                *load = match (active.contains(element), loaded) {
                     (true, true) => *load,
                     (true, false) => uniform * weights.of_element(element),
                     (false, _) => 0.0,
                 };
             }
         });
-        self.list_contact();
-        self.match_force();
-        self.refresh();
+        self.gather_active();
+        self.scale_to_force();
+        self.recompute_displacement();
     }
 
-    fn list_contact(&mut self) {
-        let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
-        contact.find_runs();
-        listed.take(contact, [self.separation, self.load]);
+    fn gather_active(&mut self) {
+        let (active, vectors) = (&mut self.fields.active, &mut self.fields.vectors);
+        active.find_runs();
+        vectors.take(active, [self.separation, self.load]);
     }
 
     /// Scales the load to the prescribed force.
-    fn match_force(&mut self) {
+    fn scale_to_force(&mut self) {
         let Control::NormalForce(total) = self.control else {
             return;
         };
         let sum = self.total_load();
-        let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
-        let load = [contact.packed(&mut listed.load)];
-        contact.bands.for_each_part(load, |_, [load]| {
+        let (active, vectors) = (&mut self.fields.active, &mut self.fields.vectors);
+        let load = [active.packed(&mut vectors.load)];
+        active.bands.for_each_part(load, |_, [load]| {
             for load in load {
                 // Multiplied last, because the quotient of extreme forces may overflow.
                 *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
@@ -182,13 +182,13 @@ impl<'a> Iteration<'a> {
     }
 
     fn total_load(&self) -> f64 {
-        let (contact, listed) = (&self.fields.contact, &self.fields.listed);
-        contact.sum(|range| sum([&listed.load[range]], |[load]| load))
+        let (active, vectors) = (&self.fields.active, &self.fields.vectors);
+        active.sum(|range| sum([&vectors.load[range]], |[load]| load))
     }
 
-    fn write_load(&mut self) {
-        let (contact, listed) = (&self.fields.contact, &self.fields.listed);
-        contact.scatter(&listed.load, self.load);
+    fn scatter_load(&mut self) {
+        let (active, vectors) = (&self.fields.active, &self.fields.vectors);
+        active.scatter(&vectors.load, self.load);
     }
 
     fn active_set_is_due(&self, violations: &Violations) -> bool {
@@ -197,48 +197,52 @@ impl<'a> Iteration<'a> {
             return false;
         }
         let worst = violations.tension.max(violations.penetration);
-        let outweighed = worst >= PRIORITY * violations.gap;
-        violations.gap <= allowed || (self.patience > 0 && self.improved && outweighed)
+        let outweighed = worst >= SET_UPDATE_RATIO * violations.gap;
+        violations.gap <= allowed || (self.block_updates_left > 0 && self.improved && outweighed)
     }
 
     fn change_active_set(&mut self, violations: &Violations) {
-        self.write_load();
+        self.scatter_load();
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
         let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
         // Under tension, or outside and below the height at which it penetrates.
-        let is_wrong = |element: usize, inside: bool| {
+        let is_violating = |element: usize, inside: bool| {
             if inside {
                 load[element] < 0.0
             } else {
                 separation[element] + displacement[element] < lowest
             }
         };
-        let contact = &mut self.fields.contact;
-        let (n_wrong, last) = contact.find_last(is_wrong);
-        if n_wrong < self.fewest_wrong {
-            self.fewest_wrong = n_wrong;
-            self.patience = PATIENCE;
+        let active = &mut self.fields.active;
+        let (n_violations, last) = active.find_last(is_violating);
+        if n_violations < self.fewest_violations {
+            self.fewest_violations = n_violations;
+            self.block_updates_left = MAX_NON_IMPROVING_UPDATES;
         } else {
-            self.patience = self.patience.saturating_sub(1);
+            self.block_updates_left = self.block_updates_left.saturating_sub(1);
         }
-        let first = if self.patience == 0 { last } else { 0 };
-        contact.toggle(|element, inside| element >= first && is_wrong(element, inside));
+        let first = if self.block_updates_left == 0 {
+            last
+        } else {
+            0
+        };
+        active.toggle(|element, inside| element >= first && is_violating(element, inside));
         self.clear_left();
-        self.list_contact();
+        self.gather_active();
         self.improved = false;
-        self.match_force();
-        self.refresh();
+        self.scale_to_force();
+        self.recompute_displacement();
     }
 
     /// Clears what has just left the contact, while the runs are still those before.
     fn clear_left(&mut self) {
-        let (contact, spread) = (&mut self.fields.contact, &mut self.fields.spread);
-        let bands = contact.bands;
-        bands.for_each([&mut *self.load, spread], |band, fields| {
+        let (active, scattered) = (&mut self.fields.active, &mut self.fields.scattered);
+        let bands = active.bands;
+        bands.for_each([&mut *self.load, scattered], |band, fields| {
             let first = bands.elements(band).start;
             for field in fields {
-                for element in contact.runs(band).iter().flat_map(Run::elements) {
-                    if !contact.contains(element) {
+                for element in active.runs(band).iter().flat_map(Run::elements) {
+                    if !active.contains(element) {
                         field[element - first] = 0.0;
                     }
                 }
@@ -275,8 +279,8 @@ mod tests {
             };
             let mut state = ContactState::new(&convolution);
             state.fields = Some(Box::new(Fields::new(&convolution, weights)));
-            let accuracy = Accuracy::from(&ContactOptions::default());
-            let solved = Iteration::new(problem, &mut state).run(&accuracy)?;
+            let criterion = StoppingCriterion::from(&ContactOptions::default());
+            let solved = Iteration::new(problem, &mut state).run(&criterion)?;
             *count = solved.iterations;
         }
         Ok(counts)

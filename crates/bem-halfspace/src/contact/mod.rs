@@ -32,7 +32,7 @@ use indenters::Control;
 use numerics::{InvalidParameter, finite, in_range, positive};
 pub use patches::Patch;
 use problem::LoadProblem;
-pub(crate) use problem::{Accuracy, Solved};
+pub(crate) use problem::{LoadSolution, StoppingCriterion};
 pub(crate) use state::ContactBox;
 pub use state::ContactState;
 

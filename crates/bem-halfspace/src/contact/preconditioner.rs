@@ -84,33 +84,33 @@ impl Preconditioner {
     /// Prepares for another contact; overwrites the field, which must vanish outside it, and both lists.
     pub(super) fn prepare(
         &mut self,
-        contact: &ActiveSet,
+        active: &ActiveSet,
         field: &mut [f64],
         [one, result]: [&mut [f64]; 2],
     ) {
-        self.far_loads.forget(contact);
+        self.far_loads.forget(active);
         one.fill(1.0);
-        self.apply(contact, (one, field), result);
-        self.far_loads.weigh(contact, result);
+        self.apply(active, (one, field), result);
+        self.far_loads.weigh(active, result);
     }
 
     /// Lists what the inverse makes of a list of residuals; writes these into a field that vanishes outside the contact.
     pub(super) fn apply(
         &mut self,
-        contact: &ActiveSet,
+        active: &ActiveSet,
         (residual, field): (&[f64], &mut [f64]),
         result: &mut [f64],
     ) {
-        self.spread(contact, residual, field);
+        self.scatter_residual(active, residual, field);
         self.blocks
             .apply(&mut self.workspace, &self.means, &mut self.images);
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
-        let result = [contact.packed(result)];
-        contact.bands.for_each_part(result, |band, [result]| {
-            let residual = &residual[contact.packed_range(band)];
-            this.take_blocks((contact, band), result);
-            for run in contact.runs(band) {
+        let result = [active.packed(result)];
+        active.bands.for_each_part(result, |band, [result]| {
+            let residual = &residual[active.packed_range(band)];
+            this.take_blocks((active, band), result);
+            for run in active.runs(band) {
                 let (residual, result) = (
                     &residual[run.packed_range()],
                     &mut result[run.packed_range()],
@@ -121,22 +121,22 @@ impl Preconditioner {
     }
 
     /// Spreads a residual over the field, the blocks of long waves and those of far loads.
-    fn spread(&mut self, contact: &ActiveSet, residual: &[f64], field: &mut [f64]) {
+    fn scatter_residual(&mut self, active: &ActiveSet, residual: &[f64], field: &mut [f64]) {
         let (mirror_weights, columns) = (self.mirror_weights, self.shape[1]);
         let (weights, loads) = self.far_loads.weights_and_loads();
         let fields = [
-            contact.field(field),
-            contact.blocks(BLOCK, &mut self.means),
-            contact.blocks(SMALLEST, loads),
+            active.field(field),
+            active.blocks(BLOCK, &mut self.means),
+            active.blocks(SMALLEST, loads),
         ];
-        let bands = contact.bands;
+        let bands = active.bands;
         bands.for_each_part(fields, |band, [field, means, loads]| {
             let [residual, weights] =
-                [residual, weights].map(|list| &list[contact.packed_range(band)]);
-            contact.scatter_in(band, residual, field);
-            sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
+                [residual, weights].map(|list| &list[active.packed_range(band)]);
+            active.scatter_in(band, residual, field);
+            sum_blocks::<BLOCK>(active, band, |place| 0.25 * residual[place], means);
             let first = bands.elements(band).start;
-            for run in contact.runs(band) {
+            for run in active.runs(band) {
                 for (index, weight) in mirror_weights.in_line(run.elements()) {
                     let element = run.elements_from(first).start + index;
                     let [row, column] = [element / columns, element % columns];
@@ -145,16 +145,16 @@ impl Preconditioner {
                 }
             }
             let load = |place: usize| weights[place] * residual[place];
-            sum_blocks::<SMALLEST>(contact, band, load, loads);
+            sum_blocks::<SMALLEST>(active, band, load, loads);
         });
     }
 
     /// Writes the part of long waves, less that of far loads.
-    fn take_blocks(&self, (contact, band): (&ActiveSet, usize), result: &mut [f64]) {
+    fn take_blocks(&self, (active, band): (&ActiveSet, usize), result: &mut [f64]) {
         let columns = self.shape[1];
         let (weights, displacements) = self.far_loads.weights_and_displacements();
-        let weights = &weights[contact.packed_range(band)];
-        for run in contact.runs(band) {
+        let weights = &weights[active.packed_range(band)];
+        for run in active.runs(band) {
             let start = run.elements().start;
             let (row, column) = (start / columns, start % columns);
             let images = &self.images[row / BLOCK * columns.div_ceil(BLOCK)..];

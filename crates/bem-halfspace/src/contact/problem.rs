@@ -14,7 +14,7 @@ pub(super) struct LoadProblem<'a> {
 }
 
 /// The result of a solve beside the load.
-pub(crate) struct Solved {
+pub(crate) struct LoadSolution {
     pub(crate) indentation_depth: f64,
     pub(crate) total_load: f64,
     pub(crate) iterations: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Solved {
 }
 
 /// When an iteration ends.
-pub(crate) struct Accuracy {
+pub(crate) struct StoppingCriterion {
     /// See [`ContactOptions::tolerance`].
     pub(super) tolerance: f64,
     /// The residual must also fall to this part of what the first guess leaves; `∞` where that does not matter.
@@ -34,7 +34,7 @@ pub(crate) struct Accuracy {
     pub(super) given_deflection: f64,
 }
 
-impl Accuracy {
+impl StoppingCriterion {
     /// For a solution that is the first guess on elements of half the edges.
     ///
     /// The residual of its own first guess measures the error of the larger elements, of which about a third remains
@@ -52,7 +52,7 @@ impl Accuracy {
     }
 }
 
-impl From<&ContactOptions> for Accuracy {
+impl From<&ContactOptions> for StoppingCriterion {
     fn from(options: &ContactOptions) -> Self {
         Self {
             tolerance: options.tolerance,

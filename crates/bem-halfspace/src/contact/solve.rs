@@ -2,7 +2,7 @@
 
 use crate::contact::iteration::Iteration;
 use crate::contact::mirror_weights::MirrorWeights;
-use crate::contact::problem::{Accuracy, LoadProblem, Solved};
+use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::state::{ContactBox, ContactState};
 use crate::contact::{Control, map_force};
 use crate::elements::bounds::Bounds;
@@ -21,8 +21,8 @@ const SMALLEST_EDGE: usize = 32;
 pub(super) fn solve_loads(
     problem: LoadProblem,
     state: &mut ContactState,
-    accuracy: &Accuracy,
-) -> Result<Solved, BemError> {
+    criterion: &StoppingCriterion,
+) -> Result<LoadSolution, BemError> {
     let shape = problem.convolution.grid().shape();
     let loaded = |load: &[f64]| {
         Bounds::enclosing_where(shape, |[row, column]| load[row * shape[1] + column] > 0.0)
@@ -32,7 +32,7 @@ pub(super) fn solve_loads(
         start_from_coarser(problem, state);
         bounds = loaded(&state.load);
     }
-    solve_around(bounds, problem, state, accuracy)
+    solve_around(bounds, problem, state, criterion)
 }
 
 /// Iterates on a box around the bounds if that saves time, else on the whole grid.
@@ -40,8 +40,8 @@ fn solve_around(
     bounds: Option<Bounds>,
     problem: LoadProblem,
     state: &mut ContactState,
-    accuracy: &Accuracy,
-) -> Result<Solved, BemError> {
+    criterion: &StoppingCriterion,
+) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
     let grid = convolution.grid();
     let saves_time = |bounds: &Bounds| {
@@ -50,7 +50,7 @@ fn solve_around(
     };
     let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(saves_time)) else {
-        return Iteration::new(problem, state).run(accuracy);
+        return Iteration::new(problem, state).run(criterion);
     };
     let mut inner = match state.inner.take() {
         Some(inner) if can_be_reused(&inner, &bounds, &outer) => inner,
@@ -58,11 +58,11 @@ fn solve_around(
     };
     let columns = grid.shape()[1];
     inner.take_from([problem.separation, &state.load], columns);
-    let solved = inner.solve(problem.control, accuracy);
+    let solved = inner.solve(problem.control, criterion);
     inner.give_load_to(&mut state.load, columns);
     let bounds = inner.bounds;
     state.inner = Some(inner);
-    check_around(&bounds, problem, (state, solved?), accuracy)
+    check_around(&bounds, problem, (state, solved?), criterion)
 }
 
 /// Whether a box can be used again: the bounds are inside, and it is not much larger than a new one.
@@ -75,9 +75,9 @@ fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
 fn check_around(
     bounds: &Bounds,
     problem: LoadProblem,
-    (state, solved): (&mut ContactState, Solved),
-    accuracy: &Accuracy,
-) -> Result<Solved, BemError> {
+    (state, solved): (&mut ContactState, LoadSolution),
+    criterion: &StoppingCriterion,
+) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
     let [rows, columns] = convolution.grid().shape();
     let workspace = &mut state.workspace;
@@ -91,7 +91,7 @@ fn check_around(
         &mut state.displacement,
     );
     // The box and the grid round differently, so the tolerance of the box would be too sharp here.
-    let highest = solved.indentation_depth - 2.0 * accuracy.tolerance * solved.deflection;
+    let highest = solved.indentation_depth - 2.0 * criterion.tolerance * solved.deflection;
     let displacement = &state.displacement;
     let penetrates = |element: [usize; 2]| {
         let index = element[0] * columns + element[1];
@@ -101,9 +101,9 @@ fn check_around(
         return Ok(solved);
     };
     let bounds = bounds.union(&outside);
-    let again = solve_around(Some(bounds), problem, state, accuracy)?;
+    let again = solve_around(Some(bounds), problem, state, criterion)?;
     let iterations = solved.iterations + again.iterations;
-    Ok(Solved {
+    Ok(LoadSolution {
         iterations,
         ..again
     })
@@ -114,15 +114,15 @@ impl ContactBox {
     pub(crate) fn solve(
         &mut self,
         control: Control,
-        accuracy: &Accuracy,
-    ) -> Result<Solved, BemError> {
+        criterion: &StoppingCriterion,
+    ) -> Result<LoadSolution, BemError> {
         let problem = LoadProblem {
             convolution: &self.convolution,
             separation: &self.separation,
             control,
         };
         in_pool(self.bounds.n_elements(), || {
-            solve_loads(problem, &mut self.state, accuracy)
+            solve_loads(problem, &mut self.state, criterion)
         })
     }
 }
@@ -146,7 +146,7 @@ fn start_from_coarser(problem: LoadProblem, state: &mut ContactState) {
         control: map_force(problem.control, |total| 0.25 * total),
     };
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
-    let _guess = solve_loads(problem, &mut coarse, &Accuracy::GUESS);
+    let _guess = solve_loads(problem, &mut coarse, &StoppingCriterion::GUESS);
     for_each_row(&mut state.load, columns, |row, loads| {
         let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
         for (column, load) in loads.iter_mut().enumerate() {

@@ -8,17 +8,17 @@ impl Iteration<'_> {
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.
     pub(super) fn step(&mut self) {
         self.find_direction();
-        let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
+        let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let image = &mut self.fields.image;
         self.convolution
-            .apply(self.workspace, &self.fields.spread, image);
-        let direction = &listed.direction;
-        let energy = contact.bands.fold(
-            [contact.packed(&mut listed.image)],
-            |band, [listed]| {
-                contact.gather_in(band, image, listed);
+            .apply(self.workspace, &self.fields.scattered, image);
+        let direction = &vectors.direction;
+        let energy = active.bands.fold(
+            [active.packed(&mut vectors.image)],
+            |band, [vectors]| {
+                active.gather_in(band, image, vectors);
                 sum(
-                    [&direction[contact.packed_range(band)], listed],
+                    [&direction[active.packed_range(band)], vectors],
                     |[a, b]| a * b,
                 )
             },
@@ -35,18 +35,18 @@ impl Iteration<'_> {
 
     fn find_direction(&mut self) {
         let fields = &mut *self.fields;
-        let (contact, preconditioner) = (&fields.contact, &mut fields.preconditioner);
-        let (spread, listed) = (&mut fields.spread, &mut fields.listed);
-        let (direction, preconditioned) = (&mut listed.direction, &mut listed.image);
-        let residual = &listed.residual;
+        let (active, preconditioner) = (&fields.active, &mut fields.preconditioner);
+        let (scattered, vectors) = (&mut fields.scattered, &mut fields.vectors);
+        let (direction, preconditioned) = (&mut vectors.direction, &mut vectors.image);
+        let residual = &vectors.residual;
         if !self.improved {
             // The first direction on a contact is not conjugate to any before.
-            preconditioner.prepare(contact, spread, [direction, preconditioned]);
+            preconditioner.prepare(active, scattered, [direction, preconditioned]);
         }
-        preconditioner.apply(contact, (residual, spread), preconditioned);
+        preconditioner.apply(active, (residual, scattered), preconditioned);
         let preconditioned = &*preconditioned;
         let by_band = |band| {
-            let [r, z] = [residual, preconditioned].map(|list| &list[contact.packed_range(band)]);
+            let [r, z] = [residual, preconditioned].map(|list| &list[active.packed_range(band)]);
             [
                 sum([r], |[r]| r),
                 sum([z], |[z]| z),
@@ -54,9 +54,9 @@ impl Iteration<'_> {
             ]
         };
         let both = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
-        let [sum_r, sum_z, sum_rz] = contact.bands.gather(by_band, both);
+        let [sum_r, sum_z, sum_rz] = active.bands.gather(by_band, both);
         let mean = match self.control {
-            Control::NormalForce(_) => sum_z / contact.len() as f64,
+            Control::NormalForce(_) => sum_z / active.len() as f64,
             Control::IndentationDepth(_) => 0.0,
         };
         // Of the residual and what remains of its image without the mean.
@@ -66,14 +66,14 @@ impl Iteration<'_> {
         } else {
             0.0
         };
-        let fields = [contact.field(spread), contact.packed(direction)];
-        let bands = contact.bands;
-        bands.for_each_part(fields, |band, [spread, direction]| {
-            let values = &preconditioned[contact.packed_range(band)];
+        let fields = [active.field(scattered), active.packed(direction)];
+        let bands = active.bands;
+        bands.for_each_part(fields, |band, [scattered, direction]| {
+            let values = &preconditioned[active.packed_range(band)];
             for (direction, value) in direction.iter_mut().zip(values) {
                 *direction = value - mean + conjugation * *direction;
             }
-            contact.scatter_in(band, direction, spread);
+            active.scatter_in(band, direction, scattered);
         });
         self.previous_product = product;
     }

@@ -19,19 +19,19 @@ pub(super) struct Heights {
 impl Heights {
     /// Those of a band, from separation and displacement of its elements and of those in the contact.
     fn of_band(
-        (contact, band): (&ActiveSet, usize),
+        (active, band): (&ActiveSet, usize),
         outside: [&[f64]; 2],
         inside: [&[f64]; 2],
         depth: f64,
     ) -> Self {
-        let first = contact.bands.elements(band).start;
+        let first = active.bands.elements(band).start;
         let height = |[separation, displacement]: [f64; 2]| separation + displacement;
         let lowest_in = |gap: Range<usize>| {
             let fields = outside.map(|field| &field[gap.start - first..gap.end - first]);
             reduce(fields, f64::INFINITY, height, lower)
         };
         Self {
-            lowest_outside: contact
+            lowest_outside: active
                 .inactive_ranges(band)
                 .map(lowest_in)
                 .fold(f64::INFINITY, lower),
@@ -49,65 +49,65 @@ impl Heights {
 
 impl Iteration<'_> {
     /// Computes the displacement from the load.
-    pub(super) fn refresh(&mut self) {
-        self.write_load();
+    pub(super) fn recompute_displacement(&mut self) {
+        self.scatter_load();
         self.convolution
             .apply(self.workspace, self.load, self.displacement);
-        let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
+        let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
-        let separation = &listed.separation;
+        let separation = &vectors.separation;
         let in_band = |band, [displacement]: [&mut [f64]; 1]| {
-            contact.gather_in(band, fields[1], displacement);
-            let outside = fields.map(|field| &field[contact.bands.elements(band)]);
-            let inside = [&separation[contact.packed_range(band)], displacement];
-            Heights::of_band((contact, band), outside, inside, depth)
+            active.gather_in(band, fields[1], displacement);
+            let outside = fields.map(|field| &field[active.bands.elements(band)]);
+            let inside = [&separation[active.packed_range(band)], displacement];
+            Heights::of_band((active, band), outside, inside, depth)
         };
-        let displacement = [contact.packed(&mut listed.displacement)];
-        self.heights = contact.bands.fold(displacement, in_band, Heights::both);
-        self.fresh = true;
+        let displacement = [active.packed(&mut vectors.displacement)];
+        self.heights = active.bands.fold(displacement, in_band, Heights::both);
+        self.displacement_is_exact = true;
         self.previous_product = 0.0;
     }
 
     /// Moves load and displacement by so many directions.
     pub(super) fn advance(&mut self, length: f64) {
-        let (contact, image) = (&self.fields.contact, &self.fields.image);
-        let listed = &mut self.fields.listed;
-        let separation = &listed.separation;
+        let (active, image) = (&self.fields.active, &self.fields.image);
+        let vectors = &mut self.fields.vectors;
+        let separation = &vectors.separation;
         let (heights, depth) = (self.separation, self.indentation_depth);
         let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
-            let (elements, range) = (contact.bands.elements(band), contact.packed_range(band));
+            let (elements, range) = (active.bands.elements(band), active.packed_range(band));
             add(field, length, &image[elements.clone()]);
-            add(displacement, length, &listed.image[range.clone()]);
-            add(load, length, &listed.direction[range.clone()]);
+            add(displacement, length, &vectors.image[range.clone()]);
+            add(load, length, &vectors.direction[range.clone()]);
             let outside = [&heights[elements], field];
             let inside = [&separation[range], displacement];
-            Heights::of_band((contact, band), outside, inside, depth)
+            Heights::of_band((active, band), outside, inside, depth)
         };
         let moved = [
-            contact.field(self.displacement),
-            contact.packed(&mut listed.displacement),
-            contact.packed(&mut listed.load),
+            active.field(self.displacement),
+            active.packed(&mut vectors.displacement),
+            active.packed(&mut vectors.load),
         ];
-        self.heights = contact.bands.fold(moved, in_band, Heights::both);
-        self.fresh = false;
+        self.heights = active.bands.fold(moved, in_band, Heights::both);
+        self.displacement_is_exact = false;
         self.improved = true;
     }
 
     /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
-    pub(super) fn find_depth(&mut self) {
-        let (contact, listed) = (&self.fields.contact, &self.fields.listed);
+    pub(super) fn update_depth(&mut self) {
+        let (active, vectors) = (&self.fields.active, &self.fields.vectors);
         self.indentation_depth = match self.control {
             Control::IndentationDepth(depth) => depth,
-            Control::NormalForce(_) if contact.len() == 0 => {
+            Control::NormalForce(_) if active.len() == 0 => {
                 let heights = self.separation.iter().copied();
                 heights.fold(f64::INFINITY, f64::min)
             }
             Control::NormalForce(_) => {
-                let mean = self.indentation_depth + self.heights.sum_inside / contact.len() as f64;
+                let mean = self.indentation_depth + self.heights.sum_inside / active.len() as f64;
                 // After a refresh again, because the depth before may have been far off, and no direction removes what
                 // the long sum has rounded.
-                let rest = if self.fresh {
-                    listed.mean_height_above(contact, mean)
+                let rest = if self.displacement_is_exact {
+                    vectors.mean_height_above(active, mean)
                 } else {
                     0.0
                 };
@@ -118,23 +118,23 @@ impl Iteration<'_> {
 
     /// Stores the residual of the linear equations, minus the gap in the contact, and finds what is violated.
     pub(super) fn measure(&mut self) -> Violations {
-        let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
+        let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (separation, displacement, load) =
-            (&listed.separation, &listed.displacement, &listed.load);
-        let own_influence = self.convolution.self_influence;
+            (&vectors.separation, &vectors.displacement, &vectors.load);
+        let self_influence = self.convolution.self_influence;
         let depth = self.indentation_depth;
         let in_band = |band, [residual]: [&mut [f64]; 1]| {
             let [separation, displacement, load] =
-                [separation, displacement, load].map(|list| &list[contact.packed_range(band)]);
+                [separation, displacement, load].map(|list| &list[active.packed_range(band)]);
             for (residual, (separation, displacement)) in
                 residual.iter_mut().zip(separation.iter().zip(displacement))
             {
                 *residual = depth - (separation + displacement);
             }
-            Violations::inside(residual, [load, displacement], own_influence)
+            Violations::inside(residual, [load, displacement], self_influence)
         };
-        let residual = [contact.packed(&mut listed.residual)];
-        let inside = contact.bands.fold(residual, in_band, Violations::worst);
+        let residual = [active.packed(&mut vectors.residual)];
+        let inside = active.bands.fold(residual, in_band, Violations::worst);
         Violations {
             penetration: (depth - self.heights.lowest_outside).max(0.0),
             deflection: larger(inside.deflection, self.given_deflection),
@@ -184,19 +184,19 @@ impl Violations {
         }
     }
 
-    /// Those in the contact, whose load causes the displacement `own_influence` at its own element each.
+    /// Those in the contact, whose load causes the displacement `self_influence` at its own element each.
     pub(super) fn inside(
         residual: &[f64],
         [load, displacement]: [&[f64]; 2],
-        own_influence: f64,
+        self_influence: f64,
     ) -> Self {
         // Zero where all numbers are finite, else NaN; the extremes do not matter then.
         let spoiled = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, lower);
-        let own = own_influence * reduce([load], 0.0, |[load]| load, larger);
+        let own = self_influence * reduce([load], 0.0, |[load]| load, larger);
         Self {
             gap: spoiled + reduce([residual], 0.0, |[residual]| residual.abs(), larger),
-            tension: -own_influence * lowest_load,
+            tension: -self_influence * lowest_load,
             penetration: 0.0,
             deflection: reduce([displacement], own, |[displaced]| displaced, larger),
         }
