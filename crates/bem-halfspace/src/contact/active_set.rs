@@ -1,19 +1,19 @@
-//! The active set: the elements in contact.
+//! The active set: the elements in contact, with packed vectors over them.
 //!
-//! Their values are kept in lists, in the order of the field, so that the work on a contact is proportional to the number of
-//! its elements, however porous it is.
+//! A packed vector holds one value per active element, in the order of the field. The work on it is proportional to the number
+//! of active elements, however porous the contact is.
 
 use std::ops::Range;
 
 use crate::parallel::bands::Bands;
 use crate::parallel::chunks::Starts;
 
-/// Neighbours in contact, in one row and not continued in it.
+/// A maximal run of active elements in one row.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Run {
     /// The first element.
     element: usize,
-    /// Its place in the part of a list that belongs to the band.
+    /// Index of its first value in the part of a packed vector that belongs to the band.
     packed_start: usize,
     length: usize,
 }
@@ -23,30 +23,38 @@ impl Run {
         self.element..self.element + self.length
     }
 
-    /// Counted from the element `first`.
+    /// Range of its elements, counted from the element `first`.
     pub(crate) fn elements_from(&self, first: usize) -> Range<usize> {
         self.element - first..self.element - first + self.length
     }
 
+    /// Range of its values in the part of a packed vector that belongs to the band.
     pub(crate) fn packed_range(&self) -> Range<usize> {
         self.packed_start..self.packed_start + self.length
     }
 }
 
-/// Elements in contact, as runs of neighbours.
+/// Elements with some property.
+pub(crate) struct Matches {
+    pub(crate) count: usize,
+    /// The last of them; 0 without any.
+    pub(crate) last: usize,
+}
+
+/// The elements in contact, as flags and as runs.
 #[derive(Debug, Clone)]
 pub(crate) struct ActiveSet {
     is_active: Vec<bool>,
     pub(crate) columns: usize,
     pub(crate) bands: Bands,
-    /// Of each band, with room for as many as there can be, so that a change does not allocate.
+    /// Runs of each band, with capacity for as many as are possible, so that a change does not allocate.
     runs: Vec<Vec<Run>>,
-    /// Number of elements in contact before each band, and of all.
+    /// Number of active elements before each band, and in total; `n_bands + 1` values.
     starts: Vec<usize>,
 }
 
 impl ActiveSet {
-    /// The empty contact on a grid of the given shape.
+    /// The empty set on a grid of the given shape.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
         let bands = Bands::new(shape);
         let most_runs = |band| bands.rows(band).len() * shape[1].div_ceil(2);
@@ -67,8 +75,7 @@ impl ActiveSet {
         self.toggle(|element, is| is_active(element) != is);
     }
 
-    /// Moves the elements for which `changes` is true into the contact or out of it; it gets the element and whether that is
-    /// in contact.
+    /// Exchanges the elements for which `changes` is true; it gets the element and whether that is active.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
     pub(crate) fn toggle(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
@@ -80,7 +87,7 @@ impl ActiveSet {
         });
     }
 
-    /// Finds the runs after changes.
+    /// Updates the runs after changes of the flags.
     pub(crate) fn find_runs(&mut self) {
         let (bands, columns, is_active) = (self.bands, self.columns, &self.is_active);
         let in_band = |band, [runs]: [&mut [Vec<Run>]; 1]| {
@@ -101,17 +108,17 @@ impl ActiveSet {
         self.starts[self.bands.n_bands()]
     }
 
-    /// The neighbours in contact in a band, increasing.
+    /// The runs of a band, in increasing order.
     pub(crate) fn runs(&self, band: usize) -> &[Run] {
         &self.runs[band]
     }
 
-    /// The part of a list that belongs to a band.
+    /// The part of a packed vector that belongs to a band.
     pub(crate) fn packed_range(&self, band: usize) -> Range<usize> {
         self.starts[band]..self.starts[band + 1]
     }
 
-    /// The elements of a band outside the contact as ranges, increasing.
+    /// The inactive elements of a band as ranges, in increasing order.
     pub(crate) fn inactive_ranges(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = self.bands.elements(band);
         let runs = self.runs(band).iter().map(Run::elements);
@@ -120,17 +127,17 @@ impl ActiveSet {
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// A list, for [`Bands::fold`].
-    pub(crate) fn packed<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
-        (list, Starts::Listed(&self.starts))
+    /// A packed vector, split at the bands for [`Bands::fold`].
+    pub(crate) fn packed<'a, T>(&'a self, vector: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
+        (vector, Starts::Listed(&self.starts))
     }
 
-    /// A field with one value per element, for [`Bands::fold`].
+    /// A field with one value per element, split at the bands for [`Bands::fold`].
     pub(crate) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (field, self.bands.starts_of_blocks(1))
     }
 
-    /// A field with one value per block of so many elements along an edge, for [`Bands::fold`].
+    /// A field with one value per block of `edge` × `edge` elements, split at the bands for [`Bands::fold`].
     pub(crate) fn blocks<'a, T>(
         &self,
         edge: usize,
@@ -139,52 +146,57 @@ impl ActiveSet {
         (field, self.bands.starts_of_blocks(edge))
     }
 
-    /// Sum over bands, from the places of the elements of each.
+    /// Sum over the bands of a function of their packed ranges.
     pub(crate) fn sum(&self, of_range: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
         self.bands.sum(|band| of_range(self.packed_range(band)))
     }
 
-    /// Lists the values of a field.
-    pub(crate) fn gather<T: Copy + Send + Sync>(&self, field: &[T], list: &mut [T]) {
+    /// Gathers the values of a field into a packed vector.
+    pub(crate) fn gather<T: Copy + Send + Sync>(&self, field: &[T], vector: &mut [T]) {
         self.bands
-            .for_each_part([self.packed(list)], |band, [list]| {
-                self.gather_in(band, field, list);
+            .for_each_part([self.packed(vector)], |band, [vector]| {
+                self.gather_in(band, field, vector);
             });
     }
 
-    pub(crate) fn gather_in<T: Copy>(&self, band: usize, field: &[T], list: &mut [T]) {
+    pub(crate) fn gather_in<T: Copy>(&self, band: usize, field: &[T], vector: &mut [T]) {
         for run in self.runs(band) {
-            list[run.packed_range()].copy_from_slice(&field[run.elements()]);
+            vector[run.packed_range()].copy_from_slice(&field[run.elements()]);
         }
     }
 
-    /// Writes the values of a list into a field.
-    pub(crate) fn scatter<T: Copy + Send + Sync>(&self, list: &[T], field: &mut [T]) {
+    /// Scatters a packed vector into a field; inactive elements keep their values.
+    pub(crate) fn scatter<T: Copy + Send + Sync>(&self, vector: &[T], field: &mut [T]) {
         self.bands
             .for_each_part([self.field(field)], |band, [field]| {
-                self.scatter_in(band, &list[self.packed_range(band)], field);
+                self.scatter_in(band, &vector[self.packed_range(band)], field);
             });
     }
 
-    /// Writes the part of a list that belongs to a band into the same part of a field.
-    pub(crate) fn scatter_in<T: Copy>(&self, band: usize, list: &[T], field: &mut [T]) {
+    /// Scatters a packed vector into the part of a field that belongs to a band.
+    pub(crate) fn scatter_in<T: Copy>(&self, band: usize, vector: &[T], field: &mut [T]) {
         let first = self.bands.elements(band).start;
         for run in self.runs(band) {
-            field[run.elements_from(first)].copy_from_slice(&list[run.packed_range()]);
+            field[run.elements_from(first)].copy_from_slice(&vector[run.packed_range()]);
         }
     }
 
-    /// Number of elements for which `is` is true, which gets the element and whether that is in contact, and the last of
-    /// them.
-    pub(crate) fn find_last(&self, is: impl Fn(usize, bool) -> bool + Sync) -> (usize, usize) {
+    /// Finds the elements for which `is` is true; it gets the element and whether that is active.
+    pub(crate) fn find_matches(&self, is: impl Fn(usize, bool) -> bool + Sync) -> Matches {
         let in_band = |band| {
-            let found = |&element: &usize| is(element, self.is_active[element]);
-            let found = self.bands.elements(band).filter(found);
-            found.fold((0, 0), |(count, _), element| (count + 1, element))
+            let mut matches = Matches { count: 0, last: 0 };
+            for element in self.bands.elements(band) {
+                if is(element, self.is_active[element]) {
+                    matches.count += 1;
+                    matches.last = element;
+                }
+            }
+            matches
         };
-        let both =
-            |left: (usize, usize), right: (usize, usize)| (left.0 + right.0, left.1.max(right.1));
-        self.bands.gather(in_band, both)
+        self.bands.gather(in_band, |left: Matches, right| Matches {
+            count: left.count + right.count,
+            last: left.last.max(right.last),
+        })
     }
 
     pub(crate) fn contains(&self, element: usize) -> bool {
@@ -192,7 +204,7 @@ impl ActiveSet {
     }
 }
 
-/// Finds the runs in rows of which the first begins with the element `end`.
+/// Finds the runs in consecutive rows of flags, whose first element has the index `end`.
 fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs: &mut Vec<Run>) {
     runs.clear();
     let mut place = 0;
@@ -210,8 +222,10 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs
     }
 }
 
-/// Sums over the elements of each block of a band that are in contact, of the terms that their places in the part of a
-/// list have that belongs to the band.
+/// Sums of terms over the active elements of each block of `EDGE` × `EDGE` elements in a band.
+///
+/// `term` gets the index of an element in the part of a packed vector that belongs to the band; `sums` has one value per block
+/// of the band.
 pub(crate) fn sum_blocks<const EDGE: usize>(
     active: &ActiveSet,
     band: usize,

@@ -1,4 +1,4 @@
-//! Buffers of the iteration on a contact.
+//! Buffers of the iteration on the active set: fields of the grid and packed vectors.
 
 use std::ops::Range;
 
@@ -8,16 +8,16 @@ use crate::contact::preconditioner::{Preconditioner, Weights};
 use crate::parallel::bands::resize;
 use crate::parallel::reductions::sum;
 
-/// Buffers beside the load and its displacement.
+/// Buffers of the iteration, besides load and displacement.
 #[derive(Debug, Clone)]
 pub(super) struct Fields {
     pub(super) preconditioner: Preconditioner,
     pub(super) active: ActiveSet,
     pub(super) vectors: ActiveVectors,
-    /// Of the list that was last spread over the field, residual or direction; zero outside the contact.
+    /// The vector that was last scattered over the grid, residual or direction; zero outside the active set.
     pub(super) scattered: Vec<f64>,
-    /// Displacement under the direction.
-    pub(super) image: Vec<f64>,
+    /// K times the direction on the grid, \[m].
+    pub(super) direction_displacement: Vec<f64>,
 }
 
 impl Fields {
@@ -29,30 +29,33 @@ impl Fields {
             active: ActiveSet::new(grid.shape()),
             vectors: ActiveVectors::new(n),
             scattered: vec![0.0; n],
-            image: vec![0.0; n],
+            direction_displacement: vec![0.0; n],
         }
     }
 }
 
-/// One value per element in contact, in the order of the field.
+/// Vectors over the active set, packed in the order of the field, \[m].
 #[derive(Debug, Clone, Default)]
 pub(super) struct ActiveVectors {
+    /// Initial gap s.
     pub(super) separation: Vec<f64>,
+    /// Displacement K x.
     pub(super) displacement: Vec<f64>,
+    /// Scaled pressure x.
     pub(super) load: Vec<f64>,
-    /// Minus the gap.
+    /// Residual r of the linear equations, minus the gap.
     pub(super) residual: Vec<f64>,
     pub(super) direction: Vec<f64>,
-    /// The preconditioned residual, then the displacement under the direction.
-    pub(super) image: Vec<f64>,
+    /// Output of the last operator of an iteration: the preconditioned residual, then K times the direction.
+    pub(super) operator_output: Vec<f64>,
 }
 
 impl ActiveVectors {
-    /// With room for as many elements as there are, so that a change of the contact does not allocate.
+    /// Empty vectors with capacity for the whole grid, so that a change of the active set does not allocate.
     pub(super) fn new(n_elements: usize) -> Self {
         let mut vectors = Self::default();
-        for list in vectors.all() {
-            list.reserve(n_elements);
+        for vector in vectors.all() {
+            vector.reserve(n_elements);
         }
         vectors
     }
@@ -64,24 +67,24 @@ impl ActiveVectors {
             &mut self.load,
             &mut self.residual,
             &mut self.direction,
-            &mut self.image,
+            &mut self.operator_output,
         ]
     }
 
-    /// Takes another contact, with the values of the fields of separation and load there.
-    pub(super) fn take(&mut self, active: &ActiveSet, [separation, load]: [&[f64]; 2]) {
-        for list in self.all() {
-            resize(list, 0.0, active.len());
+    /// Resizes all vectors to another active set, and gathers separation and load on it.
+    pub(super) fn restrict_to(&mut self, active: &ActiveSet, separation: &[f64], load: &[f64]) {
+        for vector in self.all() {
+            resize(vector, 0.0, active.len());
         }
         active.gather(separation, &mut self.separation);
         active.gather(load, &mut self.load);
     }
 
-    /// Mean height of the deformed surface above a level; there is contact.
+    /// Mean height of the deformed surface above a level, \[m], over an active set that is not empty.
     pub(super) fn mean_height_above(&self, active: &ActiveSet, level: f64) -> f64 {
         let sum_in = |range: Range<usize>| {
-            let lists = [&self.separation, &self.displacement].map(|list| &list[range.clone()]);
-            sum(lists, |[height, displacement]| {
+            let vectors = [&self.separation, &self.displacement].map(|one| &one[range.clone()]);
+            sum(vectors, |[height, displacement]| {
                 height + displacement - level
             })
         };

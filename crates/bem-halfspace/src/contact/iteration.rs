@@ -1,14 +1,18 @@
 //! Preconditioned conjugate gradients on an active set that changes with the solution.
 //!
-//! On a given set of elements in contact the load solves linear equations, whose matrix is a part of the convolution;
-//! the same part of an approximate inverse preconditions it, so that the number of iterations hardly depends on the
-//! grid. The set changes when its violations, tension inside and penetration outside, outweigh the
-//! residual of the linear equations: all violating elements change sides at once (a primal-dual active set, Hintermüller,
-//! Ito & Kunisch 2003, DOI 10.1137/S1052623401383558). Such a method ends on all but contrived problems; where the
-//! number of violations does not fall, only the last of them changes sides, after an accurate solution, which ends
-//! always (Júdice & Pires 1994, DOI 10.1016/0305-0548(94)90106-6).
+//! ```text
+//! g = s + K x − d,      g = 0 on the active set C,      x = 0 elsewhere,      Σ x or d given
+//! ```
+//!
+//! On a fixed set this is a symmetric positive definite system, preconditioned by an approximate inverse of K restricted to C
+//! (`preconditioner.rs`), so that the number of iterations hardly depends on the grid. The set is updated as soon as its
+//! violations, tension inside and penetration outside, outweigh the linear residual. Then all violating elements are
+//! exchanged (primal-dual active set, Hintermüller, Ito & Kunisch 2003, DOI 10.1137/S1052623401383558), which ends on all but
+//! contrived problems. Where the number of violations stagnates, only the last violating element is exchanged, after an
+//! accurate solution; this always terminates (Júdice & Pires 1994, DOI 10.1016/0305-0548(94)90106-6).
+//!
+//! Theory: docs/theory/contact.md, "Iteration" and "When it stops".
 
-mod direction;
 mod heights;
 
 use crate::contact::active_set::Run;
@@ -21,34 +25,41 @@ use crate::parallel::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 
-/// Changes of the set without fewer violations than ever before, after which one element at a time changes.
+/// Number of updates without a new minimum of violations after which single elements are exchanged; chosen.
 pub(super) const MAX_NON_IMPROVING_UPDATES: usize = 10;
 
-/// The active set changes when its violations are this many times the residual: earlier, the directions start anew too
-/// often, and later, they converge on a wrong set. The number of iterations alone depends on it.
+/// Ratio of the largest violation to the largest linear residual from which the active set is updated; chosen.
+///
+/// A smaller ratio restarts the conjugate gradients too often, a larger one lets them converge on a wrong set. Only the number
+/// of iterations depends on it.
 const SET_UPDATE_RATIO: f64 = 2.0;
 
+/// State of the solver on one grid.
 pub(super) struct Iteration<'a> {
     convolution: &'a Convolution,
+    /// Initial gap s, \[m]; `+∞` where no contact is possible.
     separation: &'a [f64],
     control: Control,
     tolerance: f64,
     /// See [`StoppingCriterion`].
     given_deflection: f64,
-    /// That of the list when it was last [written](Self::scatter_load); zero outside the contact.
+    /// Scaled pressure x on the grid when it was last [scattered](Self::scatter_load); zero outside the active set.
     load: &'a mut [f64],
+    /// Displacement K x on the grid, \[m].
     displacement: &'a mut [f64],
     workspace: &'a mut ConvolutionWorkspace,
     fields: &'a mut Fields,
     indentation_depth: f64,
     heights: Heights,
-    /// Residual times preconditioned residual in the previous iteration; 0 starts a new set of directions.
+    /// Inner product of residual and preconditioned residual in the previous iteration; 0 restarts the directions.
     previous_product: f64,
-    /// Whether the displacement was computed from the load, and not updated along a direction.
+    /// True if the displacement was computed from the load, false if it was updated along a direction.
     displacement_is_exact: bool,
-    /// Whether the load has been improved on the present active set.
+    /// True after the first conjugate-gradient step on the present active set.
     improved: bool,
+    /// Fewest violations at any update so far.
     fewest_violations: usize,
+    /// Updates left in which all violating elements are exchanged.
     block_updates_left: usize,
 }
 
@@ -79,25 +90,36 @@ impl<'a> Iteration<'a> {
         }
     }
 
+    /// Iterates until load, gap and active set satisfy the contact conditions to the tolerance.
     pub(super) fn run(mut self, criterion: &StoppingCriterion) -> Result<LoadSolution, BemError> {
         self.given_deflection = criterion.given_deflection;
-        self.start();
+        self.initialise();
         let mut iterations = 0;
         loop {
+            // Evaluate depth, linear residual and violations of the present load.
             self.update_depth();
             let violations = self.measure();
             let residual = violations.relative();
             if iterations == 0 {
                 self.tolerance = criterion.target(residual);
             }
+
+            // Converged, if that also holds for a displacement without the rounding of many updates.
             if residual <= self.tolerance && violations.tension <= 0.0 {
-                if self.displacement_is_exact {
-                    return Ok(self.solved(iterations, &violations));
+                if !self.displacement_is_exact {
+                    self.recompute_displacement();
+                    continue;
                 }
-                self.recompute_displacement();
-                continue;
+                return Ok(LoadSolution {
+                    indentation_depth: self.indentation_depth,
+                    total_load: self.total_load(),
+                    iterations,
+                    deflection: violations.deflection,
+                    residual,
+                });
             }
-            // The numbers have overflowed.
+
+            // Give up at the iteration limit, or when numbers have overflowed.
             if iterations >= criterion.max_iterations || residual.is_nan() {
                 self.scatter_load();
                 let residual = Some(residual).filter(|residual| !residual.is_nan());
@@ -107,27 +129,25 @@ impl<'a> Iteration<'a> {
                     tolerance: self.tolerance,
                 });
             }
-            if self.active_set_is_due(&violations) {
-                self.change_active_set(&violations);
+
+            // Update the set if it is wrong and the linear equations are solved well enough to tell; else go on solving them.
+            let allowed = self.tolerance * violations.deflection;
+            let set_is_right = violations.tension <= 0.0 && violations.penetration <= allowed;
+            let worst = violations.tension.max(violations.penetration);
+            let outweighs = worst >= SET_UPDATE_RATIO * violations.gap;
+            let may_be_inexact = self.block_updates_left > 0 && self.improved;
+            if !set_is_right && (violations.gap <= allowed || (may_be_inexact && outweighs)) {
+                self.update_active_set(&violations);
             } else {
-                self.step();
+                self.conjugate_gradient_step();
             }
             iterations += 1;
         }
     }
 
-    fn solved(&self, iterations: usize, violations: &Violations) -> LoadSolution {
-        LoadSolution {
-            indentation_depth: self.indentation_depth,
-            total_load: self.total_load(),
-            iterations,
-            deflection: violations.deflection,
-            residual: violations.relative(),
-        }
-    }
-
-    /// Takes the active set from the first guess; without one, from what lies below the given depth, or everywhere.
-    fn start(&mut self) {
+    /// Sets the active set to the loaded elements of the first guess. Without a guess these are the elements below a given
+    /// depth, or all of them under a given force.
+    fn initialise(&mut self) {
         let mut elements = self.load.iter().zip(self.separation);
         let loaded = elements.any(|(load, separation)| *load > 0.0 && separation.is_finite());
         let (below, uniform) = match self.control {
@@ -159,10 +179,138 @@ impl<'a> Iteration<'a> {
         self.recompute_displacement();
     }
 
+    /// Exchanges the violating elements between the active set and its complement, and restarts the directions.
+    fn update_active_set(&mut self, violations: &Violations) {
+        self.scatter_load();
+        let lowest = self.indentation_depth - self.tolerance * violations.deflection;
+        let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
+        // Inside: under tension. Outside: penetrating by more than the tolerance.
+        let is_violating = |element: usize, inside: bool| {
+            if inside {
+                load[element] < 0.0
+            } else {
+                separation[element] + displacement[element] < lowest
+            }
+        };
+
+        // Exchange all of them, or only the last one when their number has stagnated.
+        let active = &mut self.fields.active;
+        let violating = active.find_matches(is_violating);
+        if violating.count < self.fewest_violations {
+            self.fewest_violations = violating.count;
+            self.block_updates_left = MAX_NON_IMPROVING_UPDATES;
+        } else {
+            self.block_updates_left = self.block_updates_left.saturating_sub(1);
+        }
+        let first = if self.block_updates_left == 0 {
+            violating.last
+        } else {
+            0
+        };
+        active.toggle(|element, inside| element >= first && is_violating(element, inside));
+
+        // Clear the fields on the elements that have left; the runs are still those of the previous set.
+        let (active, scattered) = (&self.fields.active, &mut self.fields.scattered);
+        let bands = active.bands;
+        bands.for_each([&mut *self.load, scattered], |band, fields| {
+            let first = bands.elements(band).start;
+            for field in fields {
+                for element in active.runs(band).iter().flat_map(Run::elements) {
+                    if !active.contains(element) {
+                        field[element - first] = 0.0;
+                    }
+                }
+            }
+        });
+
+        // Restart from the remaining load.
+        self.gather_active();
+        self.improved = false;
+        self.scale_to_force();
+        self.recompute_displacement();
+    }
+
+    /// One step of the conjugate gradients on the active set: z = S r, direction p, step length (r, z)/(p, K p).
+    ///
+    /// At a given force the directions have the sum zero.
+    fn conjugate_gradient_step(&mut self) {
+        let fields = &mut *self.fields;
+        let (active, preconditioner) = (&fields.active, &mut fields.preconditioner);
+        let (scattered, vectors) = (&mut fields.scattered, &mut fields.vectors);
+        let (direction, output) = (&mut vectors.direction, &mut vectors.operator_output);
+        let residual = &vectors.residual;
+
+        // Precondition the residual; direction and output are free on a new set, whose first direction has no predecessor.
+        if !self.improved {
+            preconditioner.prepare(active, scattered, direction, output);
+        }
+        preconditioner.apply(active, residual, scattered, output);
+        let preconditioned = &*output;
+
+        // (r, z) of the residual and of z without its mean.
+        let by_band = |band| {
+            let [r, z] =
+                [residual, preconditioned].map(|vector| &vector[active.packed_range(band)]);
+            [
+                sum([r], |[r]| r),
+                sum([z], |[z]| z),
+                sum([r, z], |[r, z]| r * z),
+            ]
+        };
+        let both = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
+        let [sum_r, sum_z, sum_rz] = active.bands.gather(by_band, both);
+        let mean = match self.control {
+            Control::NormalForce(_) => sum_z / active.len() as f64,
+            Control::IndentationDepth(_) => 0.0,
+        };
+        let product = sum_rz - mean * sum_r;
+
+        // Conjugate direction, packed and scattered to the grid.
+        let conjugation = if self.previous_product > 0.0 {
+            product / self.previous_product
+        } else {
+            0.0
+        };
+        let targets = [active.field(scattered), active.packed(direction)];
+        active
+            .bands
+            .for_each_part(targets, |band, [scattered, direction]| {
+                let values = &preconditioned[active.packed_range(band)];
+                for (direction, value) in direction.iter_mut().zip(values) {
+                    *direction = value - mean + conjugation * *direction;
+                }
+                active.scatter_in(band, direction, scattered);
+            });
+        self.previous_product = product;
+
+        // Apply the operator, and go to the minimum along the direction.
+        let image = &mut fields.direction_displacement;
+        self.convolution.apply(self.workspace, scattered, image);
+        let direction = &vectors.direction;
+        let energy = active.bands.fold(
+            [active.packed(&mut vectors.operator_output)],
+            |band, [output]| {
+                active.gather_in(band, image, output);
+                sum([&direction[active.packed_range(band)], output], |[a, b]| {
+                    a * b
+                })
+            },
+            |left, right| left + right,
+        );
+        // Zero for a single element at a given force, whose load is the force.
+        let length = if energy == 0.0 {
+            0.0
+        } else {
+            self.previous_product / energy
+        };
+        self.advance(length);
+    }
+
+    /// Finds the runs of the active set and gathers separation and load on it.
     fn gather_active(&mut self) {
         let (active, vectors) = (&mut self.fields.active, &mut self.fields.vectors);
         active.find_runs();
-        vectors.take(active, [self.separation, self.load]);
+        vectors.restrict_to(active, self.separation, self.load);
     }
 
     /// Scales the load to the prescribed force.
@@ -186,68 +334,10 @@ impl<'a> Iteration<'a> {
         active.sum(|range| sum([&vectors.load[range]], |[load]| load))
     }
 
+    /// Writes the packed load into the field of the grid.
     fn scatter_load(&mut self) {
         let (active, vectors) = (&self.fields.active, &self.fields.vectors);
         active.scatter(&vectors.load, self.load);
-    }
-
-    fn active_set_is_due(&self, violations: &Violations) -> bool {
-        let allowed = self.tolerance * violations.deflection;
-        if violations.tension <= 0.0 && violations.penetration <= allowed {
-            return false;
-        }
-        let worst = violations.tension.max(violations.penetration);
-        let outweighed = worst >= SET_UPDATE_RATIO * violations.gap;
-        violations.gap <= allowed || (self.block_updates_left > 0 && self.improved && outweighed)
-    }
-
-    fn change_active_set(&mut self, violations: &Violations) {
-        self.scatter_load();
-        let lowest = self.indentation_depth - self.tolerance * violations.deflection;
-        let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
-        // Under tension, or outside and below the height at which it penetrates.
-        let is_violating = |element: usize, inside: bool| {
-            if inside {
-                load[element] < 0.0
-            } else {
-                separation[element] + displacement[element] < lowest
-            }
-        };
-        let active = &mut self.fields.active;
-        let (n_violations, last) = active.find_last(is_violating);
-        if n_violations < self.fewest_violations {
-            self.fewest_violations = n_violations;
-            self.block_updates_left = MAX_NON_IMPROVING_UPDATES;
-        } else {
-            self.block_updates_left = self.block_updates_left.saturating_sub(1);
-        }
-        let first = if self.block_updates_left == 0 {
-            last
-        } else {
-            0
-        };
-        active.toggle(|element, inside| element >= first && is_violating(element, inside));
-        self.clear_left();
-        self.gather_active();
-        self.improved = false;
-        self.scale_to_force();
-        self.recompute_displacement();
-    }
-
-    /// Clears what has just left the contact, while the runs are still those before.
-    fn clear_left(&mut self) {
-        let (active, scattered) = (&mut self.fields.active, &mut self.fields.scattered);
-        let bands = active.bands;
-        bands.for_each([&mut *self.load, scattered], |band, fields| {
-            let first = bands.elements(band).start;
-            for field in fields {
-                for element in active.runs(band).iter().flat_map(Run::elements) {
-                    if !active.contains(element) {
-                        field[element - first] = 0.0;
-                    }
-                }
-            }
-        });
     }
 }
 

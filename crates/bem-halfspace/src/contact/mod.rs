@@ -10,12 +10,12 @@
 //! P_max, the hardness, nothing yields: the gap vanishes wherever there is pressure.
 
 pub(crate) mod active_set;
-mod far_loads;
 mod fields;
 mod folded;
 mod hardness;
 mod iteration;
 mod mirror_weights;
+mod multilevel_correction;
 mod patches;
 mod preconditioner;
 mod problem;

@@ -1,4 +1,4 @@
-//! Heights of the deformed surface, and what they violate.
+//! Heights of the deformed surface s + K x, the depth that follows from them, and the violations of the contact conditions.
 
 use std::ops::Range;
 
@@ -7,19 +7,20 @@ use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
 use crate::parallel::reductions::{add, larger, lower, reduce, sum};
 
-/// Heights of the deformed surface.
+/// Extremes and sums of the height s + K x of the deformed surface, \[m].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Heights {
-    /// The lowest outside the contact.
+    /// Lowest height outside the active set.
     lowest_outside: f64,
-    /// The sum of those in the contact, measured from the indentation depth.
+    /// Sum of the heights in the active set, measured from the indentation depth.
     sum_inside: f64,
 }
 
 impl Heights {
-    /// Those of a band, from separation and displacement of its elements and of those in the contact.
+    /// Heights in a band: `outside` has separation and displacement of its elements, `inside` of its active ones.
     fn of_band(
-        (active, band): (&ActiveSet, usize),
+        active: &ActiveSet,
+        band: usize,
         outside: [&[f64]; 2],
         inside: [&[f64]; 2],
         depth: f64,
@@ -48,7 +49,7 @@ impl Heights {
 }
 
 impl Iteration<'_> {
-    /// Computes the displacement from the load.
+    /// Computes the displacement from the load, and restarts the directions.
     pub(super) fn recompute_displacement(&mut self) {
         self.scatter_load();
         self.convolution
@@ -60,7 +61,7 @@ impl Iteration<'_> {
             active.gather_in(band, fields[1], displacement);
             let outside = fields.map(|field| &field[active.bands.elements(band)]);
             let inside = [&separation[active.packed_range(band)], displacement];
-            Heights::of_band((active, band), outside, inside, depth)
+            Heights::of_band(active, band, outside, inside, depth)
         };
         let displacement = [active.packed(&mut vectors.displacement)];
         self.heights = active.bands.fold(displacement, in_band, Heights::both);
@@ -68,20 +69,24 @@ impl Iteration<'_> {
         self.previous_product = 0.0;
     }
 
-    /// Moves load and displacement by so many directions.
+    /// Adds `length` times the direction to the load, and its displacement to the displacement.
     pub(super) fn advance(&mut self, length: f64) {
-        let (active, image) = (&self.fields.active, &self.fields.image);
+        let (active, image) = (&self.fields.active, &self.fields.direction_displacement);
         let vectors = &mut self.fields.vectors;
         let separation = &vectors.separation;
         let (heights, depth) = (self.separation, self.indentation_depth);
         let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
             let (elements, range) = (active.bands.elements(band), active.packed_range(band));
             add(field, length, &image[elements.clone()]);
-            add(displacement, length, &vectors.image[range.clone()]);
+            add(
+                displacement,
+                length,
+                &vectors.operator_output[range.clone()],
+            );
             add(load, length, &vectors.direction[range.clone()]);
             let outside = [&heights[elements], field];
             let inside = [&separation[range], displacement];
-            Heights::of_band((active, band), outside, inside, depth)
+            Heights::of_band(active, band, outside, inside, depth)
         };
         let moved = [
             active.field(self.displacement),
@@ -93,7 +98,8 @@ impl Iteration<'_> {
         self.improved = true;
     }
 
-    /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
+    /// Updates the depth. At a given force it is the mean height in the active set, so that the gaps there have the mean zero;
+    /// without an active element it is the lowest height.
     pub(super) fn update_depth(&mut self) {
         let (active, vectors) = (&self.fields.active, &self.fields.vectors);
         self.indentation_depth = match self.control {
@@ -104,8 +110,8 @@ impl Iteration<'_> {
             }
             Control::NormalForce(_) => {
                 let mean = self.indentation_depth + self.heights.sum_inside / active.len() as f64;
-                // After a refresh again, because the depth before may have been far off, and no direction removes what
-                // the long sum has rounded.
+                // For an exact displacement corrected once, because the previous depth may have been far off, and no direction
+                // removes the rounding of the long sum.
                 let rest = if self.displacement_is_exact {
                     vectors.mean_height_above(active, mean)
                 } else {
@@ -116,7 +122,7 @@ impl Iteration<'_> {
         };
     }
 
-    /// Stores the residual of the linear equations, minus the gap in the contact, and finds what is violated.
+    /// Computes the residual of the linear equations, minus the gap in the active set, and the violations.
     pub(super) fn measure(&mut self) -> Violations {
         let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (separation, displacement, load) =
@@ -131,7 +137,7 @@ impl Iteration<'_> {
             {
                 *residual = depth - (separation + displacement);
             }
-            Violations::inside(residual, [load, displacement], self_influence)
+            Violations::inside(residual, load, displacement, self_influence)
         };
         let residual = [active.packed(&mut vectors.residual)];
         let inside = active.bands.fold(residual, in_band, Violations::worst);
@@ -143,21 +149,20 @@ impl Iteration<'_> {
     }
 }
 
-/// The largest violations, as lengths.
+/// The largest violations of the contact conditions, \[m].
 pub(super) struct Violations {
-    /// Largest |gap| in the contact; NaN where numbers overflow.
+    /// Largest |gap| in the active set; NaN if numbers overflow.
     pub(super) gap: f64,
-    /// Largest tension in the contact, as the displacement that it causes at its own element; a half of it where a mirror
-    /// passes through.
+    /// Largest tension in the active set times the self-influence; half of it for an element on a mirror.
     pub(super) tension: f64,
-    /// Largest penetration outside the contact.
+    /// Largest penetration outside the active set.
     pub(super) penetration: f64,
-    /// Largest displacement in the contact, or under given loads.
+    /// Largest displacement in the active set, or under given loads: the scale of the tolerance.
     pub(super) deflection: f64,
 }
 
 impl Violations {
-    /// The largest relative to the deflection; zero where there is neither, NaN where numbers overflow.
+    /// The largest violation relative to the deflection; zero if both are zero, NaN if numbers overflow.
     pub(super) fn relative(&self) -> f64 {
         let largest = self.gap.max(self.tension).max(self.penetration);
         if self.gap.is_nan() {
@@ -169,7 +174,7 @@ impl Violations {
         }
     }
 
-    /// Those of two parts of a contact.
+    /// The largest violations in two parts of the active set.
     pub(super) fn worst(self, other: Self) -> Self {
         let gap = if self.gap.is_nan() {
             self.gap
@@ -184,18 +189,19 @@ impl Violations {
         }
     }
 
-    /// Those in the contact, whose load causes the displacement `self_influence` at its own element each.
+    /// Violations inside a part of the active set. A unit load displaces its own element by `self_influence`.
     pub(super) fn inside(
         residual: &[f64],
-        [load, displacement]: [&[f64]; 2],
+        load: &[f64],
+        displacement: &[f64],
         self_influence: f64,
     ) -> Self {
-        // Zero where all numbers are finite, else NaN; the extremes do not matter then.
-        let spoiled = sum([residual], |[residual]| 0.0 * residual);
+        // Zero if all numbers are finite, else NaN; the extremes do not matter then.
+        let zero_or_nan = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, lower);
         let own = self_influence * reduce([load], 0.0, |[load]| load, larger);
         Self {
-            gap: spoiled + reduce([residual], 0.0, |[residual]| residual.abs(), larger),
+            gap: zero_or_nan + reduce([residual], 0.0, |[residual]| residual.abs(), larger),
             tension: -self_influence * lowest_load,
             penetration: 0.0,
             deflection: reduce([displacement], own, |[displaced]| displaced, larger),
