@@ -1,10 +1,12 @@
-//! Contacts that are their own mirror images.
+//! Symmetry reduction of contacts that are their own mirror images.
 //!
-//! Where the separation is the same on both sides of a plane, so are load and displacement, and the part of the grid in
-//! front of the plane determines them all. Of an element through whose centre the plane passes, half the load is in front.
+//! If the separation is symmetric about a plane, so are load and displacement, and the part of the grid in front of the plane
+//! determines them. An element through whose centre the plane passes has half of its load in front.
+//!
+//! Theory: docs/theory/contact.md, "Mirrors".
 
 use crate::BemError;
-use crate::contact::hardness::solve_below;
+use crate::contact::hardness::solve_with_largest_load;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
@@ -14,8 +16,8 @@ use crate::parallel::bands::Bands;
 use crate::parallel::chunks::in_pool;
 use crate::transform::convolution::{Convolution, Surroundings};
 
-/// Solves the contact on the part of the grid that the mirrors of separation and first guess leave.
-pub(super) fn solve_in_front_of_mirrors(
+/// Solves the contact on the domain that is left by the mirror symmetries of separation and first guess.
+pub(super) fn solve_symmetry_reduced(
     problem: LoadProblem,
     largest_load: f64,
     state: &mut ContactState,
@@ -24,14 +26,14 @@ pub(super) fn solve_in_front_of_mirrors(
     let convolution = problem.convolution;
     let mirrors = find_mirrors(convolution, [problem.separation, &state.load]);
     if mirrors == NO_MIRRORS {
-        return solve_below(largest_load, problem, state, criterion);
+        return solve_with_largest_load(largest_load, problem, state, criterion);
     }
     let mut front = match state.front.take() {
         Some(front) if front.convolution.mirrors == mirrors => front,
         _ => Box::new(ContactBox::in_front_of(mirrors, convolution)),
     };
     let whole = convolution.grid().shape();
-    front.take_from([problem.separation, &state.load], whole[1]);
+    front.extract_from(problem.separation, &state.load, whole[1]);
     MirrorWeights::of(&front.convolution).apply(&mut front.state.load);
     let images = n_images(mirrors);
     let control = map_force(problem.control, |total| total / images);
@@ -47,7 +49,7 @@ pub(super) fn solve_in_front_of_mirrors(
         control,
     };
     let solved = in_pool(bounds.n_elements(), || {
-        solve_below(largest_load, problem, part, criterion)
+        solve_with_largest_load(largest_load, problem, part, criterion)
     });
     front.unfold([&mut state.load, &mut state.displacement], whole);
     state.front = Some(front);
@@ -57,7 +59,7 @@ pub(super) fn solve_in_front_of_mirrors(
     })
 }
 
-/// The mirrors in the middle of the grid about which fields are their own images, to the last bit.
+/// The mirrors in the middle of the grid about which both fields are symmetric to the last bit.
 fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
@@ -88,15 +90,16 @@ fn is_palindrome(line: &[f64]) -> bool {
 }
 
 impl ContactBox {
-    /// Writes load and displacement of the whole grid, of which this is the part in front of mirrors.
+    /// Writes load and displacement of the whole grid from those of this symmetry-reduced domain.
     fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
         let (mirrors, columns) = (self.convolution.mirrors, self.bounds.shape()[1]);
         let weights = MirrorWeights::of(&self.convolution);
         let bands = Bands::new(whole);
         bands.for_each(fields, |band, [loads, displacements]| {
-            let loads = loads.chunks_exact_mut(whole[1]);
-            let displacements = displacements.chunks_exact_mut(whole[1]);
-            for (row, (loads, displacements)) in bands.rows(band).zip(loads.zip(displacements)) {
+            let rows = loads
+                .chunks_exact_mut(whole[1])
+                .zip(displacements.chunks_exact_mut(whole[1]));
+            for (row, (loads, displacements)) in bands.rows(band).zip(rows) {
                 let row = in_front(row, whole[0], mirrors[0]);
                 let part = row * columns..(row + 1) * columns;
                 let front = whole[1] - columns;
@@ -112,7 +115,7 @@ impl ContactBox {
     }
 }
 
-/// The row of the part in front of the mirror that is, or shows, a row of the whole.
+/// The row in front of the mirror that is a row of the whole grid, or its image.
 const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     let half = rows / 2;
     match mirror {
@@ -123,12 +126,12 @@ const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     }
 }
 
-/// Completes a line of which so many values are in front of a mirror.
+/// Fills the part of a line behind a mirror from the last `in_front` values, which lie in front of it.
 fn mirror_behind(line: &mut [f64], in_front: usize) {
     let (behind, front) = line.split_at_mut(line.len() - in_front);
-    // An element about whose centre the mirror is has no image.
-    let own = front.len() - behind.len();
-    for (value, image) in behind.iter_mut().rev().zip(&front[own..]) {
+    // An element through whose centre the mirror passes has no image.
+    let on_mirror = front.len() - behind.len();
+    for (value, image) in behind.iter_mut().rev().zip(&front[on_mirror..]) {
         *value = *image;
     }
 }

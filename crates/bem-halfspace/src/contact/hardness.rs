@@ -1,12 +1,14 @@
-//! Contact under a pressure that has a largest value, the hardness.
+//! Contact with a largest pressure, the hardness (perfectly plastic asperities).
 //!
 //! ```text
 //! g = s + K x − d,      0 ≤ x ≤ X,      g ≥ 0 where x = 0,      g = 0 between,      g ≤ 0 where x = X
 //! ```
 //!
-//! (Almqvist, Sahlin, Larsson & Glavatskih 2007.) The elements at the limit are found like those in contact, by a
-//! primal-dual active set: while their load is given, the others make an elastic contact in which they have no part. Loads
-//! above X reach the limit, and an element at the limit whose gap opens leaves it.
+//! (Almqvist, Sahlin, Larsson & Glavatskih 2007). The saturated set, the elements at x = X, is found by an outer primal-dual
+//! active-set method. With the loads of the saturated set given, the other elements solve the elastic contact without them.
+//! Then elements with x > X join the set, and elements whose gap opens leave it.
+//!
+//! Theory: docs/theory/contact.md, "A largest pressure".
 
 use crate::contact::iteration::MAX_NON_IMPROVING_UPDATES;
 use crate::contact::mirror_weights::MirrorWeights;
@@ -15,11 +17,12 @@ use crate::contact::solve::solve_loads;
 use crate::contact::{ContactState, Control, map_force};
 use crate::{BemError, ConvolutionWorkspace};
 
-/// Largest tolerance of the contacts of all sets of elements at the limit but the last, whose errors then move few elements.
-const ROUGH: f64 = 1e-4;
+/// Loosest relative tolerance of the elastic contacts while the saturated set still changes; chosen, so that few elements
+/// are misplaced by the error.
+const INEXACT_TOLERANCE: f64 = 1e-4;
 
-/// Solves the contact with loads of at most `largest_load` per element; infinite where there is no limit.
-pub(super) fn solve_below(
+/// Solves the contact with loads of at most `largest_load` per element; infinity means no limit.
+pub(super) fn solve_with_largest_load(
     largest_load: f64,
     problem: LoadProblem,
     state: &mut ContactState,
@@ -28,58 +31,69 @@ pub(super) fn solve_below(
     if largest_load.is_infinite() {
         return solve_loads(problem, state, criterion);
     }
-    Limited::new(largest_load, problem, state).run(state, criterion)
+    SaturatedSet::new(largest_load, problem, state).run(state, criterion)
 }
 
-/// The elements at the limit, and what their loads do to the others.
-struct Limited<'a> {
+/// The saturated elements, with their loads and what these do to the other elements.
+struct SaturatedSet<'a> {
     problem: LoadProblem<'a>,
+    /// X, \[m].
     largest_load: f64,
     weights: MirrorWeights,
-    at_limit: Vec<bool>,
-    /// Their loads, zero elsewhere, and the sum and the displacement of these.
+    is_saturated: Vec<bool>,
+    /// Loads of the saturated elements, zero elsewhere, \[m].
     load: Vec<f64>,
+    /// Sum of `load`.
     total: f64,
+    /// K times `load`, \[m].
     displacement: Vec<f64>,
     workspace: ConvolutionWorkspace,
-    /// For the others; infinite at the limit, where these have no part.
+    /// Initial gap of the elastic contact of the other elements, \[m]; infinite on the saturated ones.
     separation: Vec<f64>,
 }
 
-/// Elements on the wrong side of the limit.
-struct Wrong {
+/// Elements that violate the conditions of the saturated set.
+struct SaturationViolations {
     count: usize,
+    /// The last of them; 0 without any.
     last: usize,
-    /// Largest of what they violate, as a displacement.
-    worst: f64,
+    /// Largest violation, as a displacement, \[m].
+    largest: f64,
 }
 
-impl<'a> Limited<'a> {
-    /// With the elements at the limit of the first guess, unless they bear more than the whole force.
+/// Depth and tolerance against which the gaps of saturated elements are judged, \[m].
+#[derive(Clone, Copy)]
+struct GapTest {
+    depth: f64,
+    allowed: f64,
+}
+
+impl<'a> SaturatedSet<'a> {
+    /// The elements of the first guess that are at the limit, or none if they bear the whole force or more.
     fn new(largest_load: f64, problem: LoadProblem<'a>, state: &ContactState) -> Self {
         let weights = MirrorWeights::of(problem.convolution);
         let elements = state.load.iter().zip(problem.separation).enumerate();
-        let at_limit = elements.map(|(element, (load, height))| {
+        let is_saturated = elements.map(|(element, (load, height))| {
             *load >= largest_load * weights.of_element(element) && height.is_finite()
         });
         let n = state.load.len();
-        let mut limited = Self {
+        let mut saturated = Self {
             problem,
             largest_load,
             weights,
-            at_limit: at_limit.collect(),
+            is_saturated: is_saturated.collect(),
             load: vec![0.0; n],
             total: 0.0,
             displacement: vec![0.0; n],
             workspace: problem.convolution.workspace(),
             separation: vec![0.0; n],
         };
-        limited.give_loads();
-        if matches!(problem.control, Control::NormalForce(total) if limited.total >= total) {
-            limited.at_limit.fill(false);
-            limited.give_loads();
+        saturated.update_loads();
+        if matches!(problem.control, Control::NormalForce(total) if saturated.total >= total) {
+            saturated.is_saturated.fill(false);
+            saturated.update_loads();
         }
-        limited
+        saturated
     }
 
     fn run(
@@ -87,14 +101,30 @@ impl<'a> Limited<'a> {
         state: &mut ContactState,
         criterion: &StoppingCriterion,
     ) -> Result<LoadSolution, BemError> {
-        let (mut tolerance, mut iterations) = (criterion.tolerance.max(ROUGH), 0);
+        let (mut tolerance, mut iterations) = (criterion.tolerance.max(INEXACT_TOLERANCE), 0);
         let (mut fewest, mut block_updates_left) = (usize::MAX, MAX_NON_IMPROVING_UPDATES);
         loop {
-            let solved = self.solve_others(state, tolerance, criterion)?;
+            // Solve the elastic contact of the elements below the limit.
+            let problem = LoadProblem {
+                separation: &self.separation,
+                control: map_force(self.problem.control, |total| total - self.total),
+                ..self.problem
+            };
+            let inner_criterion = StoppingCriterion {
+                tolerance,
+                given_deflection: self.displacement.iter().copied().fold(0.0, f64::max),
+                ..*criterion
+            };
+            let solved = solve_loads(problem, state, &inner_criterion)?;
             iterations += solved.iterations + 1;
-            let depth = solved.indentation_depth;
-            let wrong = self.find_wrong(state, depth, tolerance * solved.deflection);
-            if wrong.count == 0 {
+
+            // Collect the violations; without any, tighten the tolerance once, then add the saturated loads.
+            let test = GapTest {
+                depth: solved.indentation_depth,
+                allowed: tolerance * solved.deflection,
+            };
+            let violations = self.find_violations(state, test);
+            if violations.count == 0 {
                 if tolerance <= criterion.tolerance {
                     return Ok(self.finish(state, solved, iterations));
                 }
@@ -104,29 +134,31 @@ impl<'a> Limited<'a> {
             if iterations >= criterion.max_iterations {
                 return Err(BemError::ContactNotConverged {
                     iterations,
-                    residual: wrong.worst / solved.deflection,
+                    residual: violations.largest / solved.deflection,
                     tolerance,
                 });
             }
-            // As in the contact, one element at a time changes where the number of violations does not fall.
-            if wrong.count < fewest {
-                (fewest, block_updates_left) = (wrong.count, MAX_NON_IMPROVING_UPDATES);
+
+            // Exchange all violating elements, or as in the contact only the last one when their number stagnates.
+            if violations.count < fewest {
+                (fewest, block_updates_left) = (violations.count, MAX_NON_IMPROVING_UPDATES);
             } else {
                 block_updates_left = block_updates_left.saturating_sub(1);
             }
             let first = if block_updates_left == 0 {
-                wrong.last
+                violations.last
             } else {
                 0
             };
-            self.change(state, first, (depth, tolerance * solved.deflection));
+            self.exchange(state, first, test);
         }
     }
 
-    /// Finds loads, displacements and separations from the elements at the limit.
-    fn give_loads(&mut self) {
-        for (element, (load, at_limit)) in self.load.iter_mut().zip(&self.at_limit).enumerate() {
-            let weight = f64::from(*at_limit) * self.weights.of_element(element);
+    /// Updates loads, displacement and separation from the saturated set.
+    fn update_loads(&mut self) {
+        let flags = self.is_saturated.iter();
+        for (element, (load, is_saturated)) in self.load.iter_mut().zip(flags).enumerate() {
+            let weight = f64::from(*is_saturated) * self.weights.of_element(element);
             *load = if weight > 0.0 {
                 self.largest_load * weight
             } else {
@@ -137,9 +169,9 @@ impl<'a> Limited<'a> {
         let convolution = self.problem.convolution;
         convolution.apply(&mut self.workspace, &self.load, &mut self.displacement);
         let heights = self.problem.separation.iter().zip(&self.displacement);
-        let separations = self.separation.iter_mut().zip(&self.at_limit).zip(heights);
-        for ((separation, at_limit), (height, displacement)) in separations {
-            *separation = if *at_limit {
+        let separations = self.separation.iter_mut().zip(&self.is_saturated);
+        for ((separation, is_saturated), (height, displacement)) in separations.zip(heights) {
+            *separation = if *is_saturated {
                 f64::INFINITY
             } else {
                 height + displacement
@@ -147,67 +179,47 @@ impl<'a> Limited<'a> {
         }
     }
 
-    /// Solves the contact of the elements below the limit.
-    fn solve_others(
-        &self,
-        state: &mut ContactState,
-        tolerance: f64,
-        criterion: &StoppingCriterion,
-    ) -> Result<LoadSolution, BemError> {
-        let problem = LoadProblem {
-            separation: &self.separation,
-            control: map_force(self.problem.control, |total| total - self.total),
-            ..self.problem
-        };
-        let criterion = StoppingCriterion {
-            tolerance,
-            given_deflection: self.displacement.iter().copied().fold(0.0, f64::max),
-            ..*criterion
-        };
-        solve_loads(problem, state, &criterion)
-    }
-
-    /// By how much an element is on the wrong side of the limit, as a displacement; not above zero on the right side.
-    fn violation(&self, state: &ContactState, element: usize, (depth, allowed): (f64, f64)) -> f64 {
-        if self.at_limit[element] {
+    /// Violation of the conditions at an element, as a displacement, \[m]; positive if it has to be exchanged.
+    fn violation(&self, state: &ContactState, element: usize, test: GapTest) -> f64 {
+        if self.is_saturated[element] {
             let displacement = state.displacement[element] + self.displacement[element];
-            self.problem.separation[element] + displacement - depth - allowed
+            self.problem.separation[element] + displacement - test.depth - test.allowed
         } else {
             let largest = self.largest_load * self.weights.of_element(element);
             (state.load[element] - largest) * self.problem.convolution.self_influence
         }
     }
 
-    fn find_wrong(&self, state: &ContactState, depth: f64, allowed: f64) -> Wrong {
-        let mut wrong = Wrong {
+    fn find_violations(&self, state: &ContactState, test: GapTest) -> SaturationViolations {
+        let mut violations = SaturationViolations {
             count: 0,
             last: 0,
-            worst: 0.0,
+            largest: 0.0,
         };
-        for element in 0..self.at_limit.len() {
-            let violation = self.violation(state, element, (depth, allowed));
+        for element in 0..self.is_saturated.len() {
+            let violation = self.violation(state, element, test);
             if violation > 0.0 {
-                wrong.count += 1;
-                wrong.last = element;
-                wrong.worst = violation.max(wrong.worst);
+                violations.count += 1;
+                violations.last = element;
+                violations.largest = violation.max(violations.largest);
             }
         }
-        wrong
+        violations
     }
 
-    /// Moves the elements on the wrong side from the element `first` on to the other side.
-    fn change(&mut self, state: &mut ContactState, first: usize, depth_and_allowed: (f64, f64)) {
-        for element in first..self.at_limit.len() {
-            if self.violation(state, element, depth_and_allowed) > 0.0 {
-                self.at_limit[element] = !self.at_limit[element];
-                // Where it leaves the limit, the first guess of its load.
+    /// Exchanges the violating elements from the element `first` on.
+    fn exchange(&mut self, state: &mut ContactState, first: usize, test: GapTest) {
+        for element in first..self.is_saturated.len() {
+            if self.violation(state, element, test) > 0.0 {
+                self.is_saturated[element] = !self.is_saturated[element];
+                // For an element that leaves the set this is the first guess of its load.
                 state.load[element] = self.load[element];
             }
         }
-        self.give_loads();
+        self.update_loads();
     }
 
-    /// Adds the loads at the limit to the others.
+    /// Adds loads and displacement of the saturated set to those of the other elements.
     fn finish(
         self,
         state: &mut ContactState,

@@ -1,11 +1,13 @@
-//! Weights of elements through whose centres mirrors pass: the part of each that is in front of the mirrors.
+//! Weights of elements on a mirror: the fraction of each element that lies in the symmetry-reduced domain.
+//!
+//! Theory: docs/theory/contact.md, "Mirrors".
 
 use std::ops::Range;
 
 use crate::Convolution;
 use crate::elements::mirror::Mirror;
 
-/// One half in the first row and the first column where a mirror passes through them, else one.
+/// One half in the first row, and in the first column, if a mirror passes through its centres; else one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MirrorWeights {
     mirrors: [Mirror; 2],
@@ -20,7 +22,7 @@ impl MirrorWeights {
         }
     }
 
-    /// The weights other than one of neighbours in a row, with their places counted from the first neighbour.
+    /// The weights that may differ from one, for a range of elements in one row, with their indices in the range.
     pub(super) fn in_line(
         &self,
         elements: Range<usize>,
@@ -35,7 +37,7 @@ impl MirrorWeights {
         (0..count).map(move |index| (index, if index == 0 { of_first } else { of_row }))
     }
 
-    /// Multiplies the loads of whole elements on a field.
+    /// Multiplies a field of loads of whole elements by the weights.
     pub(super) fn apply(&self, loads: &mut [f64]) {
         let lines = loads.chunks_exact_mut(self.columns).enumerate();
         for (row, line) in lines {

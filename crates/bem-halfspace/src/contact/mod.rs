@@ -1,13 +1,15 @@
-//! Contact at one instant.
+//! Unilateral contact of a rigid surface with a half space at one instant.
 //!
 //! ```text
 //! gap = separation + α/(4π) K P − d,        0 ≤ P ≤ P_max,        gap ≥ 0 where P = 0,  gap = 0 between,  gap ≤ 0 where P = P_max
 //! ```
 //!
-//! The separation is the height of the rigid surface plus the displacement of the half space before the step, α the
-//! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
-//! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round. Without a largest pressure
-//! P_max, the hardness, nothing yields: the gap vanishes wherever there is pressure.
+//! The separation is the height of the rigid surface plus the displacement of the half space before the step. The compliance α
+//! of the step is `1/G` for an elastic half space and `Δt/η` for a viscous one (implicit over the step). Either the normal
+//! force `Σ P ΔA` or the depth d is given. P_max is the hardness; if it is infinite, the gap vanishes wherever there is
+//! pressure.
+//!
+//! Theory: docs/theory/contact.md.
 
 pub(crate) mod active_set;
 mod fields;
@@ -27,7 +29,7 @@ use std::f64::consts::PI;
 use crate::parallel::chunks::in_pool;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Convolution};
-use folded::solve_in_front_of_mirrors;
+use folded::solve_symmetry_reduced;
 use indenters::Control;
 use numerics::{InvalidParameter, finite, in_range, positive};
 pub use patches::Patch;
@@ -36,7 +38,7 @@ pub(crate) use problem::{LoadSolution, StoppingCriterion};
 pub(crate) use state::ContactBox;
 pub use state::ContactState;
 
-/// One contact problem.
+/// A contact problem on one grid.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactProblem<'a> {
     /// The grid and its influence coefficients.
@@ -46,21 +48,21 @@ pub struct ContactProblem<'a> {
     pub separation: &'a [f64],
     /// Compliance α of the half space in this step, \[1/Pa].
     pub compliance: f64,
-    /// Largest pressure that the surface bears, its hardness, \[Pa]; infinite where nothing yields. Under it an element
-    /// is indented for good: the gap below zero is the depth of the imprint.
+    /// Hardness: the largest pressure that the surface bears, \[Pa]; infinite if nothing yields. An element at this pressure is
+    /// indented permanently: its negative gap is the depth of the imprint.
     pub largest_pressure: f64,
-    /// Force or depth.
+    /// Prescribed force \[N] or depth \[m].
     pub control: Control,
 }
 
-/// When the iteration stops.
+/// Stopping criteria of the contact solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactOptions {
-    /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement that the
-    /// pressure causes, all of it or that of one element at the element itself; greater than 0 and at most 1e-2.
+    /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement; greater than 0
+    /// and at most 1e-2. That displacement is caused by the whole pressure, or by one element at itself if that is more.
     pub tolerance: f64,
-    /// Iterations, of one convolution each, after which the solver gives up.
+    /// Maximum number of iterations, with one operator application each.
     pub max_iterations: usize,
 }
 
@@ -84,33 +86,33 @@ pub struct Contact {
     pub normal_force: f64,
     /// Number of elements in contact.
     pub n_contact: usize,
-    /// Number of those at the largest pressure.
+    /// Number of elements at the largest pressure.
     pub n_at_limit: usize,
-    /// Whether an element at the edge of a grid that is not periodic is in contact: unless the body ends there, the
-    /// contact may go on beyond, and a larger grid is needed.
+    /// True if an element at the edge of a free grid is in contact. Unless the body ends there, the contact may extend beyond
+    /// the edge, and a larger grid is needed.
     pub reaches_edge: bool,
-    /// Iterations made, of one convolution each.
+    /// Number of iterations, with one operator application each.
     pub iterations: usize,
-    /// Residual reached, in the sense of [`ContactOptions::tolerance`].
+    /// Final residual, in the sense of [`ContactOptions::tolerance`].
     pub residual: f64,
 }
 
-/// Contacts that are solved more coarsely than this have no meaningful pressure.
+/// Largest tolerance that is accepted; less accurate contacts have no meaningful pressure.
 const MAX_TOLERANCE: f64 = 1e-2;
 
-/// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
+/// Solves a contact problem. The pressure in `state` is the first guess, and the solution afterwards.
 ///
-/// Without a guess the solver starts from solutions on coarser grids. It iterates on a box around the contact where that
-/// is much smaller than the grid, and on one half or one quarter of a grid (with a multiple of four elements where it is
-/// periodic) where separation and first guess are their own mirror images about its middle, to the last bit. How it
-/// iterates is in `docs/theory/contact.md`.
+/// Without a guess the solver starts from solutions on coarser grids. It iterates on a box around the contact if that is much
+/// smaller than the grid. If separation and first guess are symmetric about the middle of the grid to the last bit, it iterates
+/// on one half or one quarter of the grid; a periodic grid needs a multiple of four elements for it. The algorithm is described
+/// in `docs/theory/contact.md`.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a largest pressure that is not positive, a force that is not finite and
-/// non-negative, a depth that is not finite or, on a periodic half space, not below the mean of the separation;
-/// [`BemError::ForceNotBorne`] for a force that all elements together do not bear below the largest pressure;
-/// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::ContactNotConverged`] with the residual
-/// reached.
+/// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a largest pressure that is not positive, a
+/// force that is not finite and non-negative, and a depth that is not finite or, on a periodic half space, not below the mean
+/// of the separation; [`BemError::ForceNotBorne`] for a force that all elements together do not bear below the largest
+/// pressure; [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::ContactNotConverged`] with the final
+/// residual.
 pub fn solve_contact(
     problem: &ContactProblem,
     state: &mut ContactState,
@@ -129,13 +131,13 @@ pub fn solve_contact(
     };
     let solved = in_pool(grid.n_elements(), || {
         state.prepare_for(problem.convolution);
-        state.take_guess(grid, load_per_pressure);
+        state.scale_guess(grid, load_per_pressure);
         let largest_load = problem.largest_pressure * load_per_pressure;
-        let solved = solve_in_front_of_mirrors(loads, largest_load, state, &options.into());
+        let solved = solve_symmetry_reduced(loads, largest_load, state, &options.into());
         let pressure_per_load = 1.0 / load_per_pressure;
-        state.for_each_load(grid, |load| {
+        state.map_loads(grid, |load| {
             if load < largest_load {
-                // The product may round to more.
+                // The product may round to more than the largest pressure.
                 problem.largest_pressure.min(load * pressure_per_load)
             } else {
                 problem.largest_pressure
@@ -157,10 +159,10 @@ pub fn solve_contact(
     })
 }
 
-/// The same control with another force.
-fn map_force(control: Control, other: impl Fn(f64) -> f64) -> Control {
+/// Applies a function to a prescribed force; a prescribed depth stays as it is.
+fn map_force(control: Control, map: impl Fn(f64) -> f64) -> Control {
     match control {
-        Control::NormalForce(force) => Control::NormalForce(other(force)),
+        Control::NormalForce(force) => Control::NormalForce(map(force)),
         depth @ Control::IndentationDepth(_) => depth,
     }
 }
@@ -181,7 +183,7 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
     in_range("largest_pressure", limit, limit > 0.0, "greater than 0")?;
     check_length("separation", heights.len(), grid.n_elements())?;
     check_length("pressure", state.pressure().len(), grid.n_elements())?;
-    check_heights("separation", (heights, grid.shape()[1]), [0; 2])?;
+    check_heights("separation", heights, grid.shape()[1], [0; 2])?;
     check_control(problem.control)?;
     if let Control::NormalForce(normal_force) = problem.control {
         let n_elements = heights.iter().filter(|height| height.is_finite()).count();
@@ -219,10 +221,12 @@ pub(crate) fn check_length(
     })
 }
 
-/// Checks the heights of a body over a part of a grid that begins at the element `first`; somewhere there must be a body.
+/// Checks the heights of a body over a part of a grid with `columns` columns that begins at the element `first`. They must be
+/// numbers above −∞, and finite in at least one element.
 pub(crate) fn check_heights(
     field: &'static str,
-    (heights, columns): (&[f64], usize),
+    heights: &[f64],
+    columns: usize,
     first: [usize; 2],
 ) -> Result<(), BemError> {
     let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
@@ -239,7 +243,7 @@ pub(crate) fn check_heights(
     Ok(())
 }
 
-/// Checks a force or depth that is given.
+/// Checks a prescribed force or depth, and returns its value.
 pub(crate) fn check_control(control: Control) -> Result<f64, InvalidParameter> {
     match control {
         Control::NormalForce(value) => {

@@ -1,10 +1,12 @@
-//! What is read off a solved contact when it is asked for: gaps, patches, and whether it ends on its grid.
+//! Quantities derived from a solved contact: gaps, connected patches, and whether it reaches the edge of the grid.
+//!
+//! Theory: docs/theory/contact.md, "Patches, gaps and the edge of the grid".
 
 use crate::BemError;
 use crate::contact::{Contact, ContactProblem, ContactState, check_length};
 use crate::transform::convolution::Surroundings;
 
-/// Elements in contact that hang together by their edges, on a periodic grid across its boundary too.
+/// A connected patch: elements in contact that are linked by common edges, on a periodic grid also across its boundary.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -13,7 +15,7 @@ pub struct Patch {
     pub elements: Vec<usize>,
     /// Their area, \[m²].
     pub area: f64,
-    /// Their part of the normal force, \[N].
+    /// The normal force on them, \[N].
     pub normal_force: f64,
 }
 
@@ -37,14 +39,14 @@ impl ContactProblem<'_> {
     /// [`BemError::LengthMismatch`] for the state of another grid.
     pub fn patches(&self, state: &ContactState) -> Result<Vec<Patch>, BemError> {
         self.check_state(state)?;
-        let mut is_left = vec![false; state.pressure().len()];
+        let mut is_unassigned = vec![false; state.pressure().len()];
         for &element in state.contact() {
-            is_left[element] = true;
+            is_unassigned[element] = true;
         }
         let mut patches = Vec::new();
         for &element in state.contact() {
-            if is_left[element] {
-                let elements = self.take_patch(element, &mut is_left);
+            if is_unassigned[element] {
+                let elements = self.flood_patch(element, &mut is_unassigned);
                 let area = self.convolution.grid().element_area();
                 let pressures = elements.iter().map(|&element| state.pressure()[element]);
                 patches.push(Patch {
@@ -57,16 +59,16 @@ impl ContactProblem<'_> {
         Ok(patches)
     }
 
-    /// Takes the elements that hang together with one out of those left.
-    fn take_patch(&self, element: usize, is_left: &mut [bool]) -> Vec<usize> {
-        is_left[element] = false;
+    /// The elements connected to one, in increasing order; marks them as assigned.
+    fn flood_patch(&self, element: usize, is_unassigned: &mut [bool]) -> Vec<usize> {
+        is_unassigned[element] = false;
         let mut elements = vec![element];
-        let mut done = 0;
-        while let Some(&element) = elements.get(done) {
-            done += 1;
+        let mut n_visited = 0;
+        while let Some(&element) = elements.get(n_visited) {
+            n_visited += 1;
             for neighbour in self.neighbours(element) {
-                if is_left[neighbour] {
-                    is_left[neighbour] = false;
+                if is_unassigned[neighbour] {
+                    is_unassigned[neighbour] = false;
                     elements.push(neighbour);
                 }
             }
@@ -91,7 +93,7 @@ impl ContactProblem<'_> {
         along_x.into_iter().chain(along_y).flatten()
     }
 
-    /// Whether an element at the edge of a grid that is not periodic is in contact.
+    /// True if an element at the edge of a free grid is in contact.
     pub(super) fn reaches_edge(&self, state: &ContactState) -> bool {
         let [rows, columns] = self.convolution.grid().shape();
         let is_at_edge = |element: &usize| {

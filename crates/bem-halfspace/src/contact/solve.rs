@@ -1,4 +1,6 @@
-//! Where to iterate, and from which first guess.
+//! Nested iteration for the first guess, and a box around the contact in place of a large free grid.
+//!
+//! Theory: docs/theory/contact.md, "First guess and box".
 
 use crate::contact::iteration::Iteration;
 use crate::contact::mirror_weights::MirrorWeights;
@@ -11,13 +13,14 @@ use crate::parallel::chunks::in_pool;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Rows};
 
-/// A box is used where it has fewer elements than this part of the grid: with its margin and the product on the whole grid
-/// at its end, a larger one takes as long as the grid.
-const LARGEST_BOX: f64 = 0.6;
-/// A grid with fewer elements along an edge is solved without a guess.
-const SMALLEST_EDGE: usize = 32;
+/// Largest box, as a fraction of the elements of the grid, on which the contact is solved in place of the grid.
+///
+/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end.
+const MAX_BOX_FRACTION: f64 = 0.6;
+/// Fewest elements along an edge of a grid that gets its first guess from a coarser one; chosen.
+const MIN_EDGE_FOR_COARSENING: usize = 32;
 
-/// Solves the contact, from the load of the state or, where that is zero, from coarser grids.
+/// Solves the contact from the load in the state, or by nested iteration if that is zero.
 pub(super) fn solve_loads(
     problem: LoadProblem,
     state: &mut ContactState,
@@ -29,7 +32,7 @@ pub(super) fn solve_loads(
     };
     let mut bounds = loaded(&state.load);
     if bounds.is_none() {
-        start_from_coarser(problem, state);
+        prolong_coarse_solution(problem, state);
         bounds = loaded(&state.load);
     }
     solve_around(bounds, problem, state, criterion)
@@ -46,7 +49,7 @@ fn solve_around(
     let grid = convolution.grid();
     let saves_time = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
-        convolution.surroundings == Surroundings::Free && part < LARGEST_BOX
+        convolution.surroundings == Surroundings::Free && part < MAX_BOX_FRACTION
     };
     let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(saves_time)) else {
@@ -57,25 +60,26 @@ fn solve_around(
         _ => Box::new(ContactBox::of(convolution, outer)?),
     };
     let columns = grid.shape()[1];
-    inner.take_from([problem.separation, &state.load], columns);
+    inner.extract_from(problem.separation, &state.load, columns);
     let solved = inner.solve(problem.control, criterion);
-    inner.give_load_to(&mut state.load, columns);
+    inner.copy_load_to(&mut state.load, columns);
     let bounds = inner.bounds;
     state.inner = Some(inner);
-    check_around(&bounds, problem, (state, solved?), criterion)
+    grow_if_penetrating(&bounds, problem, state, solved?, criterion)
 }
 
-/// Whether a box can be used again: the bounds are inside, and it is not much larger than a new one.
+/// True if a box holds the bounds and has at most twice the elements of a new one.
 fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
     inner.bounds.union(bounds) == inner.bounds
         && inner.bounds.n_elements() <= 2 * outer.n_elements()
 }
 
-/// Computes the displacement of the whole grid; where it penetrates outside the box, the box grows.
-fn check_around(
+/// Computes the displacement of the whole grid; if anything penetrates outside the box, solves again on a larger box.
+fn grow_if_penetrating(
     bounds: &Bounds,
     problem: LoadProblem,
-    (state, solved): (&mut ContactState, LoadSolution),
+    state: &mut ContactState,
+    solved: LoadSolution,
     criterion: &StoppingCriterion,
 ) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
@@ -90,7 +94,7 @@ fn check_around(
         &state.load,
         &mut state.displacement,
     );
-    // The box and the grid round differently, so the tolerance of the box would be too sharp here.
+    // Box and grid round differently, so that the tolerance of the box would be too strict here.
     let highest = solved.indentation_depth - 2.0 * criterion.tolerance * solved.deflection;
     let displacement = &state.displacement;
     let penetrates = |element: [usize; 2]| {
@@ -100,8 +104,7 @@ fn check_around(
     let Some(outside) = Bounds::enclosing_where([rows, columns], penetrates) else {
         return Ok(solved);
     };
-    let bounds = bounds.union(&outside);
-    let again = solve_around(Some(bounds), problem, state, criterion)?;
+    let again = solve_around(Some(bounds.union(&outside)), problem, state, criterion)?;
     let iterations = solved.iterations + again.iterations;
     Ok(LoadSolution {
         iterations,
@@ -110,7 +113,7 @@ fn check_around(
 }
 
 impl ContactBox {
-    /// Solves for the separation set before; the load has the unit of a length.
+    /// Solves for the separation that was set before; the load is the scaled pressure, \[m].
     pub(crate) fn solve(
         &mut self,
         control: Control,
@@ -127,25 +130,27 @@ impl ContactBox {
     }
 }
 
-/// Loads the state with the solution for elements of twice the edges; leaves it unloaded where there is none.
-fn start_from_coarser(problem: LoadProblem, state: &mut ContactState) {
+/// Prolongs the solution on elements of twice the edges to the load of the state, which stays zero if the grid cannot be
+/// coarsened.
+fn prolong_coarse_solution(problem: LoadProblem, state: &mut ContactState) {
     let convolution = problem.convolution;
     let grid = convolution.grid();
     let [rows, columns] = grid.shape();
-    let whole = grid.unfolded(convolution.mirrors).shape();
+    let unfolded = grid.unfolded(convolution.mirrors).shape();
     let is_even = rows.is_multiple_of(2) && columns.is_multiple_of(2);
-    let has_period = convolution.surroundings == Surroundings::Periodic;
-    if whole.into_iter().any(|n| n < SMALLEST_EDGE) || (has_period && !is_even) {
+    let is_periodic = convolution.surroundings == Surroundings::Periodic;
+    let is_small = unfolded.into_iter().any(|n| n < MIN_EDGE_FOR_COARSENING);
+    if is_small || (is_periodic && !is_even) {
         return;
     }
     let coarse_convolution = convolution.between_blocks();
     let mut coarse = ContactState::new(&coarse_convolution);
     let problem = LoadProblem {
         convolution: &coarse_convolution,
-        separation: &mean_of_four(problem.separation, [rows, columns]),
+        separation: &restrict_heights(problem.separation, [rows, columns]),
         control: map_force(problem.control, |total| 0.25 * total),
     };
-    // What was reached is a guess too; the finer grid decides whether the problem can be solved.
+    // An unconverged solution is a guess too; the finer grid decides whether the problem can be solved.
     let _guess = solve_loads(problem, &mut coarse, &StoppingCriterion::GUESS);
     for_each_row(&mut state.load, columns, |row, loads| {
         let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
@@ -156,8 +161,8 @@ fn start_from_coarser(problem: LoadProblem, state: &mut ContactState) {
     MirrorWeights::of(convolution).apply(&mut state.load);
 }
 
-/// Mean of the finite heights of two by two elements; `+∞` where there are none.
-fn mean_of_four(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+/// Restriction: mean of the finite heights of two by two elements, `+∞` if there are none.
+fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
     let mean = |row: usize, column: usize| {
         let (mut sum, mut count) = (0.0, 0.0);
         for row in row..(row + 2).min(rows) {

@@ -8,23 +8,26 @@ use crate::parallel::bands::for_each_row;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
-/// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next. With the
-/// feature `rayon`, the buffers are for the threads of the pool of the first solve.
+/// Pressure and buffers of a contact solve.
+///
+/// The caller keeps it, so that one solution is the first guess of the next. With the feature `rayon`, the buffers are for the
+/// threads of the pool of the first solve.
 #[derive(Debug, Clone)]
 pub struct ContactState {
     /// Pressure, \[Pa]; within a solve the load `x = α P / (4π)`, \[m].
     pub(super) load: Vec<f64>,
+    /// Displacement under the pressure of the last solve, \[m].
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     contact: Vec<usize>,
-    /// The grid, and what surrounds it, for which everything below was made when it was first needed.
+    /// Grid and surroundings for which the buffers below were made; `None` before the first solve.
     kind: Option<(Grid, Surroundings)>,
     pub(super) workspace: Option<ConvolutionWorkspace>,
     /// Buffers of the iteration on the whole grid.
     pub(super) fields: Option<Box<Fields>>,
-    /// The part of the grid on which the iteration last ran instead.
+    /// The box on which the iteration last ran in place of the grid.
     pub(super) inner: Option<Box<ContactBox>>,
-    /// The part of the grid in front of the mirrors that the last problem had.
+    /// The symmetry-reduced domain of the last problem that had mirrors.
     pub(super) front: Option<Box<ContactBox>>,
 }
 
@@ -49,8 +52,10 @@ impl ContactState {
         &self.load
     }
 
-    /// The pressure to start from, \[Pa], row-major. Anything but a positive number is taken as zero; without any
-    /// pressure the solver starts from solutions on coarser grids.
+    /// First guess of the pressure, \[Pa], row-major.
+    ///
+    /// Anything but a positive finite number is taken as zero. Without any pressure the solver starts from solutions on
+    /// coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
         &mut self.load
     }
@@ -60,7 +65,7 @@ impl ContactState {
         &self.contact
     }
 
-    /// Displacement of the surface under the pressure of the last solve, without what it was before, \[m], row-major.
+    /// Displacement that the pressure of the last solve adds to the separation, \[m], row-major.
     pub fn displacement(&self) -> &[f64] {
         &self.displacement
     }
@@ -75,16 +80,17 @@ impl ContactState {
         }
     }
 
-    /// Takes what the caller left as a first guess, times a factor; anything but a positive number is taken as zero.
-    pub(super) fn take_guess(&mut self, grid: &Grid, factor: f64) {
-        self.for_each_load(grid, |load| {
+    /// Turns the first guess of the caller into loads by a factor, and all that is not positive and finite into zero.
+    pub(super) fn scale_guess(&mut self, grid: &Grid, factor: f64) {
+        self.map_loads(grid, |load| {
             let guess = load * factor;
             let is_load = guess > 0.0 && guess.is_finite();
             if is_load { guess } else { 0.0 }
         });
     }
 
-    pub(super) fn for_each_load(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
+    /// Replaces every load by a function of it.
+    pub(super) fn map_loads(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
         for_each_row(&mut self.load, grid.shape()[1], |_, row| {
             for load in row {
                 *load = replace(*load);
@@ -92,6 +98,7 @@ impl ContactState {
         });
     }
 
+    /// Lists the loaded elements.
     pub(super) fn list_contact(&mut self) {
         self.contact.clear();
         let elements = self.load.iter().enumerate();
@@ -100,12 +107,13 @@ impl ContactState {
     }
 }
 
-/// A box of elements around the contact, on which the contact is solved in place of the grid.
+/// A part of a grid, on which the contact is solved in place of the grid.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactBox {
     pub(crate) bounds: Bounds,
     pub(super) convolution: Convolution,
     pub(crate) state: ContactState,
+    /// Initial gap of its elements, \[m].
     pub(crate) separation: Vec<f64>,
 }
 
@@ -119,13 +127,13 @@ impl ContactBox {
         }
     }
 
-    /// A box of elements of the grid of a convolution, at the same mirrors.
+    /// A box of the grid of a convolution, with the same mirrors.
     pub(crate) fn of(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
         let grid = Grid::new(bounds.shape(), convolution.grid().spacing())?;
         Ok(Self::new(convolution.on_grid(&grid), bounds))
     }
 
-    /// The part of the grid of a convolution in front of mirrors in its middle.
+    /// The symmetry-reduced domain of the grid of a convolution: the part in front of mirrors in its middle.
     pub(super) fn in_front_of(mirrors: [Mirror; 2], convolution: &Convolution) -> Self {
         let folded = convolution.folded(mirrors);
         let (part, upper) = (folded.grid().shape(), convolution.grid().shape());
@@ -133,7 +141,7 @@ impl ContactBox {
         Self::new(folded, Bounds { lower, upper })
     }
 
-    /// A box of other bounds that starts from the load of this one.
+    /// A box with other bounds and the load of this one, where both overlap.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
         let mut moved = Self::of(&self.convolution, bounds)?;
         for (element, load) in self.loaded_elements() {
@@ -144,14 +152,15 @@ impl ContactBox {
         Ok(moved)
     }
 
-    /// Copies what lies inside the bounds from fields with `columns` columns, the load as a first guess.
-    pub(super) fn take_from(&mut self, [separation, load]: [&[f64]; 2], columns: usize) {
+    /// Copies the part inside the bounds from fields with `columns` columns: separation, and load as a first guess.
+    pub(super) fn extract_from(&mut self, separation: &[f64], load: &[f64], columns: usize) {
         let bounds = self.bounds;
         bounds.extract(separation, columns, &mut self.separation);
         bounds.extract(load, columns, &mut self.state.load);
     }
 
-    pub(super) fn give_load_to(&self, field: &mut [f64], columns: usize) {
+    /// Copies the load into a field with `columns` columns.
+    pub(super) fn copy_load_to(&self, field: &mut [f64], columns: usize) {
         let (rows, width) = (self.bounds.rows(), self.bounds.shape()[1]);
         let field = &mut field[rows.start * columns..rows.end * columns];
         for_each_row(field, columns, |row, values| {
@@ -160,12 +169,12 @@ impl ContactBox {
         });
     }
 
-    /// Area of the elements with load and of their images, in elements; the field begins at its mirrors.
+    /// Contact area of the loaded elements and their images, in elements; the field begins at its mirrors.
     pub(crate) fn area(&self, mirrors: [Mirror; 2]) -> f64 {
         area::in_elements(&self.state.load, &self.bounds, mirrors)
     }
 
-    /// Elements with load, as [row, column] of the field in which the box lies, and their load.
+    /// The loaded elements, as [row, column] of the field in which the box lies, with their loads.
     pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let (lower, columns) = (self.bounds.lower, self.bounds.shape()[1]);
         let loads = self.state.load.iter().enumerate();

@@ -327,8 +327,13 @@ impl<'a> March<'a> {
                     .push(self.surface.height([x, self.y_of_column(column)]) / self.height_scale);
             }
         }
-        let field = (&heights[..], columns - first_column);
-        check_heights("height of the surface", field, [first_row, first_column])?;
+        let first = [first_row, first_column];
+        check_heights(
+            "height of the surface",
+            &heights,
+            columns - first_column,
+            first,
+        )?;
         self.heights = heights;
         self.sampled_offset = offset;
         Ok(())
