@@ -1,10 +1,12 @@
 //! Refinement to a requested error.
 //!
-//! The outline of the contact follows the elements. On one grid that scatters the friction around its trend, so each
-//! refinement averages over four grids that are shifted by half an element along x and y, in plane strain by quarters
-//! along x. The averages converge with the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p
-//! is slower, and are extrapolated. On materials that recover the outline is closed behind, and what is left of the
-//! scatter decides: it widens the error bar.
+//! The boundary of the contact follows the elements. On one grid that scatters the friction around its trend, so each refinement
+//! averages over four grids that are shifted by half an element along x and y, in plane strain by quarters along x. The averages
+//! converge with the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p is slower, and are extrapolated. On
+//! any material but a dashpot the contact is also closed at its rear, and the remaining scatter decides: it is added to the error
+//! estimate.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar" and "Order and error bar".
 
 use std::ops::Range;
 
@@ -26,58 +28,65 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::stationary::steady::{Reuse, SteadyOptions, solve};
 
-/// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
+/// Shifts of the grid along x and y, in elements, which keep the mirror symmetry in y. The first two and the last two are diagonal
+/// pairs.
 const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
-/// Shifts in plane strain. The means over the first two and over the last two differ by the second harmonic of how the
-/// friction varies with the shift, which all four average out.
+/// Shifts of the grid in plane strain, in elements. The means over the first two and over the last two differ by the second harmonic of
+/// the friction as a function of the shift, which the mean of all four eliminates.
 const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
-/// Refinements in plane strain of which the largest scatter counts: on one of them it may be small by chance, and the
-/// extrapolated limit contains the scatter of all that it eliminates.
+/// Number of last refinements in plane strain whose largest scatter counts; chosen. On one of them it may be small by chance, and the
+/// extrapolated limit contains the scatter of all values that it eliminates.
 const STRIP_SCATTER_WINDOW: usize = 4;
-/// Order of the error that the singular front leaves.
+/// Convergence order at the singular front.
 const FRONT_ORDER: f64 = 1.5;
-/// Order in which the area of the elements in contact approaches that of the contact.
+/// Convergence order of the area of the elements in contact.
 const AREA_ORDER: f64 = 1.0;
-/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
-/// lesser of two bars holds less often than either.
-const DISSIPATION_ERROR_RATIO: f64 = 0.5;
-/// Weight of the error on materials that recover, where all outlines scatter and the refinement that ends is one that does so
-/// little by chance: without it 95.8 of 100 bars hold on random solids and cylinders, with it 98.6 (docs/calibration.md).
+/// The friction from dissipation replaces that from slopes if its error is below this fraction of the other; chosen. The smaller of
+/// two error estimates holds less often than either.
+const MAX_DISSIPATION_ERROR_RATIO: f64 = 0.5;
+/// Safety factor on the error of the friction on any material but a dashpot, where the whole contact boundary scatters and the
+/// refinement that ends has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and
+/// cylinders, with it 98.6 (docs/calibration.md).
 const SAFETY_FACTOR_CREEPING: f64 = 1.5;
-/// Friction as a part of the mean slope, below which it is a small difference of slopes, and faster orders are looked for: chosen;
-/// larger ones reach what is asked for without.
-const SMALL_FRICTION: f64 = 0.2;
-/// Refinements of which an error bar can come, at least.
+/// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are tried; chosen. A
+/// larger friction reaches the requested error without them.
+const SMALL_FRICTION_RATIO: f64 = 0.2;
+/// Smallest number of refinements for an error estimate. An elimination uses two values, and the estimate needs three limits.
 const MIN_REFINEMENTS: i32 = 5;
-/// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
+/// Largest number of footprint elements per allowed unknown pressure; chosen. A steep body touches with a thin crescent.
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
-/// Elements of the footprint up to which that holds, and for each unknown pressure beyond: they take some GB.
+/// Number of footprint elements from which [`LARGE_GRID_ELEMENTS_PER_UNKNOWN`] is the limit; they take some GB.
 const LARGE_GRID_ELEMENTS: f64 = 2e6;
+/// Largest number of footprint elements per allowed unknown pressure on large grids; chosen.
 const LARGE_GRID_ELEMENTS_PER_UNKNOWN: f64 = 12.5;
-/// Elements that hardly cost anything.
+/// Number of footprint elements up to which a grid is never refused; chosen. Such grids cost next to nothing.
 const MIN_GRID_LIMIT: f64 = 1e5;
-/// At the edge of a contact elements may change sides without end; then the grid is this much finer, and its own spacing is
-/// the one that is reported.
+/// Factors on the spacing that are tried in turn where the active set cycles; chosen. The spacing that is reported is that of the grid
+/// that was solved.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
-/// Residual left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
+/// Tolerance of a contact over the requested relative error and the ratio of friction to mean slope; chosen.
 const RESIDUAL_SHARE: f64 = 1e-4;
-const MIN_TOLERANCE: f64 = 1e-12;
-/// The same part under a strip: the potential of its whole length, which is absorbed in the depth, leaves more rounding.
+/// Like [`RESIDUAL_SHARE`], in plane strain; chosen. The constant potential of the whole strip, which is absorbed in the depth, leaves
+/// more rounding error.
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
-/// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
+/// Smallest tolerance of a contact, relative to the depth scale, that rounding error permits.
+const MIN_TOLERANCE: f64 = 1e-12;
+/// Ratio of friction to mean slope that is assumed on the first grid, on any material but a dashpot; chosen.
 const INITIAL_FRICTION_RATIO: f64 = 1e-3;
-/// Friction on an elastic material that is known to this part of the mean slope counts as known: what is left is rounding.
+/// Error of the friction over the mean slope below which the friction of an elastic material counts as known, because the rest is
+/// rounding error; chosen.
 const ELASTIC_ROUNDING: f64 = 1e-9;
 
-/// How far a friction coefficient is refined.
+/// Requested error, shape of the elements and limits of the work of a refinement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RefinementOptions {
-    /// Relative error asked for, of the friction coefficient, and of the normal force where the depth is given.
+    /// Requested relative error of the friction coefficient, and of the normal force where the depth is given.
     pub relative_error: f64,
-    /// Δy/Δx. The outline of the contact is steeper across the sliding direction than along it.
+    /// Aspect ratio Δy/Δx of the elements. The contact boundary is steeper across the sliding direction than along it.
     pub aspect: f64,
-    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it, or
-    /// whose footprint has more than 50 times as many elements, from 2e6 elements on 12.5 times as many, and more than 1e5.
+    /// Largest number of unknown pressures. Refinement stops before a grid that is expected to exceed it, from the number on the grid
+    /// before. It also stops before a footprint of more than 1e5 elements that has more than 50 times as many elements as this, or
+    /// 12.5 times as many beyond 2e6 elements.
     pub max_unknowns: usize,
 }
 
@@ -92,18 +101,21 @@ impl Default for RefinementOptions {
     }
 }
 
-/// A surface that slides, and the grids for it.
+/// A sliding surface, and the plan of its grids.
 pub(super) struct SteadyProblem<'a> {
     pub(super) surface: &'a dyn Surface,
     pub(super) loading: Loading,
     pub(super) plan: &'a GridPlan,
-    /// Whether the largest pressure is known to have a limit.
+    /// True if the peak pressure is known to be finite.
     pub(super) has_peak: bool,
     pub(super) watch: &'a dyn Progress,
 }
 
-/// Refines until friction and force have the error asked for; `finish` makes of the estimate what is returned, also where
-/// that error was not reached.
+/// Refines until friction and force have the requested error. `finish` converts the estimate into the result, also into the result
+/// that the error holds where the requested error was not reached.
+///
+/// # Errors
+/// [`BemError::NotReached`]; [`BemError::GridTooLarge`] where no error can be estimated within the limits; errors of single grids.
 pub(super) fn refine<E: Into<Reached>>(
     problem: &SteadyProblem,
     options: &RefinementOptions,
@@ -118,40 +130,53 @@ pub(super) fn refine<E: Into<Reached>>(
         reuse: Reuse::default(),
         progress: WorkProgress::new(problem.watch, refinement_work(0..MIN_REFINEMENTS)),
     };
+    let is_elastic = problem.loading.creep.is_elastic();
+    let rounding = if is_elastic {
+        ELASTIC_ROUNDING
+    } else {
+        MIN_TOLERANCE
+    };
     let (mut index, mut finest) = grids.coarsest(0)?;
     let mut refinements = vec![finest.averages];
     loop {
+        // Choose the quantity that decides. Without friction the contact is known as well as its depth; finer grids would only
+        // show rounding error.
         let friction = grids.friction(&refinements);
         let force = grids.force(&refinements);
-        let is_elastic = problem.loading.creep.is_elastic();
-        let rounding = [MIN_TOLERANCE, ELASTIC_ROUNDING][usize::from(is_elastic)];
-        // Without friction the contact is known as well as its depth, and finer grids leave what is rounding.
-        let is_rounding = friction.error <= rounding * finest.state.mean_slope;
-        let (name, driving) = match grids.depth(&refinements) {
-            Some(depth) if is_rounding => (Name::Depth, depth),
-            None if is_rounding => (Name::Force, force),
+        let friction_is_rounding = friction.error <= rounding * finest.state.mean_slope;
+        let (quantity, known) = match grids.depth(&refinements) {
+            Some(depth) if friction_is_rounding => (Name::Depth, depth),
+            None if friction_is_rounding => (Name::Force, force),
             _ => (Name::Friction, friction),
         };
-        let is_enough = driving.is_within(relative_error) && force.is_within(relative_error);
-        if is_enough || !grids.allows(index + 1, &finest.averages) {
+
+        // Stop when the error is reached, or when the next grid would exceed the limits.
+        let is_reached = known.is_within(relative_error) && force.is_within(relative_error);
+        if is_reached || !grids.may_refine(index + 1, &finest.averages) {
             let found = finish(grids.estimate(friction, force, refinements, finest))?;
-            let asked = if is_elastic {
-                (name, driving)
-            } else {
-                (Name::Friction, friction)
+            let (quantity, known) = match quantity {
+                _ if !force.is_within(relative_error) => (Name::Force, force),
+                // Friction was asked for, unless the material has none.
+                _ if !is_elastic => (Name::Friction, friction),
+                _ => (quantity, known),
             };
-            return if asked.1.is_within(relative_error) && force.is_within(relative_error) {
-                Ok(found)
-            } else {
-                Err(not_reached(asked, force, relative_error, found.into()))
-            };
+            if known.is_within(relative_error) {
+                return Ok(found);
+            }
+            return Err(BemError::NotReached {
+                quantity: quantity.in_words(),
+                value: known.value,
+                error: known.error,
+                relative_error,
+                reached: Box::new(found.into()),
+            });
         }
-        let excess = [driving, force].map(|known| known.error / known.value.abs());
-        let excess = excess[0].max(excess[1]) / relative_error;
-        grids.expect(index, excess, &finest.averages);
+        let excess = (known.error / known.value.abs()).max(force.error / force.value.abs());
+        grids.predict_work(index, excess / relative_error, &finest.averages);
+
+        // Refine. A patch that coarser grids do not resolve makes their values worthless.
         index += 1;
         match grids.refine(index) {
-            // A patch that coarser grids do not show: nothing follows from them.
             Err(BemError::GridTooCoarse { .. }) => {
                 (index, finest) = grids.coarsest(index + 1)?;
                 refinements.clear();
@@ -162,69 +187,52 @@ pub(super) fn refine<E: Into<Reached>>(
     }
 }
 
-/// Order of the error of the averages.
+/// Convergence order of the averages.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for an apex exponent of at most 1/2, for which the friction of the apex alone is infinite, as in the
+/// one-dimensional model.
 fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
-    // The friction of a sharper apex alone is infinite, as in the one-dimensional model.
     in_range("apex exponent", apex_exponent, order > 0.0, "above 1/2")?;
     Ok(order)
 }
 
-fn not_reached(
-    driving: (Name, Estimate),
-    force: Estimate,
-    relative_error: f64,
-    reached: Reached,
-) -> BemError {
-    let (quantity, known) = if force.is_within(relative_error) {
-        driving
-    } else {
-        (Name::Force, force)
-    };
-    BemError::NotReached {
-        quantity: quantity.in_words(),
-        value: known.value,
-        error: known.error,
-        relative_error,
-        reached: Box::new(reached),
-    }
-}
-
-/// One refinement, and the last solution of it with its grid.
+/// The averages of one refinement, and the last of its solutions with its grid.
 struct SolvedRefinement {
     averages: Refinement,
     state: SteadySliding,
     options: SteadyOptions,
 }
 
-/// A problem on finer and finer grids.
+/// A problem on a sequence of refined grids.
 struct Grids<'a> {
     problem: &'a SteadyProblem<'a>,
     options: &'a RefinementOptions,
-    /// Order of the error of the averages.
+    /// Convergence order of the averages.
     order: f64,
     reuse: Reuse,
     progress: WorkProgress<'a>,
 }
 
-/// Each refinement has twice as many elements as the one before.
+/// Relative work of some refinements; each has twice as many elements as the one before.
 fn refinement_work(refinements: Range<i32>) -> f64 {
     refinements.map(|index| f64::from(index).exp2()).sum()
 }
 
 impl Grids<'_> {
-    /// Expects the refinements that are left until the error is smaller by the excess, if it falls with the order.
-    fn expect(&mut self, index: i32, excess: f64, last: &Refinement) {
-        let most = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
+    /// Reports the work that remains until the error is smaller by the factor `excess`, if it falls with the order of the averages.
+    fn predict_work(&mut self, index: i32, excess: f64, last: &Refinement) {
+        let max_ahead = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
         let needed = 2.0 * excess.log2() / self.order;
-        let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(most)));
+        let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(max_ahead)));
         let ahead = ahead.unwrap_or(1).max(MIN_REFINEMENTS - 1 - index);
         self.progress
             .set_remaining_work(refinement_work(index + 1..index + 1 + ahead));
     }
 
-    /// The limit of averages with what is left of their scatter, and under a body with edges with what it would be if the order
-    /// were the observed one.
+    /// Extrapolated limit of the averages of a quantity. The error contains the remaining scatter, and under a body with edges the
+    /// change of the limit if the observed order is assumed.
     fn limit(
         &self,
         refinements: &[Refinement],
@@ -248,14 +256,14 @@ impl Grids<'_> {
         limit
     }
 
-    /// Of the pressure under the slopes, or of the dissipated power where that is known much better, with what no grid shows.
+    /// Friction from the slopes, or from the dissipated power where its error is much smaller. The error contains the sub-grid friction.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
         let mut friction = self.friction_from_slopes(refinements);
         if !self.problem.loading.creep.only_flows() {
             let dissipated =
                 self.extrapolate_friction(refinements, |r| r.friction_from_dissipation);
             let has_edges = self.problem.loading.has_edges;
-            if has_edges || dissipated.error < DISSIPATION_ERROR_RATIO * friction.error {
+            if has_edges || dissipated.error < MAX_DISSIPATION_ERROR_RATIO * friction.error {
                 friction = dissipated;
             }
             friction = Estimate::new(friction.value, SAFETY_FACTOR_CREEPING * friction.error);
@@ -264,8 +272,8 @@ impl Grids<'_> {
         friction.widened(unresolved * friction.value.abs())
     }
 
-    /// The limit of one of the two frictions. Of a body of finite width without edges, on a material that recovers, errors of a small
-    /// friction may fall faster than the front and the apex let them fall on a dashpot.
+    /// Extrapolated limit of one of the two frictions. A small friction on any material but a dashpot may converge faster than front and
+    /// apex allow on a dashpot; higher orders are then tried for bodies of finite width without edges.
     fn extrapolate_friction(
         &self,
         refinements: &[Refinement],
@@ -277,10 +285,9 @@ impl Grids<'_> {
             has_edges,
             ..
         } = &self.problem.loading;
-        let is_small =
-            self.reuse.solution.as_ref().is_some_and(|last| {
-                last.friction_coefficient.abs() < SMALL_FRICTION * last.mean_slope
-            });
+        let is_small = self.reuse.solution.as_ref().is_some_and(|last| {
+            last.friction_coefficient.abs() < SMALL_FRICTION_RATIO * last.mean_slope
+        });
         if !is_small || creep.only_flows() || strip.is_some() || *has_edges {
             return self.limit(refinements, self.order, friction);
         }
@@ -291,32 +298,31 @@ impl Grids<'_> {
         extrapolate_faster(&values, self.order).widened(scatter)
     }
 
-    /// On a dashpot the scatter falls as fast as the rest of the error.
+    /// Friction from the slopes. On a dashpot its scatter is not added, because it falls as fast as the rest of the error.
     fn friction_from_slopes(&self, refinements: &[Refinement]) -> Estimate {
         let Loading { creep, strip, .. } = &self.problem.loading;
-        let counted = match strip {
+        let scatter_window = match strip {
             _ if creep.only_flows() => 0,
             Some(_) => STRIP_SCATTER_WINDOW,
             None => 1,
         };
-        let value = |refinement: &Refinement| Average {
+        let without_scatter = |refinement: &Refinement| Average {
             scatter: 0.0,
             ..refinement.friction_coefficient
         };
-        let friction = self.extrapolate_friction(refinements, value);
-        let last = refinements.iter().rev().take(counted);
+        let friction = self.extrapolate_friction(refinements, without_scatter);
+        let last = refinements.iter().rev().take(scatter_window);
         let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
         friction.widened(scatter.fold(0.0, f64::max))
     }
 
-    /// The normal force that is given, or the limit of those at the depth.
+    /// The given normal force, or its limit at a given depth.
     fn force(&self, refinements: &[Refinement]) -> Estimate {
         let [given, _] = bars::given(self.problem.loading.control);
         given.unwrap_or_else(|| self.limit(refinements, self.order, |r| r.normal_force))
     }
 
-    /// The depth that is given, or the limit of those under the force; none where it has no meaning, in plane strain on a half
-    /// space.
+    /// The given depth, or its limit under a given force. `None` in plane strain on a half space, where depth has no meaning.
     fn depth(&self, refinements: &[Refinement]) -> Option<Estimate> {
         let Loading { creep, strip, .. } = &self.problem.loading;
         let [_, given] = bars::given(self.problem.loading.control);
@@ -326,6 +332,7 @@ impl Grids<'_> {
         })
     }
 
+    /// All quantities with their errors.
     fn estimate(
         &self,
         friction: Estimate,
@@ -353,8 +360,10 @@ impl Grids<'_> {
         }
     }
 
-    /// The coarsest refinement from one on in which body and contact are resolved, if enough of those that follow are within the
-    /// limits.
+    /// The first refinement from `index` on that resolves body and contact.
+    ///
+    /// # Errors
+    /// [`BemError::GridTooLarge`] if too few of the refinements that follow are within the limits for an error estimate.
     fn coarsest(&mut self, mut index: i32) -> Result<(i32, SolvedRefinement), BemError> {
         loop {
             let elements = self.n_elements(index + MIN_REFINEMENTS - 1);
@@ -373,8 +382,8 @@ impl Grids<'_> {
         }
     }
 
-    /// Whether a refinement is within the limits; it has twice as many unknowns as the one before.
-    fn allows(&self, refinement: i32, before: &Refinement) -> bool {
+    /// True if a refinement is within the limits, supposing that it has twice as many unknowns as the one before.
+    fn may_refine(&self, refinement: i32, before: &Refinement) -> bool {
         let SteadyProblem { plan, watch, .. } = self.problem;
         refinement < MAX_REFINEMENTS
             && self.n_elements(refinement) <= self.max_elements()
@@ -382,19 +391,20 @@ impl Grids<'_> {
             && watch.may_refine(plan.elements(refinement))
     }
 
-    /// Elements of the footprint.
+    /// Number of elements of the footprint.
     fn n_elements(&self, refinement: i32) -> f64 {
         let footprint = &self.problem.plan.footprint;
         footprint.n_elements(self.edges(refinement))
     }
 
-    /// Edges of an element.
+    /// Edges [Δx, Δy] of an element, \[m].
     fn edges(&self, refinement: i32) -> [f64; 2] {
         let dx = self.problem.plan.spacing(refinement);
         let strip = self.problem.loading.strip;
         [dx, strip.unwrap_or(self.options.aspect * dx)]
     }
 
+    /// Shifts of the grids of one refinement.
     fn phases(&self) -> &'static [[f64; 2]] {
         match self.problem.loading.strip {
             Some(_) => &STRIP_PHASES,
@@ -402,14 +412,17 @@ impl Grids<'_> {
         }
     }
 
+    /// Largest number of elements of a footprint.
     fn max_elements(&self) -> f64 {
         let n_unknowns = self.options.max_unknowns as f64;
-        let many = LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
-        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, many)
+        let large_grid_limit =
+            LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
+        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, large_grid_limit)
     }
 
-    /// The averages over the shifts, each started from the contact of the one before.
+    /// Solves all shifted grids, each from the active set of the one before, and averages.
     fn refine(&mut self, index: i32) -> Result<SolvedRefinement, BemError> {
+        // Solve the shifted grids.
         let (spacing, work) = (self.edges(index), refinement_work(index..index + 1));
         let footprint = self.problem.plan.footprint.widened(spacing[0]);
         let mut options = SteadyOptions::new(spacing, footprint);
@@ -422,6 +435,8 @@ impl Grids<'_> {
             states.push(state.clone());
             self.reuse.solution = Some(state);
         }
+
+        // Average. Forces and areas of a strip become those per unit length.
         let distance = self.problem.loading.sliding_distance;
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average =
@@ -464,7 +479,7 @@ impl Grids<'_> {
         kinks.into_iter().map(|kink| kink.radius).collect()
     }
 
-    /// The solution on a grid, or on a slightly finer one where pivoting cycles.
+    /// Solves on a grid, or on a slightly finer one where the active set cycles.
     fn solve_on_similar_grid(
         &mut self,
         options: &SteadyOptions,
@@ -478,22 +493,23 @@ impl Grids<'_> {
             solve(surface, loading, &options, &mut self.reuse)
         };
         let mut solution = solve_on(options.spacing);
-        for finer in CYCLING_SPACING_FACTORS {
-            let is_lost = matches!(
+        for factor in CYCLING_SPACING_FACTORS {
+            let failed = matches!(
                 solution,
                 Err(BemError::ContactNotConverged { .. } | BemError::SingularContact { .. })
             );
-            if !is_lost {
+            if !failed {
                 break;
             }
-            solution = solve_on(loading.scaled(options.spacing, finer));
+            solution = solve_on(loading.scaled(options.spacing, factor));
         }
         solution
     }
 
-    /// A residual that disturbs the friction less than is asked: smaller where it is a small difference of large slopes.
+    /// Tolerance of a contact that disturbs the friction by less than the requested error. It is proportional to the ratio of friction to
+    /// mean slope, because a small friction is a difference of large slopes.
     fn tolerance(&self) -> f64 {
-        let part = match &self.reuse.solution {
+        let friction_ratio = match &self.reuse.solution {
             Some(last) => last.friction_coefficient.abs() / last.mean_slope,
             None if self.problem.loading.creep.only_flows() => 1.0,
             None => INITIAL_FRICTION_RATIO,
@@ -502,6 +518,6 @@ impl Grids<'_> {
             Some(_) => STRIP_RESIDUAL_SHARE,
             None => RESIDUAL_SHARE,
         };
-        (share * self.options.relative_error * part).max(MIN_TOLERANCE)
+        (share * self.options.relative_error * friction_ratio).max(MIN_TOLERANCE)
     }
 }
