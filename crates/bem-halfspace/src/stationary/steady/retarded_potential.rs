@@ -1,11 +1,13 @@
-//! The load potential of an element as retardation elements see it, row by row from ahead.
+//! The load potential of an element as filtered by retardation elements, row by row from ahead.
 //!
-//! The potential is replaced by polynomials on panels that are at most as long as their distance from the edges of the
-//! loaded element, where it is singular; the exponentials are integrated exactly. The panels of a polynomial of n points
-//! leave an error of the order ρ⁻ⁿ of the potential, ρ the sum of the half axes of the ellipse around the panel that
-//! reaches the singularity (Bernstein): 6 for a panel next to it, 4 distance/length far away. Where the potential is
-//! smooth over several rows, the polynomial goes through its values at the rows, of which each is computed once. What a
-//! layer adds is singular beside the edges, not nearer than they are.
+//! The potential is replaced by polynomials on panels that are at most as long as their distance from the edges of the loaded
+//! element, where it is singular; the exponentials are integrated exactly. With n points on a panel, the error is of the order ρ⁻ⁿ of
+//! the potential. ρ is the sum of the half axes of the ellipse around the panel that reaches the singularity (Bernstein): 6 for a panel
+//! next to it, 4 distance/length far away. Where the potential is smooth over several rows, the polynomial interpolates its values at
+//! the rows, each of which is computed once. The part that a layer adds is singular beside the edges, at a distance not shorter than
+//! that of the edges.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material", and "A track" for the start on a track.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -15,63 +17,93 @@ use crate::parallel::reductions::dot;
 use crate::stationary::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
 use crate::stationary::steady::sliding_creep::ElementCreep;
 
-/// Distance from the edges of the loaded element, in panel lengths, from which a rule of so many points gives eleven
+/// A rule with a number of points, and the smallest distance from the edges of the loaded element from which it is accurate to eleven
 /// digits.
-const PANEL_RULES: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
-/// Distance in rows from which the polynomial through the values at so many rows gives eleven digits: its error is
-/// (1/2 · 3/2 · …)² over the power of the distance to the nearest of them.
-const ROW_RULES: [(f64, usize); 3] = [(86.0, 6), (41.0, 8), (29.0, 10)];
-/// Rows kept on either side of a panel.
+struct DistanceRule {
+    min_distance: f64,
+    n_points: usize,
+}
+
+const fn from_distance(min_distance: f64, n_points: usize) -> DistanceRule {
+    DistanceRule {
+        min_distance,
+        n_points,
+    }
+}
+
+/// Gauss–Lobatto rules on a panel, from the fewest points on; distances are in panel lengths. The error is of the order ρ⁻ⁿ, see the
+/// module.
+const PANEL_RULES: [DistanceRule; 4] = [
+    from_distance(256.0, 4),
+    from_distance(24.0, 6),
+    from_distance(6.0, 8),
+    from_distance(1.0, MAX_POINTS),
+];
+/// Rules that interpolate the values at rows, from the fewest points on; distances are in rows. The error is
+/// (1/2 · 3/2 · …)² over the power of the distance from the nearest row.
+const ROW_RULES: [DistanceRule; 3] = [
+    from_distance(86.0, 6),
+    from_distance(41.0, 8),
+    from_distance(29.0, 10),
+];
+/// Rows that are stored on either side of an element: half the points of the longest of [`ROW_RULES`].
 const ROWS_PER_SIDE: usize = 5;
-/// Panels next to a singularity on their own line are not divided below this length.
+/// Shortest panel in Δx. A panel next to a singularity on its own line is not divided below this length; chosen.
 const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
-/// The recursion along rows starts at least that far ahead of the load; further ahead, each panel ends this many times as far
-/// away as it begins.
+/// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts; chosen.
 const MIN_START_DISTANCE: f64 = 16.0;
+/// Ratio of the distances of the end and the start of a panel from the load, where the panels lie further
+/// ahead than the start of the recursion. They then are shorter than their distance from the load, as the rule of most points requires.
 const PANEL_GROWTH: f64 = 1.9;
-/// Terms e^(−x) with a larger x are below rounding and left out.
+/// Largest exponent x of a term e^(−x) that is included; the neglected terms, below 4e-18, are less than rounding error.
 const MAX_EXPONENT: f64 = 40.0;
 
-/// A part of the line ahead of a point.
+/// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
 struct Panel {
     start: f64,
     length: f64,
-    /// Index of its rule in [`PANEL_RULES`].
+    /// Index of the rule of the panel in [`PANEL_RULES`].
     rule: usize,
 }
 
-/// A retardation element over the length of one element of the grid.
+/// A retardation element with the weights of all rules on one element of the grid.
 struct RetardationRule {
+    /// Δx/(v λ).
     rate: f64,
     compliance: f64,
+    /// e^(−rate).
     decay: f64,
-    /// Weights of each rule, in parts of the compliance.
+    /// Weights of each of [`PANEL_RULES`], times the compliance.
     weights: [[f64; MAX_POINTS]; PANEL_RULES.len()],
+    /// Weights of each of [`ROW_RULES`], times the compliance.
     row_weights: [[f64; MAX_POINTS]; ROW_RULES.len()],
 }
 
-/// Displacements by all retardation elements along a row of the table.
+/// Displacements by all retardation elements on one row of the table.
 pub(super) struct RetardedPotential {
     retardations: Vec<RetardationRule>,
     rules: [ExponentialRule; PANEL_RULES.len()],
     base: Base,
+    /// Δy/Δx.
     aspect: f64,
     n_columns: usize,
-    /// Position of the present row.
+    /// Position along x of the current row.
     position: f64,
-    /// By retardation and column, in parts of the compliance.
+    /// Displacements at the current row, by retardation element and column.
     values: Vec<f64>,
+    /// Parts of the values that the element ahead of the current row adds.
     increments: Vec<f64>,
-    /// V by row and column, for the rows around the element ahead of the present row.
+    /// Potential V by row and column, for the rows around the element ahead of the current row.
     rows: VecDeque<Vec<f64>>,
 }
 
 impl RetardedPotential {
-    /// Starts at the row one element ahead of `first`.
-    pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
-        let rules = PANEL_RULES.map(|(_, n_points)| ExponentialRule::new(n_points));
-        let row_rules = ROW_RULES.map(|(_, n_points)| ExponentialRule::on_integers(n_points));
+    /// Starts at the row one element ahead of the position `first`.
+    pub(super) fn new(creep: &ElementCreep, first: f64, aspect: f64, n_columns: usize) -> Self {
+        // Tabulate the weights.
+        let rules = PANEL_RULES.map(|rule| ExponentialRule::new(rule.n_points));
+        let row_rules = ROW_RULES.map(|rule| ExponentialRule::on_integers(rule.n_points));
         let retardations = creep.retardations.iter().map(|retardation| {
             let weights = |rule: &ExponentialRule| {
                 rule.weights(retardation.rate)
@@ -85,13 +117,13 @@ impl RetardedPotential {
                 row_weights: row_rules.each_ref().map(weights),
             }
         });
-        let is_endless = creep.track.is_none();
-        let further = if is_endless {
-            MIN_START_DISTANCE - first
-        } else {
-            0.0
+
+        // Start far enough ahead, from the integral over everything further ahead or once around the track.
+        let rows_ahead = match creep.track {
+            None => (MIN_START_DISTANCE - first).max(0.0).ceil(),
+            Some(_) => 0.0,
         };
-        let position = first + 1.0 + further.max(0.0).ceil();
+        let position = first + 1.0 + rows_ahead;
         let mut start = Self {
             retardations: retardations.collect(),
             rules,
@@ -107,6 +139,8 @@ impl RetardedPotential {
             None => start.start_from_infinity(),
             Some(track) => start.start_around_track(track),
         }
+
+        // Go back to the row ahead of the first one.
         for row in (1..=2 * ROWS_PER_SIDE).rev() {
             start.push_row(position - ROWS_PER_SIDE as f64 + row as f64);
         }
@@ -116,27 +150,27 @@ impl RetardedPotential {
         start
     }
 
-    /// Potential V of the loaded element.
+    /// Potential V of the loaded element at a position along x, in a column.
     fn potential(&self, x: f64, column: usize) -> f64 {
         let offset = [x, column as f64 * self.aspect];
         self.base.influence(offset, [1.0, self.aspect])
     }
 
-    /// Adds the potentials of the next row behind, and drops those of the row furthest ahead.
+    /// Stores the potentials of the row at `x`, the next one behind, in place of those of the row furthest ahead.
     fn push_row(&mut self, x: f64) {
         self.rows.truncate(2 * ROWS_PER_SIDE - 1);
         let row = (0..self.n_columns).map(|column| self.potential(x, column));
         self.rows.push_front(row.collect());
     }
 
-    /// The values at the first row: the integral over everything ahead of it.
+    /// Sets the values at the first row to the integral over everything ahead of it.
     fn start_from_infinity(&mut self) {
         let rates = self.retardations.iter().map(|retardation| retardation.rate);
         let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
         let mut end = self.position;
-        let felt = 1.0 + self.base.influence_radius();
-        while slowest * (end - self.position) < MAX_EXPONENT && end < felt.min(1e150) {
+        let influence_end = 1.0 + self.base.influence_radius();
+        while slowest * (end - self.position) < MAX_EXPONENT && end < influence_end.min(1e150) {
             end *= PANEL_GROWTH;
             ends.push(end);
         }
@@ -151,10 +185,10 @@ impl RetardedPotential {
         }
     }
 
-    /// The values at the first row of a track: the integral once around it, over the part that is forgotten meanwhile.
+    /// Sets the values at the first row of a track to the integral once around it, over 1 − e^(−rate·track).
     fn start_around_track(&mut self, track: f64) {
         let half = 0.5 * track;
-        // Only of the first column the edges of the loaded element are singular on the track itself.
+        // The edges of the loaded element lie on the line of the first column only, so that this one has panels of its own.
         for columns in [0..1, 1..self.n_columns] {
             let clearance = self.clearance(columns.start);
             for part in [[-half, self.position], [self.position, half]] {
@@ -168,12 +202,12 @@ impl RetardedPotential {
             .iter()
             .zip(self.values.chunks_exact_mut(self.n_columns))
         {
-            let forgotten = -(-retardation.rate * track).exp_m1();
-            values.iter_mut().for_each(|value| *value /= forgotten);
+            let relaxed = -(-retardation.rate * track).exp_m1();
+            values.iter_mut().for_each(|value| *value /= relaxed);
         }
     }
 
-    /// Takes the values of some columns from the front to the rear of a panel.
+    /// Integrates the values of some columns from the front to the rear of a panel.
     fn integrate_over_panel(&mut self, panel: &Panel, columns: Range<usize>) {
         let steps = self.retardations.iter();
         let steps: Vec<_> = steps
@@ -188,19 +222,21 @@ impl RetardedPotential {
         }
     }
 
-    /// Distance of a column from the edges of the loaded element across.
+    /// Distance of a column from the loaded element along y, 0 for the column of the element.
     fn clearance(&self, column: usize) -> f64 {
         (self.aspect * (column as f64 - 0.5)).max(0.0)
     }
 
-    /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
+    /// Decay over a panel, and weights of the potentials at its nodes, times the compliance.
     fn panel_step(&self, retardation: &RetardationRule, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
         let rate = retardation.rate * panel.length;
-        let weights = self.rules[panel.rule].weights(rate);
-        let weights = weights.map(|weight| retardation.compliance * weight);
+        let weights = self.rules[panel.rule]
+            .weights(rate)
+            .map(|weight| retardation.compliance * weight);
         ((-rate).exp(), weights)
     }
 
+    /// Potentials at the nodes of a panel, 0 beyond their number.
     fn potentials_at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {
         let mut potentials = [0.0; MAX_POINTS];
         for (potential, node) in potentials.iter_mut().zip(&self.rules[panel.rule].nodes) {
@@ -213,15 +249,49 @@ impl RetardedPotential {
     pub(super) fn step(&mut self, x: f64) {
         self.push_row(x + 1.0 - ROWS_PER_SIDE as f64);
         for column in 0..self.n_columns {
+            // Integrate over the element between the two rows, by the cheapest rule for its distance from the singular edges.
             let clearance = self.clearance(column);
             let distance = distance_from_edges([x, x + 1.0], clearance);
+            let mut potentials = [0.0; MAX_POINTS];
             if let Some(rule) = fewest_points(&ROW_RULES, distance) {
-                self.through_rows(column, rule);
+                // Far away: interpolate the values at the rows around the element.
+                let n_points = ROW_RULES[rule].n_points;
+                let rows = self.rows.iter().skip(ROWS_PER_SIDE - n_points / 2);
+                for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
+                    *potential = row[column];
+                }
+                self.set_increments(column, &potentials[..n_points], |retardation| {
+                    &retardation.row_weights[rule]
+                });
             } else if let Some(rule) = fewest_points(&PANEL_RULES, distance) {
-                self.whole(x, column, rule);
+                // At some distance: one panel, whose ends are stored rows.
+                let last = PANEL_RULES[rule].n_points - 1;
+                for (index, node) in self.rules[rule].nodes.iter().enumerate() {
+                    potentials[index] = match index {
+                        0 => self.rows[ROWS_PER_SIDE - 1][column],
+                        _ if index == last => self.rows[ROWS_PER_SIDE][column],
+                        _ => self.potential(x + node, column),
+                    };
+                }
+                self.set_increments(column, &potentials[..=last], |retardation| {
+                    &retardation.weights[rule]
+                });
             } else {
-                self.graded(x, column, clearance);
+                // Near the edges: graded panels, from the front on.
+                for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
+                    *increment = 0.0;
+                }
+                for panel in panels([x, x + 1.0], clearance).iter().rev() {
+                    let potentials = self.potentials_at_nodes(panel, column);
+                    for (index, retardation) in self.retardations.iter().enumerate() {
+                        let (decay, weights) = self.panel_step(retardation, panel);
+                        let increment = &mut self.increments[index * self.n_columns + column];
+                        *increment = decay * *increment + dot(&weights, &potentials);
+                    }
+                }
             }
+
+            // One step of the recursion.
             for (index, retardation) in self.retardations.iter().enumerate() {
                 let place = index * self.n_columns + column;
                 self.values[place] =
@@ -231,37 +301,8 @@ impl RetardedPotential {
         self.position = x;
     }
 
-    /// The integral over an element from the values at the rows around it.
-    fn through_rows(&mut self, column: usize, rule: usize) {
-        let n_points = ROW_RULES[rule].1;
-        let mut potentials = [0.0; MAX_POINTS];
-        let rows = self.rows.iter().skip(ROWS_PER_SIDE - n_points / 2);
-        for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
-            *potential = row[column];
-        }
-        self.integrate(column, &potentials[..n_points], |retardation| {
-            &retardation.row_weights[rule]
-        });
-    }
-
-    /// The integral over an element in one panel, whose ends are rows that are kept.
-    fn whole(&mut self, x: f64, column: usize, rule: usize) {
-        let last = PANEL_RULES[rule].1 - 1;
-        let mut potentials = [0.0; MAX_POINTS];
-        for (index, node) in self.rules[rule].nodes.iter().enumerate() {
-            potentials[index] = match index {
-                0 => self.rows[ROWS_PER_SIDE - 1][column],
-                _ if index == last => self.rows[ROWS_PER_SIDE][column],
-                _ => self.potential(x + node, column),
-            };
-        }
-        self.integrate(column, &potentials[..=last], |retardation| {
-            &retardation.weights[rule]
-        });
-    }
-
     /// Sets the increments of a column from the potentials at the nodes of a rule.
-    fn integrate(
+    fn set_increments(
         &mut self,
         column: usize,
         potentials: &[f64],
@@ -273,57 +314,42 @@ impl RetardedPotential {
         }
     }
 
-    /// The integral over an element near the edges of the loaded one.
-    fn graded(&mut self, x: f64, column: usize, clearance: f64) {
-        for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
-            *increment = 0.0;
-        }
-        for panel in panels([x, x + 1.0], clearance).iter().rev() {
-            let potentials = self.potentials_at_nodes(panel, column);
-            for (index, retardation) in self.retardations.iter().enumerate() {
-                let (decay, weights) = self.panel_step(retardation, panel);
-                let increment = &mut self.increments[index * self.n_columns + column];
-                *increment = decay * *increment + dot(&weights, &potentials);
-            }
-        }
-    }
-
-    /// Potential of the loaded element at the present row.
+    /// Potential of the loaded element at the current row.
     pub(super) fn load_potential(&self, column: usize) -> f64 {
         self.rows[ROWS_PER_SIDE - 1][column]
     }
 
-    /// Displacement by all retardation elements at the present row.
+    /// Displacement by all retardation elements at the current row.
     pub(super) fn displacement(&self, column: usize) -> f64 {
         self.values[column..].iter().step_by(self.n_columns).sum()
     }
 
-    /// The part of one of them, by column.
+    /// Displacement by one retardation element at the current row, by column.
     pub(super) fn retardation_part(&self, index: usize) -> &[f64] {
         &self.values[index * self.n_columns..][..self.n_columns]
     }
 
-    /// The part of it that comes from the last element passed.
+    /// Part of the [displacement](Self::displacement) that creeps between the row before and the current one.
     pub(super) fn creep_within_element(&self, column: usize) -> f64 {
         let increments = self.increments[column..].iter();
         increments.step_by(self.n_columns).sum()
     }
 }
 
-/// Distance of an interval from the points ±1/2, where the loaded element ends; `clearance` is that across.
+/// Distance of an interval along x from the edges of the loaded element at ±1/2; `clearance` is the distance along y.
 fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
-    let along = |edge: f64| (start - edge).max(edge - end).max(0.0);
-    let along = along(-0.5).min(along(0.5));
+    let from_edge = |edge: f64| (start - edge).max(edge - end).max(0.0);
+    let along = from_edge(-0.5).min(from_edge(0.5));
     (along * along + clearance * clearance).sqrt()
 }
 
-/// The fewest_points of some rules for a panel at this distance in its own length; none that is too near.
-fn fewest_points(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
-    rules.iter().position(|(far, _)| distance >= *far)
+/// Index of the rule with the fewest points that is accurate at a distance. `None` if the distance is too short for all.
+fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
+    rules.iter().position(|rule| distance >= rule.min_distance)
 }
 
-/// Panels of an interval: divided where the potential is singular, then halved until each is short enough for
-/// one of the rules. The clearance is that of the edges across.
+/// Panels of an interval along x: divided where the potential is singular, then halved until one of the rules is accurate on each.
+/// `clearance` is the distance from the loaded element along y.
 fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<Panel> {
     let mut ends = vec![start, -0.5, 0.5, end];
     ends.retain(|place| (start..=end).contains(place));
@@ -335,6 +361,7 @@ fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<Panel> {
     panels
 }
 
+/// Appends the panels of an interval without a singularity inside.
 fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
     let length = end - start;
     let distance = distance_from_edges([start, end], clearance);
@@ -452,7 +479,7 @@ mod tests {
         check(0.1, &layer, 30, &rows);
     }
 
-    /// Compares some rows of a table that begins so many rows ahead of the load.
+    /// Compares some rows of a table that begins `ahead` rows ahead of the load.
     fn check(rate: f64, scene: &Scene, ahead: i32, rows: &[i32]) {
         let material = Elastic::new(1.0).expect("a modulus");
         let layer = Layer::new(&material, scene.thickness).expect("a thickness");
@@ -468,7 +495,7 @@ mod tests {
             ..ElementCreep::default()
         };
         let first = f64::from(ahead) + scene.shift;
-        let mut retarded = RetardedPotential::new(&creep, [first, scene.aspect], 4);
+        let mut retarded = RetardedPotential::new(&creep, first, scene.aspect, 4);
         for row in 0..=rows[rows.len() - 1] {
             let x = first - f64::from(row);
             retarded.step(x);

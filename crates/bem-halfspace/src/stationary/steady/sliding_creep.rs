@@ -1,12 +1,15 @@
-//! How the surface under a load that slides without end creeps, from one element to the next.
+//! Creep compliance of a material at a sliding speed, as a function of distance instead of time.
 //!
-//! In the frame of the indenter an element passes in the time Δx/v, and the creep compliance
+//! In the frame of the indenter the material passes an element in the time Δx/v, and the creep compliance
 //! `J(t) = J₀ + t/η_f + Σ J_k (1 − e^(−t/λ_k))` becomes a filter along x that looks ahead:
 //!
 //! ```text
 //! u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
 //! ```
-//! On a track of the length L everything comes back, and the integral goes around again and again.
+//!
+//! On a track of the length L the load is periodic with L, and the integral runs around the track infinitely often.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material" and "A track".
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
@@ -16,71 +19,84 @@ use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
 
 use crate::{Base, BemError, Elastomer};
 
-/// Rate of the retardation element that stands for a flow behind which the load is not felt without end.
+/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, which has a finite influence radius;
+/// chosen, so small that 1 − e^(−rate s) is rate·s to rounding for any distance s that occurs.
 pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 
-/// A material at a sliding speed.
+/// The creep of a material on its base at a sliding speed, on a track if there is one.
 #[derive(Debug, Clone)]
 pub(super) struct SlidingCreep {
     spectrum: CreepSpectrum,
     /// 2 (1 − ν).
     half_space_factor: f64,
+    /// \[m/s].
     velocity: f64,
-    /// Length after which the load comes back to the same place, \[m].
+    /// Length of the track, after which the load returns to the same place, \[m].
     track: Option<f64>,
     base: Base,
 }
 
-/// The creep compliance over one element, as parts of J(Δx/v): what the tables of the kernel depend on.
+/// The creep compliance over one element, as fractions of J(Δx/v). Kernel tables depend on nothing else but the aspect ratio.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct ElementCreep {
-    /// Where the gap of an element is evaluated, in elements from its centre: −1/2 is the rear edge.
+    /// Position of the collocation point, where the gap of an element is evaluated, in elements from its centre. −1/2 is the rear edge.
     pub(super) collocation_shift: f64,
-    /// Part of J₀.
+    /// Fraction of J₀.
     pub(super) instantaneous: f64,
-    /// Part of the free flow.
+    /// Fraction of the free flow.
     pub(super) flow: f64,
     pub(super) retardations: Vec<RetardationElement>,
-    /// Length after which the load comes back to the same place, in Δx.
+    /// Length of the track in Δx.
     pub(super) track: Option<f64>,
-    /// With lengths in Δx.
+    /// The base, with lengths in Δx.
     pub(super) base: Base,
 }
 
-/// A retardation element over the length of one element.
+/// A retardation element of the material, over the length of one element of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RetardationElement {
     /// Δx/(v λ).
     pub(super) rate: f64,
-    /// Part of J (1 − e^(−Δx/(vλ))).
+    /// Fraction of J_k (1 − e^(−Δx/(vλ))) in J(Δx/v).
     pub(super) share: f64,
 }
 
-/// The creep compliance, times 2 (1 − ν), over the length that a load has moved.
+/// The creep compliance, times 2 (1 − ν), as a function of the distance that a load has moved.
 #[derive(Debug, Clone)]
 pub(super) struct CreepOverDistance {
-    /// At once, \[1/Pa].
+    /// Instantaneous compliance, \[1/Pa].
     pub(super) instantaneous: f64,
-    /// [1/(Pa m)].
+    /// Compliance of the free flow per length, [1/(Pa m)].
     pub(super) flow_per_length: f64,
-    /// Compliance \[1/Pa] and memory \[m] of each retardation element.
-    pub(super) retardations: Vec<[f64; 2]>,
+    pub(super) retardations: Vec<RetardationOverDistance>,
+}
+
+/// A retardation element as a function of distance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RetardationOverDistance {
+    /// 2 (1 − ν) J_k, \[1/Pa].
+    pub(super) compliance: f64,
+    /// v λ, \[m].
+    pub(super) memory_length: f64,
 }
 
 impl RetardationElement {
-    /// e^(−Δx/(vλ)).
+    /// Factor e^(−Δx/(vλ)) by which the strain relaxes over one element of the grid.
     pub(super) fn decay(&self) -> f64 {
         (-self.rate).exp()
     }
 
-    /// Part of the whole compliance J.
+    /// Fraction of the compliance J_k in J(Δx/v).
     pub(super) fn compliance(&self) -> f64 {
         -self.share / (-self.rate).exp_m1()
     }
 }
 
 impl SlidingCreep {
-    /// On the track of a load, if it has one; refuses a material that flows there.
+    /// The creep at the velocity of a load, on its track if it has one.
+    ///
+    /// # Errors
+    /// [`BemError::NoCycle`] for a material that flows on a track.
     pub(super) fn for_load(
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
@@ -95,6 +111,7 @@ impl SlidingCreep {
         Ok(creep)
     }
 
+    /// The creep at a velocity, without a track.
     pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         let (material, base) = (elastomer.material(), elastomer.base());
         check_spectra(&material)?;
@@ -109,20 +126,20 @@ impl SlidingCreep {
         })
     }
 
-    /// Whether there is nothing but a dashpot half space, under which only rising elements touch.
+    /// True for a half space of a dashpot alone, on which only elements touch over which the body rises.
     pub(super) fn only_flows(&self) -> bool {
         self.fluidity() > 0.0
             && self.spectrum.instantaneous_compliance() == 0.0
             && self.spectrum.elements().is_empty()
     }
 
-    /// Whether nothing is dissipated.
+    /// True for an elastic material, which dissipates nothing.
     pub(super) fn is_elastic(&self) -> bool {
         self.spectrum.fluidity() == 0.0 && self.spectrum.elements().is_empty()
     }
 
-    /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a rigid base, where a load is not felt far ahead, so that the surface does
-    /// not sink without limit.
+    /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 for a layer on a rigid base, whose finite influence radius keeps the depth
+    /// finite.
     pub(super) fn fluidity(&self) -> f64 {
         if self.base.is_rigid() {
             0.0
@@ -131,12 +148,12 @@ impl SlidingCreep {
         }
     }
 
-    /// Wave number along x of what oscillates at an angular frequency in the material.
+    /// Wave number along x of the waves that the material passes at an angular frequency, [rad/m].
     pub(super) fn wave_number(&self, frequency: f64) -> f64 {
         frequency / self.velocity
     }
 
-    /// Compliance J' and J'', times 2 (1 − ν), to what varies along x with a wave number.
+    /// Storage and loss compliance J' and J'', times 2 (1 − ν), for a wave number along x [rad/m].
     pub(super) fn compliance_of_wave(
         &self,
         wave_number: f64,
@@ -154,13 +171,13 @@ impl SlidingCreep {
         &self.base
     }
 
-    /// Distance in which the slowest retardation element forgets, or is under the load again, or ahead of which a layer that
-    /// flows does not feel the load, \[m].
+    /// Memory length v λ_max of the slowest retardation element, at most the track; for a flowing layer at least its influence radius,
+    /// \[m].
     pub(super) fn memory_length(&self) -> f64 {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
-        let memory = self.velocity * times.fold(0.0, f64::max);
-        let memory = memory.min(self.track.unwrap_or(f64::INFINITY));
+        let memory =
+            (self.velocity * times.fold(0.0, f64::max)).min(self.track.unwrap_or(f64::INFINITY));
         if self.spectrum.fluidity() > 0.0 && self.base.is_rigid() {
             memory.max(self.base.influence_radius())
         } else {
@@ -168,12 +185,12 @@ impl SlidingCreep {
         }
     }
 
-    /// The creep over lengths.
+    /// The creep as a function of distance.
     pub(super) fn over_distance(&self) -> CreepOverDistance {
         let elements = self.spectrum.elements().iter();
-        let retardations = elements.map(|element| {
-            let memory = self.velocity * element.retardation_time;
-            [self.half_space_factor * element.compliance, memory]
+        let retardations = elements.map(|element| RetardationOverDistance {
+            compliance: self.half_space_factor * element.compliance,
+            memory_length: self.velocity * element.retardation_time,
         });
         CreepOverDistance {
             instantaneous: self.half_space_factor * self.spectrum.instantaneous_compliance(),
@@ -182,14 +199,14 @@ impl SlidingCreep {
         }
     }
 
-    /// Compliance 2 (1 − ν)/(η_f v) of the free flow, by which the surface sinks per length, [1/(Pa m)].
+    /// Compliance 2 (1 − ν)/(η_f v) of the free flow per length, [1/(Pa m)].
     pub(super) fn flow_per_length(&self) -> f64 {
         self.half_space_factor * self.spectrum.fluidity() / self.velocity
     }
 
-    /// The same under a load of about that length after a sliding distance, by how much less a layer gives way than a half
-    /// space; on a track with what the passes before have left, `(1 − e^(−length/(vλ)))/(1 − e^(−L/(vλ)))` of a retardation
-    /// element.
+    /// Compliance of a contact of about `length` after a sliding distance: 2 (1 − ν) J(length/v), times the ratio of the compliances of a
+    /// layer and a half space, \[1/Pa]. On a track a retardation element contributes the fraction
+    /// `(1 − e^(−length/(vλ)))/(1 − e^(−L/(vλ)))`, which contains the effect of all passes before.
     pub(super) fn compliance_of_contact(
         &self,
         length: f64,
@@ -214,7 +231,7 @@ impl SlidingCreep {
         Ok(positive("compliance over a length", compliance)?)
     }
 
-    /// The creep over elements of the length Δx.
+    /// The creep over elements of the length `spacing`.
     pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
         let mut parts = self.parts(spacing)?;
         let total = positive("compliance over an element", total_compliance(&parts))?;
@@ -231,7 +248,6 @@ impl SlidingCreep {
         parts.track = self.track.map(|track| track / spacing);
         parts.base = self.base.in_units_of(spacing)?;
         if parts.base.is_rigid() && parts.flow > 0.0 {
-            // The slowest element there is.
             let (rate, share) = (FLOW_AS_RETARDATION_RATE, parts.flow);
             parts.retardations.push(RetardationElement { rate, share });
             parts.flow = 0.0;
@@ -239,6 +255,7 @@ impl SlidingCreep {
         Ok(parts)
     }
 
+    /// Contributions to the compliance J(length/v), not yet divided by it.
     fn parts(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
         let retardations = self.spectrum.elements().iter().map(|element| {
@@ -257,13 +274,14 @@ impl SlidingCreep {
         })
     }
 
-    /// Part of the friction that elements of the length Δx may miss at a contact of half the length a: of a retardation element
-    /// that forgets within an element, slow friction falls by up to (4/π) λv/a of itself under a paraboloid, because the rear
-    /// of the contact moves and its front stays. Where it forgets in an element or two there is still something of that left,
-    /// which falls faster than any power of the elements: cylinders on a Kelvin–Voigt solid err by up to e^(−2.5 λv/Δx) of it.
+    /// Fraction of the friction that elements of the length Δx may miss, at a contact of the half length a.
     ///
-    /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements see
-    /// ln(a/Δx): under flat cones they miss up to the factor e^(−x) ln(1 + 1/x), x = λv/(2Δx), over ln(1 + a/Δx).
+    /// If the memory length λv of a retardation element is shorter than an element, slow friction falls by up to (4/π) λv/a under a
+    /// paraboloid, because the rear of the contact moves and its front does not. At a memory length of one or two elements some of that
+    /// remains, which falls faster than any power of Δx: cylinders on a Kelvin–Voigt solid err by up to the factor e^(−2.5 λv/Δx).
+    ///
+    /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements resolve ln(a/Δx).
+    /// Under flat cones they miss up to the fraction e^(−x) ln(1 + 1/x) / ln(1 + a/Δx) with x = λv/(2Δx).
     pub(super) fn subgrid_friction_fraction(
         &self,
         spacing: f64,
@@ -272,11 +290,11 @@ impl SlidingCreep {
     ) -> f64 {
         let (mut sum, mut missed) = (0.0, 0.0);
         for element in self.spectrum.elements() {
-            let length = self.velocity * element.retardation_time;
-            let ratio = length / half_length;
-            // Friction is greatest where both lengths are alike.
+            let memory_length = self.velocity * element.retardation_time;
+            let ratio = memory_length / half_length;
+            // The friction of an element is largest where its memory length equals the half length of the contact.
             let friction = element.compliance * ratio.min(ratio.recip());
-            let x = 0.5 * length / spacing;
+            let x = 0.5 * memory_length / spacing;
             let around_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
             sum += friction;
             missed += friction * 2.0 * FRAC_2_PI * ratio * (-5.0 * x).exp();
@@ -285,9 +303,8 @@ impl SlidingCreep {
         if missed > 0.0 { missed / sum } else { 0.0 }
     }
 
-    /// −δ/π with the loss angle δ at the wave number π/Δx, the shortest of the grid: moving the point by that part of an
-    /// element turns the phase of this wave back by δ, so that displacement and load are in phase for it and less than a
-    /// quarter period apart for all others.
+    /// Collocation shift −δ/π, with the loss angle δ at the wave number π/Δx, the largest of the grid. It turns the phase of this wave back
+    /// by δ, so that displacement and load are in phase; all longer waves are less than a quarter period apart.
     fn collocation_shift(&self, spacing: f64) -> Result<f64, BemError> {
         let angular_frequency = positive("π × velocity / spacing", PI * (self.velocity / spacing))?;
         let compliance = self.spectrum.complex_compliance(angular_frequency)?;
@@ -295,6 +312,7 @@ impl SlidingCreep {
     }
 }
 
+/// Sum of the contributions to the compliance.
 fn total_compliance(parts: &ElementCreep) -> f64 {
     let delayed: f64 = parts
         .retardations

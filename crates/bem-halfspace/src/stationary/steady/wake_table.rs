@@ -167,8 +167,9 @@ impl WakeTable {
     fn add_viscoelastic(&mut self) {
         let instantaneous = self.creep.instantaneous;
         let last = self.last_row_on_track();
-        let first = [self.offset(last), self.aspect];
-        let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
+        let first = self.offset(last);
+        let mut retarded =
+            RetardedPotential::new(&self.creep, first, self.aspect, self.n_columns());
         for row in (0..=last).rev() {
             retarded.step(self.offset(row));
             self.add_to_row(row, |column| {

@@ -30,17 +30,17 @@ use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
-use crate::steady::sensitivity::{ByModuli, Change, Limit, bands};
+use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation, bands};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, Gradients, first_of, turned};
 
 /// Part of a period up to which two are the same.
 const SAME: f64 = 1e-9;
 /// The elements at edges scatter.
-const LIMIT: Limit = Limit {
-    beyond: 0.0,
-    beyond_of_area: 0.0,
-    bar: 2.5,
+const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {
+    correction: 0.0,
+    area_correction: 0.0,
+    error: 2.5,
 };
 
 /// A stationary contact of a periodic surface with its adjoint loads, on two grids whose difference gives the bars.
@@ -170,7 +170,7 @@ impl PeriodicSensitivity {
 
     /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is given.
     pub fn by_load(&self) -> Change<Estimate> {
-        LIMIT.of_single(self.fine.by_load(), self.coarse.by_load())
+        LIMIT.limit_of_single(self.fine.by_load(), self.coarse.by_load())
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
@@ -186,8 +186,8 @@ impl PeriodicSensitivity {
             let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
             Ok(ByModuli {
                 frequencies,
-                storage_modulus: LIMIT.of_single(fine_storage, storage),
-                loss_modulus: LIMIT.of_single(fine_loss, loss),
+                storage_modulus: LIMIT.limit_of_single(fine_storage, storage),
+                loss_modulus: LIMIT.limit_of_single(fine_loss, loss),
             })
         };
         bands(frequencies)?.into_iter().map(of_band).collect()
@@ -197,7 +197,7 @@ impl PeriodicSensitivity {
         &self,
         of: impl Fn(&State) -> Result<Change<f64>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        Ok(LIMIT.of_single(of(&self.fine)?, of(&self.coarse)?))
+        Ok(LIMIT.limit_of_single(of(&self.fine)?, of(&self.coarse)?))
     }
 }
 

@@ -1,4 +1,7 @@
-//! What a quantity asks of the creep: its derivative by the kernel, assemble over each part of the creep once.
+//! Derivatives of quantities by the creep: the correlation of adjoint and primal loads, contracted with the kernel of each part of the
+//! creep once.
+//!
+//! Theory: the [module](super) and docs/sensitivity.md, "Which part of a master curve matters".
 
 use std::f64::consts::PI;
 
@@ -14,19 +17,20 @@ use crate::stationary::steady::retarded_potential::RetardedPotential;
 use crate::stationary::steady::sensitivity::correlation::Correlation;
 use crate::stationary::steady::sensitivity::correlation_spectrum::CorrelationSpectrum;
 use crate::stationary::steady::sliding_creep::{
-    CreepOverDistance, ElementCreep, FLOW_AS_RETARDATION_RATE, RetardationElement, SlidingCreep,
+    CreepOverDistance, ElementCreep, FLOW_AS_RETARDATION_RATE, RetardationElement,
+    RetardationOverDistance, SlidingCreep,
 };
 use crate::stationary::steady::wake_table::WakeTable;
 
-/// Relative step of the differences by the length of a memory or of a track or the thickness of a layer, which is about their error: kernels
-/// are smooth to eleven digits.
-const STEP: f64 = 1e-6;
-/// Wave number of what does not change along x, over the longest of those that do.
-const LONGEST_WAVE: f64 = 1e-6;
-/// Logarithm of the ratio of two memories that do not change places.
-const APART: f64 = 1e-3;
+/// Relative step of the differences by the memory length of a retardation element, the length of a track or the thickness of a layer;
+/// chosen. The error of the derivative is about as large, because kernels are smooth to eleven digits.
+const LENGTH_STEP: f64 = 1e-6;
+/// Wave number that stands for q = 0, over the upper end of a band from 0 on; chosen.
+const UNIFORM_WAVE_NUMBER: f64 = 1e-6;
+/// Smallest logarithm of the ratio of two memory lengths in a row for which retardation elements are matched by their order; chosen.
+const MIN_LOG_MEMORY_RATIO: f64 = 1e-3;
 
-/// Sums of the kernels of all parts of the creep with the weights of a quantity, per compliance of an element.
+/// The derivative of a quantity by each part of the creep: contractions of its correlation with the kernels, per unit compliance.
 #[derive(Debug)]
 pub(super) struct Basis {
     correlation: Correlation,
@@ -34,52 +38,58 @@ pub(super) struct Basis {
     creep: CreepOverDistance,
     instantaneous: f64,
     flow: f64,
-    retardations: Vec<RetardationSums>,
+    retardations: Vec<RetardationDerivatives>,
 }
 
-/// What is common to all kernels of a grid.
+/// The parameters that all kernels of a grid have in common.
 #[derive(Debug, Clone)]
 pub(super) struct KernelParameters {
+    /// Δx, \[m].
     spacing: f64,
+    /// Δy/Δx.
     aspect: f64,
-    /// The creep over an element without any of its parts: where gaps are evaluated, the track and the base.
+    /// The creep over an element without its compliances: collocation shift, track and base.
     bare: ElementCreep,
     material: SlidingCreep,
-    /// Compliance over the length of an element, \[1/Pa].
+    /// Compliance over the length of an element, the unit of the kernel, \[1/Pa].
     compliance: f64,
 }
 
+/// The derivatives of a quantity by one retardation element.
 #[derive(Debug)]
-struct RetardationSums {
+struct RetardationDerivatives {
     by_compliance: f64,
-    /// By the logarithm of its memory, per compliance.
+    /// By the logarithm of the memory length, per compliance.
     by_log_memory: f64,
 }
 
 impl Basis {
-    /// One for each quantity; the kernels are computed once for all.
-    pub(super) fn of_all(mut quantities: Vec<Correlation>, kernel: &KernelParameters) -> Vec<Self> {
+    /// Contracts the correlations of several quantities; each kernel is computed once for all of them.
+    pub(super) fn contract_all(
+        mut quantities: Vec<Correlation>,
+        kernel: &KernelParameters,
+    ) -> Vec<Self> {
         Correlation::align(&mut quantities);
         let spacing = kernel.spacing;
         let creep = kernel.material.over_distance();
-        let steps = [1.0, 1.0 + STEP];
-        let memories = creep.retardations.iter().map(|[_, memory]| *memory);
-        let rates = memories.flat_map(|memory| steps.map(|step| spacing / (memory * step)));
-        let recovering = kernel.recovering(&quantities, &rates.collect::<Vec<f64>>());
+        let steps = [1.0, 1.0 + LENGTH_STEP];
+        let lengths = creep.retardations.iter().map(|one| one.memory_length);
+        let rates = lengths.flat_map(|length| steps.map(|step| spacing / (length * step)));
+        let viscoelastic = kernel.contract_viscoelastic(&quantities, &rates.collect::<Vec<f64>>());
         let flows = creep.flow_per_length > 0.0;
         let bases = quantities
             .into_iter()
-            .zip(recovering)
+            .zip(viscoelastic)
             .map(|(correlation, sums)| {
-                let retardations = sums[1..].chunks_exact(steps.len());
-                let retardations = retardations.map(|sums| RetardationSums {
+                let pairs = sums[1..].chunks_exact(steps.len());
+                let retardations = pairs.map(|sums| RetardationDerivatives {
                     by_compliance: sums[0],
-                    by_log_memory: (sums[1] - sums[0]) / STEP,
+                    by_log_memory: (sums[1] - sums[0]) / LENGTH_STEP,
                 });
                 Self {
                     instantaneous: sums[0],
                     flow: if flows {
-                        kernel.flow(&correlation)
+                        kernel.contract_flow(&correlation)
                     } else {
                         0.0
                     },
@@ -92,39 +102,54 @@ impl Basis {
         bases.collect()
     }
 
-    /// The change from one creep to another on the same base, to first order; of as many retardations as here.
-    pub(super) fn between_creeps(&self, [from, to]: [&CreepOverDistance; 2]) -> f64 {
+    /// The change from one creep to another on the same base, to first order. Both have as many retardation elements as this one.
+    pub(super) fn between_creeps(&self, from: &CreepOverDistance, to: &CreepOverDistance) -> f64 {
         let instantaneous = self.instantaneous * (to.instantaneous - from.instantaneous);
         let flow = self.flow * self.kernel.spacing * (to.flow_per_length - from.flow_per_length);
-        let ends = from.retardations.iter().zip(&to.retardations);
-        let retardations = ends.zip(&self.creep.retardations).zip(&self.retardations);
-        let delayed = retardations.map(|(((from, to), [compliance, _]), of)| {
-            of.by_compliance * (to[0] - from[0])
-                + of.by_log_memory * compliance * (to[1] / from[1]).ln()
-        });
-        (instantaneous + flow + delayed.sum::<f64>()) / self.kernel.compliance
+        let changes = from.retardations.iter().zip(&to.retardations);
+        let retarded =
+            changes
+                .zip(self.with_derivatives())
+                .map(|((from, to), (compliance, derivatives))| {
+                    derivatives.by_compliance * (to.compliance - from.compliance)
+                        + derivatives.by_log_memory
+                            * compliance
+                            * (to.memory_length / from.memory_length).ln()
+                });
+        (instantaneous + flow + retarded.sum::<f64>()) / self.kernel.compliance
     }
 
-    /// The sum with all of the kernel.
-    fn whole(&self) -> f64 {
-        let retardations = self.creep.retardations.iter().zip(&self.retardations);
-        let delayed = retardations.map(|([compliance, _], of)| of.by_compliance * compliance);
+    /// Contraction with the kernel of the whole creep.
+    fn contract_full_kernel(&self) -> f64 {
+        let retarded = self
+            .with_derivatives()
+            .map(|(compliance, derivatives)| derivatives.by_compliance * compliance);
         let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
-        let at_once = self.instantaneous * self.creep.instantaneous;
-        (at_once + flow + delayed.sum::<f64>()) / self.kernel.compliance
+        let instantaneous = self.instantaneous * self.creep.instantaneous;
+        (instantaneous + flow + retarded.sum::<f64>()) / self.kernel.compliance
     }
 
-    /// By the logarithm of the velocity.
+    /// The derivative by the logarithm of the velocity.
     pub(super) fn by_velocity(&self) -> f64 {
-        let retardations = self.creep.retardations.iter().zip(&self.retardations);
-        let delayed = retardations.map(|([compliance, _], of)| of.by_log_memory * compliance);
+        let retarded = self
+            .with_derivatives()
+            .map(|(compliance, derivatives)| derivatives.by_log_memory * compliance);
         let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
-        (delayed.sum::<f64>() - flow) / self.kernel.compliance
+        (retarded.sum::<f64>() - flow) / self.kernel.compliance
     }
 
-    /// Whether each retardation of another creep belongs to one of these; of some that are alike it is not known which.
+    /// The compliance of each retardation element with the derivatives by it.
+    fn with_derivatives(&self) -> impl Iterator<Item = (f64, &RetardationDerivatives)> {
+        let compliances = self.creep.retardations.iter().map(|one| one.compliance);
+        compliances.zip(&self.retardations)
+    }
+
+    /// True if the retardation elements of another creep correspond to these one by one: as many, with distinct memory lengths.
     pub(super) fn has_same_retardations(&self, creep: &CreepOverDistance) -> bool {
-        let differ = |pair: &[[f64; 2]]| (pair[1][1] / pair[0][1]).ln().abs() > APART;
+        let differ = |pair: &[RetardationOverDistance]| {
+            let ratio = pair[1].memory_length / pair[0].memory_length;
+            ratio.ln().abs() > MIN_LOG_MEMORY_RATIO
+        };
         creep.retardations.len() == self.retardations.len()
             && creep.retardations.windows(2).all(differ)
     }
@@ -132,8 +157,8 @@ impl Basis {
     /// The derivatives of quantities of one contact by the logarithms of the storage and of the loss modulus in each of the
     /// bands of angular frequencies \[rad/s].
     ///
-    /// What flows follows a load that never changes: `∫_x^∞ w ds` is that of all waves but the longest, and half the integral
-    /// of w over all x, which is of the frequency 0.
+    /// The free flow responds to a uniform load too: `∫_x^∞ w ds` consists of all waves with q > 0, and of half the integral of w over
+    /// all x, which belongs to the frequency 0.
     pub(super) fn by_moduli(
         quantities: &[&Self],
         bands: &[[f64; 2]],
@@ -145,7 +170,7 @@ impl Basis {
             let track = track * kernel.spacing;
             return Err(IndenterError::NoTrack { track }.into());
         }
-        let waves = CorrelationSpectrum {
+        let spectrum = CorrelationSpectrum {
             quantities: quantities.iter().map(|basis| &basis.correlation).collect(),
             base: &kernel.bare.base,
             aspect: kernel.aspect,
@@ -157,14 +182,17 @@ impl Basis {
             let mut sums = vec![[0.0; 2]; quantities.len()];
             let flow = kernel.material.flow_per_length() * kernel.spacing / kernel.compliance;
             if band[0] <= 0.0 && flow > 0.0 {
-                for (sums, weights) in sums.iter_mut().zip(waves.at(LONGEST_WAVE * ends[1])) {
+                for (sums, weights) in sums
+                    .iter_mut()
+                    .zip(spectrum.at_wave_number(UNIFORM_WAVE_NUMBER * ends[1]))
+                {
                     sums[1] -= 0.5 * flow * weights.re;
                 }
             }
-            for [wave_number, weight] in waves.nodes(ends) {
-                let by_logarithm = kernel.by_logarithm(wave_number)?;
-                for (sums, weights) in sums.iter_mut().zip(waves.at(wave_number)) {
-                    for (sum, compliance) in sums.iter_mut().zip(by_logarithm) {
+            for [wave_number, weight] in spectrum.nodes(ends) {
+                let by_log_moduli = kernel.by_log_moduli(wave_number)?;
+                for (sums, weights) in sums.iter_mut().zip(spectrum.at_wave_number(wave_number)) {
+                    for (sum, compliance) in sums.iter_mut().zip(by_log_moduli) {
                         *sum += weight / PI * (weights * compliance).re;
                     }
                 }
@@ -174,20 +202,22 @@ impl Basis {
         bands.iter().map(of_band).collect()
     }
 
-    /// The change of quantities of one contact from its creep to another on a base of its own.
+    /// The change of quantities of one contact from its elastomer to another.
     pub(super) fn to_elastomer(
         quantities: &[&Self],
         creep: &SlidingCreep,
     ) -> Result<Vec<f64>, BemError> {
-        let other = Self::on_other(quantities, creep, |kernel, bare| {
+        let other = Self::contract_other_kernel(quantities, creep, |kernel, bare| {
             bare.base = creep.base().in_units_of(kernel.spacing)?;
             Ok(())
         })?;
         let pairs = quantities.iter().zip(other);
-        Ok(pairs.map(|(own, other)| other - own.whole()).collect())
+        Ok(pairs
+            .map(|(own, other)| other - own.contract_full_kernel())
+            .collect())
     }
 
-    /// By the logarithm of the thickness of the layer.
+    /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
     pub(super) fn by_thickness(quantities: &[&Self]) -> Result<Vec<f64>, BemError> {
         let is_layer = |bare: &ElementCreep| !bare.base.is_half_space();
         Self::by_length(quantities, is_layer, |bare, factor| {
@@ -196,7 +226,7 @@ impl Basis {
         })
     }
 
-    /// By the logarithm of the length of the track.
+    /// The derivatives by the logarithm of the length of the track; 0 without one.
     pub(super) fn by_track(quantities: &[&Self]) -> Result<Vec<f64>, BemError> {
         let has_track = |bare: &ElementCreep| bare.track.is_some();
         Self::by_length(quantities, has_track, |bare, factor| {
@@ -205,27 +235,27 @@ impl Basis {
         })
     }
 
-    /// By the logarithm of a length that some kernels have, by differences of whole kernels.
+    /// The derivatives by the logarithm of a length that some kernels have, by differences of whole kernels.
     fn by_length(
         quantities: &[&Self],
-        is_there: impl Fn(&ElementCreep) -> bool,
+        has_length: impl Fn(&ElementCreep) -> bool,
         scale: impl Fn(&mut ElementCreep, f64) -> Result<(), InvalidParameter>,
     ) -> Result<Vec<f64>, BemError> {
         let kernel = quantities.first().map(|basis| &basis.kernel);
-        let Some(kernel) = kernel.filter(|kernel| is_there(&kernel.bare)) else {
+        let Some(kernel) = kernel.filter(|kernel| has_length(&kernel.bare)) else {
             return Ok(vec![0.0; quantities.len()]);
         };
-        let longer = Self::on_other(quantities, &kernel.material, |_, bare| {
-            scale(bare, 1.0 + STEP)
+        let longer = Self::contract_other_kernel(quantities, &kernel.material, |_, bare| {
+            scale(bare, 1.0 + LENGTH_STEP)
         });
         let pairs = quantities.iter().zip(longer?);
         Ok(pairs
-            .map(|(own, longer)| (longer - own.whole()) / STEP)
+            .map(|(own, longer)| (longer - own.contract_full_kernel()) / LENGTH_STEP)
             .collect())
     }
 
-    /// The sums of quantities of one contact with the kernel of another creep, track or base, which is computed once.
-    fn on_other(
+    /// Contractions of quantities of one contact with the kernel of another creep, track or base, which is computed once.
+    fn contract_other_kernel(
         quantities: &[&Self],
         creep: &SlidingCreep,
         change: impl Fn(&KernelParameters, &mut ElementCreep) -> Result<(), InvalidParameter>,
@@ -246,9 +276,9 @@ impl Basis {
             base: bare.base,
             ..creep.over_element(kernel.spacing)?
         };
-        let table = WakeTable::for_creep(&part, kernel.aspect, correlation.reach());
+        let table = WakeTable::for_creep(&part, kernel.aspect, correlation.max_offsets());
         let unit = creep.compliance(kernel.spacing)? / kernel.compliance;
-        let sum = |basis: &&Self| unit * basis.correlation.with_kernel(&table);
+        let sum = |basis: &&Self| unit * basis.correlation.contract(&table);
         Ok(quantities.iter().map(sum).collect())
     }
 }
@@ -277,10 +307,11 @@ impl KernelParameters {
         })
     }
 
-    /// The sums of each quantity with the kernels of what recovers at once, and of retardation elements of unit compliance.
-    fn recovering(&self, quantities: &[Correlation], rates: &[f64]) -> Vec<Vec<f64>> {
+    /// Contractions of each quantity with the kernels of a unit instantaneous compliance and of retardation elements of unit compliance,
+    /// in this order.
+    fn contract_viscoelastic(&self, quantities: &[Correlation], rates: &[f64]) -> Vec<Vec<f64>> {
         let mut sums = vec![vec![0.0; 1 + rates.len()]; quantities.len()];
-        let Some([rows, columns]) = quantities.first().map(Correlation::reach) else {
+        let Some([rows, columns]) = quantities.first().map(Correlation::max_offsets) else {
             return sums;
         };
         if rates.is_empty() {
@@ -289,7 +320,7 @@ impl KernelParameters {
                 ..self.bare.clone()
             };
             for (sums, correlation) in sums.iter_mut().zip(quantities) {
-                sums[0] = self.sum_of(correlation, &part);
+                sums[0] = self.contract(correlation, &part);
             }
             return sums;
         }
@@ -298,15 +329,15 @@ impl KernelParameters {
             ..self.bare.clone()
         };
         let offset = |row: usize| row as f64 - rows as f64 + self.bare.collocation_shift;
-        let first = [offset(2 * rows), self.aspect];
-        let mut retarded = RetardedPotential::new(&part, first, columns + 1);
+        let mut retarded =
+            RetardedPotential::new(&part, offset(2 * rows), self.aspect, columns + 1);
         for row in (0..=2 * rows).rev() {
             retarded.step(offset(row));
-            let at_once: Vec<f64> = (0..=columns)
+            let potentials: Vec<f64> = (0..=columns)
                 .map(|column| retarded.load_potential(column))
                 .collect();
             for (sums, correlation) in sums.iter_mut().zip(quantities) {
-                sums[0] += dot(correlation.row(row), &at_once);
+                sums[0] += dot(correlation.row(row), &potentials);
                 for (retardation, sum) in sums[1..].iter_mut().enumerate() {
                     *sum += dot(correlation.row(row), retarded.retardation_part(retardation));
                 }
@@ -315,22 +346,23 @@ impl KernelParameters {
         sums
     }
 
-    /// The derivatives of the compliance 1/(G' − i G'') to a wave by ln G' and ln G'', over that of an element.
-    fn by_logarithm(&self, wave_number: f64) -> Result<[Complex<f64>; 2], BemError> {
+    /// The derivatives of the compliance 1/(G' − i G'') at a wave number by ln G' and ln G'', over the unit of the kernel.
+    fn by_log_moduli(&self, wave_number: f64) -> Result<[Complex<f64>; 2], BemError> {
         let ComplexCompliance { storage, loss } = self
             .material
             .compliance_of_wave(wave_number / self.spacing)?;
         let compliance = Complex::new(storage, loss);
-        // G' − i G'' is its reciprocal.
+        // G' − i G'' is the reciprocal.
         let moduli = compliance.inv();
-        let turned = [-moduli.re, -moduli.im].map(|part| part / self.compliance);
+        let negative_moduli = [-moduli.re, -moduli.im].map(|part| part / self.compliance);
         Ok([
-            compliance * compliance * turned[0],
-            compliance * compliance * Complex::i() * turned[1],
+            compliance * compliance * negative_moduli[0],
+            compliance * compliance * Complex::i() * negative_moduli[1],
         ])
     }
 
-    fn flow(&self, correlation: &Correlation) -> f64 {
+    /// Contraction with the kernel of a unit flow per element.
+    fn contract_flow(&self, correlation: &Correlation) -> f64 {
         let mut part = self.bare.clone();
         if part.base.is_rigid() {
             let (rate, share) = (FLOW_AS_RETARDATION_RATE, 1.0);
@@ -338,15 +370,15 @@ impl KernelParameters {
         } else {
             part.flow = 1.0;
         }
-        self.sum_of(correlation, &part)
+        self.contract(correlation, &part)
     }
 
-    /// The sum with the kernel of a part of the creep.
-    fn sum_of(&self, correlation: &Correlation, part: &ElementCreep) -> f64 {
-        correlation.with_kernel(&WakeTable::for_creep(
+    /// Contraction with the kernel of one part of the creep.
+    fn contract(&self, correlation: &Correlation, part: &ElementCreep) -> f64 {
+        correlation.contract(&WakeTable::for_creep(
             part,
             self.aspect,
-            correlation.reach(),
+            correlation.max_offsets(),
         ))
     }
 }

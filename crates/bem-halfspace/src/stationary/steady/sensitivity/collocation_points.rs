@@ -1,4 +1,4 @@
-//! Where a body is felt by the elements of a contact.
+//! Heights and slopes of a body at the elements of a contact.
 
 use numerics::in_range;
 
@@ -6,29 +6,29 @@ use crate::BemError;
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sensitivity::loaded_contact::LoadedContact;
 
-/// A height of a body, \[m], by a point.
+/// Height of a body \[m] as a function of the point.
 pub(super) type Height<'a> = &'a dyn Fn([f64; 2]) -> f64;
 
-/// Where a body is felt.
+/// The points at which a body enters the equations of a contact.
 #[derive(Debug)]
 pub(super) struct CollocationPoints {
-    /// Centres of the elements, \[m], of one half where the contact is mirror symmetric.
+    /// Centres of the elements, of one half where the contact is mirror symmetric, \[m].
     centres: Vec<[f64; 2]>,
-    /// Where gaps are evaluated, in elements from these.
+    /// Position of the collocation points, in elements from the centres.
     collocation_shift: f64,
     spacing: f64,
     depth_scale: f64,
     pub(super) slope: FrictionSlope,
 }
 
-/// What the friction is the mean of under the load.
+/// The slope whose mean under the load is the friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FrictionSlope {
     /// The slope of the body over each element.
     Body,
     /// The slope of the displacements at the centre of each element.
     Surface,
-    /// The same where gaps are evaluated.
+    /// The slope of the displacements at the collocation point of each element.
     SurfaceAtCollocationPoints,
 }
 
@@ -53,14 +53,15 @@ impl CollocationPoints {
         }
     }
 
+    /// The unit of slopes: the depth scale over the length of an element.
     pub(super) fn slope_unit(&self) -> f64 {
         self.depth_scale / self.spacing
     }
 
-    /// Heights in units of the depth scale, so many elements from the centres.
-    fn heights_at(&self, of_body: Height, shift: f64) -> Result<Vec<f64>, BemError> {
+    /// Heights at `shift` elements from the centres, in units of the depth scale.
+    fn heights_at(&self, body: Height, shift: f64) -> Result<Vec<f64>, BemError> {
         let height = |&[x, y]: &[f64; 2]| {
-            let height = of_body([x + shift * self.spacing, y]);
+            let height = body([x + shift * self.spacing, y]);
             in_range(
                 "height in the contact",
                 height,
@@ -72,16 +73,16 @@ impl CollocationPoints {
         self.centres.iter().map(height).collect()
     }
 
-    pub(super) fn heights(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
-        self.heights_at(of_body, self.collocation_shift)
+    /// Heights at the collocation points, in units of the depth scale.
+    pub(super) fn heights(&self, body: Height) -> Result<Vec<f64>, BemError> {
+        self.heights_at(body, self.collocation_shift)
     }
 
-    /// What the slope of the body adds to that of which the friction is the mean, in units of the depth scale over the length
-    /// of an element.
-    pub(super) fn explicit_slope_terms(&self, of_body: Height) -> Result<Vec<f64>, BemError> {
+    /// ∂μ/∂h at fixed pressure: the part of the slope that depends on the body explicitly, in units of [`slope_unit`](Self::slope_unit).
+    pub(super) fn explicit_slope_terms(&self, body: Height) -> Result<Vec<f64>, BemError> {
         let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
-            let behind = self.heights_at(of_body, from)?;
-            Ok(differences(behind, &self.heights_at(of_body, to)?))
+            let behind = self.heights_at(body, from)?;
+            Ok(differences(behind, &self.heights_at(body, to)?))
         };
         match self.slope {
             FrictionSlope::Body => rise(-0.5, 0.5),
@@ -95,6 +96,7 @@ impl CollocationPoints {
     }
 }
 
+/// `to` less `from`.
 pub(super) fn differences(mut from: Vec<f64>, to: &[f64]) -> Vec<f64> {
     from.iter_mut()
         .zip(to)

@@ -1,4 +1,8 @@
-//! What a sum over pairs of loads gives each value of the kernel.
+//! The correlation of adjoint and primal loads: the weight of each value of the kernel in a bilinear sum over pairs of elements.
+//!
+//! ```text
+//! λᵀ K x = Σ_m c_m k_m,      c_m = Σ_j λ_(j+m) x_j
+//! ```
 
 use crate::elements::bounds::Bounds;
 use crate::parallel::reductions::add;
@@ -10,12 +14,12 @@ pub(super) struct Field {
     values: Vec<f64>,
 }
 
-/// Weights of the kernel by the offset of an element from the one that is loaded.
+/// The weights c of the kernel, by the offset of an element from the loaded one.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Correlation {
-    /// Largest offset along x, either way, and along y.
-    reach: [usize; 2],
-    /// By offset along x, from behind, and by distance along y.
+    /// Largest offsets: along x in either direction, and along y.
+    max_offsets: [usize; 2],
+    /// Row-major: by offset along x, from behind the load on, and by distance along y.
     weights: Vec<f64>,
 }
 
@@ -31,9 +35,9 @@ impl Field {
 }
 
 impl Correlation {
-    /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side; where x is mirror symmetric, of images
-    /// in y one may stand for both.
-    pub(super) fn of(left: &Field, right: &Field) -> Self {
+    /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side. If the loads x are mirror symmetric, `left` may
+    /// contain one of two mirror images y with twice the weight.
+    pub(super) fn between(left: &Field, right: &Field) -> Self {
         let [rows, columns] = left.shape;
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
@@ -45,7 +49,7 @@ impl Correlation {
         {
             let (row, column) = (place / columns, place % columns);
             for (other, from) in right.values.chunks_exact(columns).enumerate() {
-                // By the distance along y to the other side, which is folded onto this one.
+                // By signed distance along y; the negative side is folded onto the positive one below.
                 let first = (row + rows - other) * width + columns - 1 - column;
                 let weights = &mut signed[first..first + columns];
                 for (weight, load) in weights.iter_mut().zip(from) {
@@ -62,14 +66,14 @@ impl Correlation {
             (0..columns).map(both).collect()
         };
         Self {
-            reach: [rows, columns - 1],
+            max_offsets: [rows, columns - 1],
             weights: signed.chunks_exact(width).flat_map(fold).collect(),
         }
     }
 
-    /// The weights of k in −½ Σ y_i [k(i + 1 − j) − k(i − 1 − j)] x_j, so many times, with the step along x.
-    pub(super) fn of_slope(&self, factor: f64) -> Self {
-        let columns = self.reach[1] + 1;
+    /// The weights of k in −½ Σ y_i [k(i + 1 − j) − k(i − 1 − j)] x_j times a factor, with steps along x.
+    pub(super) fn slope(&self, factor: f64) -> Self {
+        let columns = self.max_offsets[1] + 1;
         let at = |index: usize, rows: isize| {
             let moved = index.checked_add_signed(rows * columns.cast_signed());
             moved
@@ -79,66 +83,72 @@ impl Correlation {
         };
         let weight = |index| -0.5 * factor * (at(index, -1) - at(index, 1));
         Self {
-            reach: self.reach,
+            max_offsets: self.max_offsets,
             weights: (0..self.weights.len()).map(weight).collect(),
         }
     }
 
-    /// With a multiple of the bend k₀ − (k₁ + k₋₁)/2 along each axis.
-    pub(super) fn with_bend(mut self, [along_x, along_y]: [f64; 2]) -> Self {
-        let columns = self.reach[1] + 1;
-        let here = self.reach[0] * columns;
+    /// Adds multiples of the second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
+    pub(super) fn with_second_difference(mut self, [along_x, along_y]: [f64; 2]) -> Self {
+        let columns = self.max_offsets[1] + 1;
+        let here = self.max_offsets[0] * columns;
         let weights = &mut self.weights;
         weights[here] += along_x + along_y;
         weights[here - columns] -= 0.5 * along_x;
         weights[here + columns] -= 0.5 * along_x;
         if columns > 1 {
-            // That of both sides.
+            // The distance stands for both sides.
             weights[here + 1] -= along_y;
         }
         self
     }
 
-    /// Both together.
-    pub(super) fn and(mut self, other: &Self) -> Self {
+    /// Adds another correlation with the same offsets.
+    pub(super) fn plus(mut self, other: &Self) -> Self {
         add(&mut self.weights, 1.0, &other.weights);
         self
     }
 
-    /// Gives all the largest reach among them.
+    /// Pads correlations with zeros to the largest offsets among them.
     pub(super) fn align(all: &mut [Self]) {
-        let reach = all.iter().map(|one| one.reach);
-        let reach = reach.reduce(|one, other| [0, 1].map(|axis| one[axis].max(other[axis])));
-        for one in all.iter_mut().filter(|one| Some(one.reach) != reach) {
-            let Some([rows, columns]) = reach else {
+        let max_offsets = all
+            .iter()
+            .map(|one| one.max_offsets)
+            .reduce(|one, other| [0, 1].map(|axis| one[axis].max(other[axis])));
+        for one in all
+            .iter_mut()
+            .filter(|one| Some(one.max_offsets) != max_offsets)
+        {
+            let Some([rows, columns]) = max_offsets else {
                 return;
             };
-            let before = rows - one.reach[0];
+            let before = rows - one.max_offsets[0];
             let mut weights = vec![0.0; (2 * rows + 1) * (columns + 1)];
             let wide = weights.chunks_exact_mut(columns + 1).skip(before);
-            for (wide, narrow) in wide.zip(one.weights.chunks_exact(one.reach[1] + 1)) {
+            for (wide, narrow) in wide.zip(one.weights.chunks_exact(one.max_offsets[1] + 1)) {
                 wide[..narrow.len()].copy_from_slice(narrow);
             }
             *one = Self {
-                reach: [rows, columns],
+                max_offsets: [rows, columns],
                 weights,
             };
         }
     }
 
-    pub(super) const fn reach(&self) -> [usize; 2] {
-        self.reach
+    /// Largest offsets: along x in either direction, and along y.
+    pub(super) const fn max_offsets(&self) -> [usize; 2] {
+        self.max_offsets
     }
 
-    /// The weights of an offset along x, from behind.
+    /// The weights of one row: of one offset along x, counted from behind the load on.
     pub(super) fn row(&self, row: usize) -> &[f64] {
-        let columns = self.reach[1] + 1;
+        let columns = self.max_offsets[1] + 1;
         &self.weights[row * columns..][..columns]
     }
 
-    /// The sum with a kernel.
-    pub(super) fn with_kernel(&self, table: &WakeTable) -> f64 {
-        let [rows, columns] = self.reach;
+    /// The sum Σ c_m k_m with a kernel.
+    pub(super) fn contract(&self, table: &WakeTable) -> f64 {
+        let [rows, columns] = self.max_offsets;
         let row_of = |row: usize| row.cast_signed() - rows.cast_signed();
         let weighted = |(index, weight): (usize, &f64)| {
             weight * table.displacement(row_of(index / (columns + 1)), index % (columns + 1))

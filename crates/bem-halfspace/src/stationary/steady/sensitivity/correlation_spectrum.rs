@@ -1,14 +1,17 @@
-//! What a quantity asks of the complex modulus at each frequency: its weights of the kernel as a sum of waves.
+//! Derivatives by the complex modulus at each frequency: a correlation contracted with the kernel as a sum of waves.
 //!
 //! Along x the kernel of an element is a sum of waves `e^(iqx)`, each of which oscillates at the frequency `ω = q v` in the
-//! material, so that its compliance `1/(G' − i G'')` is a factor of it. A column of elements at the distance y has
+//! material, so that the compliance `1/(G' − i G'')` is a factor of its amplitude. For a column of elements at the distance y
 //!
 //! ```text
 //! k̂(q, y) = sin(q/2)/(q/2) ∫ dy' [2 K₀(q|y'|) + 2 ∫_0^∞ cos(q y' sinh u) (M(q t cosh u) − 1) du]
 //! ```
 //!
-//! with lengths in Δx, y' over the breadth of an element around y, and `K₀(z) = ∫_0^∞ e^(−z cosh u) du`. The integrands by u are
-//! analytic and end smoothly: equal steps integrate them to rounding.
+//! with lengths in Δx, y' over the width of an element around y, the ratio M of a layer to a half space, and
+//! `K₀(z) = ∫_0^∞ e^(−z cosh u) du`. The integrands in u are analytic and vanish smoothly, so that the trapezoidal rule integrates them
+//! to rounding error.
+//!
+//! Theory: docs/sensitivity.md, "Which part of a master curve matters".
 
 use std::f64::consts::TAU;
 use std::iter;
@@ -19,36 +22,43 @@ use crate::Base;
 use crate::parallel::reductions::dot;
 use crate::stationary::steady::sensitivity::correlation::Correlation;
 
-/// Step of u, where an integrand has no waves.
-const STEP: f64 = 0.25;
-/// Steps in the shortest wave of an integrand, which is at its end, where next to nothing is left of it.
+/// Step of u of the trapezoidal rule, for an integrand that does not oscillate; chosen.
+const QUADRATURE_STEP: f64 = 0.25;
+/// Steps of the trapezoidal rule per shortest wave of an oscillating integrand. This wave is at the end of the range, where the integrand
+/// is negligible; chosen.
 const STEPS_PER_WAVE: f64 = 2.0;
-/// Wave number over the thickness from which a base is not felt: M − 1 has ended.
-const SHORTEST: f64 = 18.0;
-/// CorrelationSpectrum of the weights in a panel of the integral over a band, the ratio of its ends, and the end of the first one over that of
-/// a band from 0 on.
+/// Product of wave number and thickness above which M − 1 is negligible, so that a layer acts like a half space; chosen.
+const MAX_LAYER_WAVE_NUMBER: f64 = 18.0;
+/// Largest length of a panel of the integral over a band, in waves over the longest distance of the correlation; chosen.
 const WAVES_PER_PANEL: f64 = 0.4;
-const RATIO: f64 = 1.25;
-const LOWEST: f64 = 1e-3;
-/// The two nodes of a rule by Gauss on [−1, 1].
+/// Largest ratio of the ends of a panel of the integral over a band; chosen.
+const PANEL_RATIO: f64 = 1.25;
+/// End of the first panel of a band from 0 on, over the end of the band; chosen.
+const FIRST_PANEL_END: f64 = 1e-3;
+/// The nodes ±1/√3 of the Gauss rule of two points on [−1, 1].
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 
-/// The weights of quantities on elements of one grid over a base; their gaps are felt so far from their centres.
+/// The correlations of quantities on one grid, and the parameters of its kernels.
 pub(super) struct CorrelationSpectrum<'a> {
     pub(super) quantities: Vec<&'a Correlation>,
-    /// With lengths in Δx.
+    /// The base, with lengths in Δx.
     pub(super) base: &'a Base,
+    /// Δy/Δx.
     pub(super) aspect: f64,
+    /// Position of the collocation points, in elements from their centres.
     pub(super) collocation_shift: f64,
 }
 
 impl CorrelationSpectrum<'_> {
-    /// The nodes of the wave number between two, with their weights: fine enough for the waves of the longest distance and for
-    /// what varies with the logarithm of the frequency.
+    /// Nodes and weights of an integral over wave numbers. The panels resolve the waves over the longest distance of the correlation, and
+    /// functions of the logarithm of the frequency.
     pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
-        let rows = (2 * self.reach()[0] + 1) as f64;
+        let rows = (2 * self.max_offsets()[0] + 1) as f64;
         let widest = WAVES_PER_PANEL * TAU / rows;
-        let next = move |from: f64| to.min(from + widest).min(RATIO * from.max(LOWEST * to));
+        let next = move |from: f64| {
+            to.min(from + widest)
+                .min(PANEL_RATIO * from.max(FIRST_PANEL_END * to))
+        };
         let ends = iter::successors(Some(from), move |from| Some(next(*from)));
         let panels = ends.take_while(move |from| *from < to);
         panels.flat_map(move |from| {
@@ -57,15 +67,15 @@ impl CorrelationSpectrum<'_> {
         })
     }
 
-    fn reach(&self) -> [usize; 2] {
+    fn max_offsets(&self) -> [usize; 2] {
         self.quantities
             .first()
-            .map_or([0; 2], |correlation| correlation.reach())
+            .map_or([0; 2], |correlation| correlation.max_offsets())
     }
 
-    /// Sums of the weights of each quantity times the waves of the kernel of a unit compliance at one wave number.
-    pub(super) fn at(&self, wave_number: f64) -> Vec<Complex<f64>> {
-        let [rows, columns] = self.reach();
+    /// Contractions of each quantity with the wave of one wave number in the kernel of a unit compliance.
+    pub(super) fn at_wave_number(&self, wave_number: f64) -> Vec<Complex<f64>> {
+        let [rows, columns] = self.max_offsets();
         let kernel = self.along_y(wave_number, columns);
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
@@ -79,11 +89,11 @@ impl CorrelationSpectrum<'_> {
         self.quantities.iter().map(sum).collect()
     }
 
-    /// k̂ without its factor along x, at the distance of each column.
+    /// The factor of k̂ that depends on y, at the distance of each column.
     fn along_y(&self, q: f64, columns: usize) -> Vec<f64> {
         let half = 0.5 * self.aspect;
         if columns == 0 && half >= self.base.influence_radius() {
-            // In plane strain elements are longer than anything is felt.
+            // In plane strain an element is longer than the influence radius.
             return vec![TAU / self.base.stiffness(q)];
         }
         let half_space = |column: usize| {
@@ -96,20 +106,20 @@ impl CorrelationSpectrum<'_> {
         };
         let mut kernel: Vec<f64> = (0..=columns).map(half_space).collect();
         let thickness = self.base.thickness();
-        if q * thickness < SHORTEST {
+        if q * thickness < MAX_LAYER_WAVE_NUMBER {
             self.add_base(q, &mut kernel);
         }
         kernel
     }
 
-    /// Adds what the base adds to a half space.
+    /// Adds the difference of the base from a half space.
     fn add_base(&self, q: f64, kernel: &mut [f64]) {
         let thickness = self.base.thickness();
         let half = 0.5 * self.aspect;
-        let end = (SHORTEST / (q * thickness)).acosh();
-        // Per unit of u, at the end and in the farthest column.
-        let waves = SHORTEST / thickness * (kernel.len() as f64 * self.aspect) / TAU;
-        let step = STEP.min((STEPS_PER_WAVE * waves).recip());
+        let end = (MAX_LAYER_WAVE_NUMBER / (q * thickness)).acosh();
+        // Waves of the integrand per unit of u, at the end of the range and in the farthest column.
+        let waves = MAX_LAYER_WAVE_NUMBER / thickness * (kernel.len() as f64 * self.aspect) / TAU;
+        let step = QUADRATURE_STEP.min((STEPS_PER_WAVE * waves).recip());
         let nodes = iter::successors(Some(0.0), |u| Some(u + step));
         for u in nodes.take_while(|u| *u < end) {
             let [across, whole] = [q * u.sinh(), q * u.cosh()];
@@ -121,7 +131,7 @@ impl CorrelationSpectrum<'_> {
             let first = if u > 0.0 { 2.0 } else { 1.0 };
             let weight =
                 first * step * breadth * (self.base.compliance_ratio(whole * thickness) - 1.0);
-            // The cosines of multiples of one angle.
+            // Cosines of the multiples of one angle, by recurrence.
             let twice = 2.0 * (across * self.aspect).cos();
             let [mut before, mut here] = [0.5 * twice, 1.0];
             for value in kernel.iter_mut() {
@@ -141,11 +151,11 @@ fn integral_of_bessel(q: f64, [from, to]: [f64; 2]) -> f64 {
     };
     let mut sum = 0.5 * at(0.0);
     for index in 1.. {
-        let part = at(STEP * f64::from(index));
+        let part = at(QUADRATURE_STEP * f64::from(index));
         sum += part;
         if part <= 1e-15 * sum {
             break;
         }
     }
-    2.0 * STEP * sum
+    2.0 * QUADRATURE_STEP * sum
 }

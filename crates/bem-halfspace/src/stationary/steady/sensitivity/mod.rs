@@ -1,4 +1,4 @@
-//! How a stationary contact changes with what it was solved for, to first order: one adjoint solution for each quantity.
+//! Derivatives of a stationary contact by its parameters: one adjoint solution for each quantity.
 //!
 //! With the loads x of the contact, the kernel K, the heights h and the depth δ the contact solves `K x + h − δ = 0`, and for
 //! a quantity J(x) the adjoint loads λ solve
@@ -7,31 +7,32 @@
 //! Kᵀ λ = η − ∂J/∂x,      Σ λ = 0 under a force, η = 0 at a depth,      dJ/dθ = ∂J/∂θ + λᵀ (∂K/∂θ x + ∂h/∂θ)
 //! ```
 //!
-//! (Tardieu & Constantinescu 2000). The contact itself moves, but where the pressure vanishes at its edge its motion counts in
-//! second order only. Everything that is asked for afterwards is a sum: over the correlation between elements for the material,
-//! over the elements for the body.
+//! (Tardieu & Constantinescu 2000). The contact boundary itself moves. Where the pressure vanishes at it, the motion has an effect of
+//! second order only. All derivatives then are sums: over the offsets between elements for the material, over the elements for the body.
 //!
-//! On a grid the contact moves by elements, and what this leaves is the largest part of the error. Of the motion that changes its
-//! size it is known: if all lengths are λ times as long, those of the body, of the layer and of the sliding per time, and the
-//! force is λ² times as large, friction stays as it is and the depth is λ times as large. What the derivatives with these
-//! elements lack to that is what the elements have to change when the contact grows by λ,
+//! On a grid the contact boundary moves by whole elements, which is the largest part of the error. For a change of scale the exact
+//! derivative is known. If all lengths of the body, the layer and the sliding per time are multiplied by λ, and the force by λ², the
+//! friction does not change and the depth is multiplied by λ. The defect R of this scaling identity on fixed elements is the missing
+//! effect of the boundary when the contact grows by λ,
 //!
 //! ```text
 //! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dG/dθ)/(∂G/∂ln λ)
 //! ```
 //!
-//! with a measure G of how much the rim moves, weighted as what is left undone there is, `elements/contact_boundary.rs`. The area is a sum over the
-//! rim, too, whose derivative is divided by that of the dilation and multiplied by 2. Then all derivatives add up in units of length, as
-//! they do in those of stress and time without it.
+//! with a measure G of the motion of the boundary, in which each place has the weight of its effect, `elements/contact_boundary.rs`. The
+//! area is a sum over the boundary, too; its derivative is divided by that of the dilation and multiplied by 2. With this correction all
+//! derivatives add up exactly under a change of the unit of length, as they do without it under changes of the units of stress and time.
+//!
+//! Theory: docs/sensitivity.md, "What is known of them".
 
 mod adjoint_solve;
 mod basis;
 mod boundary_measures;
 mod collocation_points;
+mod contact_derivatives;
 mod correlation;
 mod correlation_spectrum;
 mod loaded_contact;
-mod state;
 mod two_grid_extrapolation;
 
 use indenters::{Control, SlidingLoad, Surface};
@@ -43,44 +44,47 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
 use crate::{BemError, Elastomer};
-use state::State;
-pub(crate) use two_grid_extrapolation::Limit;
-use two_grid_extrapolation::{Apart, mean};
+use contact_derivatives::ContactDerivatives;
+pub(crate) use two_grid_extrapolation::TwoGridExtrapolation;
+use two_grid_extrapolation::{MeanAndSpread, mean_over_shifts};
 
-/// Spacing of the grids whose derivatives are compared with those of the finest.
-const COARSER: f64 = 2.0;
-/// Error of the derivatives of the logarithm of the friction by those of the load and of the velocity above which elements are
-/// halved, up to so many unknowns.
-const TOLERANCE: f64 = 4e-3;
-const MOST_UNKNOWNS: usize = 2000;
-/// Largest tolerance of a contact: gaps beside a rear that opens slowly are small.
-const LARGEST_TOLERANCE: f64 = 1e-10;
-/// Spacing of a strip over that of the options: few elements give its answer, and take next to no time.
-const FINER_STRIP: f64 = 0.25;
-/// Shifts of the grids that are averaged.
-const PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
-const PHASES_OF_STRIP: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
-/// Beyond the fine grids lies the limit of what converges with the order 3/2 of the singular front, by 1/(2^1.5 − 1) of the
-/// difference from the coarse ones; areas converge with the order 1.
-const LIMIT: Limit = Limit {
-    beyond: 0.547,
-    beyond_of_area: 1.0,
-    bar: 2.0,
+/// Spacing of the coarse grids over that of the fine ones.
+const COARSE_SPACING_FACTOR: f64 = 2.0;
+/// Error of ∂ln μ/∂ln F and ∂ln μ/∂ln v above which the spacing is halved; chosen.
+const LOG_DERIVATIVE_TOLERANCE: f64 = 4e-3;
+/// Largest number of unknown pressures for which the spacing is halved; chosen.
+const HALVING_MAX_UNKNOWNS: usize = 2000;
+/// Largest tolerance of a contact; chosen. The gaps behind a rear that opens slowly are small.
+const MAX_CONTACT_TOLERANCE: f64 = 1e-10;
+/// Spacing in plane strain over that of the options; chosen. The options have few elements, so that finer grids still take little time.
+const STRIP_SPACING_FACTOR: f64 = 0.25;
+/// Shifts along x and y of the grids that are averaged, in elements.
+const SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
+/// Shifts in plane strain, in elements.
+const STRIP_SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
+/// Extrapolation with the order 3/2 of the singular front, whose correction is 1/(2^1.5 − 1), and with the order 1 of the area. The factor
+/// of the error is chosen.
+const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
+    correction: 0.547,
+    area_correction: 1.0,
+    error: 2.0,
 };
-/// Where a depth has derivatives.
-const AT_A_DEPTH: &str = "0 on a half space at a depth, which otherwise belongs to a distance";
+/// Allowed fluidity at a given depth, for an error message.
+const ALLOWED_FLUIDITY_AT_DEPTH: &str =
+    "0 on a half space at a depth, which otherwise belongs to a distance";
 
-/// The change of a stationary state to first order; of a periodic surface that of one period, and of its mean plane.
+/// The change of a stationary state to first order. For a periodic surface forces are those of one period, and the depth is that of the
+/// mean plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[must_use]
 pub struct Change<T> {
-    /// Of the friction coefficient.
+    /// Change of the friction coefficient.
     pub friction_coefficient: T,
-    /// Of the indentation depth under a force, \[m]; none in plane strain, and where the half space flows.
+    /// Change of the indentation depth under a given force, \[m]. `None` at a given depth, in plane strain, and on a half space that flows.
     pub indentation_depth: Option<T>,
-    /// Of the normal force at a depth, \[N].
+    /// Change of the normal force at a given depth, \[N]. `None` under a given force.
     pub normal_force: Option<T>,
-    /// Of the logarithm of the contact area, or of the width in plane strain; none under bodies with edges.
+    /// Change of the logarithm of the contact area, or of the width in plane strain. `None` under bodies with edges.
     pub contact_area: Option<T>,
 }
 
@@ -90,13 +94,13 @@ pub struct Change<T> {
 pub struct ByModuli {
     /// Lowest and highest angular frequency of the band, \[rad/s].
     pub frequencies: [f64; 2],
-    /// By the logarithm of the storage modulus in the band.
+    /// Derivative by the logarithm of the storage modulus in the band.
     pub storage_modulus: Change<Estimate>,
-    /// By the logarithm of the loss modulus in the band.
+    /// Derivative by the logarithm of the loss modulus in the band.
     pub loss_modulus: Change<Estimate>,
 }
 
-/// A stationary contact with its adjoint loads, on grids whose difference gives the bars.
+/// A stationary contact with its adjoint loads on fine and coarse grids, whose difference gives the errors of all derivatives.
 #[derive(Debug)]
 #[must_use]
 pub struct SteadySensitivity {
@@ -104,16 +108,16 @@ pub struct SteadySensitivity {
     coarse: SensitivityOnGrid,
 }
 
-/// A stationary contact with its adjoint loads, on shifted grids of one spacing, without bars.
+/// A stationary contact with its adjoint loads on shifted grids of one spacing, without errors.
 #[derive(Debug)]
 #[must_use]
 pub struct SensitivityOnGrid {
-    states: Vec<State>,
+    contacts: Vec<ContactDerivatives>,
 }
 
 impl SteadySensitivity {
-    /// Around the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one of elements
-    /// twice as long; on finer ones of few elements where these two differ.
+    /// Solves the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one with twice the
+    /// spacing. If their derivatives differ, and the contact has few elements, a grid with half the spacing replaces the coarse one.
     ///
     /// ```
     /// use bem_halfspace::indenters::Sphere;
@@ -143,10 +147,10 @@ impl SteadySensitivity {
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
         let loading = loading(surface, elastomer, load, options)?;
-        Self::of(surface, &loading, options, &PHASES)
+        Self::on_shifted_grids(surface, &loading, options, &SENSITIVITY_PHASES)
     }
 
-    /// The same in plane strain, as of [`steady_line`](super::steady_line()), on elements of a quarter of the length.
+    /// Like [`new`](Self::new), in plane strain as [`steady_line`](super::steady_line()), on elements of a quarter of the spacing.
     ///
     /// # Errors
     /// As for [`steady_line_on_grid`](super::steady_line_on_grid).
@@ -159,11 +163,12 @@ impl SteadySensitivity {
         let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
         let strip = Strip::new(&profile, &loading);
         let mut options = options.on_strip(&strip);
-        options.spacing[0] *= FINER_STRIP;
-        Self::of(&strip, &loading, &options, &PHASES_OF_STRIP)
+        options.spacing[0] *= STRIP_SPACING_FACTOR;
+        Self::on_shifted_grids(&strip, &loading, &options, &STRIP_SENSITIVITY_PHASES)
     }
 
-    fn of(
+    /// Solves on coarse and fine grids with some shifts, and on finer ones where that is needed.
+    fn on_shifted_grids(
         surface: &dyn Surface,
         loading: &Loading,
         options: &SteadyOptions,
@@ -175,29 +180,46 @@ impl SteadySensitivity {
                 spacing: loading.scaled(options.spacing, factor),
                 ..*options
             };
-            SensitivityOnGrid::of(surface, loading, &options, (phases, &mut reuse))
+            SensitivityOnGrid::on_shifted_grids(surface, loading, &options, phases, &mut reuse)
         };
-        let coarse = on_grids(COARSER)?;
+        let coarse = on_grids(COARSE_SPACING_FACTOR)?;
         let fine = on_grids(1.0)?;
-        let near = Self { fine, coarse };
-        if near.fine.n_unknowns() > MOST_UNKNOWNS || near.is_known() {
-            return Ok(near);
+        let sensitivity = Self { fine, coarse };
+        if sensitivity.fine.n_unknowns() > HALVING_MAX_UNKNOWNS || sensitivity.is_accurate() {
+            return Ok(sensitivity);
         }
         Ok(Self {
-            fine: on_grids(COARSER.recip())?,
-            coarse: near.fine,
+            fine: on_grids(COARSE_SPACING_FACTOR.recip())?,
+            coarse: sensitivity.fine,
         })
     }
 
-    /// Whether the derivatives of the friction by the load and by the velocity are known well enough.
-    fn is_known(&self) -> bool {
-        let of = |of: &dyn Fn(&State) -> Change<f64>| {
-            let [fine, coarse] = [&self.fine, &self.coarse].map(|grids| grids.mean_by(of));
-            LIMIT.of(fine, coarse).friction_coefficient.error
+    /// True if the derivatives of the friction by load and velocity are accurate to the tolerance.
+    fn is_accurate(&self) -> bool {
+        let error = |derivative: fn(&ContactDerivatives) -> Change<f64>| {
+            self.limit_of(derivative).friction_coefficient.error
         };
-        let by_load = of(&State::by_load) * self.fine.given();
-        let allowed = TOLERANCE * self.fine.friction_coefficient().abs();
-        by_load.max(of(&State::by_velocity)) <= allowed
+        let by_load = error(ContactDerivatives::by_load) * self.fine.given();
+        let allowed = LOG_DERIVATIVE_TOLERANCE * self.fine.friction_coefficient().abs();
+        by_load.max(error(ContactDerivatives::by_velocity)) <= allowed
+    }
+
+    /// The extrapolated limit of a derivative.
+    fn limit_of(
+        &self,
+        derivative: impl Fn(&ContactDerivatives) -> Change<f64>,
+    ) -> Change<Estimate> {
+        let [fine, coarse] =
+            [&self.fine, &self.coarse].map(|grids| grids.mean_over_grids(&derivative));
+        EXTRAPOLATION.limit(fine, coarse)
+    }
+
+    /// The extrapolated limit of a change that may fail on a grid.
+    fn limit_of_change(
+        &self,
+        change: impl Fn(&SensitivityOnGrid) -> Result<Change<MeanAndSpread>, BemError>,
+    ) -> Result<Change<Estimate>, BemError> {
+        Ok(EXTRAPOLATION.limit(change(&self.fine)?, change(&self.coarse)?))
     }
 
     /// The change from one body to another, both near that of the state.
@@ -205,10 +227,10 @@ impl SteadySensitivity {
     /// # Errors
     /// [`BemError::InvalidParameter`] where a height in the contact is not finite.
     pub fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Change<Estimate>, BemError> {
-        self.change(|grids| grids.mean_of(|state| state.between_bodies(bodies)))
+        self.limit_of_change(|grids| grids.try_mean(|state| state.between_bodies(bodies)))
     }
 
-    /// The change from one material and velocity to another, both near those of the state, on the same base; fast where all
+    /// The change from one material and velocity to another, both near those of the state, on the same base; fast where both
     /// have as many retardation elements.
     ///
     /// # Errors
@@ -218,7 +240,7 @@ impl SteadySensitivity {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        self.change(|grids| grids.mean_between(materials, velocities))
+        self.limit_of_change(|grids| grids.mean_between(materials, velocities))
     }
 
     /// The change from the elastomer and velocity of the state to others near them, such as a layer of another Poisson ratio.
@@ -231,67 +253,71 @@ impl SteadySensitivity {
         velocity: f64,
     ) -> Result<Change<Estimate>, BemError> {
         let creep = SlidingCreep::new(elastomer, velocity)?;
-        self.change(|grids| Ok(mean(State::all_to_elastomer(&grids.states, &creep)?)))
+        self.limit_of_change(|grids| {
+            Ok(mean_over_shifts(ContactDerivatives::all_to_elastomer(
+                &grids.contacts,
+                &creep,
+            )?))
+        })
     }
 
-    /// The friction coefficient on these grids.
+    /// The extrapolated friction coefficient.
     pub fn friction_coefficient(&self) -> Estimate {
-        let of = |grids: &SensitivityOnGrid| {
-            let change = |state: &State| Change {
-                friction_coefficient: state.friction_coefficient,
-                indentation_depth: None,
-                normal_force: None,
-                contact_area: None,
-            };
-            mean(grids.states.iter().map(change).collect())
+        let friction = |contact: &ContactDerivatives| Change {
+            friction_coefficient: contact.friction_coefficient,
+            indentation_depth: None,
+            normal_force: None,
+            contact_area: None,
         };
-        LIMIT
-            .of(of(&self.fine), of(&self.coarse))
-            .friction_coefficient
+        self.limit_of(friction).friction_coefficient
     }
 
-    /// The derivative by the normal force, per newton, or by the depth, per metre, whichever is given.
+    /// The derivative by the given normal force, per newton, or by the given depth, per metre.
     pub fn by_load(&self) -> Change<Estimate> {
-        let of = |grids: &SensitivityOnGrid| grids.mean_by(State::by_load);
-        LIMIT.of(of(&self.fine), of(&self.coarse))
+        self.limit_of(ContactDerivatives::by_load)
     }
 
     /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
     pub fn by_thickness(&self) -> Change<Estimate> {
-        let of = |grids: &SensitivityOnGrid| grids.mean_by(State::by_thickness);
-        LIMIT.of(of(&self.fine), of(&self.coarse))
+        self.limit_of(ContactDerivatives::by_thickness)
     }
 
     /// The derivatives by the logarithm of the length of the track; 0 without one.
     pub fn by_track(&self) -> Change<Estimate> {
-        let of = |grids: &SensitivityOnGrid| grids.mean_by(State::by_track);
-        LIMIT.of(of(&self.fine), of(&self.coarse))
+        self.limit_of(ContactDerivatives::by_track)
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each
-    /// between two that follow each other: how much a quantity changes when the modulus does by one e-fold there and stays as it
-    /// is elsewhere.
+    /// between two that follow each other: the change of a quantity if the modulus changes by one e-fold in the band only.
     ///
-    /// The sums of both over all frequencies from 0 on are the change by the unit of stress. Beyond about `π v/Δx` waves are
-    /// shorter than two elements, and say nothing.
+    /// The sums of both over all frequencies from 0 on are the change by the unit of stress. Above about `π v/Δx` waves are
+    /// shorter than two elements, and the derivatives are meaningless.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, [`BemError::Material`] where the
-    /// material is not known at them, and [`BemError::Indenter`] on a track, into which only some waves fit.
+    /// material is not known at them, and [`BemError::Indenter`] on a track, which only discrete waves fit.
     pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
         let bands = bands(frequencies)?;
-        let of = |grids: &SensitivityOnGrid| -> Result<Vec<[Change<Apart>; 2]>, BemError> {
-            let found = grids.states.iter().map(|state| state.by_moduli(&bands));
-            let found = found.collect::<Result<Vec<_>, _>>()?;
-            let of_band = |band: usize| {
-                [0, 1].map(|part| mean(found.iter().map(|state| state[band][part]).collect()))
+        // Means over the shifts, for each band by storage and by loss modulus.
+        let means =
+            |grids: &SensitivityOnGrid| -> Result<Vec<[Change<MeanAndSpread>; 2]>, BemError> {
+                let by_contact = grids
+                    .contacts
+                    .iter()
+                    .map(|state| state.by_moduli(&bands))
+                    .collect::<Result<Vec<_>, _>>()?;
+                let of_band = |band: usize| {
+                    [0, 1].map(|modulus| {
+                        let changes = by_contact.iter().map(|state| state[band][modulus]);
+                        mean_over_shifts(changes.collect())
+                    })
+                };
+                Ok((0..bands.len()).map(of_band).collect())
             };
-            Ok((0..bands.len()).map(of_band).collect())
-        };
-        let pairs = of(&self.fine)?.into_iter().zip(of(&self.coarse)?);
+        let pairs = means(&self.fine)?.into_iter().zip(means(&self.coarse)?);
         let found = pairs.zip(&bands).map(|((fine, coarse), &frequencies)| {
             let [storage_modulus, loss_modulus] =
-                [0, 1].map(|part| LIMIT.of(fine[part], coarse[part]));
+                [0, 1].map(|modulus| EXTRAPOLATION.limit(fine[modulus], coarse[modulus]));
             ByModuli {
                 frequencies,
                 storage_modulus,
@@ -300,17 +326,10 @@ impl SteadySensitivity {
         });
         Ok(found.collect())
     }
-
-    fn change(
-        &self,
-        of: impl Fn(&SensitivityOnGrid) -> Result<Change<Apart>, BemError>,
-    ) -> Result<Change<Estimate>, BemError> {
-        Ok(LIMIT.of(of(&self.fine)?, of(&self.coarse)?))
-    }
 }
 
 impl SensitivityOnGrid {
-    /// Around the stationary state on one grid, such as [`steady_grid`](super::steady_grid) makes.
+    /// Solves the stationary state on one grid, such as that of [`steady_grid`](super::steady_grid).
     ///
     /// # Errors
     /// As for [`SteadySensitivity::new`].
@@ -322,10 +341,10 @@ impl SensitivityOnGrid {
     ) -> Result<Self, BemError> {
         let loading = loading(surface, elastomer, load, options)?;
         let phases = [options.phase];
-        Self::of(surface, &loading, options, (&phases, &mut Reuse::default()))
+        Self::on_shifted_grids(surface, &loading, options, &phases, &mut Reuse::default())
     }
 
-    /// The same in plane strain, on a grid such as [`steady_line_grid`](super::steady_line_grid) makes.
+    /// Like [`new`](Self::new), in plane strain, on a grid such as that of [`steady_line_grid`](super::steady_line_grid).
     ///
     /// # Errors
     /// As for [`SteadySensitivity::of_line`].
@@ -339,81 +358,91 @@ impl SensitivityOnGrid {
         let strip = Strip::new(&profile, &loading);
         let options = options.on_strip(&strip);
         let phases = [options.phase];
-        Self::of(&strip, &loading, &options, (&phases, &mut Reuse::default()))
+        Self::on_shifted_grids(&strip, &loading, &options, &phases, &mut Reuse::default())
     }
 
-    fn of(
+    fn on_shifted_grids(
         surface: &dyn Surface,
         loading: &Loading,
         options: &SteadyOptions,
-        (phases, reuse): (&[[f64; 2]], &mut Reuse),
+        phases: &[[f64; 2]],
+        reuse: &mut Reuse,
     ) -> Result<Self, BemError> {
-        let tolerance = options.tolerance.min(LARGEST_TOLERANCE);
+        let tolerance = options.tolerance.min(MAX_CONTACT_TOLERANCE);
         let grids = phases.iter().map(|&phase| SteadyOptions {
             phase,
             tolerance,
             ..*options
         });
         Ok(Self {
-            states: State::all(surface, loading, grids, reuse)?,
+            contacts: ContactDerivatives::on_grids(surface, loading, grids, reuse)?,
         })
     }
 
-    /// The friction coefficient.
+    /// The mean friction coefficient of the grids.
     pub fn friction_coefficient(&self) -> f64 {
-        let all = self.states.iter().map(|state| state.friction_coefficient);
-        all.sum::<f64>() / self.states.len() as f64
+        let all = self.contacts.iter().map(|state| state.friction_coefficient);
+        all.sum::<f64>() / self.contacts.len() as f64
     }
 
-    /// The change of the friction coefficient as of [`SteadySensitivity::between_materials`].
+    /// The change of the friction coefficient, see [`SteadySensitivity::between_materials`].
     ///
     /// # Errors
-    /// As there.
+    /// As for [`SteadySensitivity::between_materials`].
     pub fn between_materials(
         &self,
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<f64, BemError> {
-        let [change, _] = self
-            .mean_between(materials, velocities)?
-            .friction_coefficient;
-        Ok(change)
+        let change = self.mean_between(materials, velocities)?;
+        Ok(change.friction_coefficient.mean)
     }
 
-    /// Unknown pressures of one grid.
+    /// Number of unknown pressures of one grid.
     fn n_unknowns(&self) -> usize {
-        self.states.first().map_or(0, State::n_unknowns)
+        self.contacts
+            .first()
+            .map_or(0, ContactDerivatives::n_unknowns)
     }
 
-    /// The force or the depth, whichever is given.
+    /// The given force or depth.
     fn given(&self) -> f64 {
-        self.states.first().map_or(0.0, State::given)
+        self.contacts.first().map_or(0.0, ContactDerivatives::given)
     }
 
-    fn mean_by(&self, of: impl Fn(&State) -> Change<f64>) -> Change<Apart> {
-        mean(self.states.iter().map(of).collect())
+    /// The mean over the shifted grids of a derivative.
+    fn mean_over_grids(
+        &self,
+        of: impl Fn(&ContactDerivatives) -> Change<f64>,
+    ) -> Change<MeanAndSpread> {
+        mean_over_shifts(self.contacts.iter().map(of).collect())
     }
 
+    /// The mean change between two materials and velocities.
     fn mean_between(
         &self,
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
-    ) -> Result<Change<Apart>, BemError> {
+    ) -> Result<Change<MeanAndSpread>, BemError> {
         let [from, to] = [0, 1].map(|end| SlidingCreep::new(&materials[end], velocities[end]));
         let ends = [from?, to?];
-        self.mean_of(|state| state.between_materials(ends.each_ref()))
+        self.try_mean(|state| state.between_materials(ends.each_ref()))
     }
 
-    fn mean_of(
+    /// The mean over the shifted grids of a change that may fail.
+    fn try_mean(
         &self,
-        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
-    ) -> Result<Change<Apart>, BemError> {
-        let changes = self.states.iter().map(of).collect::<Result<_, _>>()?;
-        Ok(mean(changes))
+        of: impl Fn(&ContactDerivatives) -> Result<Change<f64>, BemError>,
+    ) -> Result<Change<MeanAndSpread>, BemError> {
+        let changes = self.contacts.iter().map(of).collect::<Result<_, _>>()?;
+        Ok(mean_over_shifts(changes))
     }
 }
 
-/// A load under which the contact has derivatives.
+/// The loading, if the contact has derivatives under it.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] at a depth on a half space that flows.
 fn loading(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -423,11 +452,16 @@ fn loading(
     let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
     let given = matches!(loading.control, Control::IndentationDepth(_));
     let fluidity = loading.creep.fluidity();
-    in_range("fluidity", fluidity, !given || fluidity <= 0.0, AT_A_DEPTH)?;
+    in_range(
+        "fluidity",
+        fluidity,
+        !given || fluidity <= 0.0,
+        ALLOWED_FLUIDITY_AT_DEPTH,
+    )?;
     Ok(loading)
 }
 
-/// Bands between frequencies that increase.
+/// The bands between increasing frequencies.
 pub(crate) fn bands(frequencies: &[f64]) -> Result<Vec<[f64; 2]>, InvalidParameter> {
     let band = |ends: &[f64]| {
         not_negative("frequency", ends[0])?;

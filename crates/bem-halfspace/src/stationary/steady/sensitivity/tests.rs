@@ -62,7 +62,7 @@ impl Case {
         factors: &Factors,
         options: SteadyOptions,
         start: Option<&SteadySliding>,
-    ) -> (State, SteadySliding) {
+    ) -> (ContactDerivatives, SteadySliding) {
         let (surface, material) = ((self.body)(factors[0]), self.material(factors));
         let layer = Layer::new(&material, self.thickness * factors[4]).expect("a layer");
         let loading = Loading::new(&*surface, &layer, &self.load(factors), &options.footprint);
@@ -71,7 +71,8 @@ impl Case {
             ..Reuse::default()
         };
         let (loading, grids) = (loading.expect("a loading"), std::iter::once(options));
-        let states = State::all(&*surface, &loading, grids, &mut reuse).expect("a state");
+        let states =
+            ContactDerivatives::on_grids(&*surface, &loading, grids, &mut reuse).expect("a state");
         let state = states.into_iter().next().expect("one state");
         (state, reuse.solution.expect("a solution"))
     }
@@ -99,7 +100,7 @@ const NAMES: [&str; 8] = [
     "track",
 ];
 
-fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
+fn changed(case: &Case, state: &ContactDerivatives, index: usize) -> Change<f64> {
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 8];
         factors[index] += step;
@@ -125,7 +126,8 @@ fn changed(case: &Case, state: &State, index: usize) -> Change<f64> {
             match name {
                 "ratio" | "thickness" => {
                     let states = std::slice::from_ref(state);
-                    State::all_to_elastomer(states, &creeps[1]).map(|found| scaled(found[0], 2.0))
+                    ContactDerivatives::all_to_elastomer(states, &creeps[1])
+                        .map(|found| scaled(found[0], 2.0))
                 }
                 _ => state.between_materials(creeps.each_ref()),
             }
@@ -189,7 +191,7 @@ fn cases() -> [Case; 6] {
 fn compared(case: &Case, index: usize, options: SteadyOptions) -> [[f64; 2]; 2] {
     let (mut state, solution) = case.state(&[1.0; 8], options, None);
     if let Some(dilation) = &mut state.dilation {
-        dilation.excess.fill(0.0);
+        dilation.defects.fill(0.0);
     }
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 8];
@@ -247,7 +249,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
 /// quantities, with the sum of the absolute values.
 fn by_frequencies(
     case: &Case,
-    state: &State,
+    state: &ContactDerivatives,
     index: usize,
     options: SteadyOptions,
 ) -> [[f64; 2]; 2] {
@@ -422,7 +424,8 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
             spacing: options.spacing.map(|spacing| factor * spacing),
             ..options
         };
-        let states = [1.0, COARSER].map(|factor| case.state(&[1.0; 8], grids(factor), None).0);
+        let states =
+            [1.0, COARSE_SPACING_FACTOR].map(|factor| case.state(&[1.0; 8], grids(factor), None).0);
         let area = |factors: &Factors| {
             let (body, material) = ((case.body)(factors[0]), case.material(factors));
             let layer = Layer::new(&material, case.thickness * factors[4]).expect("a layer");
@@ -431,7 +434,11 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
         };
         for index in [0, 1, 2, 5, 6] {
             let [fine, coarse] = [0, 1].map(|grid| changed(case, &states[grid], index));
-            let got = LIMIT.of_single(fine, coarse).contact_area.expect("an area") * (0.5 / STEP);
+            let got = EXTRAPOLATION
+                .limit_of_single(fine, coarse)
+                .contact_area
+                .expect("an area")
+                * (0.5 / STEP);
             let ends = [WIDE.recip(), WIDE].map(|factor| {
                 let mut factors = [1.0; 8];
                 factors[index] *= factor;

@@ -1,66 +1,91 @@
-//! What is made of derivatives on several grids.
+//! Extrapolation of derivatives from two grids, with their errors.
+//!
+//! Theory: docs/sensitivity.md, "What is known of them".
 
 use numerics::Estimate;
 
 use crate::stationary::steady::sensitivity::Change;
 
-/// A mean over shifted grids, and how far they are apart.
-pub(super) type Apart = [f64; 2];
+/// A mean over shifted grids, and the largest deviation of a grid from it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MeanAndSpread {
+    pub(super) mean: f64,
+    pub(super) spread: f64,
+}
 
-/// The mean over shifted grids.
-pub(super) fn mean(changes: Vec<Change<f64>>) -> Change<Apart> {
-    let of = |values: Vec<f64>| {
+impl MeanAndSpread {
+    fn over(values: Vec<f64>) -> Self {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let apart = values.iter().map(|value| (value - mean).abs());
-        [mean, apart.fold(0.0, f64::max)]
-    };
+        let deviations = values.iter().map(|value| (value - mean).abs());
+        Self {
+            mean,
+            spread: deviations.fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The mean of each quantity over shifted grids.
+pub(super) fn mean_over_shifts(changes: Vec<Change<f64>>) -> Change<MeanAndSpread> {
     let optional = |quantity: fn(&Change<f64>) -> Option<f64>| {
         let values: Option<Vec<f64>> = changes.iter().map(quantity).collect();
-        values.map(of)
+        values.map(MeanAndSpread::over)
     };
+    let friction = changes.iter().map(|one| one.friction_coefficient);
     Change {
-        friction_coefficient: of(changes.iter().map(|one| one.friction_coefficient).collect()),
+        friction_coefficient: MeanAndSpread::over(friction.collect()),
         indentation_depth: optional(|one| one.indentation_depth),
         normal_force: optional(|one| one.normal_force),
         contact_area: optional(|one| one.contact_area),
     }
 }
 
-/// What is made of the difference between fine and coarse grids.
+/// Richardson extrapolation from a coarse and a fine grid; all numbers are factors on the difference fine − coarse.
 #[derive(Clone, Copy)]
-pub(crate) struct Limit {
-    /// Part of it by which the limit lies beyond the fine grids.
-    pub(crate) beyond: f64,
-    /// The same of the area.
-    pub(crate) beyond_of_area: f64,
-    /// Bar over it.
-    pub(crate) bar: f64,
+pub(crate) struct TwoGridExtrapolation {
+    /// Limit − fine of all quantities but the area; 1/(2^order − 1) for spacings in the ratio 2.
+    pub(crate) correction: f64,
+    /// Limit − fine of the area.
+    pub(crate) area_correction: f64,
+    /// Error of the limit.
+    pub(crate) error: f64,
 }
 
-impl Limit {
-    /// Of one grid of either spacing.
+impl TwoGridExtrapolation {
+    /// The limit from one grid of either spacing.
     #[cfg(any(feature = "rough", test))]
-    pub(crate) fn of_single(self, fine: Change<f64>, coarse: Change<f64>) -> Change<Estimate> {
-        let [fine, coarse] = [fine, coarse].map(|change| mean(vec![change]));
-        self.of(fine, coarse)
+    pub(crate) fn limit_of_single(
+        self,
+        fine: Change<f64>,
+        coarse: Change<f64>,
+    ) -> Change<Estimate> {
+        let [fine, coarse] = [fine, coarse].map(|change| mean_over_shifts(vec![change]));
+        self.limit(fine, coarse)
     }
 
-    pub(super) fn of(self, fine: Change<Apart>, coarse: Change<Apart>) -> Change<Estimate> {
-        let estimate = |beyond: f64| {
-            move |([value, apart], [other, _]): (Apart, Apart)| {
-                let step = value - other;
-                Estimate::new(value + beyond * step, self.bar * step.abs() + apart)
+    /// The limit from the means over shifted grids. Its error contains the spread on the fine grids.
+    pub(super) fn limit(
+        self,
+        fine: Change<MeanAndSpread>,
+        coarse: Change<MeanAndSpread>,
+    ) -> Change<Estimate> {
+        let estimate = |correction: f64| {
+            move |(fine, coarse): (MeanAndSpread, MeanAndSpread)| {
+                let difference = fine.mean - coarse.mean;
+                Estimate::new(
+                    fine.mean + correction * difference,
+                    self.error * difference.abs() + fine.spread,
+                )
             }
         };
-        let both = |of: fn(&Change<Apart>) -> Option<Apart>, beyond: f64| {
-            of(&fine).zip(of(&coarse)).map(estimate(beyond))
+        let both = |of: fn(&Change<MeanAndSpread>) -> Option<MeanAndSpread>, correction: f64| {
+            of(&fine).zip(of(&coarse)).map(estimate(correction))
         };
         let friction = (fine.friction_coefficient, coarse.friction_coefficient);
         Change {
-            friction_coefficient: estimate(self.beyond)(friction),
-            indentation_depth: both(|one| one.indentation_depth, self.beyond),
-            normal_force: both(|one| one.normal_force, self.beyond),
-            contact_area: both(|one| one.contact_area, self.beyond_of_area),
+            friction_coefficient: estimate(self.correction)(friction),
+            indentation_depth: both(|one| one.indentation_depth, self.correction),
+            normal_force: both(|one| one.normal_force, self.correction),
+            contact_area: both(|one| one.contact_area, self.area_correction),
         }
     }
 }
