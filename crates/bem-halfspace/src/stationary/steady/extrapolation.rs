@@ -1,25 +1,34 @@
-//! The limit of a sequence of refinements by √2, and how far it may be off.
+//! Richardson extrapolation of a sequence of refinements by √2, with an error estimate.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar".
 
 use numerics::Estimate;
 
-/// Powers of the elements that are believed where they are observed.
+/// Range of observed convergence orders that are considered; chosen.
 pub(super) const OBSERVED_ORDERS: [f64; 2] = [0.5, 1.5];
-/// Those where elements hide an edge: values may turn around once it is seen, so that nothing observed is believed.
+/// Range of orders where elements hide an edge: 1/2 only, because values may turn around once the edge is resolved, so that no observed
+/// order counts.
 pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [0.5, 0.5];
 
-/// Powers of the elements with which the friction of materials that recover is seen to converge: 2 from the dissipated power, and
-/// under cones, up to 5/2 from slopes.
+/// Convergence orders that are observed for the friction on any material but a dashpot: 2 from the dissipated power, and under cones, up to
+/// 5/2 from slopes.
 const CREEPING_ORDERS: [f64; 2] = [2.0, 2.5];
-/// Part of an error that that of another order must be below, to be taken: the least of several bars holds less often than each of
-/// them. With it all of 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without other orders, and the median is 0.6 of
-/// that.
+/// A higher order is accepted if its error is below this fraction of the error before, because the smallest of several error estimates
+/// holds less often than each of them. With it all of 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without higher orders, and
+/// the median is 0.6 of that.
 const HIGHER_ORDER_ERROR_RATIO: f64 = 0.5;
+/// A second elimination is accepted if its error is below this fraction of that of the first; chosen.
+const SECOND_ELIMINATION_ERROR_RATIO: f64 = 0.5;
+/// Weight of the last but one change of the limit in its error; chosen. The last change has the weight 1.
+const EARLIER_CHANGE_WEIGHT: f64 = 0.5;
+/// Weight of the change by the last elimination in the error of a limit; chosen.
+const ELIMINATION_WEIGHT: f64 = 0.25;
 
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
-/// The error of a grid falls with the spacing to the power `order`, and with the next power after that. Each power is
-/// eliminated over a factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second
-/// one narrows the error bar to less than half.
+/// The error of a grid is of the order `order` in the spacing, with a term of the next order after that. Each order is eliminated over a
+/// factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second one reduces the error to less than
+/// half.
 pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
     let once = eliminate_order(values, order);
     let twice = eliminate_order(&once, next_order(order));
@@ -27,15 +36,19 @@ pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
     let unknown = Estimate::new(value, value.abs());
     let first = estimate_limit(&once, values).filter(|_| order >= 1.0);
     match (first, estimate_limit(&twice, &once)) {
-        (Some(first), Some(second)) if second.error >= 0.5 * first.error => first,
+        (Some(first), Some(second))
+            if second.error >= SECOND_ELIMINATION_ERROR_RATIO * first.error =>
+        {
+            first
+        }
         (_, Some(second)) => second,
         (Some(first), None) => first,
         (None, None) => unknown,
     }
 }
 
-/// Extrapolates values whose error is known to fall with the power `order`, or faster: where elements resolve what creeps in the
-/// contact, the friction of a material that recovers does so with one of [`CREEPING_ORDERS`].
+/// Extrapolates values whose error falls with the order `order` or a higher one. Where elements resolve the creep in the contact, the
+/// friction on any material but a dashpot converges with one of [`CREEPING_ORDERS`].
 pub(super) fn extrapolate_faster(values: &[f64], order: f64) -> Estimate {
     let mut best = extrapolate(values, order);
     for faster in CREEPING_ORDERS {
@@ -49,26 +62,25 @@ pub(super) fn extrapolate_faster(values: &[f64], order: f64) -> Estimate {
     best
 }
 
-/// By how much the limit changes if errors fall with the observed power, between two `powers`, instead of `order`.
+/// Change of the limit if errors fall with the observed order, limited to a range, instead of `order`.
 ///
-/// Where the edge of a flat end is just inside the contact, elements that are longer than what is around it see a punch, whose
-/// errors fall with the root of the elements. The larger of the last two counts, because one may agree by accident.
-pub(super) fn change_at_observed_order(values: &[f64], order: f64, powers: [f64; 2]) -> f64 {
-    let [slowest, fastest] = powers.map(f64::exp2);
+/// Where the edge of a flat end is just inside the contact, elements that are longer than the contact beyond it resolve a punch only,
+/// whose errors fall with the order 1/2. The larger of the last two changes counts, because one may be small by accident.
+pub(super) fn change_at_observed_order(values: &[f64], order: f64, range: [f64; 2]) -> f64 {
+    let [min_ratio, max_ratio] = range.map(f64::exp2);
     let change = |window: &[f64]| {
         let [before, last] = [window[2] - window[0], window[4] - window[2]];
         if last == 0.0 {
             return 0.0;
         }
-        let ratio = (before / last).clamp(slowest, fastest);
+        let ratio = (before / last).clamp(min_ratio, max_ratio);
         (last / (ratio - 1.0) - last / (order.exp2() - 1.0)).abs()
     };
     let windows = values.windows(5).rev();
     windows.take(2).map(change).fold(0.0, f64::max)
 }
 
-/// Power of the error that is left when that of `order` is eliminated: the apex leaves 1 below that, then the front 3/2,
-/// then the smooth part 2.
+/// Order of the error that remains when that of `order` is eliminated: 1 from the apex, 3/2 from the front, then 2 from the smooth part.
 const fn next_order(order: f64) -> f64 {
     if order < 1.0 {
         1.0
@@ -79,18 +91,23 @@ const fn next_order(order: f64) -> f64 {
     }
 }
 
-/// The last limit with what the last two refinements changed and what the last elimination did. Two limits may agree by
-/// accident, three seldom do: with two of them the bar held in three of four cases, with three in 97 of 100.
+/// The last limit, with an error from the changes by the last two refinements and by the last elimination. `None` for fewer than three
+/// limits. Two limits may agree by accident, three seldom do: with two the error held in three of four cases, with three in 97 of 100.
 fn estimate_limit(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
-    let [.., earlier, before, value] = limits else {
+    let [.., earlier, before, last] = limits else {
         return None;
     };
-    let changes = (value - before).abs().max(0.5 * (before - earlier).abs());
-    let elimination = (value - eliminated.last()?).abs();
-    Some(Estimate::new(*value, changes + 0.25 * elimination))
+    let changes = (last - before)
+        .abs()
+        .max(EARLIER_CHANGE_WEIGHT * (before - earlier).abs());
+    let elimination = (last - eliminated.last()?).abs();
+    Some(Estimate::new(
+        *last,
+        changes + ELIMINATION_WEIGHT * elimination,
+    ))
 }
 
-/// Removes the error of one order from a sequence; two values are used up.
+/// Eliminates the error of one order from a sequence, which gets two values shorter.
 fn eliminate_order(values: &[f64], order: f64) -> Vec<f64> {
     // 2^order − 1, which is small for the sharpest cusps.
     let gain = (order * std::f64::consts::LN_2).exp_m1();
