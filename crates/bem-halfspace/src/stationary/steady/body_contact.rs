@@ -1,4 +1,6 @@
-//! One contact of a body.
+//! The contact of a body on one mesh.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
 use crate::BemError;
 use crate::error::check_contact_elements;
@@ -7,32 +9,35 @@ use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 
-/// Root mean square of the residual that the solution of any contact may have: as a part of how much the gap opens over an element
-/// at the front, and at most, in units of the depth scale.
+/// Loosest RMS residual on an active set, over the increase of the gap over one element at the front; chosen.
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
+/// Upper limit of the loosest RMS residual on an active set, in units of the depth scale; chosen.
 const MAX_INNER_TOLERANCE: f64 = 1e-5;
 
-/// Loads of all elements in contact, all greater than zero, in the units of the mesh.
+/// A solved contact, in the units of the mesh.
 pub(super) struct Solution {
+    /// Elements in contact with their loads, all greater than zero.
     pub(super) loads: Vec<(usize, f64)>,
     pub(super) depth: f64,
+    /// Number of active sets.
     pub(super) iterations: usize,
-    /// Whether the equations of the last contact were solved_directly.
+    /// True if the last active set was solved directly, false if by iteration.
     pub(super) solved_directly: bool,
     /// Largest residual |h + u − d| in the contact, in units of the depth scale.
     pub(super) residual: f64,
-    /// Mean under the load of what the gaps beside the contact add to the slope, in elements and units of the depth scale.
+    /// Load-weighted mean of half the difference of the gaps ahead of and behind an element, in units of the depth scale; the slope that
+    /// the gaps next to the contact add, times the length of an element.
     pub(super) gap_difference: f64,
 }
 
-/// Solves the complementarity problem from a first guess of the elements in contact and their loads.
+/// Solves the complementarity problem from an initial active set with its loads.
 pub(super) fn solve(
     mesh: &Mesh,
     plans: &mut Plans,
     guess: Vec<(usize, f64)>,
 ) -> Result<Solution, BemError> {
     if guess.is_empty() {
-        // No element is as low as the contact is deep.
+        // Refuse: no element is as low as the contact is deep.
         check_contact_elements(0)?;
     }
     let heights = (0..mesh.n_elements()).map(|element| mesh.height(element));
@@ -59,7 +64,8 @@ pub(super) fn solve(
     })
 }
 
-/// That of contacts of about so many elements: the gap opens with the power 3/2 of the distance from the front.
+/// Loosest RMS residual on active sets of about `n_elements` elements, in units of the depth scale. Over one element at the front the gap
+/// opens like the power 3/2 of the ratio of its length to the contact length.
 fn inner_tolerance(n_elements: usize) -> f64 {
     let along = (n_elements as f64).sqrt().max(1.0);
     MAX_INNER_TOLERANCE.min(INNER_TOLERANCE_OVER_OPENING * along.powf(-1.5))

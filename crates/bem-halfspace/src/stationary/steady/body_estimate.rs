@@ -1,4 +1,6 @@
-//! The stationary state with an error bar of every quantity.
+//! The stationary state of a body to a requested accuracy, with an error estimate of every quantity.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar".
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{
@@ -17,26 +19,28 @@ use crate::stationary::steady::solution::SteadyEstimate;
 use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 use crate::{BemError, Elastomer};
 
-/// Δy/Δx of a grid of a given number of elements.
+/// Aspect ratio Δy/Δx of a grid with a given number of elements; chosen.
 const BODY_ASPECT: f64 = 0.5;
-/// Order of the error under a smooth body. The front leaves 3/2, and an outline that follows the elements less: with 1.1 the
-/// bars hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90, and with the first order they are wider.
+/// Convergence order that is assumed under a smooth body. The front leaves 3/2, and a boundary that follows the elements less: with 1.1 the
+/// error estimates hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90, and with 1 they are wider.
 const BODY_ORDER: f64 = 1.1;
-/// Order at the edge of a flat end just inside the contact, under which elements see a punch.
+/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only.
 const FLAT_END_ORDER: f64 = 0.5;
-/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
-/// lesser of two bars holds less often than either.
-const DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
-/// Of a transform of the elements along x and y, of which finer grids take hardly more.
+/// On a given number of elements the friction from dissipation replaces that from slopes if its error is below this fraction of the other;
+/// chosen. The smaller of two error estimates holds less often than either.
+const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
+/// Exponent of the work as a function of the elements along the contact. Transforms of all elements along x and y dominate it; finer grids
+/// need hardly more operator applications.
 const WORK_EXPONENT: f64 = 2.0;
-/// Footprints that are tried at most: the last one is 11 times as long as the first.
+/// Largest number of footprints; chosen. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
-/// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
+/// Memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 900.0;
 
-/// Memory that [`steady`] takes at most for a number of elements along the contact, \[bytes]; a relative error is not sought
-/// on grids that take more than 2 GB. Where the
-/// contact is longer than expected, its footprint grows, and takes 9/4 of it each time.
+/// Largest memory of [`steady`] for a number of elements along the contact, \[bytes]. Where the contact is longer than expected, its
+/// footprint grows, and takes 9/4 of the memory each time.
+///
+/// For a requested relative error no grid takes more than 2 GB.
 ///
 /// # Errors
 /// As for [`steady`], before anything is solved.
@@ -48,13 +52,13 @@ pub fn steady_memory(
 ) -> Result<f64, BemError> {
     let plan = plan(surface, elastomer, load)?;
     let options = grid(&plan, elements);
-    // A mirror halves the unknowns, and saves less of the kernel.
-    let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
-    Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+    // A mirror symmetry halves the unknowns, and saves less of the kernel.
+    let solved_fraction = if surface.mirrors()[1] { 0.5 } else { 0.7 };
+    Ok(BYTES_PER_ELEMENT * solved_fraction * options.footprint.n_elements(options.spacing))
 }
 
-/// Solves in the footprint of a plan, and in larger ones while the contact reaches the boundary: how far a long surface, or one that
-/// rises in steps, is met does not follow from its height alone.
+/// Solves in the footprint of a plan, and in larger ones while the contact reaches the boundary. The length of the contact does not follow
+/// from heights alone under a long surface, or one that rises in steps.
 fn in_growing_footprint<T>(
     mut plan: GridPlan,
     solve: impl Fn(&GridPlan) -> Result<T, BemError>,
@@ -68,20 +72,21 @@ fn in_growing_footprint<T>(
     solve(&plan)
 }
 
-/// The grids of the stationary state, at whichever distance it is seen.
+/// The plan of the grids of the stationary state, which does not depend on the sliding distance.
 fn plan(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<GridPlan, BemError> {
-    let endless = SlidingLoad::with(load.control(), load.velocity())?;
-    let endless = load
-        .track()
-        .map_or(Ok(endless), |track| endless.on_track(track))?;
-    GridPlan::sliding(surface, elastomer, &endless)
+    let without_distance = SlidingLoad::with(load.control(), load.velocity())?;
+    let stationary = match load.track() {
+        None => without_distance,
+        Some(track) => without_distance.on_track(track)?,
+    };
+    GridPlan::sliding(surface, elastomer, &stationary)
 }
 
-/// The grid of about so many elements along the contact, at least 1, and half as wide.
+/// The grid with about `elements` elements along the contact, at least 1, which are half as wide as long.
 ///
 /// # Errors
 /// As for [`steady`], before anything is solved.
@@ -95,21 +100,22 @@ pub fn steady_grid(
     Ok(grid(&plan(surface, elastomer, load)?, elements))
 }
 
+/// The grid with about `elements` elements along the contact in the footprint of a plan.
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
     let dx = plan.length() / elements as f64;
     SteadyOptions::new([dx, BODY_ASPECT * dx], plan.footprint.widened(dx))
 }
 
-/// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth, to a
-/// relative error of the friction coefficient, and of the normal force where that is not given; or with a number of
-/// elements along the contact, about, and whatever error that has.
+/// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth. The
+/// request is a relative error of the friction coefficient, and of the normal force where that is not given, or an approximate number of
+/// elements along the contact.
 ///
-/// The state of a load with a sliding distance is stationary too, but for the depth of a material that flows, which is that
-/// after the distance, up to terms of the order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the
+/// A sliding distance of the load has an effect on a material that flows only, whose depth is that after the distance, up to terms of the
+/// order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the
 /// motion from first touch.
 ///
-/// On a [track](SlidingLoad::on_track) the surface ahead of the body is what is left of all passes before, and the track acts on
-/// itself within half its length only.
+/// On a [track](SlidingLoad::on_track) the surface ahead of the body still contains the creep of all passes before, and loads act
+/// on the surface within half the length of the track only.
 ///
 /// ```
 /// use bem_halfspace::indenters::PowerProfile;
@@ -129,8 +135,8 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// ```
 ///
 /// # Errors
-/// [`BemError::NotReached`] with what was reached on the finest grid allowed;
-/// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
+/// [`BemError::NotReached`] with the result on the finest grid allowed;
+/// [`BemError::GridTooLarge`] where a body is so steep that the grids allowed give no error estimate;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
 /// friction is infinite, or a surface that is low everywhere; on a track [`BemError::NoCycle`] for a material that flows, and
 /// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`](super::steady_on_grid).
@@ -153,7 +159,7 @@ pub fn steady<'w>(
     }
 }
 
-/// Like [`steady`], with elements and a limit of the work of one's own.
+/// Like [`steady`], with the aspect ratio of the elements and the limit of the work as options.
 ///
 /// # Errors
 /// As for [`steady`].
@@ -166,6 +172,7 @@ pub fn steady_refined(
     refined(surface, elastomer, load, options, &SilentProgress)
 }
 
+/// The state with a requested relative error.
 fn refined(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -182,12 +189,12 @@ fn refined(
             watch,
         };
         refine(&problem, options, |estimate| {
-            with_meaning(load, elastomer, estimate)
+            without_meaningless(load, elastomer, estimate)
         })
     })
 }
 
-/// The state on a grid of a given number of elements, compared with grids of fewer.
+/// The state on a grid with a given number of elements; its error follows from grids with fewer elements.
 fn with_elements(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -199,7 +206,7 @@ fn with_elements(
     })
 }
 
-/// The same in the footprint of a plan.
+/// Like [`with_elements`], in the footprint of a plan.
 fn with_elements_in(
     plan: &GridPlan,
     surface: &dyn Surface,
@@ -222,14 +229,15 @@ fn with_elements_in(
         let options = grid(plan, elements);
         let state = steady_on_grid(surface, elastomer, load, &options)
             .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
-        Ok(state.on_grid((&creep, plan.kinks), options, load.sliding_distance()))
+        Ok(state.on_grid(&creep, plan.kinks, options, load.sliding_distance()))
     };
     bars::resolve(&resolution, solve, |estimate| {
-        with_meaning(load, elastomer, estimate)
+        without_meaningless(load, elastomer, estimate)
     })
 }
 
-/// How many elements to ask for where one of the grids that make the error bar is too coarse, which has `elements`.
+/// Converts the error of a grid of `elements` elements that does not resolve a patch into one that says how many elements to request.
+/// Other errors do not change.
 fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> BemError {
     let (
         &BemError::GridTooCoarse {
@@ -241,19 +249,19 @@ fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> Be
     else {
         return error;
     };
-    // A patch may be narrower than its elements by about half of one, and other grids need as many across.
+    // A patch may be narrower than its elements by about half an element. Grids of bodies need more across than along.
     let half_widths = (2 * across).saturating_sub(1).max(1);
     let on_coarsest = (2 * elements * least.max(MIN_ELEMENTS_ACROSS)).div_ceil(half_widths);
     BemError::ElementsTooFew {
         elements: asked,
         across,
         least,
-        // The coarsest grid has three eighths of them.
+        // The coarsest of the grids for the error estimate has 3/8 of the requested elements.
         needed: (8 * on_coarsest).div_ceil(3),
     }
 }
 
-/// On a given number of elements.
+/// How a solution on a given number of elements is resolved, with its assumed convergence order.
 pub(super) fn resolution(
     request: Request<'_>,
     control: Control,
@@ -273,13 +281,16 @@ pub(super) fn resolution(
         control,
         target: Target::Friction,
         has_peak,
-        max_dissipation_error_ratio: DISSIPATION_ERROR_RATIO_ON_ELEMENTS,
+        max_dissipation_error_ratio: MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS,
     }
 }
 
-/// The estimate with a depth only where that has a meaning, and without the friction of an elastic material, which is
-/// exactly 0 under any body: what the elements make of it is rounding.
-fn with_meaning(
+/// Removes from an estimate what has no meaning: the depth of a material that flows without a sliding distance, and the friction of an
+/// elastic material, which is exactly 0 under any body.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for a sliding distance on which the state is not yet stationary.
+fn without_meaningless(
     load: &SlidingLoad,
     elastomer: &dyn Elastomer,
     mut estimate: SteadyEstimate,
@@ -292,7 +303,7 @@ fn with_meaning(
     if let (Control::NormalForce(_), true) = (load.control(), depth.depth_per_e_fold > 0.0) {
         match load.sliding_distance() {
             None => estimate.indentation_depth = None,
-            // Refuses a distance on which the state is not stationary yet.
+            // Only checks the distance.
             Some(distance) => drop(depth.after(distance)?),
         }
     }

@@ -1,7 +1,7 @@
 //! The depth scale of sliding on any material.
 //!
-//! A body that dips to the depth D below the surface has a contact of about the length a at which it is D high; an
-//! element stays in it for the time a/v, and the one-dimensional model carries about the force 4 a D/J(a/v). So
+//! A body at the depth D has a contact of about the length a, the distance at which its height is D. The material stays in it for about the time
+//! a/v, and the one-dimensional model carries about the force 4 a D/J(a/v). Hence
 //!
 //! ```text
 //! D = h(a) = 2 (1 − ν) F_N J(a/v)/(4 a)
@@ -14,7 +14,9 @@
 //! D = h(a) = 2 (1 − ν) F' J(a/v)/(2π)
 //! ```
 //!
-//! where a is half the contact of a cylinder on an elastic half space. On a track J(a/v) is that of the passes before too.
+//! where a is half the contact of a cylinder on an elastic half space. On a track J(a/v) contains the effect of all passes before.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material", "Units", and "Line contact".
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -24,42 +26,53 @@ use numerics::{in_range, positive};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::{BemError, Elastomer};
 
-/// Halvings of the logarithm of the length: all the digits there are.
+/// Bisections of the logarithm of the length, enough for all digits of a number: 2⁻⁶⁰ of an octave.
 const BISECTIONS: usize = 60;
-/// Doublings of the length until there is no solution.
+/// Largest number of doublings or halvings of the length in the search of an interval; chosen, near the range of numbers.
 const MAX_DOUBLINGS: usize = 900;
-/// Directions in which the height of a surface is averaged.
+/// Number of directions in which the height of a surface is averaged; chosen.
 const HEIGHT_DIRECTIONS: u8 = 8;
 
-/// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away, when it has slid a
-/// distance: a contact that is longer has lasted no longer than that.
+/// Depth scale D of a body of the height `height(a)` at the distance a from its lowest point, \[m]. Contacts are at most as long as
+/// `max_length`, and none has lasted longer than the sliding distance takes.
 pub(super) fn depth_scale(
     creep: &SlidingCreep,
     normal_force: f64,
     height: impl Fn(f64) -> f64,
-    [largest, distance]: [f64; 2],
+    max_length: f64,
+    sliding_distance: f64,
 ) -> Result<f64, BemError> {
     if creep.only_flows() {
         let depth = 0.25 * normal_force * creep.flow_per_length();
-        if distance >= largest || height(distance) >= depth {
+        if sliding_distance >= max_length || height(sliding_distance) >= depth {
             return Ok(positive("F_N / (4 η v)", depth)?);
         }
     }
     let depth = |length: f64| -> Result<f64, BemError> {
-        Ok(0.25 * normal_force * (creep.compliance_of_contact(length, distance)? / length))
+        Ok(0.25 * normal_force * (creep.compliance_of_contact(length, sliding_distance)? / length))
     };
-    let length = contact_length(height, depth, largest)?;
+    let length = contact_length(height, depth, max_length)?;
     Ok(positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)?)
 }
 
-/// D of a profile, and the distance a from its lowest point at which it is as high, \[m].
+/// Scales of a profile in plane strain.
+pub(super) struct ProfileScale {
+    /// D, \[m].
+    pub(super) depth_scale: f64,
+    /// Distance a from the lowest point at which the profile is D high, half the contact of a cylinder on an elastic half space, \[m].
+    pub(super) half_length: f64,
+}
+
+/// Scales of a profile under a force per length, \[N/m].
 ///
-/// A half space that flows has none: in plane strain a line load sinks the faster the longer it is, without limit.
+/// # Errors
+/// [`BemError::InvalidParameter`] for a half space that flows: in plane strain a line load sinks the faster the longer it is, without
+/// limit.
 pub(super) fn profile_scale(
     profile: &dyn Surface,
     creep: &SlidingCreep,
     force_per_length: f64,
-) -> Result<[f64; 2], BemError> {
+) -> Result<ProfileScale, BemError> {
     let fluidity = creep.fluidity();
     let allowed =
         "0 under a line load: a surface that flows sinks the faster the longer the line is";
@@ -71,21 +84,28 @@ pub(super) fn profile_scale(
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(force_per_length / TAU * creep.compliance_of_contact(length, f64::INFINITY)?)
     };
-    let length = contact_length(height, depth, f64::INFINITY)?;
-    let depth = positive("2 (1 - ν) F' J(a/v) / (2π)", depth(length)?)?;
-    Ok([depth, length])
+    let half_length = contact_length(height, depth, f64::INFINITY)?;
+    Ok(ProfileScale {
+        depth_scale: positive("2 (1 - ν) F' J(a/v) / (2π)", depth(half_length)?)?,
+        half_length,
+    })
 }
 
-/// The length at which a body is as high as the load is deep.
+/// The length at which the height of a body equals the depth of a contact of that length, or `max_length` if that is shorter.
 fn contact_length(
     height: impl Fn(f64) -> f64,
     depth: impl Fn(f64) -> Result<f64, BemError>,
-    largest: f64,
+    max_length: f64,
 ) -> Result<f64, BemError> {
     let too_long = |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
-    let mut upper = if largest.is_finite() { largest } else { 1.0 };
+    // Find an interval that contains the root.
+    let mut upper = if max_length.is_finite() {
+        max_length
+    } else {
+        1.0
+    };
     for _ in 0..MAX_DOUBLINGS {
-        if largest.is_finite() || too_long(upper)? {
+        if max_length.is_finite() || too_long(upper)? {
             break;
         }
         upper *= 2.0;
@@ -97,8 +117,9 @@ fn contact_length(
         }
         (lower, upper) = (0.5 * lower, lower);
     }
+    // Bisect its logarithm.
     for _ in 0..BISECTIONS {
-        // The root of a ratio, so that another unit of length changes no rounding.
+        // The square root of a ratio, so that rounding does not depend on the unit of length.
         let middle = lower * (upper / lower).sqrt();
         if too_long(middle)? {
             upper = middle;
@@ -109,7 +130,7 @@ fn contact_length(
     Ok(upper)
 }
 
-/// D of a surface under a force, \[m].
+/// Depth scale D of a surface under a force, \[m].
 pub(crate) fn depth_scale_of_surface(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -122,9 +143,9 @@ pub(crate) fn depth_scale_of_surface(
         Some(body) => body.profile_height(distance),
         None => mean_height(surface, distance),
     };
-    let largest = body.map_or(f64::INFINITY, |body| body.max_radius());
-    let distance = load.sliding_distance().unwrap_or(f64::INFINITY);
-    depth_scale(&creep, force, height, [largest, distance])
+    let max_length = body.map_or(f64::INFINITY, |body| body.max_radius());
+    let sliding_distance = load.sliding_distance().unwrap_or(f64::INFINITY);
+    depth_scale(&creep, force, height, max_length, sliding_distance)
 }
 
 /// Mean height at a distance from the lowest point, \[m].

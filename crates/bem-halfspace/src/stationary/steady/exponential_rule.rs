@@ -4,28 +4,31 @@
 //! rate · ∫_0^1 e^(−rate·s) f(s) ds = Σ W_j(rate) f(s_j)
 //! ```
 //!
-//! The function is replaced by the polynomial through the Gauss–Lobatto points, or through whole numbers; Legendre polynomials against the
-//! exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial,
-//! whatever the rate, because the weight is positive with the sum 1 − e^(−rate).
+//! The function is replaced by the polynomial through the Gauss–Lobatto points, or through integers; integrals of Legendre polynomials
+//! against the exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial for any
+//! rate, because the weight is positive with the sum 1 − e^(−rate).
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material".
 
 use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
 
-/// Points of the longest rule.
+/// Largest number of points of a rule.
 pub(super) const MAX_POINTS: usize = 12;
-/// Above this argument the recurrence of the Bessel functions is run upwards, below downwards.
+/// Argument z of the Bessel functions above which their recurrence is stable upwards; below it runs downwards. Chosen.
 const UPWARD_RECURRENCE_ARGUMENT: f64 = 60.0;
-/// Degrees above the argument at which the downward recurrence starts: what is left out is below rounding.
+/// Degrees by which the downward recurrence starts above the largest degree plus 2 z, so that its truncation is below rounding error;
+/// chosen.
 const EXTRA_DEGREES: usize = 40;
 
-/// Points on [0, 1] or around it, and the Legendre coefficients of the polynomial through values at them.
+/// Points on [0, 1] or around it, and the projection of values at them onto Legendre polynomials.
 pub(super) struct ExponentialRule {
     pub(super) nodes: Vec<f64>,
-    /// Coefficient of each degree per value, by degree.
+    /// By degree, the coefficient of the Legendre polynomial per value at each point.
     projection: Vec<[f64; MAX_POINTS]>,
 }
 
 impl ExponentialRule {
-    /// The rule of 2 to [`MAX_POINTS`] points.
+    /// The rule of 2 to [`MAX_POINTS`] Gauss–Lobatto points.
     pub(super) fn new(n_points: usize) -> Self {
         let degree = n_points - 1;
         let LobattoRule { nodes, weights } = lobatto_rule(n_points);
@@ -47,8 +50,7 @@ impl ExponentialRule {
         }
     }
 
-    /// The rule of 2 to [`MAX_POINTS`] points at whole numbers around [0, 1], as many on either side; for functions that
-    /// are smooth over all of them.
+    /// The rule of 2 to [`MAX_POINTS`] integer points around [0, 1], as many on either side, for functions that are smooth over all of them.
     pub(super) fn on_integers(n_points: usize) -> Self {
         let lobatto = Self::new(n_points);
         let first = 1.0 - 0.5 * n_points as f64;
@@ -64,7 +66,7 @@ impl ExponentialRule {
         Self { nodes, projection }
     }
 
-    /// W_j(rate), 0 beyond the points of the rule.
+    /// Weights W_j(rate); 0 beyond the points of the rule.
     pub(super) fn weights(&self, rate: f64) -> [f64; MAX_POINTS] {
         let moments = legendre_moments(rate, self.nodes.len());
         let mut weights = [0.0; MAX_POINTS];
@@ -77,7 +79,7 @@ impl ExponentialRule {
     }
 }
 
-/// The polynomial that is 1 at one of the nodes and 0 at the others.
+/// Value at x of the Lagrange polynomial that is 1 at one of the nodes and 0 at the others.
 fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
     let others = nodes[..index].iter().chain(&nodes[index + 1..]);
     let factors = others.map(|node| (x - node) / (nodes[index] - node));

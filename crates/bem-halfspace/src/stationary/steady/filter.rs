@@ -1,4 +1,4 @@
-//! Filters with kernels that are even along y, but not along x.
+//! Convolutions with kernels that are even along y, but not along x, by Fourier transforms on the bounding box of a region.
 
 use std::sync::Arc;
 
@@ -7,24 +7,24 @@ use rustfft::num_complex::Complex;
 use crate::stationary::steady::region::Region;
 use crate::transform::plane_transform::{PlaneTransform, Workspace, ZERO};
 
-/// Fourier transform of a kernel, by column, with the normalisation of the transforms folded in.
+/// Fourier transform of a kernel, by column, multiplied by the normalisation of the transforms.
 pub(super) type Spectrum = Vec<Complex<f64>>;
 
-/// Filters of one period.
+/// Spectra of several kernels with one period.
 #[derive(Debug)]
 pub(super) struct Filters<const N: usize> {
     pub(super) transform: PlaneTransform,
     pub(super) spectra: [Spectrum; N],
 }
 
-/// Filters of fields on the bounding box of a region.
+/// Convolutions of fields on the bounding box of a region, with their workspace.
 pub(super) struct RegionFilter<const N: usize> {
     filters: Arc<Filters<N>>,
     workspace: Workspace,
     field: Vec<f64>,
 }
 
-/// The product of the stationary kernel with loads: displacements of the elements of a region.
+/// Application of the stationary kernel to loads: displacements of the elements of a region.
 pub(super) type KernelOperator = RegionFilter<1>;
 
 impl<const N: usize> RegionFilter<N> {
@@ -36,7 +36,7 @@ impl<const N: usize> RegionFilter<N> {
         }
     }
 
-    /// One of the filters of values on the elements of `region`, which are 0 elsewhere.
+    /// Convolves values on the elements of `region`, 0 elsewhere, with the kernel of index `filter`.
     pub(super) fn apply(&mut self, filter: usize, values: &[f64], region: &Region) -> Vec<f64> {
         region.scatter(values, &mut self.field);
         let Filters { transform, spectra } = &*self.filters;
@@ -46,9 +46,8 @@ impl<const N: usize> RegionFilter<N> {
 }
 
 impl PlaneTransform {
-    /// Spectrum of a kernel that is even along y; `kernel(row, column)` is asked for the whole period along x and half
-    /// of it along y, offsets above half the period along x being negative ones. `column_step` may change each column
-    /// of the transform before it is stored.
+    /// Spectrum of a kernel that is even along y. `kernel(row, column)` is evaluated on the whole period along x, where offsets above half of
+    /// it are negative, and on half of the period along y. `column_step` may change each column of the transform before it is stored.
     pub(super) fn spectrum(
         &self,
         kernel: impl Fn(usize, usize) -> f64,
@@ -81,8 +80,7 @@ impl PlaneTransform {
         spectrum
     }
 
-    /// Replaces a field of the shape of the workspace by its product with a spectrum, in Fourier space. Does not
-    /// allocate.
+    /// Convolves a field of the shape of the workspace with the kernel of a spectrum, in place. Does not allocate.
     fn filter(&self, workspace: &mut Workspace, field: &mut [f64], spectrum: &Spectrum) {
         let rows = 0..workspace.shape[0];
         self.load(workspace, field, &rows);

@@ -1,13 +1,15 @@
 //! Line contact: a profile that is infinite along y slides in plane strain.
 //!
-//! One element along y is so long that its ends are not felt: up to a constant, its potential is that of a line load,
+//! One element along y is so long that its ends are beyond the influence radius. Up to a constant, its potential is that of a line load,
 //!
 //! ```text
 //! V(x) = 2 Δx ln(L/|x|) + O(x²/L²)
 //! ```
 //!
-//! and the constant is absorbed in the depth, which in plane strain has a meaning on a layer only. All forces and areas are per
+//! and the constant is absorbed in the depth, which in plane strain has a meaning on a layer only. All forces and areas are per unit
 //! length along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Line contact".
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{Accuracy, ErrorParts, Estimate, Request, positive};
@@ -39,7 +41,7 @@ pub struct LineOptions {
     /// D = h(a) = 2 (1 − ν) F' J(a/v)/(2π), with the force F' per length and the mean height h(a) at the distance a from
     /// the lowest point. A residual of some units in the last place of the depth is always allowed.
     pub tolerance: f64,
-    /// Active sets tried before the solver gives up.
+    /// Largest number of active sets.
     pub max_iterations: usize,
 }
 
@@ -57,38 +59,40 @@ pub struct LineSliding {
     pub contact: [f64; 2],
     /// Number of unknown pressures.
     pub unknowns: usize,
-    /// Active sets tried.
+    /// Number of active sets.
     pub iterations: usize,
     /// Largest residual |h + u − d| in the contact relative to the depth scale, see [`LineOptions::tolerance`].
     pub residual: f64,
-    /// Centre of each element from rear to front \[m], and its pressure \[Pa].
+    /// Centre \[m] and pressure \[Pa] of each element in contact, from rear to front.
     pub pressure: Vec<[f64; 2]>,
 }
 
-/// A stationary state in plane strain with its error bars.
+/// A stationary state in plane strain with the error of every quantity.
 pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
-/// Elements of the coarsest grids along the half contact of a cylinder on an elastic half space.
+/// Elements of the coarsest grid along the half contact of a cylinder on an elastic half space; chosen.
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
-/// Coarsest elements along the contact of a cylinder on an elastic half space.
+/// Elements of the coarsest grid along the whole contact of a cylinder: twice [`COARSEST_PER_HALF_LENGTH`].
 const COARSEST_PER_CONTACT: f64 = 8.0;
-/// Rear of the footprint in the same half_length_and_footprint: nothing reaches further back than the elastic contact.
+/// Rear of the footprint, in half lengths of the contact of a cylinder; chosen. No contact reaches further back than the elastic one.
 const FOOTPRINT_REAR: f64 = 2.0;
-/// Front of the footprint, and what a long memory adds: how far ahead the surface still rises grows with its logarithm.
+/// Front of the footprint, in the same half lengths, without memory; chosen.
 const FOOTPRINT_FRONT: f64 = 2.5;
+/// Shift of the front of the footprint per e-fold of the memory length, in the same half lengths; chosen. The distance ahead at which the
+/// surface still rises grows with the logarithm of the memory length.
 const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 
-/// Order of the error of a smooth profile, which has no outline that follows the elements (docs/calibration.md).
+/// Convergence order that is assumed under a smooth profile, which has no boundary that follows the elements (docs/calibration.md).
 const PROFILE_ORDER: f64 = 1.2;
 
-/// Unknown pressures at most; as many are factorised at once.
+/// Largest number of unknown pressures: systems of this size are solved directly.
 const MAX_UNKNOWNS_OF_LINE: usize = 2000;
 
 /// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per
-/// length \[N/m], to a relative error of the friction coefficient; or with a number of elements along the contact of a
-/// cylinder on an elastic half space, and whatever error that has.
+/// length, \[N/m]. The request is a relative error of the friction coefficient, or a number of elements along the contact of a cylinder on
+/// an elastic half space.
 ///
-/// Of the profile only the heights at y = 0 matter.
+/// Only the heights of the profile at y = 0 matter.
 ///
 /// ```
 /// use bem_halfspace::indenters::Cylinder;
@@ -113,12 +117,15 @@ pub fn steady_line<'w>(
 ) -> Result<LineEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
     let force = load.require_normal_force()?;
-    let (length, footprint) = half_length_and_footprint(profile, elastomer, load)?;
+    let LineScale {
+        half_length,
+        footprint,
+    } = line_scale(profile, elastomer, load)?;
     let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
     let plan = GridPlan {
         footprint: strip.footprint(footprint),
-        coarsest_spacing: length / COARSEST_PER_HALF_LENGTH,
+        coarsest_spacing: half_length / COARSEST_PER_HALF_LENGTH,
         apex_exponent: 2.0,
         kinks: 0.0,
         shows_cells: false,
@@ -132,8 +139,8 @@ pub fn steady_line<'w>(
     };
     let is_elastic = elastomer.material().creep().is_elastic();
     let has_depth = elastomer.base().is_rigid();
-    let line_estimate = |known| {
-        let mut found = line_estimate(known, force);
+    let finish = |strip_estimate| {
+        let mut found = line_estimate(strip_estimate, force);
         if is_elastic {
             found.friction_coefficient = Estimate::exact(0.0);
             found.error_parts = ErrorParts::NONE;
@@ -148,26 +155,37 @@ pub fn steady_line<'w>(
                 max_unknowns: MAX_UNKNOWNS_OF_LINE,
                 ..RefinementOptions::default()
             };
-            refine(&problem, &options, line_estimate)
+            refine(&problem, &options, finish)
         }
-        Accuracy::Elements(_) => line_estimate(with_elements(&problem, strip.length, request)?),
+        Accuracy::Elements(_) => finish(with_elements(&problem, strip.length, request)?),
     }
 }
 
-/// Half the length of the contact, about, and where it may occur, \[m].
-fn half_length_and_footprint(
+/// The scale of a line contact, and where it may occur.
+struct LineScale {
+    /// Half the contact of a cylinder on an elastic half space, \[m].
+    half_length: f64,
+    /// Rear and front, \[m].
+    footprint: [f64; 2],
+}
+
+fn line_scale(
     profile: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
-) -> Result<(f64, [f64; 2]), BemError> {
+) -> Result<LineScale, BemError> {
     let creep = SlidingCreep::for_load(elastomer, load)?;
-    let [_, length] = profile_scale(profile, &creep, load.require_normal_force()?)?;
-    let front =
-        FOOTPRINT_FRONT + FOOTPRINT_FRONT_PER_LOG_MEMORY * (creep.memory_length() / length).ln_1p();
-    Ok((length, [-FOOTPRINT_REAR * length, front * length]))
+    let scale = profile_scale(profile, &creep, load.require_normal_force()?)?;
+    let half_length = scale.half_length;
+    let memory = (creep.memory_length() / half_length).ln_1p();
+    let front = FOOTPRINT_FRONT + FOOTPRINT_FRONT_PER_LOG_MEMORY * memory;
+    Ok(LineScale {
+        half_length,
+        footprint: [-FOOTPRINT_REAR * half_length, front * half_length],
+    })
 }
 
-/// The grid of a number of elements, at least 1, along the contact of a cylinder on an elastic half space.
+/// The grid with `elements` elements, at least 1, along the contact of a cylinder on an elastic half space.
 ///
 /// # Errors
 /// As for [`steady_line`], before anything is solved.
@@ -178,28 +196,31 @@ pub fn steady_line_grid(
     elements: usize,
 ) -> Result<LineOptions, BemError> {
     let elements = positive("elements", elements as f64)?;
-    let (length, footprint) = half_length_and_footprint(&profile, elastomer, load)?;
-    let spacing = COARSEST_PER_CONTACT / COARSEST_PER_HALF_LENGTH * length / elements;
-    let grid = SteadyOptions::new([spacing; 2], Footprint::square(length));
+    let LineScale {
+        half_length,
+        footprint,
+    } = line_scale(&profile, elastomer, load)?;
+    let spacing = COARSEST_PER_CONTACT / COARSEST_PER_HALF_LENGTH * half_length / elements;
+    let grid = SteadyOptions::new([spacing; 2], Footprint::square(half_length));
     Ok(LineOptions {
         footprint,
         ..LineOptions::from_strip(&grid)
     })
 }
 
-/// The estimate of a strip as that of a line that bears a force per length.
-fn line_estimate(known: SteadyEstimate, force: f64) -> LineEstimate {
+/// Converts the estimate of a strip into that of a line under a force per length.
+fn line_estimate(strip: SteadyEstimate, force: f64) -> LineEstimate {
     LineEstimate {
-        friction_coefficient: known.friction_coefficient,
-        error_parts: known.error_parts,
+        friction_coefficient: strip.friction_coefficient,
+        error_parts: strip.error_parts,
         normal_force: Estimate::exact(force),
-        indentation_depth: known.indentation_depth,
-        contact_area: known.contact_area,
-        peak_pressure: known.peak_pressure,
-        contact_box_error: bars::contact_box_error(known.options.spacing[0]),
-        refinements: known.refinements,
-        finest: LineSliding::from_strip(&known.finest),
-        options: LineOptions::from_strip(&known.options),
+        indentation_depth: strip.indentation_depth,
+        contact_area: strip.contact_area,
+        peak_pressure: strip.peak_pressure,
+        contact_box_error: bars::contact_box_error(strip.options.spacing[0]),
+        refinements: strip.refinements,
+        finest: LineSliding::from_strip(&strip.finest),
+        options: LineOptions::from_strip(&strip.options),
     }
 }
 
@@ -221,7 +242,7 @@ pub fn steady_line_on_grid(
     Ok(LineSliding::from_strip(&state))
 }
 
-/// On a number of elements along the contact of a cylinder on an elastic half space.
+/// The state of a strip with a given number of elements along the contact of a cylinder on an elastic half space.
 fn with_elements(
     problem: &SteadyProblem,
     strip: f64,
@@ -233,18 +254,18 @@ fn with_elements(
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
         let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
-        Ok(state.on_grid((&loading.creep, 0.0), options, None))
+        Ok(state.on_grid(&loading.creep, 0.0, options, None))
     };
-    let mut known = bars::resolve(&resolution, solve, Ok)?;
-    let area = known.contact_area;
-    // A width of whole elements is not known better than to one of them.
-    let error = (area.error / strip).max(known.options.spacing[0]);
-    known.contact_area = Estimate::new(area.value / strip, error);
-    Ok(known)
+    let mut estimate = bars::resolve(&resolution, solve, Ok)?;
+    let area = estimate.contact_area;
+    // A width of whole elements has an error of at least one element.
+    let error = (area.error / strip).max(estimate.options.spacing[0]);
+    estimate.contact_area = Estimate::new(area.value / strip, error);
+    Ok(estimate)
 }
 
 impl LineOptions {
-    /// The grid of a strip.
+    /// The grid of a strip with these options.
     pub(super) fn on_strip(&self, strip: &Strip) -> SteadyOptions {
         let footprint = strip.footprint(self.footprint);
         SteadyOptions {
@@ -255,6 +276,7 @@ impl LineOptions {
         }
     }
 
+    /// The options of a line from the grid of a strip.
     const fn from_strip(grid: &SteadyOptions) -> Self {
         Self {
             spacing: grid.spacing[0],
@@ -267,11 +289,12 @@ impl LineOptions {
 }
 
 impl LineSliding {
+    /// The state of a line from that of a strip.
     fn from_strip(state: &SteadySliding) -> Self {
         let field = &state.pressure;
         let [first, _] = field.origin;
         let [dx, _] = field.grid.spacing();
-        // One element along y: the rows are all there is.
+        // There is one element along y, so that the field is one element per row.
         let row = |(row, pressure): (usize, &f64)| [first + row as f64 * dx, *pressure];
         Self {
             friction_coefficient: state.friction_coefficient,
@@ -285,9 +308,10 @@ impl LineSliding {
     }
 }
 
-/// A profile that is as long along y as one element.
+/// A profile of the length of one element along y, in place of an infinite one.
 pub(super) struct Strip<'a> {
     profile: &'a dyn Surface,
+    /// Length along y, \[m].
     length: f64,
 }
 
@@ -299,7 +323,7 @@ impl<'a> Strip<'a> {
         }
     }
 
-    /// With an empty element on either side.
+    /// The footprint between two ends along x, with an empty element on either side along y.
     fn footprint(&self, x: [f64; 2]) -> Footprint {
         let y = [-self.length, self.length];
         Footprint { x, y }

@@ -1,4 +1,6 @@
 //! The load of a stationary problem: a force, or a depth after a sliding distance.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material", "Units", and "Line contact".
 
 use std::f64::consts::PI;
 
@@ -10,12 +12,13 @@ use crate::stationary::steady::contact_scale::{depth_scale, mean_height, profile
 use crate::stationary::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Elastomer, Footprint};
 
+/// Why a depth on a material that flows requires a sliding distance, for an error message.
 const SINKS_WITHOUT_LIMIT: &str =
     "on a material that flows the body sinks without limit, so that a depth belongs to a distance";
-/// Sliding distance in lengths of the footprint where none is given: on a solid it has no effect.
-const DEFAULT_DISTANCE_ON_SOLID: f64 = 100.0;
+/// Sliding distance in lengths of the footprint that is assumed on a solid, where it has no effect.
+const DISTANCE_ON_SOLID: f64 = 100.0;
 
-/// The equation `depth · δ + load · Σ x = right` that controls depth or force in the units of the mesh.
+/// The equation `depth · δ + load · Σ x = right` that prescribes depth or force, in the units of the mesh.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ControlEquation {
     pub(super) depth: f64,
@@ -28,24 +31,24 @@ pub(super) struct Loading {
     pub(super) creep: SlidingCreep,
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
-    /// The force of a plane-strain problem is that on its whole strip.
+    /// The given force or depth. In plane strain the force is that on the whole strip.
     pub(super) control: Control,
-    /// \[m]; always where a depth is given.
+    /// Sliding distance, \[m]. Never `None` at a given depth.
     pub(super) sliding_distance: Option<f64>,
-    /// Length along y of a profile that stands for an infinite one, \[m]; none for a body of finite width.
+    /// Length along y of a strip that stands for an infinite profile, \[m]. `None` for a body of finite width.
     pub(super) strip: Option<f64>,
-    /// Whether the slope of the body jumps inside the contact.
+    /// True if the slope of the body jumps inside the contact.
     pub(super) has_edges: bool,
-    /// Whether the contact may have patches: not under a body of revolution, where elements only break up a thin crescent.
+    /// True if patches of the contact are checked. False under a body of revolution, where only the elements break up a thin crescent.
     pub(super) may_have_patches: bool,
 }
 
-/// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
-/// one.
+/// Length of a strip over the sum of its footprint and its memory length; chosen. The relative difference from an infinite strip is of the
+/// order of the square of its inverse.
 const STRIP_LENGTH_RATIO: f64 = 1e5;
 
 impl Loading {
-    /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
+    /// The loading of a body. Under a force, D is about the depth at which it is carried; at a depth, D is that depth.
     pub(super) fn new(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -56,9 +59,9 @@ impl Loading {
         let [rear, front] = footprint.x;
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
-                let largest = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
+                let max_length = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
                 let height = |distance| mean_height(surface, distance);
-                let depth = depth_scale(&creep, force, height, [largest, f64::INFINITY])?;
+                let depth = depth_scale(&creep, force, height, max_length, f64::INFINITY)?;
                 (depth, load.sliding_distance())
             }
             Control::IndentationDepth(depth) => {
@@ -77,8 +80,10 @@ impl Loading {
         })
     }
 
-    /// Under a force per length \[N/m] on a profile in plane strain, where contact is allowed from rear to front; refuses a
-    /// depth, and a material that flows.
+    /// The loading of a profile in plane strain, under a force per length \[N/m], with contact between `rear` and `front`.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for a material that flows; [`BemError::Indenter`] for a depth.
     pub(super) fn per_length(
         profile: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -87,9 +92,9 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
-        let [depth_scale, _] = profile_scale(profile, &creep, force)?;
-        let strip = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
-        let strip = positive("length of a strip", strip)?;
+        let depth_scale = profile_scale(profile, &creep, force)?.depth_scale;
+        let length = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
+        let strip = positive("length of a strip", length)?;
         let force = positive("force on a strip", force * strip)?;
         Ok(Self {
             creep,
@@ -102,13 +107,13 @@ impl Loading {
         })
     }
 
-    /// Edges of an element that is `factor` times as long; one that is a whole strip stays as wide.
+    /// Edges of an element that is `factor` times as long. The width of a strip does not change.
     pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
         let scaled = [factor * dx, factor * dy];
         self.strip.map_or(scaled, |_| [factor * dx, dy])
     }
 
-    /// The problem on a grid.
+    /// The loading on a grid, with its units.
     pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
         let creep = self.creep.over_element(spacing[0])?;
         let compliance = self.creep.compliance(spacing[0])?;
@@ -145,7 +150,10 @@ impl Loading {
     }
 }
 
-/// The sliding distance to which a depth belongs, \[m].
+/// The sliding distance to which a given depth belongs, \[m].
+///
+/// # Errors
+/// [`BemError::SlidingDistanceMissing`] on a material that flows; [`BemError::InvalidParameter`] for a distance shorter than the footprint.
 fn distance_at_depth(
     creep: &SlidingCreep,
     load: &SlidingLoad,
@@ -157,7 +165,7 @@ fn distance_at_depth(
                 why: SINKS_WITHOUT_LIMIT,
             });
         }
-        return Ok(DEFAULT_DISTANCE_ON_SOLID * footprint_length);
+        return Ok(DISTANCE_ON_SOLID * footprint_length);
     };
     let is_allowed = distance >= footprint_length;
     let allowed = "longer than the footprint, because the depth is known only after the contact has become stationary";
@@ -167,27 +175,28 @@ fn distance_at_depth(
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).
 pub(super) struct GridLoading {
     pub(super) creep: ElementCreep,
-    /// Force or depth that is asked for.
+    /// Equation of the given force or depth.
     pub(super) control: ControlEquation,
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
     /// 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
     force_scale: f64,
+    /// Edges [Δx, Δy] of an element, \[m].
     spacing: [f64; 2],
-    /// Whether one element along y stands for infinitely many.
+    /// True if one element along y stands for an infinite strip.
     pub(super) is_strip: bool,
     pub(super) has_edges: bool,
     pub(super) may_have_patches: bool,
 }
 
 impl GridLoading {
-    /// Whether the friction of a body with edges follows from the displacements beside an element. They are those at the points
-    /// where gaps are evaluated: near its centre, unless the material is more of a fluid for the shortest wave.
+    /// True if the collocation points lie near the centres of the elements: if the material is more of a solid than a fluid at the shortest
+    /// wave of the grid. Then the friction of a body with edges follows from the displacements of the neighbours of an element.
     pub(super) fn is_solid_for_elements(&self) -> bool {
         self.creep.collocation_shift > -0.25
     }
 
-    /// Normal force of the loads, \[N].
+    /// Normal force of a total load, \[N].
     pub(super) fn force_of(&self, total_load: f64) -> f64 {
         self.force_scale * (PI * (self.spacing[1] / self.spacing[0]) * total_load)
     }
@@ -198,7 +207,7 @@ impl GridLoading {
     }
 }
 
-/// ln(2s/L): how far a load has sunk after the distance s, in units of F_N/(4πηv), when its kernel measures lengths in L.
+/// ln(2s/L): the depth after the sliding distance s in units of F_N/(4πηv), for a kernel with lengths in units of L.
 pub(super) fn sinking_in_e_folds(sliding_distance: f64, unit_length: f64) -> f64 {
     (2.0 * (sliding_distance / unit_length)).ln()
 }

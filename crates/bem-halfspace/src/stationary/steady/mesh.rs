@@ -1,8 +1,10 @@
-//! The stationary problem on a grid: the elements that may touch, their heights, kernel and symmetry.
+//! The stationary problem on a grid: the candidate elements, their heights, kernel and symmetry.
 //!
 //! On a dashpot the gap changes by ∫w/(ηv) minus the rise of the body between the rear edges of two neighbouring elements.
 //! Where the body does not rise, the gap is therefore larger at the rear than at the front, and no element can touch: only
-//! elements over which the body rises are unknowns. On any other material all elements that the body covers are.
+//! elements over which the body rises are candidates. On any other material all elements that the body covers are.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Where the gap is evaluated".
 
 use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
@@ -20,45 +22,51 @@ use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
-/// Height of the foot of a steep flank, in units of the depth scale.
+/// Height below which the foot of a steep flank lies, in units of the depth scale; chosen.
 const FLANK_FOOT_HEIGHT: f64 = 0.1;
-/// Elements below this height are guessed to be in contact, in the same units: about as high as the sides of the contact
-/// of a paraboloid.
+/// Height below which elements are in the initial active set, in units of the depth scale: about the height at the sides of the contact of
+/// a paraboloid.
 const GUESSED_HEIGHT: f64 = 0.5;
 
-/// An element that may touch.
+/// A candidate: an element that may touch.
 struct Element {
     row: usize,
     column: usize,
-    /// Height where the gap is evaluated, in units of the depth scale.
+    /// Height at the collocation point, in units of the depth scale.
     height: f64,
     /// Mean of ∂h/∂x.
     slope: f64,
-    /// The slope that dissipates.
+    /// Slope for the friction from dissipation: of a body with edges, that between the collocation points of the two neighbours.
     dissipating_slope: f64,
 }
 
-/// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
-/// 2 (1 − ν) J(Δx/v) P Δx/(4πD) of an element, which is P Δx²/(4πηvD) for the dashpot.
+/// The problem on a grid. Heights are in units of the depth scale D and lengths in Δx. The load of an element is
+/// 2 (1 − ν) J(Δx/v) P Δx/(4πD), which is P Δx²/(4πηvD) for the dashpot.
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
     pub(super) loading: GridLoading,
-    /// Whether only elements over which the body rises may touch.
+    /// True if only elements over which the body rises are candidates.
     only_rising: bool,
+    /// Rows and columns of the footprint.
     shape: [usize; 2],
-    /// Position of the row and the column 0 in elements from the lowest point.
+    /// Position of row 0 and column 0 in elements from the lowest point.
     origin: [f64; 2],
-    /// Of grid and body in y.
+    /// Mirror symmetry of grid and body in y.
     mirror: Mirror,
     elements: Vec<Element>,
-    /// Whether an element ends in a vertical wall, by row and column.
+    /// True for each element of the footprint that ends in a vertical wall, row-major.
     walls: Vec<bool>,
-    /// First and last row and column between which the contact must lie.
+    /// First and last row, and first and last column, between which the contact must lie.
     inner_limits: [[usize; 2]; 2],
     table: Arc<WakeTable>,
 }
 
 impl Mesh {
+    /// Samples the surface on a grid.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for options out of range and a body that can touch nowhere; [`BemError::GridTooLarge`];
+    /// [`BemError::InvalidHeight`]; [`BemError::TrackTooShort`].
     pub(super) fn new(
         surface: &dyn Surface,
         loading: &Loading,
@@ -85,22 +93,22 @@ impl Mesh {
             inner_limits: [[0, behind + ahead], [0, right + left]],
             table: Arc::default(),
         };
-        // Refuses what is too large before it is sampled.
+        // Refuse a grid that is too large before it is sampled.
         Grid::new(mesh.shape, options.spacing)?;
         mesh.sample(surface)?;
         if surface.mirrors()[1] {
             mesh.keep_half();
         }
-        // Without such an element nothing can carry load.
+        // Refuse a footprint without candidates.
         let parameter = "number of elements of the footprint that may touch";
         positive(parameter, mesh.n_elements() as f64)?;
-        let all = mesh.region(0..mesh.n_elements());
-        mesh.check_track(all.shape[0])?;
-        mesh.table = plans.prepare(&mesh.loading.creep, mesh.aspect(), all.shape);
+        let candidates = mesh.region(0..mesh.n_elements());
+        mesh.check_track(candidates.shape[0])?;
+        mesh.table = plans.prepare(&mesh.loading.creep, mesh.aspect(), candidates.shape);
         Ok(mesh)
     }
 
-    /// Refuses a track with fewer than twice as many rows as those that may touch.
+    /// Refuses a track shorter than twice the rows of the candidates.
     fn check_track(&self, rows: usize) -> Result<(), BemError> {
         let needed = 2.0 * rows as f64;
         let dx = self.options.spacing[0];
@@ -118,16 +126,17 @@ impl Mesh {
         self.shape
     }
 
+    /// Number of candidates.
     pub(super) const fn n_elements(&self) -> usize {
         self.elements.len()
     }
 
-    /// Some elements in the box around them.
+    /// The region of some candidates.
     pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
         Region::around(elements.map(|element| self.places(element)))
     }
 
-    /// Centre of a row (axis 0) or column (axis 1) relative to the lowest point, \[m].
+    /// Centre of a row (axis 0) or column (axis 1), relative to the lowest point, \[m].
     pub(super) fn centre(&self, axis: usize, index: usize) -> f64 {
         (self.origin[axis] + index as f64) * self.options.spacing[axis]
     }
@@ -138,10 +147,12 @@ impl Mesh {
         [self.centre(0, row), self.centre(1, column)]
     }
 
+    /// Collects the candidates and the walls.
     fn sample(&mut self, surface: &dyn Surface) -> Result<(), BemError> {
         let dx = self.options.spacing[0];
         for row in 0..self.shape[0] {
             for column in 0..self.shape[1] {
+                // Heights at rear edge, collocation point and front edge.
                 let [x, y] = [self.centre(0, row), self.centre(1, column)];
                 let positions = [-0.5, self.loading.creep.collocation_shift, 0.5];
                 let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
@@ -152,6 +163,7 @@ impl Mesh {
                 }
                 self.walls
                     .push(front.is_infinite() || !self.only_rising && rear.is_infinite());
+                // A candidate is covered by the body, which on a dashpot must rise.
                 let covered = heights.iter().all(|height| height.is_finite());
                 if covered && (front > rear || !self.only_rising) {
                     let [height, slope] = [height / self.loading.depth_scale, (front - rear) / dx];
@@ -170,14 +182,14 @@ impl Mesh {
         Ok(())
     }
 
-    /// Keeps the elements at y ≥ 0 of a surface that mirrors them, where the grid does too.
+    /// Keeps the candidates at y ≥ 0 of a surface with a mirror symmetry in y, if the grid has it too.
     fn keep_half(&mut self) {
         self.mirror = match self.options.phase[1].abs() {
             0.0 => Mirror::Centre,
             0.5 => Mirror::Edge,
             _ => return,
         };
-        // An element needs its image inside the footprint: the shorter side inner_limits both.
+        // The image of a candidate must be inside the footprint: the shorter side limits both.
         let origin = self.origin[1];
         let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;
         self.elements
@@ -187,13 +199,14 @@ impl Mesh {
         self.inner_limits[1] = [self.image(last), last];
     }
 
-    /// Column that mirrors `column`.
+    /// Column of the mirror image of `column`.
     fn image(&self, column: usize) -> usize {
-        // The whole distance between the two is an integer, because the phase is 0 or 1/2.
+        // The distance between the two is an integer, because the phase is 0 or 1/2.
         let distance = 2.0 * (self.origin[1] + column as f64);
         column - whole_part(distance.round())
     }
 
+    /// True if an element has a mirror image other than itself.
     fn has_image(&self, element: &Element) -> bool {
         match self.mirror {
             Mirror::None => false,
@@ -202,13 +215,14 @@ impl Mesh {
         }
     }
 
-    /// Displacement of one element by the unit load of another and of its mirror image.
+    /// Influence coefficient: displacement of one element by the unit load of another and of its mirror image.
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
         self.influence_at_offset(rows, to, from)
     }
 
+    /// Influence coefficient at an offset along x.
     fn influence_at_offset(&self, rows: isize, to: &Element, from: &Element) -> f64 {
         let direct = self
             .table
@@ -222,29 +236,29 @@ impl Mesh {
                 .displacement(rows, to.column - self.image(from.column))
     }
 
-    /// What the unit load of an element creeps within the element: greater than zero, where the displacement on a material that
-    /// flows has an unknown constant.
+    /// Creep under the unit load of an element within the element. It is greater than zero, while the displacement itself has an undetermined
+    /// constant on a material that flows.
     pub(super) fn self_creep(&self) -> f64 {
         self.table.creep_within_element(0, 0)
     }
 
-    /// By how much the kernel of one element falls to its neighbours along an axis, which is its bend.
+    /// Second difference k₀ − (k₁ + k₋₁)/2 of the kernel at the loaded element, along an axis.
     pub(super) fn kernel_second_difference(&self, axis: usize) -> f64 {
-        let beside = match axis {
+        let neighbours = match axis {
             0 => 0.5 * (self.table.displacement(1, 0) + self.table.displacement(-1, 0)),
             _ => self.table.displacement(0, 1),
         };
-        self.table.displacement(0, 0) - beside
+        self.table.displacement(0, 0) - neighbours
     }
 
-    /// The same where everything moves the other way.
+    /// Influence coefficient of the reversed motion, an entry of Kᵀ.
     pub(super) fn reversed_influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = from.row.cast_signed() - to.row.cast_signed();
         self.influence_at_offset(rows, to, from)
     }
 
-    /// Row and column of an element and of its mirror image; itself where it has none.
+    /// Row and column of an element and of its mirror image; twice its own for an element without one.
     pub(super) fn places(&self, element: usize) -> [[usize; 2]; 2] {
         let Element { row, column, .. } = self.elements[element];
         let has_image = self.has_image(&self.elements[element]);
@@ -252,7 +266,7 @@ impl Mesh {
         [[row, column], [row, image.unwrap_or(column)]]
     }
 
-    /// Some elements and those that have an edge or a corner in common with one of them.
+    /// Some candidates and those that have an edge or a corner in common with one of them.
     pub(super) fn with_neighbours(&self, elements: &[usize]) -> Vec<usize> {
         let around = elements.iter().flat_map(|element| {
             let Element { row, column, .. } = self.elements[*element];
@@ -263,7 +277,7 @@ impl Mesh {
         found.into_iter().collect()
     }
 
-    /// The elements of a row within a range of columns; they are numbered row by row.
+    /// The candidates of a row within a range of columns; candidates are numbered row by row.
     fn in_row(&self, row: usize, columns: RangeInclusive<usize>) -> Range<usize> {
         let [first, last] = [*columns.start(), columns.end() + 1].map(|column| {
             self.elements
@@ -272,40 +286,40 @@ impl Mesh {
         first..last
     }
 
-    /// Δy/Δx.
+    /// Aspect ratio Δy/Δx.
     pub(super) fn aspect(&self) -> f64 {
         self.options.spacing[1] / self.options.spacing[0]
     }
 
-    /// 2 for an element with a mirror image, which it represents, otherwise 1.
+    /// Weight of an element in sums: 2 for an element that represents its mirror image, otherwise 1.
     pub(super) fn weight(&self, element: usize) -> f64 {
         let has_image = self.has_image(&self.elements[element]);
         if has_image { 2.0 } else { 1.0 }
     }
 
-    /// Height of an element where its gap is evaluated.
+    /// Height at the collocation point of an element, in units of the depth scale.
     pub(super) fn height(&self, element: usize) -> f64 {
         self.elements[element].height
     }
 
-    /// Whether elements `coarser` times as long still resolve the flanks of the body up to the depth scale.
-    pub(super) fn resolves_flanks(&self, coarser: f64) -> bool {
-        let dx = coarser * self.options.spacing[0];
-        let passes = |element: &Element| {
+    /// True if elements `factor` times as long still resolve the flanks of the body: if none rises from the foot of a flank to the depth scale.
+    pub(super) fn resolves_flanks(&self, factor: f64) -> bool {
+        let dx = factor * self.options.spacing[0];
+        let spans_flank = |element: &Element| {
             let rise = element.slope * dx / self.loading.depth_scale;
             element.height < FLANK_FOOT_HEIGHT && element.height + rise > 1.0
         };
-        !self.elements.iter().any(passes)
+        !self.elements.iter().any(spans_flank)
     }
 
-    /// The low elements, with hardly any load.
+    /// Initial active set: candidates below [`GUESSED_HEIGHT`], with negligible loads.
     pub(super) fn initial_active_set(&self) -> Vec<(usize, f64)> {
         let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
         let low = (0..self.n_elements()).filter(is_low);
         low.map(|element| (element, f64::EPSILON)).collect()
     }
 
-    /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
+    /// Scales loads to the given force exactly, if a force is given.
     pub(super) fn scale_to_force(&self, loads: &mut [f64]) {
         let control = self.loading.control;
         if control.depth == 0.0 {
@@ -315,14 +329,14 @@ impl Mesh {
         }
     }
 
-    /// Sum of the loads of the whole.
+    /// Sum of the loads, mirror images included.
     pub(super) fn total_load(&self, loads: impl IntoIterator<Item = (usize, f64)>) -> f64 {
         let weighted = |(element, load)| self.weight(element) * load;
         loads.into_iter().map(weighted).sum()
     }
 
-    /// Means weighted with the load, of ∂h/∂x, its modulus and the slope that dissipates.
-    pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> [f64; 3] {
+    /// Load-weighted means of the slopes.
+    pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> MeanSlopes {
         let (mut sums, mut normal) = ([0.0; 3], 0.0);
         for &(element, load) in loads {
             let Element {
@@ -335,11 +349,17 @@ impl Mesh {
             }
             normal += self.weight(element) * load;
         }
-        sums.map(|sum| sum / normal)
+        let [slope, absolute_slope, dissipating_slope] = sums.map(|sum| sum / normal);
+        MeanSlopes {
+            slope,
+            absolute_slope,
+            dissipating_slope,
+        }
     }
 
-    /// Of a body with edges the slope between the points of the two neighbours where gaps are evaluated: that of the element
-    /// alone does not dissipate as much, by the root of an element where the contact ends near the edge.
+    /// Slope between the collocation points of the two neighbours, under a body with edges. The slope of the element alone dissipates less,
+    /// by a term of the order of √Δx where the contact ends near the edge. `None` under a body without edges, and where a neighbour is not
+    /// covered.
     fn dissipating_slope(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
         if !self.loading.has_edges {
             return None;
@@ -347,15 +367,15 @@ impl Mesh {
         let dx = self.options.spacing[0];
         let height =
             |shift| surface.height([x + (self.loading.creep.collocation_shift + shift) * dx, y]);
-        let dissipating_slope = (height(1.0) - height(-1.0)) / (2.0 * dx);
-        dissipating_slope.is_finite().then_some(dissipating_slope)
+        let slope = (height(1.0) - height(-1.0)) / (2.0 * dx);
+        slope.is_finite().then_some(slope)
     }
 
-    /// Mean of half the difference of the gaps ahead and behind, weighted with the load.
+    /// Load-weighted mean of half the difference of the gaps ahead of and behind each element; gaps of loaded elements are 0.
     pub(super) fn mean_gap_difference(&self, loads: &[f64], gaps: &[f64]) -> f64 {
         let gap = |row: usize, column: usize| {
-            let beside = self.in_row(row, column..=column).next();
-            let open = beside.filter(|one| loads[*one] <= 0.0);
+            let neighbour = self.in_row(row, column..=column).next();
+            let open = neighbour.filter(|one| loads[*one] <= 0.0);
             open.map_or(0.0, |one| gaps[one])
         };
         let (mut sum, mut normal) = (0.0, 0.0);
@@ -368,7 +388,7 @@ impl Mesh {
         sum / normal
     }
 
-    /// Row, column and load of every loaded element of the whole.
+    /// Row, column and load of every loaded element, mirror images included.
     pub(super) fn loaded_places(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
         let with_image = |&(element, load): &(usize, f64)| {
             let [place, image] = self.places(element);
@@ -378,7 +398,7 @@ impl Mesh {
         loads.iter().flat_map(with_image).collect()
     }
 
-    /// Whether a box lies inside the footprint, away from its boundary.
+    /// True if a box lies inside the footprint, away from its boundary.
     pub(super) fn contains_inside(&self, bounds: &Bounds) -> bool {
         (0..2).all(|axis| {
             let [first, last] = self.inner_limits[axis];
@@ -386,7 +406,7 @@ impl Mesh {
         })
     }
 
-    /// Whether the element ahead of a loaded one ends in a vertical wall, or the one behind it where that may touch.
+    /// True if the element ahead of a loaded one ends in a vertical wall, or the one behind it, unless only rising elements are candidates.
     pub(super) fn faces_wall(&self, [row, column]: [usize; 2]) -> bool {
         let is_wall = |row: usize| {
             let wall = self.walls.get(row * self.shape[1] + column);
@@ -395,10 +415,20 @@ impl Mesh {
         is_wall(row + 1) || !self.only_rising && row.checked_sub(1).is_some_and(is_wall)
     }
 
-    /// Largest rise of the body over a loaded element, in units of the depth scale.
+    /// Largest |rise| of the body over a loaded element, in units of the depth scale.
     pub(super) fn max_rise(&self, loads: &[(usize, f64)]) -> f64 {
         let (dx, unit) = (self.options.spacing[0], self.loading.depth_scale);
         let rise = |&(element, _): &(usize, f64)| (self.elements[element].slope * dx / unit).abs();
         loads.iter().map(rise).fold(0.0, f64::max)
     }
+}
+
+/// Load-weighted means of the slopes of a body.
+pub(super) struct MeanSlopes {
+    /// Mean of ∂h/∂x.
+    pub(super) slope: f64,
+    /// Mean of |∂h/∂x|.
+    pub(super) absolute_slope: f64,
+    /// Mean of the slope for the friction from dissipation, without the gaps next to the contact.
+    pub(super) dissipating_slope: f64,
 }

@@ -1,4 +1,4 @@
-//! Stationary sliding, solved directly: no time, no free surface, no window.
+//! Stationary sliding of single bodies and profiles, solved directly: no time, no free surface, no window.
 //!
 //! In the frame of the indenter the stationary state is one complementarity problem
 //!
@@ -8,12 +8,14 @@
 //!
 //! with the load potential w = (1/4π) ∬ P/r dA, whose kernel is translation-invariant and not symmetric. For a dashpot
 //! it is [`wake_influence`]; each retardation element adds an exponential sweep of the potential from ahead. Where the
-//! material flows, the surface sinks like ln t, without limit; this constant is absorbed in d, which then has no meaning of
+//! material flows, the surface sinks like ln t, without limit. This constant is absorbed in d, which then has no meaning of
 //! its own; friction and contact do not depend on it.
 //!
-//! Friction is summed with the mean slope of each element. The gap is evaluated between the rear edge, where a dashpot
-//! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
-//! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
+//! Friction is summed with the mean slope of each element. The gap is evaluated at a collocation point between the rear edge
+//! and the centre of the element, in proportion to the loss angle at the wave length of two elements. A dashpot needs the rear edge, as
+//! a march in time does when the pressure of a step belongs to the motion during the step; a spring needs the centre.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "One complementarity problem" and "Where the gap is evaluated".
 
 mod body_contact;
 mod body_estimate;
@@ -58,11 +60,11 @@ pub use sinking_depth::SinkingDepth;
 pub use solution::{SteadyEstimate, SteadySliding};
 pub use wake_influence::wake_influence;
 
-/// Meshes of more elements than this start from the solution on a coarser one.
+/// Number of candidate elements of a mesh above which nested iteration is used: the solution on a coarser mesh is the initial guess. Chosen.
 const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
-/// Spacing of the grid to start from.
+/// Spacing of the coarser mesh of a nested iteration over that of the finer one.
 const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
-/// Tolerance of a solution that is only a start.
+/// Smallest tolerance of a solution that serves as initial guess only; chosen.
 const NESTED_ITERATION_TOLERANCE: f64 = 1e-6;
 
 /// One grid for a stationary solution.
@@ -71,9 +73,9 @@ const NESTED_ITERATION_TOLERANCE: f64 = 1e-6;
 pub struct SteadyOptions {
     /// Edges of an element (Δx, Δy), \[m].
     pub spacing: [f64; 2],
-    /// Where in its element the lowest point of the indenter lies, in elements from its centre along x and y, between
+    /// Position of the lowest point of the indenter in its element, in elements from the centre along x and y, between
     /// −1/2 and 1/2. A body that is mirror symmetric in y shares its symmetry with the grid for 0 and ±1/2 along y;
-    /// then half of it is solved.
+    /// then half of the problem is solved.
     pub phase: [f64; 2],
     /// Where contact may occur.
     pub footprint: Footprint,
@@ -82,7 +84,7 @@ pub struct SteadyOptions {
     /// height h(a) at the distance a from the lowest point, and the depth where that is given.
     /// A residual of some units in the last place of the depth is always allowed.
     pub tolerance: f64,
-    /// Active sets tried before the solver gives up.
+    /// Largest number of active sets.
     pub max_iterations: usize,
 }
 
@@ -103,9 +105,9 @@ impl SteadyOptions {
 /// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth;
 /// the sliding distance of the load matters for a depth on a material that flows only.
 ///
-/// The active set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587); single pivots
-/// end what would cycle. Small contacts are factorised; large ones are solved by minimal residuals with transforms, with
-/// the Wiener–Hopf factors of the kernel as preconditioner, and start from the contact of a coarser grid.
+/// The active set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587), with single pivots as the
+/// safeguard against cycles. Small contacts are solved directly. Large ones are solved by GCR with transforms and the Wiener–Hopf
+/// factors of the kernel as preconditioner, and start from the contact on a coarser grid.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
@@ -122,14 +124,15 @@ pub fn steady_on_grid(
     solve(surface, &loading, options, &mut Reuse::default())
 }
 
-/// What one solution passes on to the next.
+/// Data that one solution passes on to the next.
 #[derive(Debug, Default)]
 struct Reuse {
-    /// Its contact is the first guess.
+    /// The solution whose loads are the initial guess.
     solution: Option<SteadySliding>,
     plans: Plans,
 }
 
+/// Solves on one grid and converts the solution to SI units.
 fn solve(
     surface: &dyn Surface,
     loading: &Loading,
@@ -140,6 +143,7 @@ fn solve(
     SteadySliding::new(&mesh, &solution)
 }
 
+/// Solves on one grid, from the solution in `reuse` or else from that on a coarser grid.
 fn solve_on_mesh(
     surface: &dyn Surface,
     loading: &Loading,
@@ -149,6 +153,8 @@ fn solve_on_mesh(
     positive("max_iterations", options.max_iterations as f64)?;
     between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
+
+    // Nested iteration, where the coarser mesh resolves the flanks of the body.
     if reuse.solution.is_none()
         && mesh.n_elements() > NESTED_ITERATION_MIN_ELEMENTS
         && mesh.resolves_flanks(NESTED_ITERATION_SPACING_FACTOR)
@@ -158,18 +164,20 @@ fn solve_on_mesh(
             tolerance: options.tolerance.max(NESTED_ITERATION_TOLERANCE),
             ..*options
         };
-        // Only the kernel of a dashpot is the same on both grids.
-        let mut other = Reuse::default();
+        // Only the kernel of a dashpot is the same on both grids, so that its tables are shared.
+        let mut separate = Reuse::default();
         let coarse_reuse = if loading.creep.only_flows() {
             &mut *reuse
         } else {
-            &mut other
+            &mut separate
         };
-        // Without a solution on the coarse grid the fine one starts from its own guess.
+        // If the coarse grid has no solution, the fine one starts from the initial active set of its mesh.
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
+
+    // Solve from the initial guess.
     let guess = match &reuse.solution {
-        Some(other) => prolonged_loads(other, &mesh),
+        Some(solution) => prolonged_loads(solution, &mesh),
         None => mesh.initial_active_set(),
     };
     let plans = &mut reuse.plans;
@@ -179,13 +187,13 @@ fn solve_on_mesh(
     Ok((mesh, solution))
 }
 
-/// The loaded elements of another solution, seen on this mesh.
-fn prolonged_loads(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
+/// The loads of a solution on another grid, sampled at the elements of this mesh; only loaded elements.
+fn prolonged_loads(solution: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
     let unit = mesh.loading.pressure_unit();
     let load = |element| {
         (
             element,
-            other.pressure.pressure_at(mesh.position(element)) / unit,
+            solution.pressure.pressure_at(mesh.position(element)) / unit,
         )
     };
     let loads = (0..mesh.n_elements()).map(load);

@@ -1,19 +1,24 @@
-//! The patches of a stationary contact, and whether they cover enough elements.
+//! The patches of a stationary contact, and the check that each is resolved by enough elements.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar", "Elements in a patch".
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::error::check_contact_elements;
 
-/// Smaller parts of the load, on patches that cover too few elements, are less than the error bars of a contact contain.
+/// Fraction of the load below which a patch needs not be resolved, because the error estimates of a contact contain it; chosen.
 const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
-/// Elements across the sliding direction in the widest row of a patch, at least: on one to three of them, several grids may agree by
-/// chance.
+/// Smallest number of elements across the sliding direction in the widest row of a patch. On one to three of them, several grids may agree
+/// by chance.
 pub(super) const MIN_ELEMENTS_ACROSS: usize = 4;
 
 /// A loaded element, by row and column, and its load.
 type Loaded = ([usize; 2], f64);
 
 /// Refuses a contact with a patch that carries load on too few elements along x or across it.
+///
+/// # Errors
+/// [`BemError::GridTooCoarse`].
 pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), BemError> {
     let total: f64 = loaded.iter().map(|(_, load)| load).sum();
     for patch in connected_patches(loaded, bounds) {
@@ -36,23 +41,23 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
     Ok(())
 }
 
-/// The loaded elements that hang together by their edges or corners.
+/// The sets of loaded elements that are connected by edges or corners.
 fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
-    // Loads by place in the box, 0 where there is none left.
-    let mut left = vec![0.0; bounds.n_elements()];
+    // Loads in the box of the elements that do not belong to a patch yet.
+    let mut remaining = vec![0.0; bounds.n_elements()];
     for (element, load) in loaded {
-        left[bounds.index_of(*element)] = *load;
+        remaining[bounds.index_of(*element)] = *load;
     }
     let mut patches = Vec::new();
     for (first, _) in loaded {
         let mut patch = Vec::new();
-        move_to_patch(*first, &mut left, bounds, &mut patch);
-        let mut done = 0;
-        while let Some(&([row, column], _)) = patch.get(done) {
-            done += 1;
+        move_to_patch(*first, &mut remaining, bounds, &mut patch);
+        let mut n_visited = 0;
+        while let Some(&([row, column], _)) = patch.get(n_visited) {
+            n_visited += 1;
             for row in row.saturating_sub(1)..=row + 1 {
                 for column in column.saturating_sub(1)..=column + 1 {
-                    move_to_patch([row, column], &mut left, bounds, &mut patch);
+                    move_to_patch([row, column], &mut remaining, bounds, &mut patch);
                 }
             }
         }
@@ -63,12 +68,17 @@ fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     patches
 }
 
-/// Moves an element that is left to a patch.
-fn move_to_patch(element: [usize; 2], left: &mut [f64], bounds: &Bounds, patch: &mut Vec<Loaded>) {
+/// Moves an element to a patch if its load remains.
+fn move_to_patch(
+    element: [usize; 2],
+    remaining: &mut [f64],
+    bounds: &Bounds,
+    patch: &mut Vec<Loaded>,
+) {
     if !bounds.contains(element) {
         return;
     }
-    let load = std::mem::take(&mut left[bounds.index_of(element)]);
+    let load = std::mem::take(&mut remaining[bounds.index_of(element)]);
     if load > 0.0 {
         patch.push((element, load));
     }

@@ -1,5 +1,4 @@
-//! Transforms and spectra, which depend on sizes only: made once, and shared by the contacts, grids and shifts of a
-//! problem.
+//! Transforms and spectra, which depend on sizes only: computed once, and shared by the active sets, grids and shifts of a problem.
 
 use std::sync::Arc;
 
@@ -10,10 +9,10 @@ use crate::stationary::steady::wiener_hopf;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
 
-/// Periods that are kept: the boxes of successive contacts have about the same size.
+/// Number of periods that are cached; chosen. The boxes of successive active sets have about the same size.
 const MAX_CACHED_PERIODS: usize = 4;
 
-/// What depends on the creep over an element, on the aspect ratio of the elements and on the size of a box only.
+/// Kernel tables and spectra, which depend only on the creep over an element, the aspect ratio of the elements and the size of a box.
 #[derive(Debug, Default)]
 pub(super) struct Plans {
     table: Arc<WakeTable>,
@@ -22,7 +21,7 @@ pub(super) struct Plans {
 }
 
 impl Plans {
-    /// Makes ready for boxes of up to `shape` elements and returns the table of the kernel.
+    /// Prepares for boxes of up to `shape` elements, and returns the table of the kernel.
     pub(super) fn prepare(
         &mut self,
         creep: &ElementCreep,
@@ -34,8 +33,8 @@ impl Plans {
             *self = Self::default();
         }
         let filtered = wiener_hopf::period(shape);
-        let reach = [0, 1].map(|axis| padded_length(shape[axis]).max(filtered[axis]) / 2);
-        WakeTable::cover(&mut self.table, creep, aspect, reach);
+        let max_offsets = [0, 1].map(|axis| padded_length(shape[axis]).max(filtered[axis]) / 2);
+        WakeTable::cover(&mut self.table, creep, aspect, max_offsets);
         Arc::clone(&self.table)
     }
 
@@ -57,7 +56,7 @@ impl Plans {
     }
 }
 
-/// The kept filters of a period, or new ones in the place of the oldest.
+/// The cached filters of a period, or new ones in place of the oldest.
 fn cached<const N: usize>(
     kept: &mut Vec<Arc<Filters<N>>>,
     padded: [usize; 2],
@@ -77,7 +76,7 @@ fn cached<const N: usize>(
     filters
 }
 
-/// A period that is fast to transform and keeps `n` elements free of their images.
+/// A period that is fast to transform, and long enough that `n` elements are not affected by their periodic images.
 fn padded_length(n: usize) -> usize {
     fast_length(2 * n - 1)
 }

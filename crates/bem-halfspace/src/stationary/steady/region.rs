@@ -1,4 +1,4 @@
-//! The bounding box of a set of elements, and how a vector over the set becomes a field over the box.
+//! The bounding box of a set of elements, and the conversion between packed vectors over the set and fields over the box.
 
 use crate::elements::bounds::Bounds;
 
@@ -6,12 +6,12 @@ use crate::elements::bounds::Bounds;
 pub(super) struct Region {
     /// Rows and columns of the box.
     pub(super) shape: [usize; 2],
-    /// Place of each element in the box, row-major, and of its image; an element without one is its own.
+    /// Row-major index of each element in the box, and of its mirror image; twice the same for an element without one.
     places: Vec<[usize; 2]>,
 }
 
 impl Region {
-    /// Elements at some places, each with its image.
+    /// The region of some elements, given by row and column, each with its image.
     pub(super) fn around(elements: impl Iterator<Item = [[usize; 2]; 2]> + Clone) -> Self {
         let bounds = Bounds::enclosing(elements.clone().flatten()).unwrap_or(Bounds::EMPTY);
         let place = |place| bounds.index_of(place);
@@ -21,7 +21,7 @@ impl Region {
         }
     }
 
-    /// The same box and elements turned about across the motion.
+    /// The region reversed along x.
     pub(super) fn reversed(&self) -> Self {
         let [rows, columns] = self.shape;
         let reverse = |place: usize| (rows - 1 - place / columns) * columns + place % columns;
@@ -31,11 +31,12 @@ impl Region {
         }
     }
 
+    /// Number of elements of the box.
     pub(super) fn n_places(&self) -> usize {
         self.shape[0] * self.shape[1]
     }
 
-    /// Writes a vector over the set into a field over the box, 0 elsewhere.
+    /// Scatters a vector over the set into a field over the box, which is 0 elsewhere.
     pub(super) fn scatter(&self, vector: &[f64], field: &mut [f64]) {
         field.fill(0.0);
         for (places, value) in self.places.iter().zip(vector) {
@@ -45,12 +46,12 @@ impl Region {
         }
     }
 
-    /// Reads a vector over the set from a field over the box.
+    /// Gathers a vector over the set from a field over the box.
     pub(super) fn gather(&self, field: &[f64]) -> Vec<f64> {
         self.places.iter().map(|[place, _]| field[*place]).collect()
     }
 
-    /// For each element, how far it lies from the rear (0) to the front (1) of its run of elements along x.
+    /// Position of each element between the rear (0) and the front (1) of its run of contiguous elements along x.
     pub(super) fn fractions_from_rear(&self) -> Vec<f64> {
         let [rows, columns] = self.shape;
         let mut inside = vec![false; self.n_places()];

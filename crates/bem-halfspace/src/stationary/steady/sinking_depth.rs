@@ -1,4 +1,6 @@
-//! How deep a body lies that slides without end.
+//! The depth of a body in stationary sliding, which grows without limit on a material that flows.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The depth, which grows without limit".
 
 use crate::BemError;
 use crate::stationary::steady::body_contact::Solution;
@@ -6,18 +8,18 @@ use crate::stationary::steady::loading::sinking_in_e_folds;
 use crate::stationary::steady::mesh::Mesh;
 use numerics::{in_range, positive};
 
-/// Depth of the lowest point below the undeformed surface, which never stops to grow where the material flows.
+/// Depth of the lowest point below the undeformed surface, which grows without limit where the material flows.
 ///
-/// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth once the sliding has
-/// lasted much longer than the retardation times. On a dashpot, after the sliding distance s from first touch, the kernel of the march in time is
+/// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth after a sliding time much longer than the
+/// retardation times. On a dashpot, after the sliding distance s from first touch, the kernel of the march in time is
 /// `asinh((ξ + s)/|y|) − asinh(ξ/|y|) → ln(2s) − ln(ξ + r)`, so that
 ///
 /// ```text
 /// d(s) = d_ref + F_N/(4πηv) ln(s / s_ref)
 /// ```
 ///
-/// up to terms of the order of (contact length)/s; other materials with the free flow η differ in `d_ref`. The reference distance is the length of the contact, which carries no
-/// meaning beyond fixing `d_ref`: at s = s_ref the contact is not stationary yet.
+/// up to terms of the order of (contact length)/s. Other materials with the free flow η differ in `d_ref` only. The reference distance is
+/// the length of the contact. It serves to define `d_ref` only: at s = s_ref the contact is not yet stationary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SinkingDepth {
@@ -45,7 +47,7 @@ impl SinkingDepth {
         }
     }
 
-    /// Depth after sliding a distance, or the reference depth without one, \[m].
+    /// Depth after a sliding distance, or the reference depth if `None`, \[m]. On a solid both are equal.
     pub(super) fn at_distance(&self, sliding_distance: Option<f64>) -> f64 {
         match sliding_distance {
             Some(distance) if self.depth_per_e_fold > 0.0 => {
@@ -56,7 +58,7 @@ impl SinkingDepth {
         }
     }
 
-    /// Depth after sliding a distance much longer than the contact, \[m].
+    /// Depth after a sliding distance much longer than the contact, \[m].
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a distance that is shorter than the contact or not finite.

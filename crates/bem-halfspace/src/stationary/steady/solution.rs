@@ -1,4 +1,4 @@
-//! What the stationary solver returns.
+//! The result of the stationary solver, in SI units.
 
 use numerics::ErrorParts;
 
@@ -15,10 +15,11 @@ use crate::stationary::steady::patch_resolution::check_patches;
 use crate::stationary::steady::sinking_depth::SinkingDepth;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 
-/// Elements between an edge of the body and the end of the contact with which the two are told apart.
+/// Distance in elements between an edge of the body and the front of the contact below which the elements do not separate the two;
+/// chosen.
 const EDGE_CLEARANCE: f64 = 4.0;
 
-/// A stationary state with its error bars.
+/// A stationary state with the error of every quantity.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 
 /// A stationary solution on one grid.
@@ -29,16 +30,16 @@ pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,
-    /// The friction coefficient from the displacements beside the contact too, as the dissipated power has it; the same one
-    /// where a body with edges slides over what is more of a fluid at the length of an element.
+    /// Friction coefficient from the dissipated power: from the displacements of both neighbours of each element, also outside the contact.
+    /// Equal to `friction_coefficient` where a body with edges slides on a material that is more of a fluid at the length of an element.
     pub friction_from_dissipation: f64,
-    /// Mean of |∂h/∂x| under the load: what the friction coefficient is the difference of, and its upper bound.
+    /// Mean of |∂h/∂x| under the load: the upper bound of the friction coefficient, which is a difference of slopes.
     pub mean_slope: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
-    /// Depth of the lowest point, which depends on the distance slid where the material flows.
+    /// Depth of the lowest point, which depends on the sliding distance where the material flows.
     pub depth: SinkingDepth,
-    /// [Area](PressureField::contact_area) of the contact; in plane strain that of its elements, \[m²].
+    /// [Area](PressureField::contact_area) of the contact; in plane strain the area of its elements, \[m²].
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -46,34 +47,38 @@ pub struct SteadySliding {
     pub contact_y: [f64; 2],
     /// Number of unknown pressures: elements in contact, of one half where the problem is mirror symmetric.
     pub unknowns: usize,
-    /// Active sets tried.
+    /// Number of active sets.
     pub iterations: usize,
     /// Largest residual |h + u − d| in the contact relative to the depth scale, see
     /// [`SteadyOptions::tolerance`].
     pub residual: f64,
     /// Pressure over the contact.
     pub pressure: PressureField,
+    /// True if the last active set was solved directly.
     factorised: bool,
 }
 
 impl SteadySliding {
-    /// Whether the equations of this contact were factorised; if not, they were solved by iteration with transforms.
+    /// True if the equations of this contact were solved directly, by factorisation; false if by iteration with transforms.
     pub const fn is_factorised(&self) -> bool {
         self.factorised
     }
 
-    /// How much the residual that is left may change the friction coefficient.
+    /// Error of the friction coefficient by the remaining residual.
     pub fn iteration_error(&self) -> f64 {
         self.residual * self.mean_slope
     }
 
+    /// The quantities of this state on its grid, for an error estimate from several grids. `kinks` is the strength of the kinks of the body
+    /// in the contact.
     pub(super) fn on_grid(
         self,
-        (creep, kinks): (&SlidingCreep, f64),
+        creep: &SlidingCreep,
+        kinks: f64,
         options: SteadyOptions,
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
-        let unresolved =
+        let subgrid_friction =
             self.subgrid_friction_fraction(creep, kinks) * self.friction_coefficient.abs();
         OnGrid {
             quantities: Quantities {
@@ -86,7 +91,7 @@ impl SteadySliding {
             dissipated: Some(self.friction_from_dissipation),
             common_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
-                ..ErrorParts::discretisation_only(unresolved)
+                ..ErrorParts::discretisation_only(subgrid_friction)
             },
             min_relative_error: 0.0,
             spacing: options.spacing[0],
@@ -95,21 +100,24 @@ impl SteadySliding {
         }
     }
 
-    /// Part of the friction that the elements may miss because the surface forgets within them.
+    /// Fraction of the friction that the elements may miss because the material relaxes within them.
     pub(super) fn subgrid_friction_fraction(&self, creep: &SlidingCreep, kinks: f64) -> f64 {
         let [rear, front] = self.contact_x;
         let half_length = 0.5 * (front - rear);
         creep.subgrid_friction_fraction(self.pressure.grid.spacing()[0], half_length, kinks)
     }
 
-    /// Whether the front is closer to an edge of the body than [`EDGE_CLEARANCE`] elements.
+    /// True if the front is closer to an edge of the body than [`EDGE_CLEARANCE`] elements; `radii` are those of the edges, \[m].
     pub(super) fn hides_edge(&self, radii: &[f64]) -> bool {
         let close = EDGE_CLEARANCE * self.pressure.grid.spacing()[0];
         let [_, front] = self.contact_x;
         radii.iter().any(|radius| (front - radius).abs() < close)
     }
 
-    /// Turns a solution in the units of the mesh into one in SI.
+    /// Converts a solution in the units of the mesh to SI units.
+    ///
+    /// # Errors
+    /// Those of a contact that the grid does not resolve, that reaches the boundary of the footprint, or that touches a vertical wall.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
         let loaded = mesh.loaded_places(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
@@ -130,19 +138,19 @@ impl SteadySliding {
         let unit = mesh.loading.pressure_unit();
         let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
         let pressure = PressureField::from_elements(&bounds, spacing, origin, pressures)?;
-        let [friction_coefficient, mean_slope, dissipating_slope] =
-            mesh.mean_slopes(&solution.loads);
+        let slopes = mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
         Ok(Self {
-            friction_coefficient,
+            friction_coefficient: slopes.slope,
             friction_from_dissipation: if mesh.loading.is_solid_for_elements()
                 || !mesh.loading.has_edges
             {
-                dissipating_slope - solution.gap_difference * mesh.loading.depth_scale / spacing[0]
+                slopes.dissipating_slope
+                    - solution.gap_difference * mesh.loading.depth_scale / spacing[0]
             } else {
-                friction_coefficient
+                slopes.slope
             },
-            mean_slope,
+            mean_slope: slopes.absolute_slope,
             normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: if mesh.loading.is_strip {
@@ -161,8 +169,8 @@ impl SteadySliding {
     }
 }
 
-/// Refuses a vertical wall in contact. An image is not asked: it may lie beyond the end of a surface by rounding, where its element
-/// does not.
+/// Refuses a vertical wall in contact. Mirror images are not checked: by rounding, an image may lie beyond the end of a surface, its element
+/// not.
 fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     let mut places = loads.iter().map(|(element, _)| mesh.places(*element)[0]);
     match places.find(|place| mesh.faces_wall(*place)) {
@@ -186,8 +194,8 @@ fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
 
 /// The box around the loaded elements, if that is inside the footprint and covers enough elements.
 fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, BemError> {
-    let bounds = Bounds::enclosing(loaded.iter().map(|(element, _)| *element));
-    let bounds = bounds.unwrap_or(Bounds::EMPTY);
+    let bounds =
+        Bounds::enclosing(loaded.iter().map(|(element, _)| *element)).unwrap_or(Bounds::EMPTY);
     if bounds != Bounds::EMPTY && !mesh.contains_inside(&bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }

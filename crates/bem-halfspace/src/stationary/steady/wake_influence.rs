@@ -1,4 +1,4 @@
-//! The surface behind and ahead of a load that slides without end.
+//! Influence function of a stationary load on a viscous half space, ahead of it and in its wake.
 //!
 //! In the frame of the indenter, ξ = x − v t, the viscous half space under a stationary pressure satisfies
 //! `∂u/∂ξ = −w/(ηv)` with the load potential `w = (1/4π) ∬ P/r dA`. A point load therefore moves the surface by
@@ -12,14 +12,16 @@
 //! ```text
 //! ∂²Φ/∂ξ∂y = ln(ξ + r),   Φ = ξ y ln(ξ + r) − ξ y + ½ ξ² asinh(y/|ξ|) − ½ y r
 //! ```
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The kernel of an element".
 
 use crate::substrate::rectangle::{
     EIGHT_POINT_DISTANCE, PlaneKernel, distance, integrate, product_asinh,
 };
 
-/// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] leads from its centre to the field point.
+/// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] is the vector from its centre to the field point.
 ///
-/// Lengths are ratios to some unit; another unit adds a constant times the area, which is the constant in u.
+/// Lengths are ratios to any unit. Another unit adds a constant times the area, which belongs to the undetermined constant of u.
 pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     let [x, y] = [offset[0], offset[1].abs()];
     let [a, b] = edges;
@@ -31,7 +33,7 @@ pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     integrate::<Logarithm>([x, y], edges)
 }
 
-/// ln(x + r).
+/// The kernel ln(x + r).
 struct Logarithm;
 
 impl PlaneKernel for Logarithm {

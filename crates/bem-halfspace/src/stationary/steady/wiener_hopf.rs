@@ -1,13 +1,15 @@
 //! The preconditioner of the stationary problem: Wiener–Hopf factors of the kernel.
 //!
-//! Along x the kernel is a creep filter over the load potential, which is symmetric and positive: a running sum for the
-//! dashpot, the identity for a spring, a sum of exponentials for the rest. For every wave number along y the potential
-//! factors into a filter that looks ahead only and its mirror image that looks back only (by the cepstrum of its
-//! spectrum, Kolmogorov 1939), so that the kernel is the product of a forward factor, which contains the creep filter,
-//! and a backward factor. On a contact that extended without end behind a straight front, the inverses of the
-//! factors, applied in the order backward, forward with the contact cut out in between, are the exact inverse
-//! (Wiener & Hopf 1931); without end ahead of a straight rear, in the other order. The preconditioner goes from the one
-//! to the other along x in proportion to the distance from the two ends.
+//! Along x the kernel is a creep filter applied to the load potential, which is symmetric and positive. The filter is a running sum for the
+//! dashpot, the identity for a spring, and a sum of exponentials otherwise. For every wave number along y the potential factors into a
+//! filter that looks ahead only and its mirror image (by the cepstrum of its spectrum, Kolmogorov 1939), so that the kernel is the product
+//! of a forward factor, which contains the creep filter, and a backward factor.
+//!
+//! On a contact that is infinite behind a straight front, the inverses of the factors, in the order backward, forward with the contact cut
+//! out in between, are the exact inverse (Wiener & Hopf 1931). On a contact that is infinite ahead of a straight rear, the other order is
+//! exact. The preconditioner blends the two along x in proportion to the distance from the two ends.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Any linear viscoelastic material", "The preconditioner".
 
 use std::sync::Arc;
 
@@ -20,12 +22,12 @@ use crate::stationary::steady::wake_table::WakeTable;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
 
-/// Elements beyond the box before the period of the filters repeats it. They need no more: the inverse factors decay
-/// fast.
+/// Elements by which the period of the filters exceeds the box; chosen. Few are enough, because the inverse factors decay fast.
 const FILTER_MARGIN: usize = 4;
 
-/// Places of the two factors.
+/// Index of the inverse of the forward factor, which contains the creep filter.
 const SWEEP: usize = 0;
+/// Index of the inverse of the backward factor.
 const COUNTER_SWEEP: usize = 1;
 
 /// Period of the filters for a box of `shape` elements.
@@ -33,7 +35,7 @@ pub(super) fn period(shape: [usize; 2]) -> [usize; 2] {
     shape.map(|n| fast_length(n + FILTER_MARGIN))
 }
 
-/// The inverses of the two factors in Fourier space: of that which contains the creep filter, and of the other one.
+/// Spectra of the inverse factors, at the indices [`SWEEP`] and [`COUNTER_SWEEP`].
 pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> [Spectrum; 2] {
     let [length, _] = transform.padded;
     let potential =
@@ -43,10 +45,10 @@ pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> 
     [sweep, counter_sweep]
 }
 
-/// An approximate inverse of the product with the stationary kernel on a region.
+/// An approximate inverse of the stationary kernel on a region.
 pub(super) struct WienerHopf {
     inverses: RegionFilter<2>,
-    /// Weight of the order that is exact at the front.
+    /// Weight of the order that is exact at the front, for each element: 0 at the rear, 1 at the front.
     front: Vec<f64>,
 }
 
@@ -72,14 +74,15 @@ impl WienerHopf {
     }
 }
 
-/// Replaces a real and positive transform along x by the inverse of its factor that looks towards smaller x only.
+/// Replaces a real and positive transform along x by that of the inverse of its factor that looks towards smaller x only.
 fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>]) {
     let length = column.len();
-    // A periodic kernel that is cut off may graze zero where it should not.
+    // The transform of a truncated periodic kernel may be slightly negative where it should be positive.
     let floor = f64::EPSILON * column.iter().map(|value| value.re).fold(0.0, f64::max);
     for value in column.iter_mut() {
         *value = Complex::new(value.re.max(floor).ln(), 0.0);
     }
+    // Keep half of the cepstrum, with the opposite sign for the inverse.
     transform.column_back(column);
     let half = length / 2;
     for (index, value) in column.iter_mut().enumerate() {
@@ -105,14 +108,14 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
         // 1 − e^{iα} without cancellation.
         let half_sine = (0.5 * angle).sin();
         let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
-        let delayed = |retardation: &RetardationElement| {
+        let denominator = |retardation: &RetardationElement| {
             let kept = retardation.decay();
             difference * kept + -(-retardation.rate).exp_m1()
         };
         let retardations = creep.retardations.iter();
-        // Of a memory longer than 1e154 elements the square of what is forgotten within one is no number.
+        // `finv`, because the square of the modulus underflows for memory lengths above 1e154 elements.
         let shares =
-            retardations.map(|retardation| delayed(retardation).finv() * retardation.share);
+            retardations.map(|retardation| denominator(retardation).finv() * retardation.share);
         let recovered = shares.sum::<Complex<f64>>() + creep.instantaneous;
         if creep.flow > 0.0 {
             difference / (difference * recovered + creep.flow)
