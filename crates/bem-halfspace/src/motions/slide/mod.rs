@@ -10,8 +10,8 @@
 //! that its motion is exact on the grid; [`slide_along`] moves it by any amount, stops it and takes it back. Both are a
 //! [`March`].
 
-mod estimate;
-mod stationary;
+mod refined;
+mod stationary_limit;
 mod transient;
 
 use indenters::{SlidingLoad, Surface};
@@ -19,8 +19,10 @@ use indenters::{SlidingLoad, Surface};
 pub use crate::elements::pressure_field::PressureField;
 pub use crate::stepping::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
-pub use estimate::{SlideEstimate, slide, slide_memory};
-pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
+pub use refined::{SlideEstimate, slide, slide_memory};
+pub use stationary_limit::{
+    StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary,
+};
 pub use transient::{SlideRow, Transient};
 
 /// Presses `surface` into an undeformed half space under a constant force or at a constant depth and slides it from first

@@ -7,7 +7,7 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
-use crate::motions::slide::stationary::slide_until_stationary;
+use crate::motions::slide::stationary_limit::slide_until_stationary;
 use crate::motions::slide::{
     March, PressureField, SlideRow, StationaryOptions, Transient, follow_march,
 };
