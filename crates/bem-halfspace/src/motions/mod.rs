@@ -1,4 +1,6 @@
-//! Motions that are followed in time.
+//! Motions that are simulated in time, with their error bars: pressing, sliding from first touch, any motion along the surface.
+//!
+//! Theory: docs/theory/transient-half-space.md.
 
 pub mod indent;
 pub(crate) mod move_along;

@@ -1,8 +1,12 @@
-//! Any motion along the surface with its error bars: starts, stops, dwells, returns, once or to and fro.
+//! Any motion along the surface with its error bars: starts, stops, dwells, returns, once or reciprocating.
 //!
-//! Steps in time are as long as a third of an element, or grow after a stop, so that both become finer together. Loads are linear over
-//! a step, and forces belong to its end, so that steps are of the second order; `docs/theory/transient-half-space.md` has what
-//! is different on a material without instantaneous compliance.
+//! In a step the body moves by at most a third of an element, and after a stop steps grow, so that elements and steps are refined
+//! together. Loads are linear over a step and forces belong to its end, so that steps are of second order, except on a
+//! material without instantaneous compliance.
+//!
+//! A reciprocating motion is repeated until its limit cycle is found, by a fixed-point iteration on the history variables.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions" and "Linear loads".
 
 use std::cell::Cell;
 
@@ -23,32 +27,34 @@ use crate::motions::slide::{March, Motion, MotionRow};
 use crate::stepping::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, Elastomer, GridOptions, Reached};
 
-/// Elements along the contact on which a relative error is first sought. The work grows with the third power of them, and most
-/// strokes reach two per cent on these (docs/theory/transient-half-space.md).
+/// Elements along the contact on which a relative error is first sought. The work grows with their third power, and most strokes
+/// reach 2 % on 8 elements (docs/theory/transient-half-space.md, "Linear loads").
 const FIRST_ELEMENTS_OF_MOTION: usize = 8;
-/// Elements along the contact after which a motion is given up; a cycle takes about a minute.
+/// Largest number of elements along the contact; a cycle on it takes about a minute.
 const MAX_ELEMENTS_OF_MOTION: usize = 48;
-/// Order of the error, at least.
+/// Order of the error in the number of elements that the error bars assume, unless the apex of the body lowers it.
 pub(crate) const MIN_ORDER_OF_MOTION: f64 = 1.0;
 /// Cycles after which the search for the limit cycle is given up.
 const MAX_CYCLES: usize = 100;
-/// Relative change by a cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
+/// Relative change per cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
 const CYCLE_ROUNDING: f64 = 1e-14;
-/// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
+/// Remaining change of the limit cycle over the relative error asked for; chosen.
 const CYCLE_TOLERANCE_FRACTION: f64 = 0.1;
+/// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error; chosen.
 const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
-/// Steps in which the body passes an element at its largest speed. With three the errors of steps are about those of elements
-/// (docs/theory/transient-half-space.md has both for some strokes).
+/// Steps in which the body passes an element at its largest speed. With three, the errors of steps and of elements are about equal
+/// (docs/theory/transient-half-space.md, "Linear loads").
 const STEPS_PER_ELEMENT: usize = 3;
-/// Duration of the first touch, at rest, relative to that of the first step.
+/// Duration of the first touch, during which the body rests, over that of the first step; chosen.
 pub(crate) const TOUCH_DURATION_RATIO: f64 = 1e-3;
-/// Times of the slowest element after which a body that is pressed rests.
+/// Time after which a pressed body is at rest over the slowest retardation time: e^−30 of the creep remains.
 const REST_OVER_RETARDATION_TIME: f64 = 30.0;
-/// Moves `surface` over an undeformed half space or layer: through the points of a motion, or to and fro until two cycles are
-/// alike; to an error of the mean friction coefficient relative to its value, or with a number of elements along the contact.
+
+/// Moves `surface` over an undeformed half space or layer, through the points of a motion or reciprocating until the limit cycle.
 ///
-/// At the beginning the body is pressed at once. The friction force of a motion through points has the same error, relative to
-/// its largest value.
+/// The request is an error of the mean friction coefficient relative to its value, or a number of elements along the contact. At
+/// the beginning the body is pressed suddenly. The friction force of a motion through points has the same error, relative
+/// to its largest value.
 ///
 /// ```
 /// use bem_halfspace::indenters::{Control, MovingLoad, Shape, Sphere, Stroke};
@@ -70,8 +76,8 @@ const REST_OVER_RETARDATION_TIME: f64 = 30.0;
 /// ```
 ///
 /// # Errors
-/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::NoCycle`] to and fro on a material
-/// that flows; [`BemError::NotPeriodic`]; otherwise like [`slide_on_grid`](crate::slide_on_grid).
+/// [`BemError::NotReached`] with the result on the finest grid allowed; [`BemError::NoCycle`] for a reciprocating motion on a
+/// material that flows; [`BemError::NotPeriodic`]; otherwise like [`slide_on_grid`](crate::slide_on_grid).
 pub fn move_along<'w>(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -102,7 +108,10 @@ pub fn move_along<'w>(
     moved_if_reached(&view, refined)
 }
 
-/// The motion of the finest resolution, or what was reached of it.
+/// Result on the finest resolution.
+///
+/// # Errors
+/// [`BemError::NotReached`] with that result if a quantity misses the error asked for.
 pub(crate) fn moved_if_reached(
     view: &MotionView,
     refined: Refined<MotionRecord>,
@@ -120,10 +129,10 @@ pub(crate) fn moved_if_reached(
     })
 }
 
-/// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
+/// Upper bound of the memory of [`move_along`] for a number of elements along the contact, \[bytes].
 ///
 /// # Errors
-/// As for [`move_along`], before anything is followed.
+/// As for [`move_along`], without the errors of the solution.
 pub fn move_along_memory(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -133,9 +142,9 @@ pub fn move_along_memory(
     let problem = MovingBody::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let options = problem.options(elements);
     let [dx, dy] = options.spacing;
-    let (per_contact, length) = steps_of(elements, dx);
-    let n_steps = load.n_steps(per_contact, length, MAX_STEPS)?;
-    // One field more for the last load.
+    let max_step_length = dx / STEPS_PER_ELEMENT as f64;
+    let n_steps = load.n_steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?;
+    // History variables: retardation elements, free flow, and the last load.
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0) + 1;
     let [rear, front] = load.range();
     let across = (options.footprint.y[1] - options.footprint.y[0]) / dy;
@@ -151,25 +160,19 @@ pub fn move_along_memory(
     Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
 }
 
+/// A motion that can be solved on any number of elements.
 struct MovingBody<'a> {
     surface: &'a dyn Surface,
     elastomer: &'a dyn Elastomer,
     load: &'a MovingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
-    /// Relative error by which cycles may differ.
+    /// Remaining relative change at which a cycle counts as the limit cycle.
     tolerance: f64,
 }
 
-/// Steps along the contact, and the longest way \[m] of one, on a number of elements of this spacing \[m].
-fn steps_of(elements: usize, spacing: f64) -> (usize, f64) {
-    (
-        STEPS_PER_ELEMENT * elements,
-        spacing / STEPS_PER_ELEMENT as f64,
-    )
-}
-
 impl<'a> MovingBody<'a> {
+    /// Plans grid and footprint; refuses a cycle on a material that flows.
     fn new(
         surface: &'a dyn Surface,
         elastomer: &'a dyn Elastomer,
@@ -180,14 +183,14 @@ impl<'a> MovingBody<'a> {
         if load.is_cycle() && creep.fluidity() > 0.0 {
             return Err(BemError::NoCycle);
         }
+        // The grid of sliding at the largest load and speed; under a force the body may sink deeper while it dwells.
         let control = load.largest_control();
         let fastest = SlidingLoad::with(control, load.fastest())?;
         let mut plan = GridPlan::sliding(surface, elastomer, &fastest)?;
         if let Control::NormalForce(_) = control {
-            let memory = REST_OVER_RETARDATION_TIME * slowest_retardation_time(&creep);
-            let pressed = if load.is_cycle() { memory } else { 0.0 };
-            let duration = if pressed > 0.0 {
-                pressed
+            let creep_time = REST_OVER_RETARDATION_TIME * slowest_retardation_time(&creep);
+            let duration = if load.is_cycle() && creep_time > 0.0 {
+                creep_time
             } else {
                 load.duration()
             };
@@ -204,16 +207,13 @@ impl<'a> MovingBody<'a> {
         })
     }
 
+    /// Square elements, `elements` of them along the contact.
     fn options(&self, elements: usize) -> GridOptions {
         let spacing = self.plan.length() / elements as f64;
         GridOptions::new([spacing; 2], self.plan.footprint.widened(spacing))
     }
 
-    fn steps(&self, elements: usize, spacing: f64) -> Result<Vec<MovingStep>, BemError> {
-        let (per_contact, length) = steps_of(elements, spacing);
-        Ok(self.load.steps(per_contact, length, MAX_STEPS)?)
-    }
-
+    /// Follows the motion, or finds its limit cycle, on one grid.
     fn solve_on_grid(
         &self,
         elements: usize,
@@ -221,7 +221,12 @@ impl<'a> MovingBody<'a> {
     ) -> Result<MotionRecord, BemError> {
         let options = self.options(elements);
         let [spacing, _] = options.spacing;
-        let steps = self.steps(elements, spacing)?;
+        let max_step_length = spacing / STEPS_PER_ELEMENT as f64;
+        let steps = self
+            .load
+            .steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?;
+
+        // A first touch at rest, then the steps of the motion or of one cycle.
         let start = self.load.stages()[0].start;
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let first = (start, touch);
@@ -247,7 +252,7 @@ impl<'a> MovingBody<'a> {
         pass.run(&mut march, touch.as_ref())
     }
 
-    /// The cycle that is like the one before.
+    /// The limit cycle, from the state after the first touch.
     fn find_limit_cycle(
         &self,
         march: &mut March<'_>,
@@ -269,16 +274,17 @@ impl<'a> MovingBody<'a> {
     }
 }
 
-/// All steps of a motion, or of one cycle.
+/// All steps of a motion, or of one cycle of it.
 struct MotionPass<'a> {
     steps: &'a [MovingStep],
     /// Length of an element, \[m].
     spacing: f64,
+    /// Called with the fraction of the steps that is done.
     report: &'a dyn Fn(f64),
 }
 
 impl MotionPass<'_> {
-    /// Makes all steps, from the state with `first`, or from that of their end.
+    /// Solves all steps and sums their work; `first` is the state before them, or in a cycle `None`, and their last state is.
     fn run(
         &self,
         march: &mut March<'_>,
@@ -305,9 +311,10 @@ impl MotionPass<'_> {
     }
 }
 
-/// Adds ∫ F_t dx and ∫ F_N |dx| of a step whose forces belong before its end by a part of it, from them and those before:
-/// by the trapezoidal rule in time where they belong to its end, whose errors cancel over a sinusoidal cycle, and by the
-/// midpoint rule where they belong to its middle.
+/// Adds ∫ F_t dx and ∫ F_N |dx| of a step, whose forces belong to the time θ Δt before its end (θ is the `time_level`).
+///
+/// θ = 0 gives the trapezoidal rule in time, ½ Δt (F_old v_old + F_new v_new), whose errors cancel over a sinusoidal cycle; θ = ½ gives
+/// the midpoint rule F_new Δx. In between, both are blended with the weights 1 − 2θ and 2θ.
 fn add_work(
     record: &mut MotionRecord,
     step: &MovingStep,
@@ -317,56 +324,64 @@ fn add_work(
     let distance = now.position - before.position;
     let mean = |[from, to]: [f64; 2]| to + (0.5 - time_level) * (from - to);
     let of_both = |of: fn(&MotionRow) -> f64| [before, now].map(of);
-    let ways = step
+    // Distance of the step at the velocity of either end, beyond the actual one.
+    let excess = step
         .velocities
         .map(|velocity| velocity * step.duration - distance);
     let [from, to] = of_both(|row| row.tangential_force);
-    let bend = (0.5 - time_level) * (from * ways[0] + to * ways[1]);
-    record.work += mean([from, to]) * distance + bend;
+    let velocity_term = (0.5 - time_level) * (from * excess[0] + to * excess[1]);
+    record.work += mean([from, to]) * distance + velocity_term;
     record.normal_work += mean(of_both(|row| row.normal_force)) * distance.abs();
 }
 
-/// When two cycles are alike.
+/// Search for the limit cycle of a repeated motion, and its stopping criterion.
 pub(crate) struct LimitCycle {
-    /// \[s].
+    /// Duration of a cycle, \[s].
     pub(crate) period: f64,
     /// The slowest retardation time, \[s].
     pub(crate) slowest: f64,
-    /// Relative error by which they may differ.
+    /// Remaining relative change at which the search stops.
     pub(crate) tolerance: f64,
 }
 
 impl LimitCycle {
-    /// The cycle that is like the one before, from what elements remember; a pass gives it, and what they remember at its end, and
-    /// tells which part of it is done.
+    /// Finds the limit cycle by a fixed-point iteration on the history variables, beginning with `first`.
+    ///
+    /// `pass` follows one cycle from given history variables. It returns the record of the cycle and the history variables at its
+    /// end, and reports the fraction of the cycle that is done.
+    ///
+    /// # Errors
+    /// [`BemError::CycleTooShort`] if the change per cycle is below rounding; [`BemError::NotPeriodic`] after [`MAX_CYCLES`] cycles;
+    /// those of `pass`.
     pub(crate) fn find(
         &self,
         first: Vec<f64>,
         mut pass: impl FnMut(&[f64], &dyn Fn(f64)) -> Result<(MotionRecord, Vec<f64>), BemError>,
         report: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
+        // 1/(1 − e^(−T/λ)): total remaining change over the change by one cycle, for the slowest retardation time λ.
         let slowness = -(-self.period / self.slowest).exp_m1().recip();
         if slowness * CYCLE_ROUNDING > self.tolerance {
             let (period, slowest) = (self.period, self.slowest);
             return Err(BemError::CycleTooShort { period, slowest });
         }
-        // By the cycles that are made, or by how alike they are, whichever is more.
-        let (mut n_cycles, similarity) = (0, Cell::new(0.0_f64));
+        // Progress is the larger of the fractions of the cycles allowed and of the convergence, in logarithms.
+        let (mut n_cycles, convergence) = (0, Cell::new(0.0_f64));
         let pass = |from: &[f64]| {
             let begun = f64::from(n_cycles);
             let cycle = pass(from, &|part| {
-                report(similarity.get().max((begun + part) / MAX_CYCLES as f64));
+                report(convergence.get().max((begun + part) / MAX_CYCLES as f64));
             });
             n_cycles += 1;
             cycle
         };
-        let left = |now: &mut MotionRecord, before: &MotionRecord| {
-            let left = now.rest_after(before, slowness);
-            let part = (left.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
-            similarity.set(similarity.get().max(part));
-            left
+        let remaining_change = |now: &mut MotionRecord, before: &MotionRecord| {
+            let change = now.rest_after(before, slowness);
+            let part = (change.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
+            convergence.set(convergence.get().max(part));
+            change
         };
-        match anderson_fixed_point(first, MAX_CYCLES, self.tolerance, pass, left)? {
+        match anderson_fixed_point(first, MAX_CYCLES, self.tolerance, pass, remaining_change)? {
             FixedPoint::Converged {
                 result,
                 evaluations,
@@ -385,7 +400,7 @@ impl LimitCycle {
     }
 }
 
-/// Relative error by which cycles may differ.
+/// Remaining relative change at which a cycle counts as the limit cycle.
 pub(crate) const fn cycle_tolerance(accuracy: Accuracy) -> f64 {
     match accuracy {
         Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_FRACTION * asked,
@@ -393,7 +408,7 @@ pub(crate) const fn cycle_tolerance(accuracy: Accuracy) -> f64 {
     }
 }
 
-/// Force and depth are those at the end of a step.
+/// Record of one step: force, depth and contact at its end.
 fn motion_step(step: &MovingStep, row: &MotionRow) -> MotionStep {
     MotionStep {
         stage: step.stage,
@@ -407,7 +422,7 @@ fn motion_step(step: &MovingStep, row: &MotionRow) -> MotionStep {
     }
 }
 
-/// The slowest retardation time, \[s]; 0 without any.
+/// Largest retardation time of a material, \[s]; 0 if it has none.
 pub(crate) fn slowest_retardation_time(creep: &CreepSpectrum) -> f64 {
     let times = creep
         .elements()
@@ -416,7 +431,7 @@ pub(crate) fn slowest_retardation_time(creep: &CreepSpectrum) -> f64 {
     times.fold(0.0, f64::max)
 }
 
-/// The rectangle around two.
+/// Bounding rectangle of two footprints.
 fn bounding_footprint(a: Footprint, b: Footprint) -> Footprint {
     let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
     Footprint {

@@ -1,14 +1,16 @@
-//! Sliding from first touch, through the transition, towards the stationary state, and any other motion.
+//! Sliding from first touch to the stationary state, and any other motion on one grid.
 //!
-//! The elements are fixed in the half space. In a step the pressure is constant, the surface moves by
+//! The elements are fixed in the half space. The pressure is constant during a step, and the contact conditions hold at its end.
+//! The displacement there is
 //!
 //! ```text
-//! u(t + Δt) = history + 2 (1 − ν) α/(4π) K P,        α = Δt/η and history = u(t) on a dashpot
+//! u(t + Δt) = H + 2 (1 − ν) α/(4π) K P,        α = Δt/η and H = u(t) on a dashpot.
 //! ```
 //!
-//! and at the end of the step the contact conditions hold. [`slide_on_grid`] advances the indenter by one element per step, so
-//! that its motion is exact on the grid; [`slide_along`] moves it by any amount, stops it and takes it back. Both are a
-//! [`March`].
+//! [`slide_on_grid`] advances the indenter by one element per step, so that its motion is exact on the grid. [`slide_along`] moves
+//! it by any amount, stops it and takes it back. Both are a [`March`].
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions", "Friction" and "Finite sliding distance".
 
 mod refined;
 mod stationary_limit;
@@ -28,9 +30,8 @@ pub use transient::{SlideRow, Transient};
 /// Presses `surface` into an undeformed half space under a constant force or at a constant depth and slides it from first
 /// touch over the sliding distance of the load, on one grid.
 ///
-/// The element in which the lowest point starts has it in its centre. Of a surface that is
-/// [its own mirror image](Surface::mirrors) about y = 0, over a footprint that is so too, only the half at y ≥ 0 is
-/// followed.
+/// The lowest point starts over the centre of an element. If surface and footprint are
+/// [their own mirror images](Surface::mirrors) about y = 0, only the half y ≥ 0 is followed.
 ///
 /// # Errors
 /// [`BemError::SlidingDistanceMissing`]; [`BemError::InvalidParameter`] for options out of range;
@@ -51,7 +52,7 @@ pub fn slide_on_grid(
     )
 }
 
-/// Tells which part of the march is done.
+/// Solves all steps of a march, and reports the fraction that is done.
 fn follow_march(
     mut march: March<'_>,
     load: &SlidingLoad,
@@ -59,14 +60,14 @@ fn follow_march(
 ) -> Result<Transient, BemError> {
     let mut rows = Vec::new();
     while let Some(row) = march.step()? {
-        // At a depth there may be no contact for a while, under a force there always is.
+        // Steps without contact, which occur at a given depth only, have no row.
         rows.extend(SlideRow::in_contact(&row));
         report(march.fraction_done());
     }
     Transient::from_march(&march, load, rows)
 }
 
-/// Takes `surface` through `motions` over an undeformed half space.
+/// Moves `surface` through `motions` over an undeformed half space or layer.
 ///
 /// At time zero the lowest point is over the centre of an element at position zero.
 ///

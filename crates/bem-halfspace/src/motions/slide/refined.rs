@@ -1,4 +1,9 @@
-//! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
+//! Sliding from first touch with an error bar of every quantity, over a distance or until the state is stationary.
+//!
+//! The march is repeated on finer and finer grids; elements and steps are refined together. Without a sliding distance the friction
+//! coefficient at the end is extrapolated on a half space that flows, and on other materials the march goes on until it is settled.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Finite sliding distance" and "Grid".
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Request};
@@ -14,27 +19,31 @@ use crate::motions::slide::{
 use crate::stepping::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT};
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
-/// Elements along the contact after which a march in time gives up; it takes about a minute.
+/// Largest number of elements along the contact; a march on it takes about a minute.
 const MAX_ELEMENTS_OF_SLIDE: usize = 32;
-/// Order of the error under a smooth body, that of a step in time.
+/// Order of the error in the number of elements under a smooth body: that of a step with the load held.
 const ORDER_OF_SLIDE: f64 = 1.0;
-/// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
+/// Sliding distance to the stationary state in contact lengths of the one-dimensional model, if only flow is slow; chosen.
 const FLOW_CONTACT_LENGTHS: f64 = 24.0;
+/// Largest relative change of the friction coefficient over the second half of a march that is extrapolated to the stationary
+/// state; chosen.
 const MAX_DRIFT: f64 = 0.05;
-/// Distances v λ of the slowest element until a solid counts as stationary.
+/// Longest sliding distance to the stationary state over the memory length v λ, beyond [`FLOW_CONTACT_LENGTHS`]; chosen.
 const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;
-/// Of a contact: over a shorter distance elements are not made as short as a step.
+/// Sliding distance in contact lengths that is still made a whole number of elements. Over a shorter one, steps are shorter than
+/// elements.
 const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
-/// Contact lengths after which a march to the stationary state is not begun.
+/// Longest march to the stationary state, in contact lengths; chosen.
 const MAX_CONTACT_LENGTHS: f64 = 500.0;
-/// Change of the friction by which a solid counts as stationary, relative to the error asked for.
+/// Largest change of the friction coefficient at which a march counts as stationary, over the error asked for; chosen.
 const CHANGE_OVER_ERROR: f64 = 0.1;
 
-/// The end of a march with its error bars: after the sliding distance, or in the stationary state.
+/// State at the end of a march with error bars: after the sliding distance, or in the stationary state.
 pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 
-/// Slides `surface` over a linear viscoelastic half space from first touch on, in time, under a force or at a depth: over
-/// the sliding distance of the load, or without one until the state is stationary.
+/// Slides `surface` over a linear viscoelastic half space or layer in time, from first touch under a force or at a depth.
+///
+/// The motion ends after the sliding distance of the load, or without one when the state is stationary.
 ///
 /// ```
 /// use bem_halfspace::indenters::PowerProfile;
@@ -43,14 +52,14 @@ pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 /// let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1e4)?);
 /// let load = SlidingLoad::new(1.0, 0.01)?.after(5e-3)?;
 /// let slid = slide(&cone, &fluid, &load, 0.2)?;
-/// // From no friction at first touch.
+/// // Friction grows from zero at first touch.
 /// let rows = &slid.finest.rows;
 /// assert!(rows[0].friction_coefficient < slid.friction_coefficient.value);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
+/// [`BemError::NotReached`] with the result on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
 /// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
 /// [`slide_on_grid`](super::slide_on_grid).
 pub fn slide<'w>(
@@ -62,10 +71,10 @@ pub fn slide<'w>(
     PlannedSlide::new(surface, elastomer, load, request.into())?.solve()
 }
 
-/// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
+/// Upper bound of the memory of [`slide`] for a number of elements along the contact, \[bytes].
 ///
 /// # Errors
-/// As for [`slide`], before anything is solved.
+/// As for [`slide`], without the errors of the solution.
 pub fn slide_memory(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -81,9 +90,9 @@ pub fn slide_memory(
     let options = problem.options(elements);
     let (spacing, footprint) = (options.spacing, options.footprint);
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
-    let PlannedDistance { distance, step, .. } = problem.distance;
+    let PlannedDistance { distance, step, .. } = problem.planned;
     let steps = distance / step * elements as f64;
-    // A material without memory needs no more elements than the footprint has.
+    // Without history variables the elements of the footprint are enough.
     let behind = if n_fields > 0 {
         distance / spacing[0]
     } else {
@@ -96,31 +105,40 @@ pub fn slide_memory(
     Ok(per_element * n_elements + BYTES_PER_STEP * steps)
 }
 
-/// One march, the friction at its end, and the error of its extrapolation to the stationary state, where that is asked for.
-type End = (Transient, f64, Option<f64>);
+/// End of one march.
+struct MarchEnd {
+    transient: Transient,
+    /// Friction coefficient at the end, or in the stationary state.
+    friction: f64,
+    /// Absolute error of `friction` by the finite sliding distance; `None` if a distance is asked for.
+    truncation: Option<f64>,
+}
 
+/// A sliding simulation that can be solved on any number of elements.
 struct PlannedSlide<'a> {
     surface: &'a dyn Surface,
     elastomer: &'a dyn Elastomer,
     load: &'a SlidingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
-    distance: PlannedDistance,
+    planned: PlannedDistance,
     request: Request<'a>,
 }
 
-/// The distance that is slid, and on what elements and steps, so that it is a whole number of both on all grids.
+/// Sliding distance with the lengths of elements and steps, of which it is a whole number on all grids.
 #[derive(Clone, Copy)]
 struct PlannedDistance {
-    /// \[m], the longest for a stationary state.
+    /// Sliding distance, \[m]; for a stationary state the longest one.
     distance: f64,
-    /// Length of an element times the elements along the contact, \[m].
+    /// Length of an element times the number of elements along the contact, \[m].
     length: f64,
-    /// The same of a step: over less than a contact steps are shorter than elements, and become shorter with them.
+    /// Length of a step times the number of elements along the contact, \[m]; less than `length` over a distance shorter than the
+    /// contact.
     step: f64,
 }
 
 impl PlannedDistance {
+    /// The distance of the load, or to the stationary state from the memory length \[m].
     fn new(plan: &GridPlan, load: &SlidingLoad, memory: f64) -> Self {
         let length = plan.length();
         let Some(distance) = load.sliding_distance() else {
@@ -157,7 +175,7 @@ impl<'a> PlannedSlide<'a> {
         let plan = GridPlan::sliding(surface, elastomer, load)?;
         let creep = elastomer.material().creep();
         Ok(Self {
-            distance: PlannedDistance::new(&plan, load, memory_length(elastomer, load)),
+            planned: PlannedDistance::new(&plan, load, memory_length(elastomer, load)),
             plan,
             creep,
             surface,
@@ -167,6 +185,7 @@ impl<'a> PlannedSlide<'a> {
         })
     }
 
+    /// Refines until the error asked for is reached.
     fn solve(&self) -> Result<SlideEstimate, BemError> {
         let resolution = Resolution {
             goal: Goal {
@@ -179,7 +198,7 @@ impl<'a> PlannedSlide<'a> {
                 selection_factor: 2.0,
             },
             control: self.load.control(),
-            // Nothing is dissipated in an elastic half space, where the depth stands for the friction.
+            // An elastic half space has no friction to refine by; its depth takes that place.
             target: if self.creep.is_elastic() {
                 Target::Depth
             } else {
@@ -201,7 +220,8 @@ impl<'a> PlannedSlide<'a> {
         })
     }
 
-    /// Depth, area and ends of the contact come to rest more slowly than friction, by which a march ends.
+    /// Widens the bars of depth, area and contact box by their remaining change: they become stationary more slowly than friction,
+    /// by which the march ends.
     fn widen_by_remaining_change(&self, estimate: &mut SlideEstimate) {
         let left = |of: &dyn Fn(&SlideRow) -> f64| remaining_change(&estimate.finest.rows, of);
         let [depth, area] = [
@@ -212,16 +232,19 @@ impl<'a> PlannedSlide<'a> {
             let along = left(&|row| row.contact_x[end]);
             along.max(left(&|row| row.contact_y[end]))
         });
-        let known = estimate.indentation_depth;
-        let known = known.filter(|_| self.creep.fluidity() <= 0.0);
-        estimate.indentation_depth = known.map(|known| known.widened(depth));
+        // A material that flows has no stationary depth.
+        estimate.indentation_depth = estimate
+            .indentation_depth
+            .filter(|_| self.creep.fluidity() <= 0.0)
+            .map(|known| known.widened(depth));
         estimate.contact_area = estimate.contact_area.widened(area);
         estimate.contact_box_error += ends[0].max(ends[1]);
     }
 
-    /// At a depth the body reaches the boundary of its footprint.
+    /// Square elements, `elements` of them along the contact. At a given depth the body reaches the boundary of its footprint, which
+    /// is widened.
     fn options(&self, elements: usize) -> GridOptions {
-        let spacing = self.distance.length / elements as f64;
+        let spacing = self.planned.length / elements as f64;
         let footprint = match self.load.control() {
             Control::NormalForce(_) => self.plan.footprint,
             Control::IndentationDepth(_) => self.plan.footprint.widened(spacing),
@@ -237,20 +260,21 @@ impl<'a> PlannedSlide<'a> {
         let options = self.options(elements);
         let (control, distance) = (self.load.control(), self.load.sliding_distance());
         let march = |load| {
-            let step = self.distance.step / elements as f64;
+            let step = self.planned.step / elements as f64;
             March::sliding_in_steps(self.surface, self.elastomer, load, &options, step)
         };
-        let (transient, friction, truncation) = match (control, distance) {
+        let end = match (control, distance) {
             (Control::NormalForce(_), None) => {
                 self.check_memory_length()?;
-                let load = self.load.after(self.distance.distance)?;
+                let load = self.load.after(self.planned.distance)?;
                 self.march_to_stationary(march(&load)?, &load, report)?
             }
             _ => slide_over_distance(march(self.load)?, self.load, report)?,
         };
+        let transient = end.transient;
         let last = transient.last();
         let quantities = Quantities {
-            friction_coefficient: friction,
+            friction_coefficient: end.friction,
             normal_force: last.normal_force,
             indentation_depth: last.indentation_depth,
             contact_area: last.contact_area,
@@ -262,7 +286,7 @@ impl<'a> PlannedSlide<'a> {
             dissipated: None,
             common_error: ErrorParts {
                 iteration: (!self.creep.is_elastic()).then(iteration),
-                truncation,
+                truncation: end.truncation,
                 ..ErrorParts::NONE
             },
             min_relative_error: 0.0,
@@ -272,10 +296,10 @@ impl<'a> PlannedSlide<'a> {
         })
     }
 
-    /// Refuses a material that remembers the first touch for too long.
+    /// Refuses a material whose memory of the first touch outlasts [`MAX_CONTACT_LENGTHS`].
     fn check_memory_length(&self) -> Result<(), BemError> {
         let contact_length = self.plan.length();
-        if self.distance.distance <= MAX_CONTACT_LENGTHS * contact_length {
+        if self.planned.distance <= MAX_CONTACT_LENGTHS * contact_length {
             return Ok(());
         }
         Err(BemError::MemoryTooLong {
@@ -285,33 +309,28 @@ impl<'a> PlannedSlide<'a> {
         })
     }
 
+    /// Marches to the stationary state.
     fn march_to_stationary(
         &self,
         march: March<'_>,
         load: &SlidingLoad,
         report: &dyn Fn(f64),
-    ) -> Result<End, BemError> {
+    ) -> Result<MarchEnd, BemError> {
         let memory = memory_length(self.elastomer, load);
-        if memory > 0.0 {
-            return self.march_until_settled(memory, march, load, report);
+        if memory <= 0.0 {
+            // Elastic, or only flow is slow: the whole distance, and on a half space that flows the limit in 1/S.
+            let end = slide_over_distance(march, load, report)?;
+            if self.creep.is_elastic() {
+                return Ok(end);
+            }
+            let state = end.transient.stationary(MAX_DRIFT)?;
+            return Ok(MarchEnd {
+                friction: state.friction_coefficient,
+                truncation: Some(state.distance_error),
+                ..end
+            });
         }
-        let end = slide_over_distance(march, load, report)?;
-        if self.creep.is_elastic() {
-            return Ok(end);
-        }
-        let state = end.0.stationary(MAX_DRIFT)?;
-        let (friction, error) = (state.friction_coefficient, state.distance_error);
-        Ok((end.0, friction, Some(error)))
-    }
-
-    /// Slides until a material that recovers has forgotten the first touch.
-    fn march_until_settled(
-        &self,
-        memory: f64,
-        march: March<'_>,
-        load: &SlidingLoad,
-        report: &dyn Fn(f64),
-    ) -> Result<End, BemError> {
+        // Until friction is settled over a distance longer than contact and memory.
         let stationary = StationaryOptions {
             tolerance: match self.request.accuracy {
                 Accuracy::RelativeError(error) => CHANGE_OVER_ERROR * error,
@@ -320,30 +339,39 @@ impl<'a> PlannedSlide<'a> {
             over_distance: 2.0 * self.plan.length() + memory,
         };
         let end = slide_until_stationary(march, load, &stationary, report)?;
-        let friction = end.friction_coefficient;
-        Ok((end.transient, friction, Some(end.rest * friction.abs())))
+        Ok(MarchEnd {
+            transient: end.transient,
+            friction: end.friction_coefficient,
+            truncation: Some(end.rest * end.friction_coefficient.abs()),
+        })
     }
 }
 
+/// Solves all steps of a march; the friction coefficient is that of the last one.
 fn slide_over_distance(
     march: March<'_>,
     load: &SlidingLoad,
     report: &dyn Fn(f64),
-) -> Result<End, BemError> {
+) -> Result<MarchEnd, BemError> {
     let transient = follow_march(march, load, report)?;
-    let friction = transient.last().friction_coefficient;
-    Ok((transient, friction, None))
+    Ok(MarchEnd {
+        friction: transient.last().friction_coefficient,
+        transient,
+        truncation: None,
+    })
 }
 
-/// What is left of a quantity's way to the stationary state, at most: twice its change over the second half of a march. The track
-/// behind the body misses what is beyond its beginning, which is felt in inverse proportion to the distance, so that as much
-/// is left as has changed; on a material that flows the front comes to rest more slowly.
+/// Upper bound of the remaining change of a quantity to its stationary value: twice its change over the second half of a march.
+///
+/// The missing part of the track, beyond its beginning, acts in inverse proportion to the distance, so that the remaining change is
+/// as large as the last one. On a material that flows the front becomes stationary more slowly, hence the factor 2.
 fn remaining_change(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
     let [last, half] = [rows.len(), rows.len().div_ceil(2)].map(|count| &rows[count - 1]);
     2.0 * (of(last) - of(half)).abs()
 }
 
-/// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
+/// Memory length v λ_max of the largest retardation time, \[m]; on a layer that flows at least its thickness, over which a load is
+/// felt ahead of it. 0 on an elastic material and on a half space with flow alone.
 fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     let creep = elastomer.material().creep();
     let elements = creep.elements().iter();
@@ -357,10 +385,10 @@ fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     }
 }
 
-/// How much a residual of the size of the tolerance changes the friction.
+/// Error of the friction coefficient by a residual of the contact of the size of its tolerance.
 ///
-/// A residual that alternates from element to element changes the pressure by as many times its part of the displacement
-/// as there are elements along the contact, and the friction by as much of the mean modulus of the slope.
+/// A residual ε that alternates from element to element changes the pressure relatively by ε times the number of elements along the
+/// contact, and the friction by the same fraction of the mean modulus of the slope.
 fn iteration_error(surface: &dyn Surface, field: &PressureField) -> f64 {
     let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
     let [mut load, mut rise] = [0.0; 2];

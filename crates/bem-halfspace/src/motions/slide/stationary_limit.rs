@@ -1,12 +1,14 @@
-//! The stationary state behind a transient.
+//! Extrapolation of a transient to its stationary state.
 //!
-//! On a material that flows the surface ahead of the indenter sinks like ln t, so the friction coefficient approaches
+//! On a half space that flows the surface ahead of the indenter sinks like ln t. The friction coefficient therefore approaches
 //! its limit only like the reciprocal of the sliding distance S:
 //!
 //! ```text
 //! μ(S) = μ_∞ + m₁/S + m₂/S² + …
 //! ```
-//! On a solid it does so exponentially, once the distance is longer than v λ for every retardation time λ.
+//! On a solid it approaches the limit exponentially, once S is longer than v λ for all retardation times λ.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Finite sliding distance".
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{between_zero_and_one, positive};
@@ -14,7 +16,7 @@ use numerics::{between_zero_and_one, positive};
 use crate::motions::slide::{March, SlideRow, Transient};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// So many have a last quarter.
+/// Smallest number of steps that can be extrapolated: S, S/2 and S/4 must be different steps.
 const MIN_STEPS: usize = 4;
 
 /// The limit of the friction coefficient for an infinite sliding distance.
@@ -24,9 +26,9 @@ const MIN_STEPS: usize = 4;
 pub struct StationaryFriction {
     /// μ_∞, extrapolated from the distances S, S/2 and S/4.
     pub friction_coefficient: f64,
-    /// Estimated absolute error of the extrapolation: half of how much the limits differ to which the steps of the last two
-    /// fifths of the distance extrapolate. A term 1/S³ that is left changes them by 3.6 times its size at the end, and the contact
-    /// changes by whole elements, and the friction with it. Otherwise the error of the grid is not in it.
+    /// Estimated absolute error of the extrapolation: half the spread of the limits extrapolated from each step of the last two
+    /// fifths of the distance. A remaining term 1/S³ changes these limits by 3.6 times its size at the end; the contact, and friction
+    /// with it, changes by whole elements. The error of the grid is included only as far as that.
     pub distance_error: f64,
     /// Relative change of the friction coefficient over the second half of the distance, which is also, to leading
     /// order, the relative difference between its last value and the limit.
@@ -34,19 +36,19 @@ pub struct StationaryFriction {
 }
 
 impl Transient {
-    /// The last step.
+    /// Row of the last step.
     ///
     /// # Panics
-    /// Never for a transient of this crate: it has at least one step.
+    /// Never for a transient of this crate: it has at least one row.
     pub fn last(&self) -> &SlideRow {
         &self.rows[self.rows.len() - 1]
     }
 
     /// The stationary friction coefficient, with the slope averaged over each step.
     ///
-    /// The state counts as stationary when the friction coefficient changed by less than `drift_tolerance` of its
-    /// value over the second half of the sliding distance. The extrapolation is that of a material that flows; on a
-    /// solid its error covers the extrapolation of a friction that is stationary already.
+    /// The state counts as stationary if the friction coefficient changed by at most `drift_tolerance` of its value over the second
+    /// half of the sliding distance. The extrapolation assumes a material that flows. On a solid, where friction is stationary
+    /// already, `distance_error` covers its effect.
     ///
     /// # Errors
     /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
@@ -76,7 +78,7 @@ impl Transient {
     }
 }
 
-/// By how much the limits differ to which the steps of the last two fifths of the distance extrapolate.
+/// Spread of the limits that are extrapolated from each step of the last two fifths of the rows.
 fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
     let first = (3 * rows.len() / 5).max(MIN_STEPS);
@@ -88,7 +90,7 @@ fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     highest - lowest
 }
 
-/// The last row and those at a half and a quarter of its distance, as (reciprocal distance, friction coefficient).
+/// Points (1/S, μ) of the last row and of the rows at a half and a quarter of their number.
 fn halving_points(rows: &[SlideRow]) -> [(f64, f64); 3] {
     let n = rows.len();
     [n, n / 2, n / 4].map(|count| {
@@ -97,47 +99,49 @@ fn halving_points(rows: &[SlideRow]) -> [(f64, f64); 3] {
     })
 }
 
-/// Value at zero of the polynomial through the points (Lagrange).
+/// Value at zero of the interpolation polynomial through `points` (Lagrange).
 fn extrapolate_to_zero(points: &[(f64, f64)]) -> f64 {
     let term = |&(position, value): &(f64, f64)| {
-        let others = points.iter().map(|&(other, _)| other);
-        let others = others.filter(|other| other.total_cmp(&position).is_ne());
-        let factors = others.map(|other| other / (other - position));
+        let factors = points
+            .iter()
+            .map(|&(other, _)| other)
+            .filter(|other| other.total_cmp(&position).is_ne())
+            .map(|other| other / (other - position));
         value * factors.product::<f64>()
     };
     points.iter().map(term).sum()
 }
 
-/// When a state counts as stationary.
+/// Criterion by which a state counts as stationary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StationaryOptions {
-    /// Largest change of the friction coefficient, extrapolated where the material flows, relative to its value.
+    /// Largest change of the friction coefficient relative to its value; on a half space that flows of the extrapolated one.
     pub tolerance: f64,
-    /// Distance over which it changes by no more, \[m]: several contact lengths, and several v λ of the slowest
-    /// retardation time λ that matters.
+    /// Sliding distance over which the change is measured, \[m]: several contact lengths, and several v λ of the largest retardation
+    /// time λ that matters.
     pub over_distance: f64,
 }
 
-/// A transient that has come to its end.
+/// A transient that has reached the stationary state.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 #[non_exhaustive]
 pub struct StationarySlide {
-    /// The rows from first touch on.
+    /// The transient from first touch on.
     pub transient: Transient,
-    /// Friction coefficient, extrapolated to an infinite distance where the material flows.
+    /// Friction coefficient; extrapolated to an infinite distance on a half space that flows.
     pub friction_coefficient: f64,
-    /// Largest change of it over the distance that was asked for, relative to its value.
+    /// Largest change of the friction coefficient over [`StationaryOptions::over_distance`], relative to its value.
     pub change: f64,
-    /// Estimated relative error of the distance that is left, from the change over the second half of that distance.
+    /// Estimated relative error by the finite sliding distance, from the change over the second half of that distance.
     pub rest: f64,
 }
 
-/// Like [`slide_on_grid`](crate::motions::slide::slide_on_grid), but stops as soon as the friction coefficient is stationary; the
-/// sliding distance of the load is the longest allowed.
+/// Like [`slide_on_grid`](crate::motions::slide::slide_on_grid), but stops as soon as the friction coefficient is stationary. The
+/// sliding distance of the load is an upper bound.
 ///
-/// On an elastic half space, where there is no friction, changes of the order of the contact tolerance count as none.
+/// On an elastic half space, where there is no friction, changes of the order of the contact tolerance count as zero.
 ///
 /// # Errors
 /// [`BemError::NotStationary`] with the change reached; otherwise like [`slide_on_grid`](crate::motions::slide::slide_on_grid).
@@ -152,7 +156,7 @@ pub fn slide_to_stationary(
     slide_until_stationary(march, load, stationary, &|_| ())
 }
 
-/// Tells which part of the longest distance allowed is done.
+/// Marches until the friction coefficient is stationary, and reports the fraction of the longest distance that is done.
 pub(super) fn slide_until_stationary(
     mut march: March,
     load: &SlidingLoad,
@@ -190,16 +194,18 @@ pub(super) fn slide_until_stationary(
     })
 }
 
-/// √e − 1: what falls at least e-fold over a distance changes so many times over the second half of it as it may still do.
+/// √e − 1, lower bound of change over remaining change: a quantity that falls at least e-fold over a distance changes over its
+/// second half by at least this multiple of what remains.
 const CHANGE_OVER_REMAINDER: f64 = 0.6487;
-/// The pressure is accurate to about this many contact tolerances.
+/// Relative error of the pressure over the tolerance of the contact, about.
 const PRESSURE_ERROR_OVER_TOLERANCE: f64 = 1e3;
 
-/// The friction coefficients for an infinite distance that the steps so far extrapolate to, with their distances.
+/// Extrapolated friction coefficient after each step, as [sliding distance \[m], limit].
 #[derive(Debug, Default)]
 struct ExtrapolatedFriction(Vec<[f64; 2]>);
 
 impl ExtrapolatedFriction {
+    /// Appends the limit that `rows` extrapolate to; on a half space that does not flow, the last friction coefficient.
     fn push(&mut self, rows: &[SlideRow], flows: bool) {
         let Some(last) = rows.last() else {
             return;
@@ -211,18 +217,19 @@ impl ExtrapolatedFriction {
         self.0.push([last.sliding_distance, limit]);
     }
 
+    /// The last limit; 0 without any.
     fn last(&self) -> f64 {
         self.0.last().map_or(0.0, |[_, limit]| *limit)
     }
 
-    /// Largest change relative to the last value over the last part of the distance, beyond the noise; 1, as from nothing,
-    /// when the distance was not as long.
+    /// Largest change over the last `over_distance`, relative to the last value; 0 if it does not exceed `noise`, and 1 if the
+    /// sliding distance is shorter.
     fn change(&self, over_distance: f64, noise: f64) -> f64 {
         let Some(&[distance, limit]) = self.0.last() else {
             return 1.0;
         };
         let start = distance - over_distance;
-        // As from half the distance on: what is extrapolated looks back that far.
+        // The extrapolation looks back to a half and a quarter of the distance, so that fewer than eight steps show no change.
         if start <= 0.0 || self.0.len() < 8 {
             return 1.0;
         }

@@ -1,4 +1,4 @@
-//! What a sliding simulation returns.
+//! Result of a sliding simulation on one grid.
 
 use indenters::SlidingLoad;
 
@@ -15,15 +15,15 @@ pub struct SlideRow {
     pub sliding_distance: f64,
     /// Time since first touch, \[s].
     pub time: f64,
-    /// Depth of the lowest point below the undeformed surface, \[m]. On a half space that
-    /// flows it grows like the logarithm of the distance, without end.
+    /// Depth of the lowest point below the undeformed surface, \[m]. On a half space that flows it grows like the logarithm of the
+    /// distance, without limit.
     pub indentation_depth: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
-    /// Friction coefficient: the pressure of the step times the slope that it meets, on a dashpot the mean over the step.
+    /// Friction coefficient with the slope at the time level of the pressure, which on a dashpot is the mean over the step.
     pub friction_coefficient: f64,
-    /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term on a
-    /// dashpot.
+    /// Friction coefficient with the slope at the end of the step, as the paper's wording suggests; on a dashpot it is low by a
+    /// first-order term in Δx.
     pub friction_coefficient_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
@@ -38,7 +38,7 @@ pub struct SlideRow {
 }
 
 impl SlideRow {
-    /// The row of a step with a force; none without one, because there is no coefficient.
+    /// The row of a step; `None` without normal force, because there is no friction coefficient then.
     pub(super) fn in_contact(row: &MotionRow) -> Option<Self> {
         let (Some(contact_x), Some(contact_y)) = (row.contact_x, row.contact_y) else {
             return None;
@@ -65,7 +65,7 @@ impl SlideRow {
 #[must_use]
 #[non_exhaustive]
 pub struct Transient {
-    /// One entry per step, by increasing distance; never empty.
+    /// One row per step with contact, by increasing distance; never empty.
     pub rows: Vec<SlideRow>,
     /// Pressure in the last step.
     pub pressure: PressureField,
@@ -74,7 +74,10 @@ pub struct Transient {
 }
 
 impl Transient {
-    /// The rows of a march under a load, if its last contact is resolved.
+    /// Result of a march under `load` with the given rows.
+    ///
+    /// # Errors
+    /// [`BemError::GridTooCoarse`] or [`BemError::SlopeNotResolved`] if elements do not resolve the last contact.
     pub(super) fn from_march(
         march: &March<'_>,
         load: &SlidingLoad,
@@ -87,6 +90,7 @@ impl Transient {
             let contact_length = length as f64 * pressure.grid.spacing()[0];
             let distance = load.sliding_distance().unwrap_or(f64::INFINITY);
             let time = contact_length.min(distance) / load.velocity();
+            // An element is under the contact for the time L/v, but at most for that of the whole path.
             let depth_scale = march.depth_scale(force, contact_length, time)?;
             let rise = march.largest_rise();
             if rise > depth_scale {
