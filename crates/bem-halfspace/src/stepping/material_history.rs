@@ -41,7 +41,7 @@ impl MaterialHistory {
     ) -> Result<Self, BemError> {
         let grid = Grid::new([n_rows, layout.folded_shape()[1]], [1.0, aspect])?;
         let n_elements = grid.n_elements();
-        let whole = Convolution::free(&grid.unfolded(layout.mirrors), base);
+        let whole = Convolution::new_free(&grid.unfolded(layout.mirrors), base);
         let convolution = whole.folded(layout.mirrors);
         Ok(Self {
             workspace: convolution.workspace(),

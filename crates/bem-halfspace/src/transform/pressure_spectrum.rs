@@ -15,7 +15,7 @@ use crate::{Elastomer, PressureField};
 
 /// The period that stands for an unbounded surface, over the contact: twice its lengths would do for the square of the
 /// transform, and along x the bands are an eighth of the contact's own wave wide.
-const PERIOD: [usize; 2] = [8, 4];
+const PERIOD_OVER_CONTACT: [usize; 2] = [8, 4];
 
 /// The frequencies of the `pressure` along a line contact, at increasing positions \[m], that slides at a `velocity` \[m/s].
 ///
@@ -36,11 +36,11 @@ impl PressureField {
     /// The frequencies of a contact that slides along x at a `velocity` \[m/s].
     pub fn spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let shape = self.grid.shape();
-        let period = [0, 1].map(|axis| fast_length(PERIOD[axis] * shape[axis]));
+        let period = [0, 1].map(|axis| fast_length(PERIOD_OVER_CONTACT[axis] * shape[axis]));
         let step = self.wave_steps(period)[0];
         // Between the waves of the period lie those of all others. The half of a band at zero has half the waves too.
         let band = |nth: f64| [(nth - 0.5).max(0.0), nth + 0.5];
-        let lines = self.squares(period, elastomer);
+        let lines = self.dissipation_weights(period, elastomer);
         let bands = lines.into_iter().enumerate();
         let bands = bands.map(|(nth, weight)| StressBand {
             band: band(nth as f64).map(|wave| wave * step * velocity),
@@ -53,7 +53,7 @@ impl PressureField {
     pub fn periodic_spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let period = self.grid.shape();
         let step = self.wave_steps(period)[0];
-        let lines = self.squares(period, elastomer);
+        let lines = self.dissipation_weights(period, elastomer);
         // What does not change along x is not strained in sliding.
         let moving = lines.into_iter().enumerate().skip(1);
         let line = |(nth, weight)| StressBand {
@@ -70,7 +70,7 @@ impl PressureField {
     }
 
     /// Sum over all waves along y of the squared pressure times M/|q|, for the waves 0, 1, 2, … along x.
-    fn squares(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
+    fn dissipation_weights(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
         let [rows, columns] = self.grid.shape();
         let plan = PlaneTransform::new(period);
         let n_waves = plan.n_columns();

@@ -147,8 +147,8 @@ impl<T: Real> Transforms<T> {
     ) {
         let Self { plans, workspace } = self;
         let rows = 0..plans.padded[0];
-        plans.load(workspace, field, &rows);
-        plans.pass(workspace, (&rows, &rows), multiply);
-        plans.read(workspace, result, &rows);
+        plans.forward_rows(workspace, field, &rows);
+        plans.filter_columns(workspace, &rows, &rows, multiply);
+        plans.inverse_rows(workspace, result, &rows);
     }
 }

@@ -83,15 +83,15 @@ impl PlaneTransform {
     /// Convolves a field of the shape of the workspace with the kernel of a spectrum, in place. Does not allocate.
     fn filter(&self, workspace: &mut Workspace, field: &mut [f64], spectrum: &Spectrum) {
         let rows = 0..workspace.shape[0];
-        self.load(workspace, field, &rows);
+        self.forward_rows(workspace, field, &rows);
         let length = self.padded[0];
-        self.pass(workspace, (&rows, &rows), |column, values| {
+        self.filter_columns(workspace, &rows, &rows, |column, values| {
             let factors = &spectrum[column * length..][..length];
             for (value, factor) in values.iter_mut().zip(factors) {
                 *value *= factor;
             }
         });
-        self.read(workspace, field, &rows);
+        self.inverse_rows(workspace, field, &rows);
     }
 }
 

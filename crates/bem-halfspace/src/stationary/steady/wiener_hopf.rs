@@ -83,7 +83,7 @@ fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>])
         *value = Complex::new(value.re.max(floor).ln(), 0.0);
     }
     // Keep half of the cepstrum, with the opposite sign for the inverse.
-    transform.column_back(column);
+    transform.column_inverse(column);
     let half = length / 2;
     for (index, value) in column.iter_mut().enumerate() {
         let share = match index {

@@ -61,18 +61,18 @@ impl Convolution {
     ///
     /// Zero padding to at least 2n − 1 makes the circular convolution of the Fourier transform the free one.
     pub fn new(grid: &Grid) -> Self {
-        Self::free(grid, Base::default())
+        Self::new_free(grid, Base::default())
     }
 
     /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
     /// grid.
     pub fn for_elastomer(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
-        Self::free(grid, elastomer.base())
+        Self::new_free(grid, elastomer.base())
     }
 
-    pub(crate) fn free(grid: &Grid, base: Base) -> Self {
+    pub(crate) fn new_free(grid: &Grid, base: Base) -> Self {
         let padded = grid.shape().map(|n| fast_length(2 * n - 1));
-        let mut convolution = Self::planned(grid, (Surroundings::Free, base), padded);
+        let mut convolution = Self::with_plans(grid, (Surroundings::Free, base), padded);
         convolution.spectrum = Arc::new(convolution.free_spectrum());
         convolution.self_influence = convolution.base.influence([0.0, 0.0], grid.spacing());
         convolution
@@ -84,17 +84,17 @@ impl Convolution {
     /// (Johnson 1985, eq. 13.7). The mean pressure moves an infinite half space by an infinite amount; displacements
     /// are measured from their own mean instead.
     pub fn periodic(grid: &Grid) -> Self {
-        Self::repeated(grid, Base::default())
+        Self::new_periodic(grid, Base::default())
     }
 
     /// The same on what is given, see [`for_elastomer`](Self::for_elastomer). A layer gives way to the mean pressure too, and its displacements are
     /// those from the surface at rest.
     pub fn periodic_for_elastomer(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
-        Self::repeated(grid, elastomer.base())
+        Self::new_periodic(grid, elastomer.base())
     }
 
-    fn repeated(grid: &Grid, base: Base) -> Self {
-        let mut convolution = Self::planned(grid, (Surroundings::Periodic, base), grid.shape());
+    fn new_periodic(grid: &Grid, base: Base) -> Self {
+        let mut convolution = Self::with_plans(grid, (Surroundings::Periodic, base), grid.shape());
         convolution.spectrum = Arc::new(convolution.periodic_spectrum());
         convolution.self_influence = convolution.sum_of_spectrum();
         convolution
@@ -107,26 +107,26 @@ impl Convolution {
         let blocks = self.grid.blocks().unfolded(mirrors);
         let padded = blocks.shape().map(fast_length);
         let around = (Surroundings::Periodic, self.base.clone());
-        let mut convolution = Self::planned(&blocks, around, padded);
+        let mut convolution = Self::with_plans(&blocks, around, padded);
         convolution.spectrum = Arc::new(convolution.positive_spectrum(symbol));
         convolution.folded(mirrors)
     }
 
     /// The same influence between elements of another grid, which ends at the same mirrors.
     pub(crate) fn on_grid(&self, grid: &Grid) -> Self {
-        self.in_front_of(self.mirrors, grid)
+        self.on_folded_grid(self.mirrors, grid)
     }
 
     /// The same influence between blocks of two by two elements, which begin at the mirrors.
     pub(crate) fn between_blocks(&self) -> Self {
-        self.in_front_of(self.mirrors.map(Mirror::of_blocks), &self.grid.blocks())
+        self.on_folded_grid(self.mirrors.map(Mirror::of_blocks), &self.grid.blocks())
     }
 
-    fn in_front_of(&self, mirrors: [Mirror; 2], grid: &Grid) -> Self {
+    fn on_folded_grid(&self, mirrors: [Mirror; 2], grid: &Grid) -> Self {
         let whole = grid.unfolded(mirrors);
         let convolution = match self.surroundings {
-            Surroundings::Free => Self::free(&whole, self.base.clone()),
-            Surroundings::Periodic => Self::repeated(&whole, self.base.clone()),
+            Surroundings::Free => Self::new_free(&whole, self.base.clone()),
+            Surroundings::Periodic => Self::new_periodic(&whole, self.base.clone()),
         };
         convolution.folded(mirrors)
     }
@@ -149,7 +149,7 @@ impl Convolution {
         }
     }
 
-    fn planned(
+    fn with_plans(
         grid: &Grid,
         (surroundings, base): (Surroundings, Base),
         padded: [usize; 2],
@@ -212,11 +212,11 @@ impl Convolution {
         assert_eq!(pressure.len(), elements, "one pressure per element");
         assert_eq!(result.len(), elements, "one displacement per element");
         let (transform, workspace) = (&self.transform, &mut workspace.0);
-        transform.load(workspace, pressure, loaded);
-        transform.pass(workspace, (loaded, wanted), |column, values| {
+        transform.forward_rows(workspace, pressure, loaded);
+        transform.filter_columns(workspace, loaded, wanted, |column, values| {
             transform.multiply_even(&self.spectrum, column, values);
         });
-        transform.read(workspace, result, wanted);
+        transform.inverse_rows(workspace, result, wanted);
     }
 }
 

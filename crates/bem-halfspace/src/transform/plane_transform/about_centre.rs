@@ -17,7 +17,7 @@
 //! ```
 //!
 //! (Cooley, Lewis & Welch 1970, DOI 10.1016/0022-460X(70)90075-1, but for the mean). What y_n keeps of the small sines
-//! rounds like L times as much as the transform: up to 1e-14 of the largest number for [`SHORT`] ones, so that longer
+//! rounds like L times as much as the transform: up to 1e-14 of the largest number for [`MAX_FOLDED_LENGTH`] ones, so that longer
 //! periods are transformed as a whole.
 
 use std::f64::consts::PI;
@@ -31,20 +31,20 @@ use crate::transform::plane_transform::real_rows::forward_real;
 use crate::transform::plane_transform::workspace::Buffers;
 
 /// Largest L for which L numbers are transformed instead of the period.
-const SHORT: usize = 512;
+const MAX_FOLDED_LENGTH: usize = 512;
 
 /// The sums F of real numbers.
 #[derive(Clone)]
-pub(super) struct Cosines<T> {
+pub(super) struct CosineTransform<T> {
     plan: Arc<dyn RealToComplex<T>>,
     /// sin(πn/L) for n = 0 … L/2; none where the period is transformed.
     sines: Option<Vec<T>>,
 }
 
-impl<T: Real> Cosines<T> {
+impl<T: Real> CosineTransform<T> {
     pub(super) fn new(length: usize) -> Self {
         let sine = |n| T::rounded((PI * n as f64 / length as f64).sin());
-        if length > SHORT {
+        if length > MAX_FOLDED_LENGTH {
             return Self {
                 plan: T::real_forward(2 * length),
                 sines: None,
@@ -74,11 +74,11 @@ impl<T: Real> Cosines<T> {
         if let Some(sines) = &self.sines {
             let mean = numbers[0] - numbers[reals.len()];
             fold(sines, numbers, reals);
-            forward_real(&*self.plan, (reals, coefficients), scratch);
+            forward_real(&*self.plan, reals, coefficients, scratch);
             separate(coefficients, mean, numbers);
         } else {
             unfold(numbers, reals);
-            forward_real(&*self.plan, (reals, coefficients), scratch);
+            forward_real(&*self.plan, reals, coefficients, scratch);
             for (number, coefficient) in numbers.iter_mut().zip(coefficients) {
                 *number = coefficient.re;
             }

@@ -22,18 +22,18 @@ use rustfft::num_complex::Complex;
 use crate::transform::plane_transform::rounded;
 
 /// The numbers w_k for k = 0 … L/2.
-pub(super) fn turns<T: Real>(length: usize) -> Vec<Complex<T>> {
-    let turn = |k| {
+pub(super) fn twiddles<T: Real>(length: usize) -> Vec<Complex<T>> {
+    let twiddle = |k| {
         rounded(Complex::from_polar(
             1.0,
             -0.5 * PI * k as f64 / length as f64,
         ))
     };
-    (0..=length / 2).map(turn).collect()
+    (0..=length / 2).map(twiddle).collect()
 }
 
 /// Where an element stands in the order of the transform.
-pub(super) const fn place(element: usize, length: usize) -> usize {
+pub(super) const fn ordered_index(element: usize, length: usize) -> usize {
     if element.is_multiple_of(2) {
         element / 2
     } else {
@@ -42,25 +42,29 @@ pub(super) const fn place(element: usize, length: usize) -> usize {
 }
 
 /// Puts values and zeros behind them into the order of the transform.
-pub(super) fn order<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
+pub(super) fn reorder<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
     ordered.fill(T::default());
     for (element, value) in values.iter().enumerate() {
-        ordered[place(element, ordered.len())] = T::rounded((*value).into());
+        ordered[ordered_index(element, ordered.len())] = T::rounded((*value).into());
     }
 }
 
 /// Takes the first values from the order of the transform.
-pub(super) fn order_back<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
+pub(super) fn restore_order<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
     for (element, value) in values.iter_mut().enumerate() {
-        *value = F::rounded(ordered[place(element, ordered.len())].into());
+        *value = F::rounded(ordered[ordered_index(element, ordered.len())].into());
     }
 }
 
 /// U_0 … U_(L−1) of real x, from V_0 … V_(L/2).
-pub(super) fn turn<T: Real>(turns: &[Complex<T>], half: &[Complex<T>], numbers: &mut [T]) {
+pub(super) fn to_cosine_sums<T: Real>(
+    twiddles: &[Complex<T>],
+    half: &[Complex<T>],
+    numbers: &mut [T],
+) {
     let length = numbers.len();
-    for (k, (value, turn)) in half.iter().zip(turns).enumerate() {
-        let turned = value * turn * T::rounded(2.0);
+    for (k, (value, twiddle)) in half.iter().zip(twiddles).enumerate() {
+        let turned = value * twiddle * T::rounded(2.0);
         if k > 0 {
             numbers[length - k] = -turned.im;
         }
@@ -69,14 +73,18 @@ pub(super) fn turn<T: Real>(turns: &[Complex<T>], half: &[Complex<T>], numbers: 
 }
 
 /// Twice V_0 … V_(L/2) from real U_0 … U_(L−1).
-pub(super) fn turn_back<T: Real>(turns: &[Complex<T>], numbers: &[T], half: &mut [Complex<T>]) {
+pub(super) fn from_cosine_sums<T: Real>(
+    twiddles: &[Complex<T>],
+    numbers: &[T],
+    half: &mut [Complex<T>],
+) {
     let length = numbers.len();
-    for (k, (value, turn)) in half.iter_mut().zip(turns).enumerate() {
+    for (k, (value, twiddle)) in half.iter_mut().zip(twiddles).enumerate() {
         let opposite = if k > 0 {
             numbers[length - k]
         } else {
             T::default()
         };
-        *value = turn.conj() * Complex::new(numbers[k], -opposite);
+        *value = twiddle.conj() * Complex::new(numbers[k], -opposite);
     }
 }

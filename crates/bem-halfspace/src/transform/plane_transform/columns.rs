@@ -16,21 +16,21 @@ pub(super) struct ColumnTransform<T> {
     inverse: Arc<dyn Fft<T>>,
     pub(super) mirror: Mirror,
     /// Of [`about_edge`]; empty without a mirror there.
-    pub(super) turns: Vec<Complex<T>>,
+    pub(super) twiddles: Vec<Complex<T>>,
 }
 
 impl<T: Real> ColumnTransform<T> {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
-        let (length, turns) = match mirror {
+        let (length, twiddles) = match mirror {
             Mirror::None | Mirror::Centre => (period, Vec::new()),
-            Mirror::Edge => (period / 2, about_edge::turns(period / 2)),
+            Mirror::Edge => (period / 2, about_edge::twiddles(period / 2)),
         };
         Self {
             forward: T::forward(length),
             inverse: T::inverse(length),
             mirror,
-            turns,
+            twiddles,
         }
     }
 
@@ -53,10 +53,10 @@ impl<T: Real> ColumnTransform<T> {
     }
 
     /// Where the element of a row stands in a column.
-    pub(super) fn place(&self, row: usize) -> usize {
+    pub(super) fn index_of_row(&self, row: usize) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Centre => row,
-            Mirror::Edge => about_edge::place(row, self.len()),
+            Mirror::Edge => about_edge::ordered_index(row, self.len()),
         }
     }
 

@@ -30,8 +30,8 @@ impl PlaneTransform {
         match self.columns.mirror {
             Mirror::None if pairs => multiply_pair(both, values),
             Mirror::None => multiply_whole(both[0], values),
-            Mirror::Centre => multiply_parts(both, values),
-            Mirror::Edge => multiply_turned(both, &self.columns.turns, values),
+            Mirror::Centre => multiply_about_centre(both, values),
+            Mirror::Edge => multiply_about_edge(both, &self.columns.twiddles, values),
         }
     }
 }
@@ -59,7 +59,7 @@ fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
 }
 
 /// One factor for real parts and one for imaginary ones.
-fn multiply_parts([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
+fn multiply_about_centre([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     for (value, (real, imaginary)) in values.iter_mut().zip(real.iter().zip(imaginary)) {
         *value = Complex::new(value.re * real, value.im * imaginary);
     }
@@ -67,9 +67,9 @@ fn multiply_parts([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
 
 /// Of a column beside a mirror, in the notation of [`about_edge`](super::about_edge): one factor for the real part of U_k
 /// and one for its imaginary part.
-fn multiply_turned(
+fn multiply_about_edge(
     [real, imaginary]: [&[f64]; 2],
-    turns: &[Complex<f64>],
+    twiddles: &[Complex<f64>],
     values: &mut [Complex<f64>],
 ) {
     let length = values.len();
@@ -77,14 +77,14 @@ fn multiply_turned(
     let product = |value: Complex<f64>, (real, imaginary): (&f64, &f64)| {
         Complex::new(value.re * real, value.im * imaginary)
     };
-    let pair = |turn: Complex<f64>, [here, there]: [Complex<f64>; 2], [one, other]: [_; 2]| {
-        let [here, there] = [turn * here, turn.conj() * there];
+    let pair = |twiddle: Complex<f64>, [here, there]: [Complex<f64>; 2], [one, other]: [_; 2]| {
+        let [here, there] = [twiddle * here, twiddle.conj() * there];
         let sum = product(here + there, one);
         // U_(L−k) is i times the difference, and is transformed back with −i.
         let difference = product(times_i(here - there), other);
         [
-            turn.conj() * (sum - times_i(difference)),
-            turn * (sum + times_i(difference)),
+            twiddle.conj() * (sum - times_i(difference)),
+            twiddle * (sum + times_i(difference)),
         ]
     };
     values[0] = product(2.0 * values[0], (&real[0], &imaginary[0]));
@@ -93,14 +93,14 @@ fn multiply_turned(
     let opposite = factors.clone().rev().skip(real.len() - length);
     let places = lower.iter_mut().zip(upper.iter_mut().rev());
     let both = factors.skip(1).zip(opposite);
-    for ((turn, (here, there)), (one, other)) in turns[1..].iter().zip(places).zip(both) {
-        [*here, *there] = pair(*turn, [*here, *there], [one, other]);
+    for ((twiddle, (here, there)), (one, other)) in twiddles[1..].iter().zip(places).zip(both) {
+        [*here, *there] = pair(*twiddle, [*here, *there], [one, other]);
     }
     if length.is_multiple_of(2) {
         // The one in the middle is its own opposite.
         let middle = length / 2;
         let both = [(&real[middle], &imaginary[middle]); 2];
-        values[middle] = pair(turns[middle], [values[middle]; 2], both)[1];
+        values[middle] = pair(twiddles[middle], [values[middle]; 2], both)[1];
     }
 }
 

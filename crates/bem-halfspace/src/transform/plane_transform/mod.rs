@@ -29,9 +29,9 @@ pub(crate) use workspace::Workspace;
 use workspace::{Buffers, for_each_chunk};
 
 /// Columns that pass together: eight complex numbers fill two cache lines.
-const TILE: usize = 8;
+const COLUMNS_PER_TILE: usize = 8;
 /// Rows of which the pieces of a tile lie one after the other, so that columns are gathered from few places of memory.
-const STRIP: usize = 8;
+const ROWS_PER_STRIP: usize = 8;
 pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
@@ -82,12 +82,12 @@ impl<T: Real> PlaneTransform<T> {
     }
 
     fn n_tiles(&self) -> usize {
-        self.n_columns().div_ceil(TILE)
+        self.n_columns().div_ceil(COLUMNS_PER_TILE)
     }
 
     /// Columns one beside the other at a distance of a power of two would compete for the same lines of the cache.
     fn column_stride(&self) -> usize {
-        self.columns.len() + TILE
+        self.columns.len() + COLUMNS_PER_TILE
     }
 
     /// Transforms a real row of the whole period; its values are overwritten.
@@ -102,13 +102,13 @@ impl<T: Real> PlaneTransform<T> {
     }
 
     /// The inverse of [`column_forward`](Self::column_forward).
-    pub(crate) fn column_back(&self, columns: &mut [Complex<T>]) {
+    pub(crate) fn column_inverse(&self, columns: &mut [Complex<T>]) {
         let mut scratch = vec![Complex::default(); self.columns.scratch_len()];
         self.columns.inverse(&mut scratch, columns);
     }
 
     /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
-    pub(crate) fn load<F: Real>(
+    pub(crate) fn forward_rows<F: Real>(
         &self,
         workspace: &mut Workspace<T>,
         field: &[F],
@@ -116,17 +116,19 @@ impl<T: Real> PlaneTransform<T> {
     ) {
         let width = workspace.shape[1];
         let (strips, buffers) = (&mut workspace.strips, &mut workspace.buffers);
-        let unit = self.n_tiles() * STRIP;
-        let used = loaded.start / STRIP..loaded.end.div_ceil(STRIP);
+        let unit = self.n_tiles() * ROWS_PER_STRIP;
+        let used = loaded.start / ROWS_PER_STRIP..loaded.end.div_ceil(ROWS_PER_STRIP);
         let strips = &mut strips[used.start * unit..used.end * unit];
-        for_each_chunk(buffers, (strips, unit), |first, buffers, strips| {
+        for_each_chunk(buffers, strips, unit, |first, buffers, strips| {
             for (strip, pieces) in (used.start + first..).zip(strips.chunks_exact_mut(unit)) {
                 for row in rows_of_strip(strip, loaded) {
                     self.rows
                         .forward(buffers, &field[row * width..(row + 1) * width]);
                     let coefficients = &buffers.half_row[..self.n_columns()];
-                    let mut pieces = pieces[row % STRIP..].iter_mut().step_by(STRIP);
-                    let (whole, rest) = coefficients.as_chunks::<TILE>();
+                    let mut pieces = pieces[row % ROWS_PER_STRIP..]
+                        .iter_mut()
+                        .step_by(ROWS_PER_STRIP);
+                    let (whole, rest) = coefficients.as_chunks::<COLUMNS_PER_TILE>();
                     for (values, piece) in whole.iter().zip(&mut pieces) {
                         *piece = *values;
                     }
@@ -139,22 +141,24 @@ impl<T: Real> PlaneTransform<T> {
     }
 
     /// Applies `multiply` to every column of the transform of the rows `loaded`, and keeps the rows `wanted`.
-    pub(crate) fn pass(
+    pub(crate) fn filter_columns(
         &self,
         workspace: &mut Workspace<T>,
-        (loaded, wanted): (&Range<usize>, &Range<usize>),
+        loaded: &Range<usize>,
+        wanted: &Range<usize>,
         multiply: impl Fn(usize, &mut [Complex<T>]) + Sync,
     ) {
         let stride = workspace.tile_stride();
         let (strips, tiles) = (&workspace.strips, &mut workspace.tiles[..]);
         let buffers = &mut workspace.buffers;
-        for_each_chunk(buffers, (tiles, stride), |first, buffers, tiles| {
+        for_each_chunk(buffers, tiles, stride, |first, buffers, tiles| {
             for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(stride)) {
-                let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
-                self.gather_columns(buffers, strips, (tile, loaded));
+                let columns =
+                    tile * COLUMNS_PER_TILE..((tile + 1) * COLUMNS_PER_TILE).min(self.n_columns());
+                self.gather_columns(buffers, strips, tile, loaded);
                 self.multiply_columns(buffers, &columns, &multiply);
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
-                    let place = self.columns.place(row);
+                    let place = self.columns.index_of_row(row);
                     let columns = buffers.columns.chunks_exact(self.column_stride());
                     for (value, column) in piece.iter_mut().zip(columns) {
                         *value = column[place];
@@ -167,17 +171,19 @@ impl<T: Real> PlaneTransform<T> {
     fn gather_columns(
         &self,
         buffers: &mut Buffers<T>,
-        strips: &[[Complex<T>; TILE]],
-        (tile, loaded): (usize, &Range<usize>),
+        strips: &[[Complex<T>; COLUMNS_PER_TILE]],
+        tile: usize,
+        loaded: &Range<usize>,
     ) {
         let stride = self.column_stride();
         buffers.columns.fill(Complex::default());
-        for strip in loaded.start / STRIP..loaded.end.div_ceil(STRIP) {
-            let pieces = &strips[(strip * self.n_tiles() + tile) * STRIP..][..STRIP];
+        for strip in loaded.start / ROWS_PER_STRIP..loaded.end.div_ceil(ROWS_PER_STRIP) {
+            let pieces =
+                &strips[(strip * self.n_tiles() + tile) * ROWS_PER_STRIP..][..ROWS_PER_STRIP];
             for row in rows_of_strip(strip, loaded) {
-                let place = self.columns.place(row);
+                let place = self.columns.index_of_row(row);
                 let columns = buffers.columns.chunks_exact_mut(stride);
-                for (column, value) in columns.zip(&pieces[row % STRIP]) {
+                for (column, value) in columns.zip(&pieces[row % ROWS_PER_STRIP]) {
                     column[place] = *value;
                 }
             }
@@ -200,7 +206,7 @@ impl<T: Real> PlaneTransform<T> {
     }
 
     /// Writes the rows `wanted` of the result; the other rows are left as they are.
-    pub(crate) fn read<F: Real>(
+    pub(crate) fn inverse_rows<F: Real>(
         &self,
         workspace: &mut Workspace<T>,
         result: &mut [F],
@@ -209,11 +215,11 @@ impl<T: Real> PlaneTransform<T> {
         let (stride, width) = (workspace.tile_stride(), workspace.shape[1]);
         let Workspace { tiles, buffers, .. } = workspace;
         let result = &mut result[wanted.start * width..wanted.end * width];
-        for_each_chunk(buffers, (result, width), |first, buffers, result| {
+        for_each_chunk(buffers, result, width, |first, buffers, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
                 let mut pieces = tiles[row..].iter().step_by(stride);
                 let coefficients = &mut buffers.half_row[..self.n_columns()];
-                let (whole, rest) = coefficients.as_chunks_mut::<TILE>();
+                let (whole, rest) = coefficients.as_chunks_mut::<COLUMNS_PER_TILE>();
                 for (values, piece) in whole.iter_mut().zip(&mut pieces) {
                     *values = *piece;
                 }
@@ -233,5 +239,5 @@ pub(crate) fn rounded<T: Real>(value: Complex<f64>) -> Complex<T> {
 
 /// Those of the rows that lie in a strip.
 fn rows_of_strip(strip: usize, rows: &Range<usize>) -> Range<usize> {
-    rows.start.max(strip * STRIP)..rows.end.min((strip + 1) * STRIP)
+    rows.start.max(strip * ROWS_PER_STRIP)..rows.end.min((strip + 1) * ROWS_PER_STRIP)
 }

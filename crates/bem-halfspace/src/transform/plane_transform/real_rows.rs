@@ -6,7 +6,8 @@ use rustfft::num_complex::Complex;
 
 pub(super) fn forward_real<T: Real>(
     plan: &dyn RealToComplex<T>,
-    (reals, coefficients): (&mut [T], &mut [Complex<T>]),
+    reals: &mut [T],
+    coefficients: &mut [Complex<T>],
     scratch: &mut [Complex<T>],
 ) {
     let done = plan.process_with_scratch(reals, coefficients, scratch);
@@ -15,7 +16,8 @@ pub(super) fn forward_real<T: Real>(
 
 pub(super) fn inverse_real<T: Real>(
     plan: &dyn ComplexToReal<T>,
-    (coefficients, reals): (&mut [Complex<T>], &mut [T]),
+    coefficients: &mut [Complex<T>],
+    reals: &mut [T],
     scratch: &mut [Complex<T>],
 ) {
     // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.

@@ -7,7 +7,7 @@ use realfft::{ComplexToReal, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use crate::elements::mirror::Mirror;
-use crate::transform::plane_transform::about_centre::Cosines;
+use crate::transform::plane_transform::about_centre::CosineTransform;
 use crate::transform::plane_transform::about_edge;
 use crate::transform::plane_transform::real_rows::{forward_real, inverse_real};
 use crate::transform::plane_transform::workspace::Buffers;
@@ -22,24 +22,24 @@ pub(super) enum RowTransform<T> {
         forward: Arc<dyn RealToComplex<T>>,
         inverse: Arc<dyn ComplexToReal<T>>,
         /// Of [`about_edge`]; none without a mirror there.
-        turns: Option<Vec<Complex<T>>>,
+        twiddles: Option<Vec<Complex<T>>>,
     },
-    AboutCentre(Cosines<T>),
+    AboutCentre(CosineTransform<T>),
 }
 
 impl<T: Real> RowTransform<T> {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let half = period / 2;
-        let (length, turns) = match mirror {
+        let (length, twiddles) = match mirror {
             Mirror::None => (period, None),
-            Mirror::Centre => return Self::AboutCentre(Cosines::new(half)),
-            Mirror::Edge => (half, Some(about_edge::turns(half))),
+            Mirror::Centre => return Self::AboutCentre(CosineTransform::new(half)),
+            Mirror::Edge => (half, Some(about_edge::twiddles(half))),
         };
         Self::Fourier {
             forward: T::real_forward(length),
             inverse: T::real_inverse(length),
-            turns,
+            twiddles,
         }
     }
 
@@ -52,7 +52,7 @@ impl<T: Real> RowTransform<T> {
     }
 
     pub(super) const fn has_mirror(&self) -> bool {
-        !matches!(self, Self::Fourier { turns: None, .. })
+        !matches!(self, Self::Fourier { twiddles: None, .. })
     }
 
     /// Number of complex numbers that hold the coefficients.
@@ -86,7 +86,7 @@ impl<T: Real> RowTransform<T> {
         assert!(!self.has_mirror(), "a whole row");
         if let Self::Fourier { forward, .. } = self {
             let mut scratch = forward.make_scratch_vec();
-            forward_real(&**forward, (row, transformed), &mut scratch);
+            forward_real(&**forward, row, transformed, &mut scratch);
         }
     }
 
@@ -94,15 +94,21 @@ impl<T: Real> RowTransform<T> {
     /// the buffers.
     pub(super) fn forward<F: Real>(&self, buffers: &mut Buffers<T>, values: &[F]) {
         match self {
-            Self::Fourier { forward, turns, .. } => {
-                match turns {
-                    Some(_) => about_edge::order(values, &mut buffers.row),
+            Self::Fourier {
+                forward, twiddles, ..
+            } => {
+                match twiddles {
+                    Some(_) => about_edge::reorder(values, &mut buffers.row),
                     None => fill(&mut buffers.row, values),
                 }
-                let fields = (&mut buffers.row[..], &mut buffers.half_row[..]);
-                forward_real(&**forward, fields, &mut buffers.scratch);
-                if let Some(turns) = turns {
-                    about_edge::turn(turns, &buffers.half_row, &mut buffers.row);
+                forward_real(
+                    &**forward,
+                    &mut buffers.row,
+                    &mut buffers.half_row,
+                    &mut buffers.scratch,
+                );
+                if let Some(twiddles) = twiddles {
+                    about_edge::to_cosine_sums(twiddles, &buffers.half_row, &mut buffers.row);
                     pair(&buffers.row, &mut buffers.half_row);
                 }
             }
@@ -118,15 +124,21 @@ impl<T: Real> RowTransform<T> {
     /// Transforms back, without normalisation, the coefficients in the half row of the buffers.
     pub(super) fn inverse<F: Real>(&self, buffers: &mut Buffers<T>, values: &mut [F]) {
         match self {
-            Self::Fourier { inverse, turns, .. } => {
-                if let Some(turns) = turns {
+            Self::Fourier {
+                inverse, twiddles, ..
+            } => {
+                if let Some(twiddles) = twiddles {
                     unpair(&buffers.half_row, &mut buffers.row);
-                    about_edge::turn_back(turns, &buffers.row, &mut buffers.half_row);
+                    about_edge::from_cosine_sums(twiddles, &buffers.row, &mut buffers.half_row);
                 }
-                let fields = (&mut buffers.half_row[..], &mut buffers.row[..]);
-                inverse_real(&**inverse, fields, &mut buffers.scratch);
-                if turns.is_some() {
-                    return about_edge::order_back(&buffers.row, values);
+                inverse_real(
+                    &**inverse,
+                    &mut buffers.half_row,
+                    &mut buffers.row,
+                    &mut buffers.scratch,
+                );
+                if twiddles.is_some() {
+                    return about_edge::restore_order(&buffers.row, values);
                 }
             }
             Self::AboutCentre(cosines) => {

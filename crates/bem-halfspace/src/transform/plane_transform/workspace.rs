@@ -5,7 +5,7 @@ use rustfft::num_complex::Complex;
 
 use crate::parallel::bands::copies;
 use crate::parallel::chunks::{MIN_ELEMENTS, PerThread, Starts, fold_chunks};
-use crate::transform::plane_transform::{PlaneTransform, STRIP, TILE};
+use crate::transform::plane_transform::{COLUMNS_PER_TILE, PlaneTransform, ROWS_PER_STRIP};
 
 /// Buffers of a filter of fields of one shape; with the feature `rayon` for the threads of the pool in which they were
 /// made.
@@ -14,9 +14,9 @@ pub(crate) struct Workspace<T = f64> {
     /// Rows and columns of the fields.
     pub(crate) shape: [usize; 2],
     /// Transformed rows, [strip][tile][row of the strip].
-    pub(super) strips: Vec<[Complex<T>; TILE]>,
+    pub(super) strips: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
     /// Columns after the product, [tile][row].
-    pub(super) tiles: Vec<[Complex<T>; TILE]>,
+    pub(super) tiles: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
     pub(super) buffers: PerThread<Buffers<T>>,
 }
 
@@ -34,12 +34,12 @@ pub(super) struct Buffers<T> {
 impl<T: Real> Workspace<T> {
     /// For fields of `shape`, which the period of the transform holds.
     pub(crate) fn new(transform: &PlaneTransform<T>, shape: [usize; 2]) -> Self {
-        let n_in_strips = shape[0].next_multiple_of(STRIP) * transform.n_tiles();
+        let n_in_strips = shape[0].next_multiple_of(ROWS_PER_STRIP) * transform.n_tiles();
         Self {
             shape,
-            strips: copies([Complex::default(); TILE], n_in_strips),
+            strips: copies([Complex::default(); COLUMNS_PER_TILE], n_in_strips),
             tiles: copies(
-                [Complex::default(); TILE],
+                [Complex::default(); COLUMNS_PER_TILE],
                 (shape[0] + 1) * transform.n_tiles(),
             ),
             buffers: PerThread::new(shape[0] * shape[1], || Buffers::new(transform)),
@@ -59,7 +59,7 @@ impl<T: Real> Buffers<T> {
         Self {
             row: vec![T::default(); transform.rows.len()],
             half_row: vec![Complex::default(); transform.rows.n_reals() / 2 + 1],
-            columns: vec![Complex::default(); TILE * transform.column_stride()],
+            columns: vec![Complex::default(); COLUMNS_PER_TILE * transform.column_stride()],
             scratch: vec![Complex::default(); scratch.max(transform.columns.scratch_len())],
             folded: vec![T::default(); transform.rows.n_reals()],
         }
@@ -70,7 +70,8 @@ impl<T: Real> Buffers<T> {
 /// number of the first unit of a chunk, the buffers and the chunk.
 pub(super) fn for_each_chunk<R: Real, T: Send>(
     buffers: &PerThread<Buffers<R>>,
-    (values, unit): (&mut [T], usize),
+    values: &mut [T],
+    unit: usize,
     work: impl Fn(usize, &mut Buffers<R>, &mut [T]) + Sync,
 ) {
     let numbers_per_unit = unit * size_of::<T>() / size_of::<f64>();
