@@ -1,4 +1,4 @@
-//! Lengths whose Fourier transform is fast.
+//! Lengths with a fast Fourier transform.
 
 /// The smallest even number 2^a 3^b 5^c that is not below `minimum`.
 pub(crate) fn fast_length(minimum: usize) -> usize {
@@ -9,6 +9,7 @@ pub(crate) fn fast_length(minimum: usize) -> usize {
     length
 }
 
+/// True if the number has no prime factor above 5.
 fn is_smooth(mut number: usize) -> bool {
     for prime in [2, 3, 5] {
         while number.is_multiple_of(prime) {

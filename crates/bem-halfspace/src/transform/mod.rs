@@ -1,4 +1,6 @@
-//! Products in Fourier space: of fields on the plane, of pressures with the influence of the elements.
+//! Fast Fourier transforms of fields on the plane, convolution with influence coefficients, and spectra of pressures.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps"; mirrors: docs/theory/contact.md, "Mirrors".
 
 pub(crate) mod convolution;
 pub(crate) mod fast_length;

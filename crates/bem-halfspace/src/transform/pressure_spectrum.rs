@@ -1,10 +1,12 @@
-//! At which frequencies a stationary pressure strains the material.
+//! Distribution of a stationary, sliding pressure over the frequencies at which it strains the material.
 //!
-//! The wave q of the pressure oscillates at ω = |q_x| v in the material, so that the power that it dissipates is
+//! The pressure wave q oscillates in the material at ω = |q_x| v, so that the dissipated power is
 //!
 //! ```text
-//! F_h v = Σ_q |p̂(q)|² M(|q|t)/|q| · ω J''(ω),        M = 1 on a half space
+//! F_h v = Σ_q |p̂(q)|² M(|q|t)/|q| · ω J''(ω),        M = 1 on a half space.
 //! ```
+//!
+//! The functions return Σ |p̂|² M/|q| per band of frequencies.
 
 use rheology::{Material as _, StressBand};
 use rustfft::num_complex::Complex;
@@ -13,13 +15,14 @@ use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, ZERO};
 use crate::{Elastomer, PressureField};
 
-/// The period that stands for an unbounded surface, over the contact: twice its lengths would do for the square of the
-/// transform, and along x the bands are an eighth of the contact's own wave wide.
+/// Period along x and y over the contact's bounding box, in place of an unbounded surface; chosen. A factor of 2 is enough for the
+/// square of the transform. With 8 along x, bands are an eighth of the contact's own wave number wide.
 const PERIOD_OVER_CONTACT: [usize; 2] = [8, 4];
 
-/// The frequencies of the `pressure` along a line contact, at increasing positions \[m], that slides at a `velocity` \[m/s].
+/// Frequency bands of a line contact that slides at a `velocity` \[m/s]; `pressure` has [position \[m], pressure] at increasing
+/// positions.
 ///
-/// The compliance 1/|q| gives every octave of long waves the same part, down to those at which the material is elastic.
+/// The compliance 1/|q| gives all octaves of long waves the same weight, down to frequencies at which the material is elastic.
 pub fn line_spectrum(
     pressure: &[[f64; 2]],
     elastomer: &dyn Elastomer,
@@ -33,28 +36,30 @@ pub fn line_spectrum(
 }
 
 impl PressureField {
-    /// The frequencies of a contact that slides along x at a `velocity` \[m/s].
+    /// Frequency bands of a contact that slides along x at a `velocity` \[m/s].
     pub fn spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let shape = self.grid.shape();
         let period = [0, 1].map(|axis| fast_length(PERIOD_OVER_CONTACT[axis] * shape[axis]));
         let step = self.wave_steps(period)[0];
-        // Between the waves of the period lie those of all others. The half of a band at zero has half the waves too.
+        // Each wave of the period stands for the band of half a step on both sides; the band at zero has one side only.
         let band = |nth: f64| [(nth - 0.5).max(0.0), nth + 0.5];
         let lines = self.dissipation_weights(period, elastomer);
-        let bands = lines.into_iter().enumerate();
-        let bands = bands.map(|(nth, weight)| StressBand {
-            band: band(nth as f64).map(|wave| wave * step * velocity),
-            weight,
-        });
-        bands.collect()
+        lines
+            .into_iter()
+            .enumerate()
+            .map(|(nth, weight)| StressBand {
+                band: band(nth as f64).map(|wave| wave * step * velocity),
+                weight,
+            })
+            .collect()
     }
 
-    /// The frequencies of the pressure on one period of a surface that slides along x at a `velocity` \[m/s].
+    /// Frequencies of the pressure on one period of a surface that slides along x at a `velocity` \[m/s]; bands of zero width.
     pub fn periodic_spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let period = self.grid.shape();
         let step = self.wave_steps(period)[0];
         let lines = self.dissipation_weights(period, elastomer);
-        // What does not change along x is not strained in sliding.
+        // Waves with crests along x do not oscillate.
         let moving = lines.into_iter().enumerate().skip(1);
         let line = |(nth, weight)| StressBand {
             band: [nth as f64 * step * velocity; 2],
@@ -63,15 +68,16 @@ impl PressureField {
         moving.map(line).collect()
     }
 
-    /// Wave numbers of the longest waves of a period, \[1/m].
+    /// Wave numbers of the longest waves along x and y of a period in elements, \[rad/m].
     fn wave_steps(&self, period: [usize; 2]) -> [f64; 2] {
         let spacing = self.grid.spacing();
         [0, 1].map(|axis| std::f64::consts::TAU / (period[axis] as f64 * spacing[axis]))
     }
 
-    /// Sum over all waves along y of the squared pressure times M/|q|, for the waves 0, 1, 2, … along x.
+    /// Σ |p̂|² M/|q| over all waves along y, for the wave numbers 0, 1, 2, … along x of a period in elements.
     fn dissipation_weights(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
         let [rows, columns] = self.grid.shape();
+        // Transform the rows of the contact, padded with zeros.
         let plan = PlaneTransform::new(period);
         let n_waves = plan.n_columns();
         let mut transformed = vec![ZERO; rows * n_waves];
@@ -83,6 +89,7 @@ impl PressureField {
             row[..columns].copy_from_slice(pressures);
             plan.transform_row(&mut row, waves);
         }
+        // Transform the columns one by one and add their squares.
         let compliance = self.compliance(period, elastomer);
         let mut squares = vec![0.0; period[0] / 2 + 1];
         let mut column = vec![ZERO; period[0]];
@@ -94,7 +101,7 @@ impl PressureField {
                 .zip(values)
                 .for_each(|(to, from)| *to = *from);
             plan.column_forward(&mut column);
-            // The other half of the waves along y are those of the opposite waves along x.
+            // Waves of negative q_y are the conjugates of those of negative q_x, and count by the factor 2.
             let is_alone = wave == 0 || 2 * wave == period[1];
             let twice = if is_alone { 1.0 } else { 2.0 };
             for (place, value) in column.iter().map(Complex::norm_sqr).enumerate() {
@@ -105,7 +112,7 @@ impl PressureField {
         squares
     }
 
-    /// M/|q| of a wave; of the longest one the mean of 1/|q| over the waves that it stands for.
+    /// M/|q| as a function of the wave numbers along x and y; for the zero wave with the mean of 1/|q| over its cell.
     fn compliance(
         &self,
         period: [usize; 2],

@@ -1,10 +1,12 @@
-//! Fast convolution of a pressure field with the influence of the elements.
+//! Fast convolution of a pressure field with the influence coefficients of the elements.
 //!
 //! ```text
 //! (K P)_ij = Σ K(x_i − x_k, y_j − y_l) P_kl
 //! ```
 //!
 //! The kernel is even along both axes, so its spectrum is real and one quarter of it is stored.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Elements and steps"; mirrors: docs/theory/contact.md, "Mirrors".
 
 mod spectrum;
 
@@ -16,112 +18,117 @@ use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, Workspace};
 use crate::{Base, Elastomer, Grid};
 
-/// What surrounds the elements of the grid.
+/// Boundary conditions of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Surroundings {
-    /// A half space without load.
+    /// No load outside the grid.
     Free,
-    /// Copies of the grid without end.
+    /// Periodic load, with the edges of the grid as periods.
     Periodic,
 }
 
-/// The convolution on one grid: its spectrum and plans, which no pressure changes; may be shared between threads.
+/// Operator K of the influence coefficients on one grid: spectrum and transform plans. It is immutable and may be shared
+/// between threads.
 #[derive(Debug, Clone)]
 pub struct Convolution {
-    /// Of the elements, or of those in front of the mirrors.
+    /// Grid of the elements; with mirrors, of those in front of them.
     grid: Grid,
-    /// About which pressure and result are their own images along x and y, at the rear of the grid.
+    /// Mirrors along x and y, at the first row and column of the grid: pressure and displacement are their own images.
     pub(crate) mirrors: [Mirror; 2],
     pub(crate) surroundings: Surroundings,
-    /// What the elements lie on.
+    /// Base under the elements, with lengths in the unit of the grid.
     pub(crate) base: Base,
     transform: PlaneTransform,
-    /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
-    /// in; not a slice, into which it would have to be copied.
+    /// Real spectrum of the kernel over the whole period, [column][0..=padded_x / 2], times the normalisation of the transforms.
+    /// A `Vec`, because an `Arc` of a slice would have to be copied into.
     spectrum: Arc<Vec<f64>>,
-    /// Displacement of an element under its own unit load, [m].
+    /// Diagonal coefficient of K: displacement of an element by its own unit pressure, in the unit of the grid.
     pub(crate) self_influence: f64,
 }
 
-/// Buffers that a convolution overwrites; one per caller, made by [`Convolution::workspace`].
+/// Buffers of a convolution, one set per caller; made by [`Convolution::workspace`].
 #[derive(Debug, Clone)]
 pub struct ConvolutionWorkspace(Workspace);
 
-/// Rows of a grid that matter in a product.
+/// Row ranges of a grid to which a product is limited.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rows {
-    /// With a pressure.
+    /// Rows that may have a pressure.
     pub loaded: Range<usize>,
-    /// Of the displacement that is asked for.
+    /// Rows in which the displacement is computed.
     pub wanted: Range<usize>,
 }
 
 impl Convolution {
-    /// Influence on a half space that is free of load outside the grid.
+    /// Convolution on a half space without load outside the grid.
     ///
-    /// Zero padding to at least 2n − 1 makes the circular convolution of the Fourier transform the free one.
+    /// Zero padding to at least 2n − 1 elements makes the circular convolution of the Fourier transform equal to the free one.
     pub fn new(grid: &Grid) -> Self {
         Self::new_free(grid, Base::default())
     }
 
-    /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
-    /// grid.
+    /// Convolution on an elastomer without load outside the grid, whose spacing is in \[m]. Only thickness and Poisson ratio of
+    /// the elastomer matter.
     pub fn for_elastomer(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
         Self::new_free(grid, elastomer.base())
     }
 
+    /// Convolution on a base without load outside the grid.
     pub(crate) fn new_free(grid: &Grid, base: Base) -> Self {
         let padded = grid.shape().map(|n| fast_length(2 * n - 1));
-        let mut convolution = Self::with_plans(grid, (Surroundings::Free, base), padded);
+        let mut convolution = Self::with_plans(grid, Surroundings::Free, base, padded);
         convolution.spectrum = Arc::new(convolution.free_spectrum());
         convolution.self_influence = convolution.base.influence([0.0, 0.0], grid.spacing());
         convolution
     }
 
-    /// Influence on a half space whose load repeats itself with the edges of the grid as periods.
+    /// Convolution on a half space under a periodic load, with the edges of the grid as periods.
     ///
-    /// A wave of pressure with the wave vector q moves the surface by the same wave times `2π/|q|`
-    /// (Johnson 1985, eq. 13.7). The mean pressure moves an infinite half space by an infinite amount; displacements
-    /// are measured from their own mean instead.
+    /// A pressure wave of the wave vector q gives the displacement `2π/|q|` times the same wave (Johnson 1985, eq. 13.7). The
+    /// displacement by the mean pressure is infinite on a half space; displacements are measured from their own mean instead.
     pub fn periodic(grid: &Grid) -> Self {
         Self::new_periodic(grid, Base::default())
     }
 
-    /// The same on what is given, see [`for_elastomer`](Self::for_elastomer). A layer gives way to the mean pressure too, and its displacements are
-    /// those from the surface at rest.
+    /// Convolution on an elastomer under a periodic load; see [`for_elastomer`](Self::for_elastomer). On a layer with a rigid base the
+    /// displacement by the mean pressure is finite and included.
     pub fn periodic_for_elastomer(elastomer: &dyn Elastomer, grid: &Grid) -> Self {
         Self::new_periodic(grid, elastomer.base())
     }
 
+    /// Convolution on a base under a periodic load.
     fn new_periodic(grid: &Grid, base: Base) -> Self {
-        let mut convolution = Self::with_plans(grid, (Surroundings::Periodic, base), grid.shape());
+        let mut convolution = Self::with_plans(grid, Surroundings::Periodic, base, grid.shape());
         convolution.spectrum = Arc::new(convolution.periodic_spectrum());
         convolution.self_influence = convolution.sum_of_spectrum();
         convolution
     }
 
-    /// A convolution on the blocks of two by two elements that multiplies a wave by the `symbol` of its wave vector
-    /// \[rad/m], and the mean and all waves with a symbol below zero like the longest wave or not at all.
+    /// A periodic convolution on the blocks of two by two elements with the `symbol` as a function of the wave vector \[rad/m].
+    ///
+    /// The mean has the symbol of the longest wave; negative symbols count as zero.
     pub(crate) fn on_blocks(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Self {
         let mirrors = self.mirrors.map(Mirror::of_blocks);
         let blocks = self.grid.blocks().unfolded(mirrors);
         let padded = blocks.shape().map(fast_length);
-        let around = (Surroundings::Periodic, self.base.clone());
-        let mut convolution = Self::with_plans(&blocks, around, padded);
+        let base = self.base.clone();
+        let mut convolution = Self::with_plans(&blocks, Surroundings::Periodic, base, padded);
         convolution.spectrum = Arc::new(convolution.positive_spectrum(symbol));
         convolution.folded(mirrors)
     }
 
-    /// The same influence between elements of another grid, which ends at the same mirrors.
+    /// A convolution with the kernel, boundary conditions and mirrors of this one on another grid.
     pub(crate) fn on_grid(&self, grid: &Grid) -> Self {
         self.on_folded_grid(self.mirrors, grid)
     }
 
-    /// The same influence between blocks of two by two elements, which begin at the mirrors.
+    /// A convolution with the kernel and boundary conditions of this one on the blocks of two by two elements, which begin at the
+    /// mirrors.
     pub(crate) fn between_blocks(&self) -> Self {
         self.on_folded_grid(self.mirrors.map(Mirror::of_blocks), &self.grid.blocks())
     }
 
+    /// A convolution with the kernel and boundary conditions of this one on a `grid` in front of `mirrors`.
     fn on_folded_grid(&self, mirrors: [Mirror; 2], grid: &Grid) -> Self {
         let whole = grid.unfolded(mirrors);
         let convolution = match self.surroundings {
@@ -131,9 +138,10 @@ impl Convolution {
         convolution.folded(mirrors)
     }
 
-    /// The same influence between pressures that are their own images about `mirrors` in the middle of the grid; the
-    /// fields are those of its part in front of them, with half the pressure of a row or column through whose centre a
-    /// mirror passes. Only of a whole grid.
+    /// This operator for pressures that are their own images about `mirrors` in the middle of the grid.
+    ///
+    /// Fields are those of the part in front of the mirrors. In a row or column through whose centre a mirror passes, half the
+    /// pressure is given. `self` must have no mirrors.
     pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
         assert_eq!(self.mirrors, NO_MIRRORS, "a whole grid");
         if mirrors == NO_MIRRORS {
@@ -149,11 +157,8 @@ impl Convolution {
         }
     }
 
-    fn with_plans(
-        grid: &Grid,
-        (surroundings, base): (Surroundings, Base),
-        padded: [usize; 2],
-    ) -> Self {
+    /// A convolution with transform plans for a period of `padded` elements, and without a spectrum yet.
+    fn with_plans(grid: &Grid, surroundings: Surroundings, base: Base, padded: [usize; 2]) -> Self {
         Self {
             base,
             grid: *grid,
@@ -165,12 +170,12 @@ impl Convolution {
         }
     }
 
-    /// The grid of the pressure and of the result.
+    /// Grid of pressure and displacement.
     pub const fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// Buffers for a product. With the feature `rayon`, for the threads of the current pool.
+    /// Buffers for [`apply`](Self::apply); with the feature `rayon`, for the threads of the current pool.
     pub fn workspace(&self) -> ConvolutionWorkspace {
         ConvolutionWorkspace(Workspace::new(&self.transform, self.grid.shape()))
     }
@@ -196,8 +201,8 @@ impl Convolution {
         self.apply_in(&rows, workspace, pressure, result);
     }
 
-    /// The same for a pressure that is zero outside some rows, and a displacement that is wanted in some rows; the other
-    /// rows of the pressure are not read, and those of the result are left as they are.
+    /// Computes `K P` like [`apply`](Self::apply), for a pressure that is zero outside the rows `loaded`, and only in the rows
+    /// `wanted`. Other rows of the pressure are not read, and other rows of the result are not changed.
     ///
     /// # Panics
     /// When a field, the rows or the workspace does not belong to this grid.
@@ -212,6 +217,7 @@ impl Convolution {
         assert_eq!(pressure.len(), elements, "one pressure per element");
         assert_eq!(result.len(), elements, "one displacement per element");
         let (transform, workspace) = (&self.transform, &mut workspace.0);
+        // Transform loaded rows; multiply all columns by the spectrum; transform wanted rows back.
         transform.forward_rows(workspace, pressure, loaded);
         transform.filter_columns(workspace, loaded, wanted, |column, values| {
             transform.multiply_even(&self.spectrum, column, values);

@@ -1,4 +1,4 @@
-//! Spectra of the kernels.
+//! Spectra of the influence coefficients.
 
 use std::f64::consts::PI;
 
@@ -9,6 +9,7 @@ use crate::parallel::bands::{copies, for_each_row};
 use crate::transform::plane_transform::ZERO;
 
 impl Convolution {
+    /// Samples a symbol of the wave vector \[rad/m] on the waves of the period; layout as [`Convolution`]'s spectrum.
     fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.transform.normalisation();
@@ -23,13 +24,13 @@ impl Convolution {
         spectrum
     }
 
-    /// Wave numbers of the longest waves along x and y, \[rad/m].
+    /// Wave numbers of the longest waves of the period along x and y, \[rad/m].
     fn wave_numbers(&self) -> [f64; 2] {
         [0, 1]
             .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
 
-    /// Spectrum of waves, on a half space without their mean.
+    /// Spectrum 2π M(|q|t)/|q| of a periodic load; zero for the mean on a base that is not rigid.
     pub(super) fn periodic_spectrum(&self) -> Vec<f64> {
         self.spectrum_of(|[q_x, q_y]| {
             let q = q_x.hypot(q_y);
@@ -42,7 +43,7 @@ impl Convolution {
         })
     }
 
-    /// Spectrum of a symbol where that is positive, for the mean that of the longest wave.
+    /// Spectrum of a symbol, with negative values replaced by zero and the mean by the longest wave.
     pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let longest = if unit_x < unit_y {
@@ -56,27 +57,28 @@ impl Convolution {
         })
     }
 
-    /// Value of the kernel at the origin.
+    /// Value of the kernel at the origin: the sum of its spectrum over the whole period.
     pub(super) fn sum_of_spectrum(&self) -> f64 {
         let length = self.transform.padded[0] / 2 + 1;
         let [twice_x, twice_y] = self.transform.padded.map(|n| n.div_ceil(2));
+        // Waves strictly inside the stored quarter stand for their mirror images too.
         let weight = |index: usize, twice: usize| {
             let is_twice = (1..twice).contains(&index);
             if is_twice { 2.0 } else { 1.0 }
         };
         let column = |(column, values): (usize, &[f64])| {
-            let values = values.iter().enumerate();
+            let rows = values.iter().enumerate();
             weight(column, twice_y)
-                * values
+                * rows
                     .map(|(row, value)| weight(row, twice_x) * value)
                     .sum::<f64>()
         };
         self.spectrum.chunks(length).enumerate().map(column).sum()
     }
 
-    /// Spectrum of the influence coefficients.
+    /// Spectrum of the influence coefficients without load outside the grid.
     ///
-    /// The kernel is even and its transform real, so that two columns pass as the real and the imaginary part of one.
+    /// The kernel is even and its transform real, so that two columns are transformed as real and imaginary part of one.
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
         let rows = self.transformed_kernel_rows();
         let length = self.transform.padded[0] / 2 + 1;
@@ -89,7 +91,7 @@ impl Convolution {
         spectrum
     }
 
-    /// A column of the transformed kernel as real parts and the next, if there is one, as imaginary parts.
+    /// Column number `column` of the row-transformed kernel as real parts, and the next one, or zero, as imaginary parts.
     fn kernel_columns(&self, rows: &[f64], column: usize) -> Vec<Complex<f64>> {
         let period = self.transform.padded[0];
         let mut values = vec![ZERO; period];
@@ -102,6 +104,7 @@ impl Convolution {
         values
     }
 
+    /// Splits a transformed pair of columns into the `spectrum` of both, with the normalisation.
     fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
         let normalisation = self.transform.normalisation();
         let (first, second) = spectrum.split_at_mut(self.transform.padded[0] / 2 + 1);
@@ -113,7 +116,7 @@ impl Convolution {
         }
     }
 
-    /// Transforms of the kernel along y, [offset along x][column]; the kernel is even, so they are real.
+    /// Transforms of the kernel along y, [offset along x][column]; real, because the kernel is even.
     fn transformed_kernel_rows(&self) -> Vec<f64> {
         let n_columns = self.transform.n_columns();
         let mut rows = copies(0.0, self.grid.shape()[0] * n_columns);
@@ -128,6 +131,7 @@ impl Convolution {
         rows
     }
 
+    /// Influence coefficients at the offset of `row` elements along x, over the period along y.
     fn kernel_row(&self, row: usize) -> Vec<f64> {
         let [dx, dy] = self.grid.spacing();
         let period = self.transform.padded[1];

@@ -1,7 +1,7 @@
-//! Transforms of one half of a row or column that is its own mirror image about the centre of its first element.
+//! Discrete cosine transform of half a row or column that is its own mirror image about the centre of its first element (DCT-I).
 //!
-//! With x_n at a distance of n elements from the mirror, x_0 for the half of the element in front of it, the Fourier
-//! transform of the period of 2 L elements and the inverse, for the numbers u_n, are
+//! With x_n at the distances ±n elements from the mirror, and x_0 for the half element in front of it, the Fourier transform of the
+//! period of 2 L elements and its inverse u_n are
 //!
 //! ```text
 //! U_k = 2 x_0 + 2 Σ x_n cos(π n k / L),        n, k = 0 … L,
@@ -16,9 +16,8 @@
 //! F_2k = Re Y_k,    F_(2k+1) = F_(2k−1) − Im Y_k,    mean of F_1, F_3 … F_(2L−1) = f_0 − f_L
 //! ```
 //!
-//! (Cooley, Lewis & Welch 1970, DOI 10.1016/0022-460X(70)90075-1, but for the mean). What y_n keeps of the small sines
-//! rounds like L times as much as the transform: up to 1e-14 of the largest number for [`MAX_FOLDED_LENGTH`] ones, so that longer
-//! periods are transformed as a whole.
+//! (Cooley, Lewis & Welch 1970, DOI 10.1016/0022-460X(70)90075-1, except for the mean). The small sines in y_n amplify rounding by
+//! about L: up to 1e-14 of the largest number for L = [`MAX_FOLDED_LENGTH`]. Longer periods are transformed as a whole.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -30,18 +29,19 @@ use rustfft::num_complex::Complex;
 use crate::transform::plane_transform::real_rows::forward_real;
 use crate::transform::plane_transform::workspace::Buffers;
 
-/// Largest L for which L numbers are transformed instead of the period.
+/// Largest L for which L numbers are transformed instead of the period of 2 L; bounded by rounding, see above.
 const MAX_FOLDED_LENGTH: usize = 512;
 
-/// The sums F of real numbers.
+/// Plan of the sums F_k of real numbers f_n.
 #[derive(Clone)]
 pub(super) struct CosineTransform<T> {
     plan: Arc<dyn RealToComplex<T>>,
-    /// sin(πn/L) for n = 0 … L/2; none where the period is transformed.
+    /// sin(πn/L) for n = 0 … L/2; `None` if the whole period is transformed.
     sines: Option<Vec<T>>,
 }
 
 impl<T: Real> CosineTransform<T> {
+    /// Plan for L = `length`.
     pub(super) fn new(length: usize) -> Self {
         let sine = |n| T::rounded((PI * n as f64 / length as f64).sin());
         if length > MAX_FOLDED_LENGTH {
@@ -56,13 +56,13 @@ impl<T: Real> CosineTransform<T> {
         }
     }
 
-    /// Number of numbers, L + 1.
+    /// Number of values f_n, L + 1.
     pub(super) fn len(&self) -> usize {
         let transformed = self.plan.len();
         1 + self.sines.as_ref().map_or(transformed / 2, |_| transformed)
     }
 
-    /// The transform that finds them.
+    /// The underlying real Fourier transform, of L or 2 L numbers.
     pub(super) fn plan(&self) -> &dyn RealToComplex<T> {
         &*self.plan
     }
@@ -72,11 +72,13 @@ impl<T: Real> CosineTransform<T> {
         let (numbers, reals) = (&mut buffers.row, &mut buffers.folded);
         let (coefficients, scratch) = (&mut buffers.half_row, &mut buffers.scratch);
         if let Some(sines) = &self.sines {
+            // L numbers: the odd sums follow from differences and their known mean.
             let mean = numbers[0] - numbers[reals.len()];
             fold(sines, numbers, reals);
             forward_real(&*self.plan, reals, coefficients, scratch);
             separate(coefficients, mean, numbers);
         } else {
+            // The whole period of 2 L numbers, whose coefficients are real.
             unfold(numbers, reals);
             forward_real(&*self.plan, reals, coefficients, scratch);
             for (number, coefficient) in numbers.iter_mut().zip(coefficients) {
@@ -86,7 +88,7 @@ impl<T: Real> CosineTransform<T> {
     }
 }
 
-/// Writes y_0 … y_(L−1) for f_0 … f_L.
+/// Computes y_0 … y_(L−1) from f_0 … f_L.
 fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
     let length = folded.len();
     for (n, &sine) in sines.iter().enumerate() {
@@ -99,8 +101,9 @@ fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
     }
 }
 
-/// Writes F_0 … F_L from Y_0 … Y_(L/2) and the mean of those with odd k.
+/// Computes F_0 … F_L from Y_0 … Y_(L/2) and the `mean` of the F_k with odd k.
 fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
+    // Even sums directly, odd ones by cumulative differences up to a constant.
     let (mut odd, mut total) = (T::default(), T::default());
     for (pair, coefficient) in numbers.chunks_mut(2).zip(coefficients) {
         odd -= coefficient.im;
@@ -112,16 +115,17 @@ fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
     }
     let length = numbers.len() - 1;
     if !length.is_multiple_of(2) {
-        // The last stands alone in the period, the others twice.
+        // In the period F_L occurs once, all other odd terms twice.
         total -= T::rounded(0.5) * odd;
     }
+    // The constant follows from the mean of the odd sums.
     let shift = mean - total * T::rounded(2.0) / T::rounded(length as f64);
     for number in numbers.iter_mut().skip(1).step_by(2) {
         *number += shift;
     }
 }
 
-/// Writes the period of which f_0 … f_L are the part in front of the mirror.
+/// Extends f_0 … f_L by its mirror image to the whole period.
 pub(super) fn unfold<T: Copy>(numbers: &[T], period: &mut [T]) {
     period[..numbers.len()].copy_from_slice(numbers);
     let images = numbers[1..].iter().rev().skip(1);

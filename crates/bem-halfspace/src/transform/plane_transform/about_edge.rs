@@ -1,13 +1,13 @@
-//! Transforms of one half of a row or column that is its own mirror image about the edge of its first element.
+//! Discrete cosine transform of half a row or column that is its own mirror image about the edge of its first element (DCT-II).
 //!
-//! With x_n at a distance of n + ½ elements from the mirror and as much on its other side, the Fourier transform of the
-//! period of 2 L elements is, but for a phase that both directions share,
+//! With x_n at the distances ±(n + ½) elements from the mirror, the Fourier transform of the period of 2 L elements is, up to a phase
+//! that both directions share,
 //!
 //! ```text
 //! U_k = 2 Σ x_n cos(π (n + ½) k / L),        n, k = 0 … L − 1.
 //! ```
 //!
-//! In the order x_0, x_2, x_4 … x_5, x_3, x_1 it is found from the Fourier transform V of L elements (Makhoul 1980,
+//! In the order x_0, x_2, x_4 … x_5, x_3, x_1 it follows from the Fourier transform V of L elements (Makhoul 1980,
 //! DOI 10.1109/TASSP.1980.1163351): with w_k = exp(−iπk/2L) and U_L = 0,
 //!
 //! ```text
@@ -21,7 +21,7 @@ use rustfft::num_complex::Complex;
 
 use crate::transform::plane_transform::rounded;
 
-/// The numbers w_k for k = 0 … L/2.
+/// Twiddle factors w_k for k = 0 … L/2.
 pub(super) fn twiddles<T: Real>(length: usize) -> Vec<Complex<T>> {
     let twiddle = |k| {
         rounded(Complex::from_polar(
@@ -32,7 +32,7 @@ pub(super) fn twiddles<T: Real>(length: usize) -> Vec<Complex<T>> {
     (0..=length / 2).map(twiddle).collect()
 }
 
-/// Where an element stands in the order of the transform.
+/// Index of an element in the order x_0, x_2, x_4 … x_3, x_1 of the transform.
 pub(super) const fn ordered_index(element: usize, length: usize) -> usize {
     if element.is_multiple_of(2) {
         element / 2
@@ -41,7 +41,7 @@ pub(super) const fn ordered_index(element: usize, length: usize) -> usize {
     }
 }
 
-/// Puts values and zeros behind them into the order of the transform.
+/// Writes `values`, padded with zeros, in the order of the transform.
 pub(super) fn reorder<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
     ordered.fill(T::default());
     for (element, value) in values.iter().enumerate() {
@@ -49,14 +49,14 @@ pub(super) fn reorder<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
     }
 }
 
-/// Takes the first values from the order of the transform.
+/// Reads the first `values` from the order of the transform.
 pub(super) fn restore_order<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
     for (element, value) in values.iter_mut().enumerate() {
         *value = F::rounded(ordered[ordered_index(element, ordered.len())].into());
     }
 }
 
-/// U_0 … U_(L−1) of real x, from V_0 … V_(L/2).
+/// Computes U_0 … U_(L−1) of real x from V_0 … V_(L/2).
 pub(super) fn to_cosine_sums<T: Real>(
     twiddles: &[Complex<T>],
     half: &[Complex<T>],
@@ -72,7 +72,7 @@ pub(super) fn to_cosine_sums<T: Real>(
     }
 }
 
-/// Twice V_0 … V_(L/2) from real U_0 … U_(L−1).
+/// Computes 2 V_0 … 2 V_(L/2) from real U_0 … U_(L−1).
 pub(super) fn from_cosine_sums<T: Real>(
     twiddles: &[Complex<T>],
     numbers: &[T],

@@ -1,4 +1,4 @@
-//! Complex transforms along x.
+//! Complex transforms of columns, along x.
 
 use std::sync::Arc;
 
@@ -9,18 +9,18 @@ use rustfft::num_complex::Complex;
 use crate::elements::mirror::Mirror;
 use crate::transform::plane_transform::{about_centre, about_edge};
 
-/// The transforms of a column, or of the part of it in front of a mirror.
+/// Plans of the transforms of a column, or of the part of a column in front of a mirror.
 #[derive(Clone)]
 pub(super) struct ColumnTransform<T> {
     forward: Arc<dyn Fft<T>>,
     inverse: Arc<dyn Fft<T>>,
     pub(super) mirror: Mirror,
-    /// Of [`about_edge`]; empty without a mirror there.
+    /// Twiddle factors of [`about_edge`]; empty for other mirrors.
     pub(super) twiddles: Vec<Complex<T>>,
 }
 
 impl<T: Real> ColumnTransform<T> {
-    /// For a period of so many elements.
+    /// Plans for a period of `period` elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let (length, twiddles) = match mirror {
             Mirror::None | Mirror::Centre => (period, Vec::new()),
@@ -34,7 +34,7 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
-    /// Number of elements that are transformed.
+    /// Number of elements of a column that are transformed.
     pub(super) fn len(&self) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Edge => self.forward.len(),
@@ -42,6 +42,7 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
+    /// Length of the scratch of both transforms.
     pub(super) fn scratch_len(&self) -> usize {
         let plans = [&self.forward, &self.inverse];
         let [forward, inverse] = plans.map(|plan| plan.get_inplace_scratch_len());
@@ -52,7 +53,7 @@ impl<T: Real> ColumnTransform<T> {
         of_period + forward.max(inverse)
     }
 
-    /// Where the element of a row stands in a column.
+    /// Index within a column of the element of a row.
     pub(super) fn index_of_row(&self, row: usize) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Centre => row,
@@ -60,6 +61,7 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
+    /// Transforms a column in place.
     pub(super) fn forward(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
             column[0] *= T::rounded(2.0);
@@ -68,6 +70,7 @@ impl<T: Real> ColumnTransform<T> {
         self.forward.process_with_scratch(column, scratch);
     }
 
+    /// Transforms a column back in place, without normalisation.
     pub(super) fn inverse(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
             return self.sum_of_period(scratch, column);
@@ -75,8 +78,8 @@ impl<T: Real> ColumnTransform<T> {
         self.inverse.process_with_scratch(column, scratch);
     }
 
-    /// The sums F of [`about_centre`], in both directions, as the Fourier transform of the period: here a mirror halves
-    /// the rows only.
+    /// The sums F of [`about_centre`], in both directions, by the Fourier transform of the whole period: along x a mirror through
+    /// centres saves only the work on rows.
     fn sum_of_period(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         let (period, scratch) = scratch.split_at_mut(self.forward.len());
         about_centre::unfold(column, period);

@@ -1,4 +1,4 @@
-//! Products with the transform of a kernel that is even along both axes, which is real.
+//! Products with the transform of a kernel that is even along both axes, and therefore real.
 
 use rustfft::num_complex::Complex;
 
@@ -6,8 +6,8 @@ use crate::elements::mirror::Mirror;
 use crate::transform::plane_transform::PlaneTransform;
 
 impl PlaneTransform {
-    /// Multiplies a column of a transformed field with its part of the `spectrum` of the kernel over the whole period,
-    /// [column][0..=padded_x / 2].
+    /// Multiplies column number `column` of a transformed field by the `spectrum` of the kernel over the whole period, which has
+    /// the layout [column][0..=padded_x / 2].
     pub(crate) fn multiply_even(
         &self,
         spectrum: &[f64],
@@ -17,7 +17,7 @@ impl PlaneTransform {
         let length = self.padded[0] / 2 + 1;
         let factors = |column: usize| &spectrum[column * length..][..length];
         let of_pair = || {
-            // Beside the last of an odd number of real coefficients stands none.
+            // An odd number of real coefficients leaves the last pair with one of them.
             let last = self.padded[1] / 2;
             [2 * column, 2 * column + 1].map(|column| factors(column.min(last)))
         };
@@ -36,6 +36,7 @@ impl PlaneTransform {
     }
 }
 
+/// Multiplies a whole complex column by real factors that are even in the row.
 fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
     let (lower, upper) = values.split_at_mut(factors.len());
     for (value, factor) in lower.iter_mut().zip(factors) {
@@ -46,7 +47,7 @@ fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
     }
 }
 
-/// Of a column that is the sum of one that is real and one that is imaginary before the transform, with factors each.
+/// Multiplies a column that holds the transforms of two real columns, as real and imaginary part, each by its own factors.
 fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     let length = values.len();
     for (k, (first, second)) in first.iter().zip(second).enumerate() {
@@ -58,15 +59,15 @@ fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     }
 }
 
-/// One factor for real parts and one for imaginary ones.
+/// Multiplies real and imaginary parts, which are two columns with real transforms, each by their own factors.
 fn multiply_about_centre([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     for (value, (real, imaginary)) in values.iter_mut().zip(real.iter().zip(imaginary)) {
         *value = Complex::new(value.re * real, value.im * imaginary);
     }
 }
 
-/// Of a column beside a mirror, in the notation of [`about_edge`](super::about_edge): one factor for the real part of U_k
-/// and one for its imaginary part.
+/// Multiplies the real part of U_k by one factor and its imaginary part by another, in a column with a mirror at an edge and in
+/// the notation of [`about_edge`](super::about_edge).
 fn multiply_about_edge(
     [real, imaginary]: [&[f64]; 2],
     twiddles: &[Complex<f64>],
@@ -78,6 +79,7 @@ fn multiply_about_edge(
         Complex::new(value.re * real, value.im * imaginary)
     };
     let pair = |twiddle: Complex<f64>, [here, there]: [Complex<f64>; 2], [one, other]: [_; 2]| {
+        // From V_k, V_(L−k) to U_k, U_(L−k), product, and back.
         let [here, there] = [twiddle * here, twiddle.conj() * there];
         let sum = product(here + there, one);
         // U_(L−k) is i times the difference, and is transformed back with −i.
@@ -89,7 +91,7 @@ fn multiply_about_edge(
     };
     values[0] = product(2.0 * values[0], (&real[0], &imaginary[0]));
     let (lower, upper) = values[1..].split_at_mut(length / 2);
-    // The other way round from the last but one factor.
+    // Factors of U_(L−k) for k = 1, 2, …
     let opposite = factors.clone().rev().skip(real.len() - length);
     let places = lower.iter_mut().zip(upper.iter_mut().rev());
     let both = factors.skip(1).zip(opposite);
@@ -97,7 +99,7 @@ fn multiply_about_edge(
         [*here, *there] = pair(*twiddle, [*here, *there], [one, other]);
     }
     if length.is_multiple_of(2) {
-        // The one in the middle is its own opposite.
+        // For even L, U_(L/2) is its own opposite.
         let middle = length / 2;
         let both = [(&real[middle], &imaginary[middle]); 2];
         values[middle] = pair(twiddles[middle], [values[middle]; 2], both)[1];

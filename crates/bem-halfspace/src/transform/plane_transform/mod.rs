@@ -1,11 +1,12 @@
-//! Filtering of a real field on a rectangle of elements by a product in Fourier space.
+//! Two-dimensional real Fourier transforms of fields on a rectangle of elements, and products in Fourier space.
 //!
-//! Rows are transformed only where they carry something and back only where the result is wanted, and each column
-//! passes through forward transform, product and inverse transform while it is in the cache, so that the padded field
-//! never exists as a whole.
+//! Rows are transformed only if they are loaded, and transformed back only if the result is wanted there. Each column has its
+//! forward transform, product and inverse transform while it is in the cache, so that the padded field is never stored.
 //!
-//! Of a field that is its own mirror image, only the part in front of the mirror is stored and transformed; see
-//! [`about_centre`] and [`about_edge`].
+//! If a field is its own mirror image, only the part in front of the mirror is stored and transformed; see [`about_centre`] and
+//! [`about_edge`].
+//!
+//! Theory: docs/theory/contact.md, "Mirrors".
 
 mod about_centre;
 mod about_edge;
@@ -28,15 +29,17 @@ use rows::RowTransform;
 pub(crate) use workspace::Workspace;
 use workspace::{Buffers, for_each_chunk};
 
-/// Columns that pass together: eight complex numbers fill two cache lines.
+/// Columns that are gathered together (a tile): eight complex numbers fill two cache lines.
 const COLUMNS_PER_TILE: usize = 8;
-/// Rows of which the pieces of a tile lie one after the other, so that columns are gathered from few places of memory.
+/// Rows (a strip) whose pieces of a tile are contiguous, so that columns are gathered from few places of memory; chosen.
 const ROWS_PER_STRIP: usize = 8;
+/// The complex number 0.
 pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
-/// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
+/// Plans of the transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
 #[derive(Clone)]
 pub(crate) struct PlaneTransform<T = f64> {
+    /// Elements of the period along x and y.
     pub(crate) padded: [usize; 2],
     rows: RowTransform<T>,
     columns: ColumnTransform<T>,
@@ -57,8 +60,8 @@ impl<T: Real> PlaneTransform<T> {
         Self::folded(padded, NO_MIRRORS)
     }
 
-    /// Plans the transforms of the parts of fields that are their own mirror images along the axes of `mirrors`; the
-    /// period is even there.
+    /// Plans the transforms of fields that are their own mirror images and are given in front of `mirrors`. The period must be even
+    /// along the axes with a mirror.
     pub(crate) fn folded(padded: [usize; 2], mirrors: [Mirror; 2]) -> Self {
         let (columns, rows) = join(
             || ColumnTransform::new(padded[0], mirrors[0]),
@@ -76,21 +79,23 @@ impl<T: Real> PlaneTransform<T> {
         1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
     }
 
-    /// Number of columns of a transformed field; the rest of the period follows from them.
+    /// Number of stored columns of a transformed field; the rest of the period follows by symmetry.
     pub(crate) fn n_columns(&self) -> usize {
         self.rows.n_coefficients()
     }
 
+    /// Number of tiles of the transformed columns.
     fn n_tiles(&self) -> usize {
         self.n_columns().div_ceil(COLUMNS_PER_TILE)
     }
 
-    /// Columns one beside the other at a distance of a power of two would compete for the same lines of the cache.
+    /// Distance of the buffers of neighbouring columns, padded because at a power of two they would compete for the same cache
+    /// lines.
     fn column_stride(&self) -> usize {
         self.columns.len() + COLUMNS_PER_TILE
     }
 
-    /// Transforms a real row of the whole period; its values are overwritten.
+    /// Transforms a real row of the whole period; `row` is overwritten.
     pub(crate) fn transform_row(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
         self.rows.forward_whole(row, transformed);
     }
@@ -101,13 +106,14 @@ impl<T: Real> PlaneTransform<T> {
         self.columns.forward(&mut scratch, columns);
     }
 
-    /// The inverse of [`column_forward`](Self::column_forward).
+    /// Transforms columns of the whole period back, without normalisation.
     pub(crate) fn column_inverse(&self, columns: &mut [Complex<T>]) {
         let mut scratch = vec![Complex::default(); self.columns.scratch_len()];
         self.columns.inverse(&mut scratch, columns);
     }
 
-    /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
+    /// Transforms the rows `loaded` of a row-major field of the shape of the workspace into the workspace; other rows count as
+    /// zero.
     pub(crate) fn forward_rows<F: Real>(
         &self,
         workspace: &mut Workspace<T>,
@@ -122,6 +128,7 @@ impl<T: Real> PlaneTransform<T> {
         for_each_chunk(buffers, strips, unit, |first, buffers, strips| {
             for (strip, pieces) in (used.start + first..).zip(strips.chunks_exact_mut(unit)) {
                 for row in rows_of_strip(strip, loaded) {
+                    // Transform the row, and distribute its coefficients over the tiles.
                     self.rows
                         .forward(buffers, &field[row * width..(row + 1) * width]);
                     let coefficients = &buffers.half_row[..self.n_columns()];
@@ -140,7 +147,7 @@ impl<T: Real> PlaneTransform<T> {
         });
     }
 
-    /// Applies `multiply` to every column of the transform of the rows `loaded`, and keeps the rows `wanted`.
+    /// Transforms all columns, applies `multiply(column, values)` to them, transforms them back and keeps the rows `wanted`.
     pub(crate) fn filter_columns(
         &self,
         workspace: &mut Workspace<T>,
@@ -157,6 +164,7 @@ impl<T: Real> PlaneTransform<T> {
                     tile * COLUMNS_PER_TILE..((tile + 1) * COLUMNS_PER_TILE).min(self.n_columns());
                 self.gather_columns(buffers, strips, tile, loaded);
                 self.multiply_columns(buffers, &columns, &multiply);
+                // Keep the wanted rows of the tile.
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
                     let place = self.columns.index_of_row(row);
                     let columns = buffers.columns.chunks_exact(self.column_stride());
@@ -168,6 +176,7 @@ impl<T: Real> PlaneTransform<T> {
         });
     }
 
+    /// Collects the columns of a tile from the transformed rows `loaded` into the column buffers, padded with zeros.
     fn gather_columns(
         &self,
         buffers: &mut Buffers<T>,
@@ -190,6 +199,7 @@ impl<T: Real> PlaneTransform<T> {
         }
     }
 
+    /// Forward transform, product and inverse transform of the buffered columns.
     fn multiply_columns(
         &self,
         buffers: &mut Buffers<T>,
@@ -205,7 +215,7 @@ impl<T: Real> PlaneTransform<T> {
         }
     }
 
-    /// Writes the rows `wanted` of the result; the other rows are left as they are.
+    /// Transforms the rows `wanted` back from the workspace into `result`, without normalisation; other rows are not changed.
     pub(crate) fn inverse_rows<F: Real>(
         &self,
         workspace: &mut Workspace<T>,
@@ -217,6 +227,7 @@ impl<T: Real> PlaneTransform<T> {
         let result = &mut result[wanted.start * width..wanted.end * width];
         for_each_chunk(buffers, result, width, |first, buffers, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
+                // Collect the coefficients of the row from all tiles, and transform them back.
                 let mut pieces = tiles[row..].iter().step_by(stride);
                 let coefficients = &mut buffers.half_row[..self.n_columns()];
                 let (whole, rest) = coefficients.as_chunks_mut::<COLUMNS_PER_TILE>();
@@ -232,12 +243,12 @@ impl<T: Real> PlaneTransform<T> {
     }
 }
 
-/// The nearest number of the type of a transform.
+/// A complex number rounded to the precision of a transform.
 pub(crate) fn rounded<T: Real>(value: Complex<f64>) -> Complex<T> {
     Complex::new(T::rounded(value.re), T::rounded(value.im))
 }
 
-/// Those of the rows that lie in a strip.
+/// The rows of `rows` that lie in strip number `strip`.
 fn rows_of_strip(strip: usize, rows: &Range<usize>) -> Range<usize> {
     rows.start.max(strip * ROWS_PER_STRIP)..rows.end.min((strip + 1) * ROWS_PER_STRIP)
 }

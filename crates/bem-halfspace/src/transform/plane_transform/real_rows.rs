@@ -1,9 +1,10 @@
-//! Transforms of one real row.
+//! Real Fourier transforms of one row, with buffers of the right lengths.
 
 use numerics::transforms::Real;
 use realfft::{ComplexToReal, RealToComplex};
 use rustfft::num_complex::Complex;
 
+/// Transforms `reals`, which are overwritten, into `coefficients`.
 pub(super) fn forward_real<T: Real>(
     plan: &dyn RealToComplex<T>,
     reals: &mut [T],
@@ -14,13 +15,14 @@ pub(super) fn forward_real<T: Real>(
     assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
 }
 
+/// Transforms `coefficients`, which are overwritten, back into `reals`, without normalisation.
 pub(super) fn inverse_real<T: Real>(
     plan: &dyn ComplexToReal<T>,
     coefficients: &mut [Complex<T>],
     reals: &mut [T],
     scratch: &mut [Complex<T>],
 ) {
-    // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.
+    // The first and, for even lengths, the last coefficient of a real row are real; the transform refuses imaginary rounding there.
     coefficients[0].im = T::default();
     if reals.len().is_multiple_of(2) {
         coefficients[reals.len() / 2].im = T::default();

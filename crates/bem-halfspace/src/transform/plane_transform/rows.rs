@@ -1,4 +1,4 @@
-//! Real transforms along y.
+//! Real transforms of rows, along y.
 
 use std::sync::Arc;
 
@@ -12,23 +12,25 @@ use crate::transform::plane_transform::about_edge;
 use crate::transform::plane_transform::real_rows::{forward_real, inverse_real};
 use crate::transform::plane_transform::workspace::Buffers;
 
-/// The transforms of a row, or of the part of it in front of a mirror.
+/// Plans of the transforms of a row, or of the part of a row in front of a mirror.
 ///
-/// The coefficients of a whole row are complex, and those of the other half of the period their conjugates; those beside
-/// a mirror are real, and two of them side by side are stored as one complex number.
+/// The coefficients of a whole row are complex; half of the period is stored, the other half are their conjugates. The
+/// coefficients of a row with a mirror are real, and each two neighbours are stored as one complex number.
 #[derive(Clone)]
 pub(super) enum RowTransform<T> {
+    /// A whole row, or half a row with a mirror at the edge of its first element.
     Fourier {
         forward: Arc<dyn RealToComplex<T>>,
         inverse: Arc<dyn ComplexToReal<T>>,
-        /// Of [`about_edge`]; none without a mirror there.
+        /// Twiddle factors of [`about_edge`]; `None` without a mirror.
         twiddles: Option<Vec<Complex<T>>>,
     },
+    /// Half a row with a mirror through the centre of its first element.
     AboutCentre(CosineTransform<T>),
 }
 
 impl<T: Real> RowTransform<T> {
-    /// For a period of so many elements.
+    /// Plans for a period of `period` elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let half = period / 2;
         let (length, twiddles) = match mirror {
@@ -43,7 +45,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Number of elements that are transformed.
+    /// Number of elements of a row that are transformed.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Fourier { forward, .. } => forward.len(),
@@ -51,11 +53,12 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
+    /// True if the coefficients are real.
     pub(super) const fn has_mirror(&self) -> bool {
         !matches!(self, Self::Fourier { twiddles: None, .. })
     }
 
-    /// Number of complex numbers that hold the coefficients.
+    /// Number of complex numbers in which the coefficients are stored.
     pub(super) fn n_coefficients(&self) -> usize {
         if self.has_mirror() {
             self.len().div_ceil(2)
@@ -64,6 +67,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
+    /// Length of the scratch of both transforms.
     pub(super) fn scratch_len(&self) -> usize {
         match self {
             Self::Fourier {
@@ -73,7 +77,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Number of reals that are transformed.
+    /// Length of the real Fourier transform that is used.
     pub(super) fn n_reals(&self) -> usize {
         match self {
             Self::Fourier { forward, .. } => forward.len(),
@@ -81,7 +85,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Transforms all elements of a row without a mirror; they are overwritten.
+    /// Transforms a whole row without a mirror; `row` is overwritten.
     pub(super) fn forward_whole(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
         assert!(!self.has_mirror(), "a whole row");
         if let Self::Fourier { forward, .. } = self {
@@ -90,8 +94,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
-    /// the buffers.
+    /// Transforms a row of `values` padded with zeros; the coefficients are left in `half_row` of the buffers.
     pub(super) fn forward<F: Real>(&self, buffers: &mut Buffers<T>, values: &[F]) {
         match self {
             Self::Fourier {
@@ -108,12 +111,14 @@ impl<T: Real> RowTransform<T> {
                     &mut buffers.scratch,
                 );
                 if let Some(twiddles) = twiddles {
+                    // From complex coefficients to real cosine sums, stored in pairs.
                     about_edge::to_cosine_sums(twiddles, &buffers.half_row, &mut buffers.row);
                     pair(&buffers.row, &mut buffers.half_row);
                 }
             }
             Self::AboutCentre(cosines) => {
                 fill(&mut buffers.row, values);
+                // U_0 counts the half element x_0 on both sides of the mirror.
                 buffers.row[0] *= T::rounded(2.0);
                 cosines.apply(buffers);
                 pair(&buffers.row, &mut buffers.half_row);
@@ -121,7 +126,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Transforms back, without normalisation, the coefficients in the half row of the buffers.
+    /// Transforms the coefficients in `half_row` of the buffers back, without normalisation, and writes the first `values`.
     pub(super) fn inverse<F: Real>(&self, buffers: &mut Buffers<T>, values: &mut [F]) {
         match self {
             Self::Fourier {
@@ -152,7 +157,7 @@ impl<T: Real> RowTransform<T> {
     }
 }
 
-/// Values, and zeros behind them.
+/// Copies `values` into `row` and pads with zeros.
 fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
     for (place, value) in row.iter_mut().zip(values) {
         *place = T::rounded((*value).into());
@@ -160,12 +165,12 @@ fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
     row[values.len()..].fill(T::default());
 }
 
-/// Stores two real numbers each as one complex number.
+/// Stores each two neighbouring real numbers as one complex number; the last of an odd number has the imaginary part 0.
 fn pair<T: Real>(reals: &[T], pairs: &mut [Complex<T>]) {
     let (whole, rest) = reals.as_chunks::<2>();
     let alone = rest.iter().map(|&real| Complex::new(real, T::default()));
-    let whole = whole.iter().map(|&[re, im]| Complex::new(re, im));
-    for (place, pair) in pairs.iter_mut().zip(whole.chain(alone)) {
+    let complete = whole.iter().map(|&[re, im]| Complex::new(re, im));
+    for (place, pair) in pairs.iter_mut().zip(complete.chain(alone)) {
         *place = pair;
     }
 }

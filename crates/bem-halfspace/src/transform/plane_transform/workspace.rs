@@ -1,4 +1,4 @@
-//! Buffers of a filter.
+//! Buffers of the transforms, and their division among threads.
 
 use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
@@ -7,15 +7,14 @@ use crate::parallel::bands::copies;
 use crate::parallel::chunks::{MIN_ELEMENTS, PerThread, Starts, fold_chunks};
 use crate::transform::plane_transform::{COLUMNS_PER_TILE, PlaneTransform, ROWS_PER_STRIP};
 
-/// Buffers of a filter of fields of one shape; with the feature `rayon` for the threads of the pool in which they were
-/// made.
+/// Buffers for transforms of fields of one shape; with the feature `rayon`, for the threads of the pool in which they were made.
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace<T = f64> {
     /// Rows and columns of the fields.
     pub(crate) shape: [usize; 2],
     /// Transformed rows, [strip][tile][row of the strip].
     pub(super) strips: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
-    /// Columns after the product, [tile][row].
+    /// Columns after the product in Fourier space, [tile][row].
     pub(super) tiles: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
     pub(super) buffers: PerThread<Buffers<T>>,
 }
@@ -23,16 +22,19 @@ pub(crate) struct Workspace<T = f64> {
 /// Buffers of the transforms on one thread.
 #[derive(Debug, Clone)]
 pub(super) struct Buffers<T> {
+    /// A row of real values.
     pub(super) row: Vec<T>,
+    /// Coefficients of a row.
     pub(super) half_row: Vec<Complex<T>>,
+    /// Columns of a tile, at the distance of the column stride.
     pub(super) columns: Vec<Complex<T>>,
     pub(super) scratch: Vec<Complex<T>>,
-    /// What is transformed of rows in front of a mirror about a centre.
+    /// Input of the transform of a row with a mirror through the centre of an element.
     pub(super) folded: Vec<T>,
 }
 
 impl<T: Real> Workspace<T> {
-    /// For fields of `shape`, which the period of the transform holds.
+    /// Buffers for fields of `shape`, which must fit into the period of the transform.
     pub(crate) fn new(transform: &PlaneTransform<T>, shape: [usize; 2]) -> Self {
         let n_in_strips = shape[0].next_multiple_of(ROWS_PER_STRIP) * transform.n_tiles();
         Self {
@@ -46,14 +48,14 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// Number of pieces from one tile to the next; at a distance of a power of two they would compete for the same lines of
-    /// the cache.
+    /// Number of pieces from one tile to the next, padded because at a power of two they would compete for the same cache lines.
     pub(super) const fn tile_stride(&self) -> usize {
         self.shape[0] + 1
     }
 }
 
 impl<T: Real> Buffers<T> {
+    /// Buffers of one thread.
     fn new(transform: &PlaneTransform<T>) -> Self {
         let scratch = transform.rows.scratch_len();
         Self {
@@ -66,8 +68,8 @@ impl<T: Real> Buffers<T> {
     }
 }
 
-/// Divides `values` into chunks of whole units and does the work of each with the buffers of its thread: `work` gets the
-/// number of the first unit of a chunk, the buffers and the chunk.
+/// Divides `values` into chunks of whole units of `unit` values, and processes them in parallel with the buffers of their threads.
+/// `work` takes the number of the first unit of a chunk, the buffers and the chunk.
 pub(super) fn for_each_chunk<R: Real, T: Send>(
     buffers: &PerThread<Buffers<R>>,
     values: &mut [T],
