@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
-use crate::parallel::bands::Bands;
 use crate::parallel::chunks::Starts;
+use crate::parallel::row_blocks::RowBlocks;
 
 /// A maximal run of active elements in one row.
 #[derive(Debug, Clone, Copy)]
@@ -46,25 +46,25 @@ pub(crate) struct Matches {
 pub(crate) struct ActiveSet {
     is_active: Vec<bool>,
     pub(crate) columns: usize,
-    pub(crate) bands: Bands,
+    pub(crate) bands: RowBlocks,
     /// Runs of each band, with capacity for as many as are possible, so that a change does not allocate.
     runs: Vec<Vec<Run>>,
-    /// Number of active elements before each band, and in total; `n_bands + 1` values.
+    /// Number of active elements before each row block, and in total; `n_blocks + 1` values.
     starts: Vec<usize>,
 }
 
 impl ActiveSet {
     /// The empty set on a grid of the given shape.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
-        let bands = Bands::new(shape);
+        let bands = RowBlocks::new(shape);
         let most_runs = |band| bands.rows(band).len() * shape[1].div_ceil(2);
-        let runs = (0..bands.n_bands()).map(|band| Vec::with_capacity(most_runs(band)));
+        let runs = (0..bands.n_blocks()).map(|band| Vec::with_capacity(most_runs(band)));
         Self {
             is_active: vec![false; shape[0] * shape[1]],
             columns: shape[1],
             bands,
             runs: runs.collect(),
-            starts: vec![0; bands.n_bands() + 1],
+            starts: vec![0; bands.n_blocks() + 1],
         }
     }
 
@@ -105,7 +105,7 @@ impl ActiveSet {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.starts[self.bands.n_bands()]
+        self.starts[self.bands.n_blocks()]
     }
 
     /// The runs of a band, in increasing order.
@@ -127,23 +127,23 @@ impl ActiveSet {
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// A packed vector, split at the bands for [`Bands::fold`].
+    /// A packed vector, split at the bands for [`RowBlocks::fold`].
     pub(crate) fn packed<'a, T>(&'a self, vector: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (vector, Starts::Listed(&self.starts))
     }
 
-    /// A field with one value per element, split at the bands for [`Bands::fold`].
+    /// A field with one value per element, split at the bands for [`RowBlocks::fold`].
     pub(crate) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
-        (field, self.bands.starts_of_blocks(1))
+        (field, self.bands.starts_of_coarse_blocks(1))
     }
 
-    /// A field with one value per block of `edge` × `edge` elements, split at the bands for [`Bands::fold`].
+    /// A field with one value per block of `edge` × `edge` elements, split at the bands for [`RowBlocks::fold`].
     pub(crate) fn blocks<'a, T>(
         &self,
         edge: usize,
         field: &'a mut [T],
     ) -> (&'a mut [T], Starts<'a>) {
-        (field, self.bands.starts_of_blocks(edge))
+        (field, self.bands.starts_of_coarse_blocks(edge))
     }
 
     /// Sum over the bands of a function of their packed ranges.

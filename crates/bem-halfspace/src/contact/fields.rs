@@ -5,8 +5,8 @@ use std::ops::Range;
 use crate::Convolution;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::preconditioner::{Preconditioner, Weights};
-use crate::parallel::bands::resize;
 use crate::parallel::reductions::sum;
+use crate::parallel::row_blocks::resize;
 
 /// Buffers of the iteration, besides load and displacement.
 #[derive(Debug, Clone)]

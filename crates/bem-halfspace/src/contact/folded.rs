@@ -12,8 +12,8 @@ use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
 use crate::contact::{ContactState, LoadSolution, StoppingCriterion, map_force};
 use crate::elements::mirror::{Mirror, NO_MIRRORS, n_images};
-use crate::parallel::bands::Bands;
 use crate::parallel::chunks::in_pool;
+use crate::parallel::row_blocks::RowBlocks;
 use crate::transform::convolution::{Convolution, Surroundings};
 
 /// Solves the contact on the domain that is left by the mirror symmetries of separation and first guess.
@@ -64,7 +64,7 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
-    let bands = Bands::new(shape);
+    let bands = RowBlocks::new(shape);
     let in_band = |band| {
         let mut rows_of_band = bands.rows(band);
         let mut behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
@@ -94,7 +94,7 @@ impl ContactBox {
     fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
         let (mirrors, columns) = (self.convolution.mirrors, self.bounds.shape()[1]);
         let weights = MirrorWeights::of(&self.convolution);
-        let bands = Bands::new(whole);
+        let bands = RowBlocks::new(whole);
         bands.for_each(fields, |band, [loads, displacements]| {
             let rows = loads
                 .chunks_exact_mut(whole[1])

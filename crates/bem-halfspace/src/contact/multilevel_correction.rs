@@ -27,11 +27,11 @@
 use std::f64::consts::PI;
 
 use crate::contact::active_set::{ActiveSet, sum_blocks};
-use crate::parallel::bands::{Bands, for_each_row, resize};
+use crate::parallel::row_blocks::{RowBlocks, for_each_row, resize};
 use crate::{Convolution, Grid};
 
 /// Edge of the smallest blocks, in elements; within smaller ones the inverse is right without their neighbours.
-pub(super) const FINEST_BLOCK_EDGE: usize = Bands::LARGEST_BLOCK;
+pub(super) const FINEST_BLOCK_EDGE: usize = RowBlocks::MAX_COARSE_BLOCK;
 
 #[derive(Debug, Clone)]
 pub(super) struct MultilevelCorrection {

@@ -19,7 +19,7 @@ use crate::contact::active_set::{ActiveSet, Run, sum_blocks};
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::multilevel_correction::{FINEST_BLOCK_EDGE, MultilevelCorrection};
 use crate::elements::mirror::Mirror;
-use crate::parallel::reductions::add;
+use crate::parallel::reductions::add_scaled;
 use crate::{Convolution, ConvolutionWorkspace};
 
 /// Weights of the two approximations in the preconditioner.
@@ -184,11 +184,11 @@ impl Preconditioner {
         let along_y = self.weights[1] * self.mirror_weights.of_row(run.elements().start);
         let Range { start, end } = run.elements();
         let row = start / columns;
-        add(result, 2.0 * (along_x + along_y), residual);
+        add_scaled(result, 2.0 * (along_x + along_y), residual);
         // Next to a run the residual is zero. Behind a mirror stands the element itself, or the image of the next one, whose
         // share belongs to the other half of this one.
-        add(&mut result[1..], -along_y, residual);
-        add(result, -along_y, &residual[1..]);
+        add_scaled(&mut result[1..], -along_y, residual);
+        add_scaled(result, -along_y, &residual[1..]);
         if !mirrors[1].is_none() && start == row * columns {
             result[0] -= along_y * residual[0];
         }
@@ -202,7 +202,7 @@ impl Preconditioner {
         let missing = 1.0 - self.mirror_weights.of_column(run.elements().start);
         result[0] -= missing * 2.0 * along_x * residual[0];
         for neighbours in [behind, ahead].into_iter().flatten() {
-            add(result, -along_x, neighbours);
+            add_scaled(result, -along_x, neighbours);
             result[0] += missing * along_x * neighbours[0];
         }
     }

@@ -8,8 +8,8 @@ use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::state::{ContactBox, ContactState};
 use crate::contact::{Control, map_force};
 use crate::elements::bounds::Bounds;
-use crate::parallel::bands::for_each_row;
 use crate::parallel::chunks::in_pool;
+use crate::parallel::row_blocks::for_each_row;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Rows};
 

@@ -4,7 +4,7 @@ use crate::contact::fields::Fields;
 use crate::elements::area;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::Mirror;
-use crate::parallel::bands::for_each_row;
+use crate::parallel::row_blocks::for_each_row;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 

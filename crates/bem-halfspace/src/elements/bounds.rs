@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::elements::mirror::Mirror;
-use crate::parallel::bands::{Bands, for_each_row};
+use crate::parallel::row_blocks::{RowBlocks, for_each_row};
 use crate::transform::fast_length::fast_length;
 
 /// Half-open ranges of rows and columns of a field.
@@ -38,7 +38,7 @@ impl Bounds {
         shape: [usize; 2],
         is: impl Fn([usize; 2]) -> bool + Sync,
     ) -> Option<Self> {
-        let bands = Bands::new(shape);
+        let bands = RowBlocks::new(shape);
         let in_band = |band| {
             let elements = bands.elements(band);
             let elements = elements.map(|index| [index / shape[1], index % shape[1]]);

@@ -47,7 +47,7 @@ pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
 }
 
 /// Adds a multiple.
-pub(crate) fn add<T: Real>(sum: &mut [T], factor: T, values: &[T]) {
+pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, values: &[T]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += factor * *value;
     }

@@ -7,8 +7,8 @@ use std::collections::VecDeque;
 
 use numerics::transforms::Real;
 
-use crate::parallel::bands::{Bands, copies};
-use crate::parallel::reductions::{add, sum};
+use crate::parallel::reductions::{add_scaled, sum};
+use crate::parallel::row_blocks::{RowBlocks, copies};
 
 /// Relative drop of ‖r‖² below which a step stagnates: the next direction is then built from the last A p instead of r (Young & Jea
 /// 1980). Values up to 0.05 hardly matter.
@@ -91,18 +91,18 @@ pub(crate) fn gcr<T: Real>(
             |band, [solution, direction]| {
                 let elements = solution_bands.elements(band);
                 for (factor, vector) in factors.iter().zip(&basis) {
-                    add(direction, *factor, &vector.direction[elements.clone()]);
+                    add_scaled(direction, *factor, &vector.direction[elements.clone()]);
                 }
-                add(solution, T::rounded(step), direction);
+                add_scaled(solution, T::rounded(step), direction);
             },
         );
 
         // Move the residual.
         residual_square = residual_bands.fold(
-            [(&mut *residual, residual_bands.starts_of_blocks(1))],
+            [(&mut *residual, residual_bands.starts_of_coarse_blocks(1))],
             |band, [part]| {
                 let elements = residual_bands.elements(band);
-                add(part, T::rounded(step), &new.image[elements.clone()]);
+                add_scaled(part, T::rounded(step), &new.image[elements.clone()]);
                 product_of_parts(weights.map(|weights| &weights[elements]), part, part)
             },
             |left, right| left + right,
@@ -161,11 +161,11 @@ fn orthogonalise<T: Real>(
             .checked_sub(1)
             .map(|index| (factors[index], &basis[index].image[..]));
         let projection = bands.fold(
-            [(&mut *image, bands.starts_of_blocks(1))],
+            [(&mut *image, bands.starts_of_coarse_blocks(1))],
             |band, [part]| {
                 let elements = bands.elements(band);
                 if let Some((factor, image)) = before {
-                    add(part, factor, &image[elements.clone()]);
+                    add_scaled(part, factor, &image[elements.clone()]);
                 }
                 let weights = weights.map(|weights| &weights[elements.clone()]);
                 product_of_parts(weights, part, &vector.image[elements])
@@ -179,11 +179,11 @@ fn orthogonalise<T: Real>(
     // Remove the last component, and form the products of the result.
     let last = factors.last().zip(basis.back());
     let [square, with_residual] = bands.fold(
-        [(image, bands.starts_of_blocks(1))],
+        [(image, bands.starts_of_coarse_blocks(1))],
         |band, [part]| {
             let elements = bands.elements(band);
             if let Some((factor, vector)) = last {
-                add(part, *factor, &vector.image[elements.clone()]);
+                add_scaled(part, *factor, &vector.image[elements.clone()]);
             }
             let weights = weights.map(|weights| &weights[elements.clone()]);
             [&*part, &residual[elements]].map(|other| product_of_parts(weights, part, other))
@@ -224,9 +224,9 @@ fn product_of_parts<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> 
     }
 }
 
-/// Bands of a vector, seen as a column of elements.
-const fn bands<T>(vector: &[T]) -> Bands {
-    Bands::new([vector.len(), 1])
+/// Row blocks of a vector, seen as a column of elements.
+const fn bands<T>(vector: &[T]) -> RowBlocks {
+    RowBlocks::new([vector.len(), 1])
 }
 
 #[cfg(test)]

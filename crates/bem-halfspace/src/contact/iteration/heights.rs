@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::contact::Control;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
-use crate::parallel::reductions::{add, larger, lower, reduce, sum};
+use crate::parallel::reductions::{add_scaled, larger, lower, reduce, sum};
 
 /// Extremes and sums of the height s + K x of the deformed surface, \[m].
 #[derive(Debug, Clone, Copy, Default)]
@@ -77,13 +77,13 @@ impl Iteration<'_> {
         let (heights, depth) = (self.separation, self.indentation_depth);
         let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
             let (elements, range) = (active.bands.elements(band), active.packed_range(band));
-            add(field, length, &image[elements.clone()]);
-            add(
+            add_scaled(field, length, &image[elements.clone()]);
+            add_scaled(
                 displacement,
                 length,
                 &vectors.operator_output[range.clone()],
             );
-            add(load, length, &vectors.direction[range.clone()]);
+            add_scaled(load, length, &vectors.direction[range.clone()]);
             let outside = [&heights[elements], field];
             let inside = [&separation[range], displacement];
             Heights::of_band(active, band, outside, inside, depth)

@@ -20,8 +20,8 @@ use numerics::transforms::Real as _;
 use rustfft::num_complex::Complex;
 
 use crate::contact::active_set::ActiveSet;
-use crate::parallel::bands::copies;
-use crate::parallel::reductions::{add, larger, sum};
+use crate::parallel::reductions::{add_scaled, larger, sum};
+use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr};
 use crate::stationary::periodic::far_loads::FarLoads;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
@@ -117,7 +117,7 @@ impl Equations {
             .assign(|element| has_neighbour(contact, columns, element));
         self.near.find_runs();
         self.spread.fill(0.0);
-        let runs = (0..self.near.bands.n_bands()).flat_map(|band| self.near.runs(band));
+        let runs = (0..self.near.bands.n_blocks()).flat_map(|band| self.near.runs(band));
         let inside = runs.flat_map(|run| &contact[run.elements()]);
         self.inside = inside.map(|inside| f32::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);
@@ -264,7 +264,7 @@ impl Equations {
             far.correct(&self.near, &self.weights, direction);
         }
         let total = self.total(direction);
-        add(
+        add_scaled(
             direction,
             f32::rounded(-total / self.total_lowered),
             &self.lowered,

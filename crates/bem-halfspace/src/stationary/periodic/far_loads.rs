@@ -16,15 +16,15 @@ use numerics::transforms::Real as _;
 use rustfft::num_complex::Complex;
 
 use crate::contact::active_set::ActiveSet;
-use crate::parallel::bands::{Bands, copies};
 use crate::parallel::chunks::Starts;
-use crate::parallel::reductions::{add, sum};
+use crate::parallel::reductions::{add_scaled, sum};
+use crate::parallel::row_blocks::{RowBlocks, copies};
 use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
 use crate::{BemError, Grid};
 
 /// Length of a block in elements.
-const BLOCK: usize = Bands::LARGEST_BLOCK;
+const BLOCK: usize = RowBlocks::MAX_COARSE_BLOCK;
 const ONE_OF_BLOCK: f32 = 1.0 / BLOCK as f32;
 /// Residual of the equation of the blocks at first, relative to its right side: on 1024² elements a contact takes an eighth to a
 /// third more products with 1e-2, and as much less with 1e-3, of which each takes longer.
@@ -152,7 +152,7 @@ impl FarLoads {
             for run in near.runs(band) {
                 let first = run.elements().start;
                 let block = (first / columns - first_row) / BLOCK * columns + first % columns;
-                add(&mut means[block..], ONE_OF_BLOCK, &list[run.packed_range()]);
+                add_scaled(&mut means[block..], ONE_OF_BLOCK, &list[run.packed_range()]);
             }
         });
         means
@@ -169,7 +169,7 @@ impl FarLoads {
             tolerance,
             ..
         } = self;
-        let of = Bands::new([means.len(), 1]);
+        let of = RowBlocks::new([means.len(), 1]);
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
         kernel.apply_roughly(relaxation, means, &mut residual);
         let target = *tolerance * norm(&residual);
@@ -184,13 +184,13 @@ impl FarLoads {
             });
             kernel.apply_roughly(relaxation, &load, image);
             of.for_each([image], |band, [image]| {
-                add(image, -1.0, &from[of.elements(band)]);
+                add_scaled(image, -1.0, &from[of.elements(band)]);
             });
         };
         if norm(displacement) > 0.0 {
             let mut image = copies(0.0, means.len());
             find_image(displacement, &mut image);
-            add(&mut residual, 1.0, &image);
+            add_scaled(&mut residual, 1.0, &image);
         }
         let limits = GcrLimits {
             max_steps: MOST,

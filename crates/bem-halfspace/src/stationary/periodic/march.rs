@@ -19,7 +19,7 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::area;
 use crate::elements::grid::elements_along;
-use crate::parallel::reductions::{add, dot};
+use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
@@ -250,7 +250,7 @@ impl<'a> PeriodicMarch<'a> {
     ) -> Result<PeriodicRow, BemError> {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
         self.step.history(&self.memory, &mut self.separation);
-        add(&mut self.separation, 1.0, &self.heights);
+        add_scaled(&mut self.separation, 1.0, &self.heights);
         let area = n as f64 * self.convolution.grid().element_area();
         let problem = ContactProblem {
             convolution: &self.convolution,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
-use crate::parallel::bands::{copies, for_each_row};
+use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 

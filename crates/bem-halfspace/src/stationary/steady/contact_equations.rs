@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::BemError;
-use crate::parallel::reductions::{add, dot, larger};
+use crate::parallel::reductions::{add_scaled, dot, larger};
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms};
 use crate::stationary::steady::filter::KernelOperator;
@@ -241,7 +241,7 @@ impl<'a> Directions<'a> {
         let mut loads = self.preconditioner.loads(gaps, self.region);
         let stiffness = control.depth + control.load * self.total(&self.unit_depth_response);
         let depth = -control.load * self.total(&loads) / stiffness;
-        add(&mut loads, depth, &self.unit_depth_response);
+        add_scaled(&mut loads, depth, &self.unit_depth_response);
         let displacements = self.operator.apply(0, &loads, self.region);
         for (gap, displacement) in image.iter_mut().zip(displacements) {
             *gap = displacement - depth;

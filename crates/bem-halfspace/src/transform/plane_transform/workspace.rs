@@ -3,8 +3,8 @@
 use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
-use crate::parallel::bands::copies;
 use crate::parallel::chunks::{MIN_ELEMENTS, PerThread, Starts, fold_chunks};
+use crate::parallel::row_blocks::copies;
 use crate::transform::plane_transform::{COLUMNS_PER_TILE, PlaneTransform, ROWS_PER_STRIP};
 
 /// Buffers for transforms of fields of one shape; with the feature `rayon`, for the threads of the pool in which they were made.

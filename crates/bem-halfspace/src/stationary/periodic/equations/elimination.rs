@@ -10,8 +10,8 @@ use numerics::transforms::Real as _;
 
 use super::{Equations, of_first};
 use crate::contact::active_set::Run;
-use crate::parallel::bands::copies;
-use crate::parallel::reductions::add;
+use crate::parallel::reductions::add_scaled;
+use crate::parallel::row_blocks::copies;
 use crate::stationary::periodic::kernel::Kernel;
 
 impl Equations {
@@ -41,12 +41,12 @@ impl Equations {
         let added: Vec<f32> = loads.into_iter().map(f32::rounded).collect();
         let mut image = copies(0.0, added.len());
         self.displaced(&added, &mut image);
-        add(&mut self.gap, 1.0, &image);
+        add_scaled(&mut self.gap, 1.0, &image);
     }
 
     /// The pressures that close the gaps, in their unit, of a contact of few elements.
     fn of_few_elements(&mut self) -> Option<Vec<f64>> {
-        let runs = (0..self.near.bands.n_bands()).flat_map(|band| self.near.runs(band));
+        let runs = (0..self.near.bands.n_blocks()).flat_map(|band| self.near.runs(band));
         let listed = runs.flat_map(Run::elements).enumerate();
         let (places, elements): (Vec<usize>, Vec<usize>) = listed
             .filter(|(place, _)| self.inside[*place] > 0.0)

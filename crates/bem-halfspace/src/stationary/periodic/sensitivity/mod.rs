@@ -24,7 +24,7 @@ use rustfft::num_complex::Complex;
 
 use crate::contact::check_length;
 use crate::parallel::chunks::in_pool;
-use crate::parallel::reductions::{add, dot};
+use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::{Kernel, Sliding};
@@ -308,11 +308,11 @@ impl State {
             let mut field = vec![0.0; n];
             // At the centres of the elements.
             kernel.displace_centres(&self.pressure, &mut field);
-            add(&mut moved, sign, &field);
+            add_scaled(&mut moved, sign, &field);
             kernel.displace_centres(&first_of(n), &mut field);
-            add(&mut under_one, sign, &field);
+            add_scaled(&mut under_one, sign, &field);
             kernel.dissipate(&self.pressure, &mut field);
-            add(&mut dissipated, sign, &field);
+            add_scaled(&mut dissipated, sign, &field);
             depth += sign * sliding.mean_compliance()? * self.mean_pressure;
         }
         let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &moved));

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::elements::bounds::Bounds;
-use crate::parallel::reductions::add;
+use crate::parallel::reductions::add_scaled;
 use crate::stationary::steady::wake_table::WakeTable;
 
 /// Loads on elements of a box.
@@ -105,7 +105,7 @@ impl Correlation {
 
     /// Adds another correlation with the same offsets.
     pub(super) fn plus(mut self, other: &Self) -> Self {
-        add(&mut self.weights, 1.0, &other.weights);
+        add_scaled(&mut self.weights, 1.0, &other.weights);
         self
     }
 

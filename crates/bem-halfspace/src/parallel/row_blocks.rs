@@ -6,40 +6,40 @@ use crate::parallel::chunks::{Chunked, MIN_ELEMENTS, Starts, fold_chunks};
 
 /// The rows of a grid in bands, which depend on the shape of the grid alone.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Bands {
+pub(crate) struct RowBlocks {
     shape: [usize; 2],
-    /// A multiple of [`LARGEST_BLOCK`](Self::LARGEST_BLOCK).
-    rows_per_band: usize,
+    /// A multiple of [`MAX_COARSE_BLOCK`](Self::MAX_COARSE_BLOCK).
+    rows_per_block: usize,
 }
 
-impl Bands {
+impl RowBlocks {
     /// Blocks of so many elements along an edge, or of a half of them and so on, lie in one band.
-    pub(crate) const LARGEST_BLOCK: usize = 8;
+    pub(crate) const MAX_COARSE_BLOCK: usize = 8;
 
     pub(crate) const fn new(shape: [usize; 2]) -> Self {
-        let blocks = MIN_ELEMENTS.div_ceil(Self::LARGEST_BLOCK * shape[1]);
+        let blocks = MIN_ELEMENTS.div_ceil(Self::MAX_COARSE_BLOCK * shape[1]);
         Self {
             shape,
-            rows_per_band: Self::LARGEST_BLOCK * blocks,
+            rows_per_block: Self::MAX_COARSE_BLOCK * blocks,
         }
     }
 
     /// How a field with one value per block of so many elements along an edge is divided.
-    pub(crate) const fn starts_of_blocks(&self, edge: usize) -> Starts<'static> {
-        Starts::Every(self.rows_per_band / edge * self.shape[1].div_ceil(edge))
+    pub(crate) const fn starts_of_coarse_blocks(&self, edge: usize) -> Starts<'static> {
+        Starts::Every(self.rows_per_block / edge * self.shape[1].div_ceil(edge))
     }
 
-    pub(crate) const fn n_bands(&self) -> usize {
-        self.shape[0].div_ceil(self.rows_per_band)
+    pub(crate) const fn n_blocks(&self) -> usize {
+        self.shape[0].div_ceil(self.rows_per_block)
     }
 
-    pub(crate) fn rows(&self, band: usize) -> Range<usize> {
-        let start = band * self.rows_per_band;
-        start..(start + self.rows_per_band).min(self.shape[0])
+    pub(crate) fn rows(&self, block: usize) -> Range<usize> {
+        let start = block * self.rows_per_block;
+        start..(start + self.rows_per_block).min(self.shape[0])
     }
 
-    pub(crate) fn elements(&self, band: usize) -> Range<usize> {
-        let rows = self.rows(band);
+    pub(crate) fn elements(&self, block: usize) -> Range<usize> {
+        let rows = self.rows(block);
         rows.start * self.shape[1]..rows.end * self.shape[1]
     }
 
@@ -50,7 +50,7 @@ impl Bands {
         work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
-        fold_chunks(0..self.n_bands(), fields, &work, &combine)
+        fold_chunks(0..self.n_blocks(), fields, &work, &combine)
     }
 
     /// Does the work of every band on its part of fields that may be divided in different ways.
@@ -68,7 +68,10 @@ impl Bands {
         fields: [&mut [T]; N],
         work: impl Fn(usize, [&mut [T]; N]) + Sync,
     ) {
-        self.for_each_part(fields.map(|field| (field, self.starts_of_blocks(1))), work);
+        self.for_each_part(
+            fields.map(|field| (field, self.starts_of_coarse_blocks(1))),
+            work,
+        );
     }
 
     /// Results of the bands, combined pairwise.
@@ -77,7 +80,7 @@ impl Bands {
         work: impl Fn(usize) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
-        self.fold::<0, (), R>([], |band, []| work(band), combine)
+        self.fold::<0, (), R>([], |block, []| work(block), combine)
     }
 
     /// Sum of the results of the bands.
@@ -92,9 +95,9 @@ pub(crate) fn for_each_row<T: Send>(
     columns: usize,
     work: impl Fn(usize, &mut [T]) + Sync,
 ) {
-    let bands = Bands::new([field.len().div_ceil(columns), columns]);
-    bands.for_each([field], |band, [field]| {
-        for (row, values) in bands.rows(band).zip(field.chunks_mut(columns)) {
+    let row_blocks = RowBlocks::new([field.len().div_ceil(columns), columns]);
+    row_blocks.for_each([field], |block, [field]| {
+        for (row, values) in row_blocks.rows(block).zip(field.chunks_mut(columns)) {
             work(row, values);
         }
     });
