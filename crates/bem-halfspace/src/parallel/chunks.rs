@@ -1,26 +1,26 @@
-//! Work on chunks of fields, side by side where there are threads.
+//! Parallel work on chunks of fields, with buffers per thread.
 //!
-//! The chunks depend on the fields alone and their results are combined pairwise in a fixed order, so that nothing depends
-//! on the number of threads, to the last bit.
+//! The chunks depend on the fields alone, and their results are combined pairwise in a fixed order. Results therefore do not
+//! depend on the number of threads, to the last bit.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Work on fewer elements would take less time than handing it to another thread.
+/// Smallest number of elements per chunk: fewer would take less time than handing them to another thread.
 pub(crate) const MIN_ELEMENTS: usize = 1 << 13;
 
-/// Where the chunks of a field begin.
+/// Division of a field into chunks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Starts<'a> {
-    /// After so many values each.
+    /// Chunks of a given number of values.
     Every(usize),
-    /// One number per chunk, and the end.
+    /// First index of each chunk, and the length of the field.
     Listed(&'a [usize]),
 }
 
 impl Starts<'_> {
-    /// Where a chunk begins.
-    fn of(self, chunk: usize) -> usize {
+    /// First index of a chunk.
+    fn first_index(self, chunk: usize) -> usize {
         match self {
             Self::Every(length) => chunk * length,
             Self::Listed(starts) => starts[chunk],
@@ -28,12 +28,12 @@ impl Starts<'_> {
     }
 }
 
-/// Fields, and where the chunks of each begin.
+/// Fields, each with its division into chunks.
 pub(crate) type Chunked<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
 
-/// Does the work of every chunk of a range on its part of the fields.
+/// Calls `work(chunk, parts)` for each chunk of a range with its parts of the fields, and combines the results.
 ///
-/// The results of the two halves of the range are combined, and those are of their halves: the order is always the same.
+/// The range is halved recursively, so that the order of the combinations is always the same.
 pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     chunks: Range<usize>,
     fields: Chunked<T, N>,
@@ -52,7 +52,7 @@ pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     combine(left, right)
 }
 
-/// The fields, which begin with the chunk `first`, before and behind the beginning of the chunk `middle`.
+/// Splits fields that begin with chunk `first` at the beginning of chunk `middle`.
 fn split<'a, T, const N: usize>(
     fields: Chunked<'a, T, N>,
     first: usize,
@@ -61,7 +61,8 @@ fn split<'a, T, const N: usize>(
     let mut behind = [(); N].map(|()| (<&mut [T]>::default(), Starts::Every(0)));
     let mut slots = behind.iter_mut();
     let before = fields.map(|(field, starts)| {
-        let (lower, upper) = field.split_at_mut(starts.of(middle) - starts.of(first));
+        let (lower, upper) =
+            field.split_at_mut(starts.first_index(middle) - starts.first_index(first));
         if let Some(slot) = slots.next() {
             *slot = (upper, starts);
         }
@@ -70,36 +71,36 @@ fn split<'a, T, const N: usize>(
     (before, behind)
 }
 
-/// Buffers of which every thread uses its own.
+/// One set of buffers per thread.
 #[derive(Debug)]
 pub(crate) struct PerThread<T>(Vec<Mutex<T>>);
 
 impl<T> PerThread<T> {
-    /// For the threads of the current pool, as many of them as fields of so many elements occupy.
+    /// Buffers for the threads of the current pool, at most as many as can work on fields of `n_elements` elements.
     pub(crate) fn new(n_elements: usize, buffers: impl Fn() -> T) -> Self {
         let count = n_threads().min(1 + n_elements / MIN_ELEMENTS);
         Self((0..count).map(|_| Mutex::new(buffers())).collect())
     }
 
-    /// Does work with the buffers of this thread; waits for them where a larger pool shares them.
+    /// Calls `work` with the buffers of this thread; waits for them if a larger pool shares them.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
-        let own = &self.0[thread_index() % self.0.len()];
-        work(&mut own.lock().unwrap_or_else(PoisonError::into_inner))
+        let buffers = &self.0[thread_index() % self.0.len()];
+        work(&mut buffers.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
 impl<T: Clone> Clone for PerThread<T> {
     fn clone(&self) -> Self {
         let copy = |buffers: &Mutex<T>| {
-            let buffers = buffers.lock().unwrap_or_else(PoisonError::into_inner);
-            Mutex::new(buffers.clone())
+            let locked = buffers.lock().unwrap_or_else(PoisonError::into_inner);
+            Mutex::new(locked.clone())
         };
         Self(self.0.iter().map(copy).collect())
     }
 }
 
-/// Does work on so many elements on a thread of the current pool, if it is not there already: from outside, each of its
-/// loops would have to be handed in and waited for.
+/// Runs `work` on `n_elements` elements on a thread of the current pool. From outside the pool, each of its loops would have to
+/// be handed in and waited for.
 pub(crate) fn in_pool<R: Send>(n_elements: usize, work: impl FnOnce() -> R + Send) -> R {
     if n_elements < MIN_ELEMENTS {
         return work();
@@ -110,27 +111,31 @@ pub(crate) fn in_pool<R: Send>(n_elements: usize, work: impl FnOnce() -> R + Sen
 #[cfg(feature = "rayon")]
 pub(crate) use rayon::join;
 
+/// Number of threads of the current pool.
 #[cfg(feature = "rayon")]
 fn n_threads() -> usize {
     rayon::current_num_threads()
 }
 
+/// Index of this thread in its pool; 0 outside a pool.
 #[cfg(feature = "rayon")]
 fn thread_index() -> usize {
     rayon::current_thread_index().unwrap_or(0)
 }
 
-/// Does one after the other.
+/// Runs both closures one after the other.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn join<L, R>(left: impl FnOnce() -> L, right: impl FnOnce() -> R) -> (L, R) {
     (left(), right())
 }
 
+/// One thread without a pool.
 #[cfg(not(feature = "rayon"))]
 const fn n_threads() -> usize {
     1
 }
 
+/// The only thread has index 0.
 #[cfg(not(feature = "rayon"))]
 const fn thread_index() -> usize {
     0

@@ -1,11 +1,13 @@
-//! Sums and extremes of long lists, with several accumulators because an operation on one would wait for the last.
+//! Sums and extremes of long vectors, with several accumulators so that an operation need not wait for the one before.
 
 use numerics::transforms::Real;
 
+/// Number of accumulators of a reduction; the order of its terms, and so its rounding, depends on it.
 const ACCUMULATORS: usize = 8;
 
-/// Reduces `start` and the terms of all numbers of equally long lists by `pick`; the order, and with it the rounding
-/// of a sum, depends on their length alone.
+/// Reduces `start` and `term(values)` for all indices of vectors of equal length by the operation `pick`.
+///
+/// The order, and with it the rounding of a sum, depends on the length alone. `start` must be neutral.
 pub(crate) fn reduce<const N: usize, T: Copy>(
     lists: [&[T]; N],
     start: T,
@@ -13,40 +15,40 @@ pub(crate) fn reduce<const N: usize, T: Copy>(
     pick: impl Fn(T, T) -> T,
 ) -> T {
     let length = lists.first().map_or(0, |list| list.len());
-    let lists = lists.map(|list| list[..length].as_chunks::<ACCUMULATORS>());
+    let parts = lists.map(|list| list[..length].as_chunks::<ACCUMULATORS>());
     let mut accumulators = [start; ACCUMULATORS];
     for chunk in 0..length / ACCUMULATORS {
-        let chunks = lists.map(|(whole, _)| &whole[chunk]);
+        let chunks = parts.map(|(whole, _)| &whole[chunk]);
         for (place, picked) in accumulators.iter_mut().enumerate() {
             *picked = pick(*picked, term(chunks.map(|chunk| chunk[place])));
         }
     }
-    let rest = (0..length % ACCUMULATORS).map(|index| term(lists.map(|(_, rest)| rest[index])));
+    let rest = (0..length % ACCUMULATORS).map(|index| term(parts.map(|(_, rest)| rest[index])));
     accumulators.into_iter().chain(rest).fold(start, pick)
 }
 
-/// Sum of the terms of all numbers of equally long lists.
+/// Sum of `term(values)` over all indices of vectors of equal length.
 pub(crate) fn sum<const N: usize, T: Real>(lists: [&[T]; N], term: impl Fn([T; N]) -> T) -> T {
     reduce(lists, T::default(), term, |sum, term| sum + term)
 }
 
-/// The larger of two numbers of which none is NaN; faster than `f64::max`.
+/// Maximum of two numbers that are not NaN; faster than `f64::max`.
 pub(crate) fn larger(left: f64, right: f64) -> f64 {
     if left > right { left } else { right }
 }
 
-/// The lower of two numbers; the first where the second is NaN.
-pub(crate) fn lower(left: f64, right: f64) -> f64 {
+/// Minimum of two numbers; `left` if `right` is NaN.
+pub(crate) fn smaller(left: f64, right: f64) -> f64 {
     if right < left { right } else { left }
 }
 
-/// Sum of products, in the order of the lists.
+/// Scalar product, summed in the order of the vectors.
 pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
     let pairs = left.iter().zip(right);
     pairs.map(|(left, right)| left * right).sum()
 }
 
-/// Adds a multiple.
+/// Adds `factor` times `values` to `sum` (axpy).
 pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, values: &[T]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += factor * *value;

@@ -1,21 +1,24 @@
-//! Work on parts of fields, side by side where there are threads, with results that do not depend on their number.
+//! Division of a grid into blocks of rows, which are processed in parallel with results that do not depend on the threads.
 
 use std::ops::Range;
 
 use crate::parallel::chunks::{Chunked, MIN_ELEMENTS, Starts, fold_chunks};
 
-/// The rows of a grid in bands, which depend on the shape of the grid alone.
+/// Blocks of consecutive rows of a grid, which depend on the shape of the grid alone.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RowBlocks {
+    /// Rows and columns of the grid.
     shape: [usize; 2],
     /// A multiple of [`MAX_COARSE_BLOCK`](Self::MAX_COARSE_BLOCK).
     rows_per_block: usize,
 }
 
 impl RowBlocks {
-    /// Blocks of so many elements along an edge, or of a half of them and so on, lie in one band.
+    /// Largest edge, in elements, of the square coarse blocks that must not be divided among row blocks; edges of a half, a quarter
+    /// and so on of it are safe too.
     pub(crate) const MAX_COARSE_BLOCK: usize = 8;
 
+    /// Row blocks of at least [`MIN_ELEMENTS`] elements each, except the last, for a grid of `shape`.
     pub(crate) const fn new(shape: [usize; 2]) -> Self {
         let blocks = MIN_ELEMENTS.div_ceil(Self::MAX_COARSE_BLOCK * shape[1]);
         Self {
@@ -24,26 +27,31 @@ impl RowBlocks {
         }
     }
 
-    /// How a field with one value per block of so many elements along an edge is divided.
+    /// Division of a field with one value per coarse block of `edge` by `edge` elements.
     pub(crate) const fn starts_of_coarse_blocks(&self, edge: usize) -> Starts<'static> {
         Starts::Every(self.rows_per_block / edge * self.shape[1].div_ceil(edge))
     }
 
+    /// Number of row blocks.
     pub(crate) const fn n_blocks(&self) -> usize {
         self.shape[0].div_ceil(self.rows_per_block)
     }
 
+    /// Rows of a row block.
     pub(crate) fn rows(&self, block: usize) -> Range<usize> {
         let start = block * self.rows_per_block;
         start..(start + self.rows_per_block).min(self.shape[0])
     }
 
+    /// Row-major indices of the elements of a row block.
     pub(crate) fn elements(&self, block: usize) -> Range<usize> {
         let rows = self.rows(block);
         rows.start * self.shape[1]..rows.end * self.shape[1]
     }
 
-    /// Does the work of every band on its part of fields that may be divided in different ways.
+    /// Calls `work(block, parts)` for each row block with its parts of the fields, and combines the results pairwise.
+    ///
+    /// Fields may be divided in different ways.
     pub(crate) fn fold<const N: usize, T: Send, R: Send>(
         &self,
         fields: Chunked<T, N>,
@@ -53,7 +61,7 @@ impl RowBlocks {
         fold_chunks(0..self.n_blocks(), fields, &work, &combine)
     }
 
-    /// Does the work of every band on its part of fields that may be divided in different ways.
+    /// Calls `work(block, parts)` for each row block with its parts of fields that may be divided in different ways.
     pub(crate) fn for_each_part<const N: usize, T: Send>(
         &self,
         fields: Chunked<T, N>,
@@ -62,7 +70,7 @@ impl RowBlocks {
         self.fold(fields, work, |(), ()| ());
     }
 
-    /// Does the work of every band on its part of the fields, which have one value per element.
+    /// Calls `work(block, parts)` for each row block with its parts of fields that have one value per element.
     pub(crate) fn for_each<const N: usize, T: Send>(
         &self,
         fields: [&mut [T]; N],
@@ -74,7 +82,7 @@ impl RowBlocks {
         );
     }
 
-    /// Results of the bands, combined pairwise.
+    /// Results of `work(block)` for all row blocks, combined pairwise.
     pub(crate) fn gather<R: Send>(
         &self,
         work: impl Fn(usize) -> R + Sync,
@@ -83,13 +91,13 @@ impl RowBlocks {
         self.fold::<0, (), R>([], |block, []| work(block), combine)
     }
 
-    /// Sum of the results of the bands.
+    /// Pairwise sum of `work(block)` over all row blocks.
     pub(crate) fn sum(&self, work: impl Fn(usize) -> f64 + Sync) -> f64 {
         self.gather(work, |left, right| left + right)
     }
 }
 
-/// Does work on every row of a field of so many columns, side by side; it gets the number of the row.
+/// Calls `work(row, values)` for each row of a row-major field of `columns` columns, in parallel.
 pub(crate) fn for_each_row<T: Send>(
     field: &mut [T],
     columns: usize,
@@ -103,15 +111,14 @@ pub(crate) fn for_each_row<T: Send>(
     });
 }
 
-/// Copies of a value, first touched by the threads that share the memory from then on.
+/// A vector of `count` copies of `value`; its memory is first touched by the threads of the pool, for locality.
 pub(crate) fn copies<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
     let mut values = Vec::new();
     resize(&mut values, value, count);
     values
 }
 
-/// Removes values from the end, or adds copies of a value, first touched by the threads that share the memory from then
-/// on.
+/// Sets the length of `values` to `count` by truncation or by copies of `value`, which are first touched by the threads of the pool.
 #[cfg(feature = "rayon")]
 pub(crate) fn resize<T: Copy + Send + Sync>(values: &mut Vec<T>, value: T, count: usize) {
     use rayon::prelude::{
@@ -122,7 +129,7 @@ pub(crate) fn resize<T: Copy + Send + Sync>(values: &mut Vec<T>, value: T, count
     values.par_extend(missing.with_min_len(MIN_ELEMENTS).map(|_| value));
 }
 
-/// Removes values from the end, or adds copies of a value.
+/// Sets the length of `values` to `count` by truncation or by copies of `value`.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn resize<T: Copy>(values: &mut Vec<T>, value: T, count: usize) {
     values.resize(count, value);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::contact::Control;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
-use crate::parallel::reductions::{add_scaled, larger, lower, reduce, sum};
+use crate::parallel::reductions::{add_scaled, larger, reduce, smaller, sum};
 
 /// Extremes and sums of the height s + K x of the deformed surface, \[m].
 #[derive(Debug, Clone, Copy, Default)]
@@ -29,20 +29,20 @@ impl Heights {
         let height = |[separation, displacement]: [f64; 2]| separation + displacement;
         let lowest_in = |gap: Range<usize>| {
             let fields = outside.map(|field| &field[gap.start - first..gap.end - first]);
-            reduce(fields, f64::INFINITY, height, lower)
+            reduce(fields, f64::INFINITY, height, smaller)
         };
         Self {
             lowest_outside: active
                 .inactive_ranges(band)
                 .map(lowest_in)
-                .fold(f64::INFINITY, lower),
+                .fold(f64::INFINITY, smaller),
             sum_inside: sum(inside, |heights| height(heights) - depth),
         }
     }
 
     fn both(self, other: Self) -> Self {
         Self {
-            lowest_outside: lower(self.lowest_outside, other.lowest_outside),
+            lowest_outside: smaller(self.lowest_outside, other.lowest_outside),
             sum_inside: self.sum_inside + other.sum_inside,
         }
     }
@@ -198,7 +198,7 @@ impl Violations {
     ) -> Self {
         // Zero if all numbers are finite, else NaN; the extremes do not matter then.
         let zero_or_nan = sum([residual], |[residual]| 0.0 * residual);
-        let lowest_load = reduce([load], 0.0, |[load]| load, lower);
+        let lowest_load = reduce([load], 0.0, |[load]| load, smaller);
         let own = self_influence * reduce([load], 0.0, |[load]| load, larger);
         Self {
             gap: zero_or_nan + reduce([residual], 0.0, |[residual]| residual.abs(), larger),

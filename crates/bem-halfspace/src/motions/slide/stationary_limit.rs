@@ -174,7 +174,7 @@ pub(super) fn slide_until_stationary(
         report(march.fraction_done());
         let noise = PRESSURE_ERROR_OVER_TOLERANCE * march.tolerance() * march.mean_slope_modulus();
         limits.push(&rows, flows);
-        change = limits.change(stationary.over_distance, noise);
+        change = limits.largest_change(stationary.over_distance, noise);
         if change <= stationary.tolerance {
             let friction_coefficient = limits.last();
             let transient = Transient::from_march(&march, load, rows)?;
@@ -182,7 +182,8 @@ pub(super) fn slide_until_stationary(
                 transient,
                 friction_coefficient,
                 change,
-                rest: limits.change(0.5 * stationary.over_distance, noise) / CHANGE_OVER_REMAINDER,
+                rest: limits.largest_change(0.5 * stationary.over_distance, noise)
+                    / CHANGE_OVER_REMAINDER,
             });
         }
     }
@@ -224,7 +225,7 @@ impl ExtrapolatedFriction {
 
     /// Largest change over the last `over_distance`, relative to the last value; 0 if it does not exceed `noise`, and 1 if the
     /// sliding distance is shorter.
-    fn change(&self, over_distance: f64, noise: f64) -> f64 {
+    fn largest_change(&self, over_distance: f64, noise: f64) -> f64 {
         let Some(&[distance, limit]) = self.0.last() else {
             return 1.0;
         };
