@@ -1,4 +1,4 @@
-//! Wrong input, and what was reached when a solution was not.
+//! The error type of the crate: refused input, and computations that did not reach what was asked.
 
 use indenters::IndenterError;
 use numerics::{Estimate, InWords, InvalidParameter, Rounded};
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::{Footprint, Reached};
 
-/// Why there is no solution.
+/// Reason for which there is no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BemError {
@@ -19,7 +19,7 @@ pub enum BemError {
     LengthMismatch {
         /// Name of the field.
         field: &'static str,
-        /// Its length.
+        /// Number of values of the field.
         length: usize,
         /// Number of elements of the grid.
         elements: usize,
@@ -54,7 +54,7 @@ pub enum BemError {
         /// The smallest number allowed.
         needed: usize,
     },
-    /// So few elements were asked for that a patch of the contact covers too few of them on one of the grids that make the error bar.
+    /// On one of the grids behind the error bar a patch of the contact covers too few elements.
     #[error(
         "with {elements} elements along the contact a patch of it is {across} elements wide on one of the grids that make \
          the error bar, but at least {least} are needed: ask for {needed} elements or more"
@@ -64,15 +64,15 @@ pub enum BemError {
         elements: usize,
         /// Elements of the patch along x or across it.
         across: usize,
-        /// The smallest number allowed.
+        /// The smallest number allowed across the patch.
         least: usize,
-        /// Number of elements along the contact, at least, with which it is wide enough.
+        /// Smallest number of elements along the contact with which the patch is wide enough.
         needed: usize,
     },
     /// The period has too few elements for its shortest waves.
     #[error(
         "the period has {elements} elements along the edge that has more of them, but at least {needed} are needed, so that the \
-         coarsest of the grids that make its error bar tells the shortest waves"
+         coarsest of the grids that make its error bar resolves the shortest waves"
     )]
     PeriodTooCoarse {
         /// Number of elements asked for.
@@ -80,7 +80,7 @@ pub enum BemError {
         /// The smallest number allowed.
         needed: usize,
     },
-    /// The contact reaches the boundary of the footprint in which it was allowed.
+    /// The contact reaches the boundary of the footprint, outside which contact is not computed.
     #[error(
         "after sliding {} m the contact reaches the boundary of the footprint x {}..{}, y {}..{} m",
         Rounded(*sliding_distance), Rounded(.footprint.x[0]), Rounded(.footprint.x[1]), Rounded(.footprint.y[0]),
@@ -89,29 +89,29 @@ pub enum BemError {
     ContactReachesBoundary {
         /// Sliding distance at which it happened, \[m]; 0 without sliding.
         sliding_distance: f64,
-        /// Footprint.
+        /// Footprint that was given or planned.
         footprint: Footprint,
     },
-    /// A vertical wall of the indenter is in contact: its slope, and with it the friction, is infinite.
+    /// A vertical wall of the indenter is in contact, where slope and friction are infinite.
     #[error(
         "at x = {} m, y = {} m from its lowest point a vertical wall of the indenter is in contact",
         Rounded(*x), Rounded(*y)
     )]
     VerticalWall {
-        /// Position of the wall ahead of the lowest point, \[m].
+        /// x of the wall relative to the lowest point, \[m].
         x: f64,
-        /// Position of the wall beside the lowest point, \[m].
+        /// y of the wall relative to the lowest point, \[m].
         y: f64,
     },
-    /// The body rises too much over one element in contact for its mean slope to mean anything.
+    /// Elements do not resolve the slope: the body rises over one of them in contact by more than the depth scale.
     #[error(
         "the body rises by {} m over one element in contact, more than the depth scale {} m",
         Rounded(*rise), Rounded(*depth_scale)
     )]
     SlopeNotResolved {
-        /// Rise over the element, \[m].
+        /// Rise of the body over the element, \[m].
         rise: f64,
-        /// Depth scale F_N J(L/v) / (4 L) of a contact of length L, F_N / (4 η v) on a dashpot, \[m].
+        /// Depth scale 2 (1 − ν) F_N J(L/v) / (4 L) of a contact of length L, \[m]; F_N / (4 η v) on an incompressible dashpot.
         depth_scale: f64,
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
@@ -121,20 +121,20 @@ pub enum BemError {
         InWords(*residual)
     )]
     ContactNotConverged {
-        /// Iterations made.
+        /// Number of iterations.
         iterations: usize,
-        /// Residual reached; see `ContactOptions`.
+        /// Relative residual reached; defined at [`ContactOptions`](crate::ContactOptions).
         residual: f64,
         /// Tolerance asked for.
         tolerance: f64,
     },
-    /// The equations of a contact that was tried have no solution in finite numbers.
+    /// The linear equations on an active set are singular to rounding.
     #[error("the equations of a contact of {elements} elements are singular to rounding")]
     SingularContact {
-        /// Number of elements in contact.
+        /// Number of elements of the active set.
         elements: usize,
     },
-    /// The elements do not bear the force below their largest pressure.
+    /// The normal force exceeds the largest pressure times the area of the grid.
     #[error(
         "the grid bears less than {} N below the largest pressure, but the normal force is {} N",
         Rounded(*limit), InWords(*normal_force)
@@ -142,7 +142,7 @@ pub enum BemError {
     ForceNotBorne {
         /// Force asked for, \[N].
         normal_force: f64,
-        /// The largest pressure times the area of all elements with a body, \[N].
+        /// Largest pressure times the area of all elements over which there is a body, \[N].
         limit: f64,
     },
     /// The friction coefficient still changes at the end of the sliding distance.
@@ -154,7 +154,7 @@ pub enum BemError {
     NotStationary {
         /// Sliding distance reached, \[m].
         sliding_distance: f64,
-        /// Relative change of the friction coefficient over the second half of the distance, or the distance asked for.
+        /// Relative change of the friction coefficient over the second half of the distance, or over the distance asked for.
         drift: f64,
         /// Friction coefficient at the end.
         friction_coefficient: f64,
@@ -167,14 +167,14 @@ pub enum BemError {
          not {relative_error:e}"
     )]
     TimeNotResolved {
-        /// Steps made between two rows.
+        /// Steps between two rows.
         steps: usize,
         /// Relative error reached.
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
     },
-    /// A quantity was not reached to the error asked for.
+    /// A quantity misses the error asked for on the finest grid allowed.
     #[error(
         "the {quantity} was not reached to the relative error {relative_error:e}: it is {}",
         Estimate::new(*value, *error)
@@ -182,13 +182,13 @@ pub enum BemError {
     NotReached {
         /// Name of the quantity, and its unit.
         quantity: &'static str,
-        /// Best value reached.
+        /// Value on the finest grid.
         value: f64,
-        /// Its absolute error.
+        /// Absolute error of the value.
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
-        /// Everything else that was found.
+        /// The whole result on the finest grid.
         reached: Box<Reached>,
     },
     /// The load has no sliding distance where one is needed.
@@ -197,37 +197,38 @@ pub enum BemError {
         /// The reason.
         why: &'static str,
     },
-    /// A periodic surface is followed from rest under a mean pressure only.
+    /// A periodic surface slides from rest at a given depth, which is not supported: only a mean pressure is.
     #[error("from rest a periodic surface slides under a mean pressure, not at a depth")]
     DepthFromRest,
-    /// A march would take too long.
+    /// A march would have too many steps.
     #[error("the march would have {steps:.1e} steps, but at most {limit:e} are allowed")]
     TooManySteps {
-        /// Steps of one element.
+        /// Number of steps.
         steps: f64,
         /// The largest number allowed.
         limit: f64,
     },
-    /// The slowest retardation of the material outlasts any march to the stationary state.
+    /// The memory length of the material exceeds the longest march to the stationary state.
     #[error(
         "a march to the stationary state is longer than {limit} contact lengths: the slowest retardation takes {memory:.1e} m \
          of sliding, and the contact is about {contact_length:.1e} m long"
     )]
     MemoryTooLong {
-        /// Distance in which the slowest element forgets, \[m].
+        /// Memory length: velocity times the largest retardation time, \[m].
         memory: f64,
         /// Contact length, \[m].
         contact_length: f64,
-        /// Contact lengths of the longest march.
+        /// Longest march, in contact lengths.
         limit: f64,
     },
-    /// A material that flows gives way to and fro, or pass after pass on a track, without end.
+    /// A material that flows has no limit cycle under a reciprocating motion or on a track.
     #[error(
         "a material that flows gives way further in every cycle or pass, and none is like the one before: give it an \
          equilibrium modulus, or a motion through points"
     )]
     NoCycle,
-    /// Of a track only what is ahead of the body or behind it by less than half its length acts on the contact.
+    /// The track is shorter than twice the length on which contact may occur: a load acts on the contact only from less than half
+    /// the track's length ahead or behind.
     #[error(
         "the track must be twice as long as the part of it on which contact may occur, {} m, but is {} m",
         Rounded(*needed), InWords(*track)
@@ -238,49 +239,52 @@ pub enum BemError {
         /// Twice the length on which contact may occur, \[m].
         needed: f64,
     },
-    /// Cycle after cycle still changes.
+    /// The limit cycle was not found: cycles still change.
     #[error(
         "after {cycles} cycles of the motion the relative change that may be left is {change:.1e}, and the tolerance \
          {tolerance:.1e}: the material remembers too many cycles"
     )]
     NotPeriodic {
-        /// Cycles that were followed.
+        /// Number of cycles.
         cycles: usize,
-        /// Relative change that may be left.
+        /// Estimated remaining relative change.
         change: f64,
-        /// The tolerance.
+        /// Tolerance on the remaining relative change.
         tolerance: f64,
     },
-    /// The change of the material by one cycle is lost in the rounding of numbers.
+    /// The period is so short, compared with the largest retardation time, that rounding hides the change per cycle.
     #[error(
         "a cycle takes {period:e} s, and the material remembers {slowest:.1e} s: what one cycle changes is lost in rounding"
     )]
     CycleTooShort {
         /// Duration of a cycle, \[s].
         period: f64,
-        /// The slowest retardation time, \[s].
+        /// Largest retardation time, \[s].
         slowest: f64,
     },
-    /// A material that flows has no state long after it was pressed.
+    /// A material that flows has no static contact: it creeps under a load without limit.
     #[error("a material that flows never comes to rest under a load: press it for a duration")]
     NoEquilibrium,
-    /// A material that flows creeps under a periodic surface without limit.
+    /// A material that flows has no stationary state under a periodic surface: waves with crests along the motion sink without limit.
     #[error(
         "a material that flows never reaches a stationary state under a periodic surface: waves with crests along the motion \
          sink until the contact is full; give the material an equilibrium modulus"
     )]
     FlowsUnderWaves,
-    /// The rigid body refuses.
+    /// Error of the rigid body or the load.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
-    /// The material refuses.
+    /// Error of the material.
     #[error(transparent)]
     Material(#[from] RheologyError),
 }
 
-/// Checks that a contact covers enough elements, along x or across it, whichever are fewer, for a meaningful friction.
+/// Smallest number of elements along or across a contact with which its friction has a meaning; chosen.
+const MIN_CONTACT_ELEMENTS: usize = 3;
+
+/// Refuses a contact of fewer than [`MIN_CONTACT_ELEMENTS`] elements; `elements` is the smaller of the numbers along x and y.
 pub(crate) const fn check_contact_elements(elements: usize) -> Result<(), BemError> {
-    let needed = 3;
+    let needed = MIN_CONTACT_ELEMENTS;
     if elements >= needed {
         return Ok(());
     }

@@ -1,18 +1,20 @@
 //! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space, a [`Layer`] of it or a
 //! [`Substrate`] of one's own.
 //!
-//! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
-//! coefficients by fast convolution; the contact conditions are solved to a stated tolerance. A surface, a material, a load
-//! and a relative error are all that these functions need, and every quantity that they return is exact or has an error bar:
+//! Rectangular elements have a constant pressure each. The displacement at their centres follows from Love's influence
+//! coefficients by fast convolution, and the contact conditions are solved to a stated tolerance. The following functions take a
+//! surface, a material, a load and a relative error. Every quantity that they return is exact or has an error bar:
 //!
-//! * [`press()`]: static contact, long after pressing;
+//! * [`press()`]: static contact, with the equilibrium modulus;
 //! * [`indent()`]: a constant force or depth for a time;
 //! * [`slide()`]: sliding in time from first touch;
 //! * [`steady()`]: stationary sliding, solved directly; [`steady_line`] in plane strain.
 //!
-//! The same on one grid: [`press_on_grid`], [`indent_on_grid`], [`slide_on_grid`], [`steady_on_grid`],
+//! The variants on one grid are [`press_on_grid`], [`indent_on_grid`], [`slide_on_grid`], [`steady_on_grid`],
 //! [`steady_line_on_grid`]. Histories of force and depth are in [`mod@indent`], arbitrary motions in [`mod@slide`], single
 //! contacts on given heights in [`contact`].
+//!
+//! Theory: docs/theory/contact.md (one contact), transient-half-space.md (in time) and stationary-half-space.md.
 //!
 //! ```
 //! use bem_halfspace::indenters::{PowerProfile, SlidingLoad};
@@ -39,12 +41,12 @@ mod stepping;
 mod substrate;
 mod transform;
 
-/// The program of that page compiles.
+/// Compiles the program of README.md as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;
 
-/// The crates whose types are arguments and results, so that no other dependency is needed.
+/// Crates whose types are arguments and results of this one, re-exported so that no other dependency is needed.
 pub use ::{indenters, numerics, rheology};
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Patch, solve_contact};
 pub use elements::footprint::Footprint;

@@ -101,7 +101,7 @@ impl PressureField {
                 .zip(values)
                 .for_each(|(to, from)| *to = *from);
             plan.column_forward(&mut column);
-            // Waves of negative q_y are the conjugates of those of negative q_x, and count by the factor 2.
+            // The wave (q_x, −q_y) is not stored: it is the conjugate of (−q_x, q_y), which counts twice.
             let is_alone = wave == 0 || 2 * wave == period[1];
             let twice = if is_alone { 1.0 } else { 2.0 };
             for (place, value) in column.iter().map(Complex::norm_sqr).enumerate() {
