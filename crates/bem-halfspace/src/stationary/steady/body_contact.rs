@@ -40,8 +40,8 @@ pub(super) fn solve(
         // Refuse: no element is as low as the contact is deep.
         check_contact_elements(0)?;
     }
-    let heights = (0..mesh.n_elements()).map(|element| mesh.height(element));
-    let heights = heights.collect();
+    let elements = 0..mesh.n_elements();
+    let heights = elements.map(|element| mesh.height(element)).collect();
     let inner_tolerance = inner_tolerance(guess.len());
     let mut loads = vec![0.0; mesh.n_elements()];
     for (element, load) in guess {

@@ -36,6 +36,7 @@ impl ExponentialRule {
         for (index, (&x, weight)) in nodes.iter().zip(weights).enumerate() {
             let values: [f64; MAX_POINTS] = legendre_values(x);
             for (order, coefficients) in projection.iter_mut().enumerate() {
+                // The Gauss–Lobatto rule integrates the square of the highest Legendre polynomial wrongly; its discrete norm is used.
                 let norm = if order == degree {
                     0.5 * degree as f64
                 } else {
@@ -52,6 +53,7 @@ impl ExponentialRule {
 
     /// The rule of 2 to [`MAX_POINTS`] integer points around [0, 1], as many on either side, for functions that are smooth over all of them.
     pub(super) fn on_integers(n_points: usize) -> Self {
+        // Lagrange interpolation at the Gauss–Lobatto points, then their projection.
         let lobatto = Self::new(n_points);
         let first = 1.0 - 0.5 * n_points as f64;
         let nodes: Vec<f64> = (0..n_points).map(|index| first + index as f64).collect();
@@ -92,6 +94,7 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
     let first = -(-rate).exp_m1();
     let mut moments = [0.0; MAX_POINTS];
     moments[0] = first;
+    // Upward recurrence, or Miller's downward recurrence of ratios.
     if z > UPWARD_RECURRENCE_ARGUMENT {
         moments[1] = 1.0 - z.recip();
         for n in 1..count - 1 {
@@ -112,6 +115,7 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
             moments[n] = moments[n - 1] * ratios[n];
         }
     }
+    // Signs (−1)ⁿ.
     for moment in moments.iter_mut().skip(1).step_by(2) {
         *moment = -*moment;
     }

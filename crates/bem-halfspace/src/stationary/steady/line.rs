@@ -116,6 +116,8 @@ pub fn steady_line<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<LineEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
+
+    // The problem of a strip of finite length.
     let force = load.require_normal_force()?;
     let LineScale {
         half_length,
@@ -137,6 +139,8 @@ pub fn steady_line<'w>(
         has_peak: bars::has_instantaneous_compliance(elastomer),
         watch: request.watch,
     };
+
+    // The estimate of the strip as that of a line: an elastic material has no friction, a half space no depth.
     let is_elastic = elastomer.material().creep().is_elastic();
     let has_depth = elastomer.base().is_rigid();
     let finish = |strip_estimate| {
@@ -148,6 +152,8 @@ pub fn steady_line<'w>(
         found.indentation_depth = found.indentation_depth.filter(|_| has_depth);
         Ok(found)
     };
+
+    // Solve to a relative error or with a number of elements.
     match request.accuracy {
         Accuracy::RelativeError(relative_error) => {
             let options = RefinementOptions {

@@ -115,11 +115,14 @@ impl Loading {
 
     /// The loading on a grid, with its units.
     pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
+        // Units of the grid.
         let creep = self.creep.over_element(spacing[0])?;
         let compliance = self.creep.compliance(spacing[0])?;
         let force_scale = 4.0 * self.depth_scale / compliance * spacing[0];
         let force_scale = positive("4 D Δx / (2 (1 - ν) J(Δx/v))", force_scale)?;
         let aspect = spacing[1] / spacing[0];
+
+        // The control in these units. On a material that flows the depth depends on the load and the sliding distance.
         let control = match self.control {
             Control::NormalForce(force) => ControlEquation {
                 depth: 0.0,

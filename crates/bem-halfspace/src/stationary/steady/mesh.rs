@@ -79,6 +79,8 @@ impl Mesh {
             let is_allowed = (-0.5..=0.5).contains(&value);
             in_range("phase", value, is_allowed, "between -1/2 and 1/2")?;
         }
+
+        // Sample the footprint; with a mirror symmetry keep half of it.
         let [x, y] = options.phase;
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
@@ -102,6 +104,8 @@ impl Mesh {
         // Refuse a footprint without candidates.
         let parameter = "number of elements of the footprint that may touch";
         positive(parameter, mesh.n_elements() as f64)?;
+
+        // Tabulate the kernel for offsets within the candidates.
         let candidates = mesh.region(0..mesh.n_elements());
         mesh.check_track(candidates.shape[0])?;
         mesh.table = plans.prepare(&mesh.loading.creep, mesh.aspect(), candidates.shape);

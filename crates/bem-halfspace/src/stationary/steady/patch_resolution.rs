@@ -26,6 +26,7 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
         if load < NEGLIGIBLE_LOAD_FRACTION * total {
             continue;
         }
+        // Count its elements along and across the motion.
         let [mut per_row, mut per_column] = bounds.shape().map(|n| vec![0_usize; n]);
         for ([row, column], _) in &patch {
             per_row[row - bounds.lower[0]] += 1;
@@ -52,6 +53,7 @@ fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     for (first, _) in loaded {
         let mut patch = Vec::new();
         move_to_patch(*first, &mut remaining, bounds, &mut patch);
+        // Flood fill.
         let mut n_visited = 0;
         while let Some(&([row, column], _)) = patch.get(n_visited) {
             n_visited += 1;

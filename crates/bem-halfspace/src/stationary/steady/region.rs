@@ -62,6 +62,7 @@ impl Region {
         for column in 0..columns {
             let mut row = 0;
             while row < rows {
+                // One run of elements.
                 let outside = |row: &usize| !inside[row * columns + column];
                 let run = row..(row..rows).find(outside).unwrap_or(rows);
                 for (step, row) in run.clone().enumerate() {

@@ -104,15 +104,13 @@ impl RetardedPotential {
         // Tabulate the weights.
         let rules = PANEL_RULES.map(|rule| ExponentialRule::new(rule.n_points));
         let row_rules = ROW_RULES.map(|rule| ExponentialRule::on_integers(rule.n_points));
-        let retardations = creep.retardations.iter().map(|retardation| {
-            let weights = |rule: &ExponentialRule| {
-                rule.weights(retardation.rate)
-                    .map(|weight| retardation.compliance() * weight)
-            };
+        let retardations = creep.retardations.iter().map(|element| {
+            let (rate, compliance) = (element.rate, element.compliance());
+            let weights = |rule: &ExponentialRule| rule.weights(rate).map(|w| compliance * w);
             RetardationRule {
-                rate: retardation.rate,
-                compliance: retardation.compliance(),
-                decay: retardation.decay(),
+                rate,
+                compliance,
+                decay: element.decay(),
                 weights: rules.each_ref().map(weights),
                 row_weights: row_rules.each_ref().map(weights),
             }
@@ -165,7 +163,8 @@ impl RetardedPotential {
 
     /// Sets the values at the first row to the integral over everything ahead of it.
     fn start_from_infinity(&mut self) {
-        let rates = self.retardations.iter().map(|retardation| retardation.rate);
+        // Panels whose lengths are proportional to their distance, up to where all exponentials or the potential have decayed.
+        let rates = self.retardations.iter().map(|element| element.rate);
         let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
         let mut end = self.position;
@@ -174,11 +173,13 @@ impl RetardedPotential {
             end *= PANEL_GROWTH;
             ends.push(end);
         }
+        // Integrate from the far end on.
         let rule = PANEL_RULES.len() - 1;
         for pair in ends.windows(2).rev() {
+            let (start, length) = (pair[0], pair[1] - pair[0]);
             let panel = Panel {
-                start: pair[0],
-                length: pair[1] - pair[0],
+                start,
+                length,
                 rule,
             };
             self.integrate_over_panel(&panel, 0..self.n_columns);
@@ -197,22 +198,18 @@ impl RetardedPotential {
                 }
             }
         }
-        for (retardation, values) in self
-            .retardations
-            .iter()
-            .zip(self.values.chunks_exact_mut(self.n_columns))
-        {
-            let relaxed = -(-retardation.rate * track).exp_m1();
+        // All further turns add a geometric series.
+        let values = self.values.chunks_exact_mut(self.n_columns);
+        for (element, values) in self.retardations.iter().zip(values) {
+            let relaxed = -(-element.rate * track).exp_m1();
             values.iter_mut().for_each(|value| *value /= relaxed);
         }
     }
 
     /// Integrates the values of some columns from the front to the rear of a panel.
     fn integrate_over_panel(&mut self, panel: &Panel, columns: Range<usize>) {
-        let steps = self.retardations.iter();
-        let steps: Vec<_> = steps
-            .map(|retardation| self.panel_step(retardation, panel))
-            .collect();
+        let elements = self.retardations.iter();
+        let steps: Vec<_> = elements.map(|one| self.panel_step(one, panel)).collect();
         for column in columns {
             let potentials = self.potentials_at_nodes(panel, column);
             for (index, (decay, weights)) in steps.iter().enumerate() {
@@ -260,8 +257,8 @@ impl RetardedPotential {
                 for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
                     *potential = row[column];
                 }
-                self.set_increments(column, &potentials[..n_points], |retardation| {
-                    &retardation.row_weights[rule]
+                self.set_increments(column, &potentials[..n_points], |one| {
+                    &one.row_weights[rule]
                 });
             } else if let Some(rule) = fewest_points(&PANEL_RULES, distance) {
                 // At some distance: one panel, whose ends are stored rows.
@@ -273,9 +270,7 @@ impl RetardedPotential {
                         _ => self.potential(x + node, column),
                     };
                 }
-                self.set_increments(column, &potentials[..=last], |retardation| {
-                    &retardation.weights[rule]
-                });
+                self.set_increments(column, &potentials[..=last], |one| &one.weights[rule]);
             } else {
                 // Near the edges: graded panels, from the front on.
                 for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
@@ -292,10 +287,9 @@ impl RetardedPotential {
             }
 
             // One step of the recursion.
-            for (index, retardation) in self.retardations.iter().enumerate() {
+            for (index, element) in self.retardations.iter().enumerate() {
                 let place = index * self.n_columns + column;
-                self.values[place] =
-                    retardation.decay * self.values[place] + self.increments[place];
+                self.values[place] = element.decay * self.values[place] + self.increments[place];
             }
         }
         self.position = x;
@@ -308,9 +302,8 @@ impl RetardedPotential {
         potentials: &[f64],
         weights: impl Fn(&RetardationRule) -> &[f64; MAX_POINTS],
     ) {
-        for (index, retardation) in self.retardations.iter().enumerate() {
-            self.increments[index * self.n_columns + column] =
-                dot(weights(retardation), potentials);
+        for (index, element) in self.retardations.iter().enumerate() {
+            self.increments[index * self.n_columns + column] = dot(weights(element), potentials);
         }
     }
 

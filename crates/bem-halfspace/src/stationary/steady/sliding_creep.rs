@@ -233,6 +233,7 @@ impl SlidingCreep {
 
     /// The creep over elements of the length `spacing`.
     pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
+        // Fractions of the total compliance over the element.
         let mut parts = self.parts(spacing)?;
         let total = positive("compliance over an element", total_compliance(&parts))?;
         parts.instantaneous /= total;
@@ -244,9 +245,11 @@ impl SlidingCreep {
                 retardation.compliance(),
             )?;
         }
+        // Collocation point, track and base in units of the element.
         parts.collocation_shift = self.collocation_shift(spacing)?;
         parts.track = self.track.map(|track| track / spacing);
         parts.base = self.base.in_units_of(spacing)?;
+        // Under a layer on a rigid base the free flow is a very slow retardation element.
         if parts.base.is_rigid() && parts.flow > 0.0 {
             let (rate, share) = (FLOW_AS_RETARDATION_RATE, parts.flow);
             parts.retardations.push(RetardationElement { rate, share });
@@ -296,6 +299,7 @@ impl SlidingCreep {
             let friction = element.compliance * ratio.min(ratio.recip());
             let x = 0.5 * memory_length / spacing;
             let around_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
+            // Rear and front of the contact, then kinks of the body.
             sum += friction;
             missed += friction * 2.0 * FRAC_2_PI * ratio * (-5.0 * x).exp();
             missed += friction * kinks * around_kinks;

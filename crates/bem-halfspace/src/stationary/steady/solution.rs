@@ -119,6 +119,7 @@ impl SteadySliding {
     /// # Errors
     /// Those of a contact that the grid does not resolve, that reaches the boundary of the footprint, or that touches a vertical wall.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
+        // Refuse what the grid does not resolve.
         let loaded = mesh.loaded_places(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
         check_walls(mesh, &solution.loads)?;
@@ -126,6 +127,8 @@ impl SteadySliding {
         if mesh.loading.may_have_patches {
             check_patches(&loaded, &bounds)?;
         }
+
+        // Pressure and outer edges of the contact.
         let spacing = mesh.options.spacing;
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
@@ -138,6 +141,8 @@ impl SteadySliding {
         let unit = mesh.loading.pressure_unit();
         let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
         let pressure = PressureField::from_elements(&bounds, spacing, origin, pressures)?;
+
+        // Friction, force, depth and area.
         let slopes = mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
         Ok(Self {

@@ -116,6 +116,7 @@ impl WakeTable {
     fn add_flow(&mut self, smaller: &Self) {
         let flow = self.creep.flow;
         let n_rows = 2 * self.max_offsets[0] + 1;
+        // From the row beyond the table, so that the creep within each element is the difference of two rows.
         let mut ahead = self.kernel_row(n_rows, wake_influence);
         for row in (0..n_rows).rev() {
             let here = self.wake_row(row, smaller);
@@ -131,6 +132,7 @@ impl WakeTable {
     fn wake_row(&self, row: usize, smaller: &Self) -> Vec<f64> {
         let only_flows =
             smaller.creep.instantaneous == 0.0 && smaller.creep.retardations.is_empty();
+        // Columns that the smaller table has, then the others.
         let known = (row + smaller.max_offsets[0])
             .checked_sub(self.max_offsets[0])
             .filter(|row| only_flows && *row <= 2 * smaller.max_offsets[0])

@@ -63,11 +63,13 @@ impl WienerHopf {
 
     /// Approximate loads that cause the given displacements.
     pub(super) fn loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
+        // Apply the inverse factors in both orders.
         let [at_front, at_rear] =
             [[COUNTER_SWEEP, SWEEP], [SWEEP, COUNTER_SWEEP]].map(|[first, second]| {
                 let between = self.inverses.apply(first, displacements, region);
                 self.inverses.apply(second, &between, region)
             });
+        // Blend the two orders.
         let both = at_front.iter().zip(at_rear).zip(&self.front);
         both.map(|((front, rear), weight)| weight * front + (1.0 - weight) * rear)
             .collect()

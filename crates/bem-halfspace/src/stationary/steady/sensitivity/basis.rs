@@ -69,6 +69,7 @@ impl Basis {
         mut quantities: Vec<Correlation>,
         kernel: &KernelParameters,
     ) -> Vec<Self> {
+        // Contract with kernels that share the potentials at the offsets.
         Correlation::align(&mut quantities);
         let spacing = kernel.spacing;
         let creep = kernel.material.over_distance();
@@ -77,28 +78,25 @@ impl Basis {
         let rates = lengths.flat_map(|length| steps.map(|step| spacing / (length * step)));
         let viscoelastic = kernel.contract_viscoelastic(&quantities, &rates.collect::<Vec<f64>>());
         let flows = creep.flow_per_length > 0.0;
-        let bases = quantities
-            .into_iter()
-            .zip(viscoelastic)
-            .map(|(correlation, sums)| {
-                let pairs = sums[1..].chunks_exact(steps.len());
-                let retardations = pairs.map(|sums| RetardationDerivatives {
-                    by_compliance: sums[0],
-                    by_log_memory: (sums[1] - sums[0]) / LENGTH_STEP,
-                });
-                Self {
-                    instantaneous: sums[0],
-                    flow: if flows {
-                        kernel.contract_flow(&correlation)
-                    } else {
-                        0.0
-                    },
-                    retardations: retardations.collect(),
-                    kernel: kernel.clone(),
-                    creep: creep.clone(),
-                    correlation,
-                }
+
+        // The first contraction is that of the instantaneous compliance, then come two memory lengths of each retardation element.
+        let pairs = quantities.into_iter().zip(viscoelastic);
+        let bases = pairs.map(|(correlation, sums)| {
+            let elements = sums[1..].chunks_exact(steps.len());
+            let retardations = elements.map(|sums| RetardationDerivatives {
+                by_compliance: sums[0],
+                by_log_memory: (sums[1] - sums[0]) / LENGTH_STEP,
             });
+            let flow = flows.then(|| kernel.contract_flow(&correlation));
+            Self {
+                instantaneous: sums[0],
+                flow: flow.unwrap_or(0.0),
+                retardations: retardations.collect(),
+                kernel: kernel.clone(),
+                creep: creep.clone(),
+                correlation,
+            }
+        });
         bases.collect()
     }
 
@@ -106,24 +104,20 @@ impl Basis {
     pub(super) fn between_creeps(&self, from: &CreepOverDistance, to: &CreepOverDistance) -> f64 {
         let instantaneous = self.instantaneous * (to.instantaneous - from.instantaneous);
         let flow = self.flow * self.kernel.spacing * (to.flow_per_length - from.flow_per_length);
-        let changes = from.retardations.iter().zip(&to.retardations);
-        let retarded =
-            changes
-                .zip(self.with_derivatives())
-                .map(|((from, to), (compliance, derivatives))| {
-                    derivatives.by_compliance * (to.compliance - from.compliance)
-                        + derivatives.by_log_memory
-                            * compliance
-                            * (to.memory_length / from.memory_length).ln()
-                });
+        let ends = from.retardations.iter().zip(&to.retardations);
+        let elements = ends.zip(self.with_derivatives());
+        let retarded = elements.map(|((from, to), (compliance, one))| {
+            let log_memory_ratio = (to.memory_length / from.memory_length).ln();
+            one.by_compliance * (to.compliance - from.compliance)
+                + one.by_log_memory * compliance * log_memory_ratio
+        });
         (instantaneous + flow + retarded.sum::<f64>()) / self.kernel.compliance
     }
 
     /// Contraction with the kernel of the whole creep.
     fn contract_full_kernel(&self) -> f64 {
-        let retarded = self
-            .with_derivatives()
-            .map(|(compliance, derivatives)| derivatives.by_compliance * compliance);
+        let elements = self.with_derivatives();
+        let retarded = elements.map(|(compliance, one)| one.by_compliance * compliance);
         let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
         let instantaneous = self.instantaneous * self.creep.instantaneous;
         (instantaneous + flow + retarded.sum::<f64>()) / self.kernel.compliance
@@ -131,9 +125,8 @@ impl Basis {
 
     /// The derivative by the logarithm of the velocity.
     pub(super) fn by_velocity(&self) -> f64 {
-        let retarded = self
-            .with_derivatives()
-            .map(|(compliance, derivatives)| derivatives.by_log_memory * compliance);
+        let elements = self.with_derivatives();
+        let retarded = elements.map(|(compliance, one)| one.by_log_memory * compliance);
         let flow = self.flow * self.kernel.spacing * self.creep.flow_per_length;
         (retarded.sum::<f64>() - flow) / self.kernel.compliance
     }
@@ -179,16 +172,16 @@ impl Basis {
         let of_band = |band: &[f64; 2]| {
             let ends =
                 band.map(|frequency| kernel.material.wave_number(frequency) * kernel.spacing);
+            // The free flow under the uniform part of the load, which belongs to the loss modulus at the frequency 0.
             let mut sums = vec![[0.0; 2]; quantities.len()];
             let flow = kernel.material.flow_per_length() * kernel.spacing / kernel.compliance;
             if band[0] <= 0.0 && flow > 0.0 {
-                for (sums, weights) in sums
-                    .iter_mut()
-                    .zip(spectrum.at_wave_number(UNIFORM_WAVE_NUMBER * ends[1]))
-                {
+                let uniform = spectrum.at_wave_number(UNIFORM_WAVE_NUMBER * ends[1]);
+                for (sums, weights) in sums.iter_mut().zip(uniform) {
                     sums[1] -= 0.5 * flow * weights.re;
                 }
             }
+            // All other waves.
             for [wave_number, weight] in spectrum.nodes(ends) {
                 let by_log_moduli = kernel.by_log_moduli(wave_number)?;
                 for (sums, weights) in sums.iter_mut().zip(spectrum.at_wave_number(wave_number)) {
@@ -212,9 +205,8 @@ impl Basis {
             Ok(())
         })?;
         let pairs = quantities.iter().zip(other);
-        Ok(pairs
-            .map(|(own, other)| other - own.contract_full_kernel())
-            .collect())
+        let change = |(own, other): (&&Self, f64)| other - own.contract_full_kernel();
+        Ok(pairs.map(change).collect())
     }
 
     /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
@@ -260,14 +252,10 @@ impl Basis {
         creep: &SlidingCreep,
         change: impl Fn(&KernelParameters, &mut ElementCreep) -> Result<(), InvalidParameter>,
     ) -> Result<Vec<f64>, BemError> {
-        let Some(Self {
-            kernel,
-            correlation,
-            ..
-        }) = quantities.first()
-        else {
+        let Some(first) = quantities.first() else {
             return Ok(Vec::new());
         };
+        let kernel = &first.kernel;
         let mut bare = kernel.bare.clone();
         change(kernel, &mut bare)?;
         let part = ElementCreep {
@@ -276,7 +264,7 @@ impl Basis {
             base: bare.base,
             ..creep.over_element(kernel.spacing)?
         };
-        let table = WakeTable::for_creep(&part, kernel.aspect, correlation.max_offsets());
+        let table = WakeTable::for_creep(&part, kernel.aspect, first.correlation.max_offsets());
         let unit = creep.compliance(kernel.spacing)? / kernel.compliance;
         let sum = |basis: &&Self| unit * basis.correlation.contract(&table);
         Ok(quantities.iter().map(sum).collect())
@@ -314,6 +302,7 @@ impl KernelParameters {
         let Some([rows, columns]) = quantities.first().map(Correlation::max_offsets) else {
             return sums;
         };
+        // Without retardation elements a table of the instantaneous compliance is enough.
         if rates.is_empty() {
             let part = ElementCreep {
                 instantaneous: 1.0,
@@ -324,6 +313,8 @@ impl KernelParameters {
             }
             return sums;
         }
+
+        // With them the recursion along rows gives all kernels at once, row by row from ahead.
         let part = ElementCreep {
             retardations: rates.iter().copied().map(unit_retardation).collect(),
             ..self.bare.clone()
@@ -333,9 +324,8 @@ impl KernelParameters {
             RetardedPotential::new(&part, offset(2 * rows), self.aspect, columns + 1);
         for row in (0..=2 * rows).rev() {
             retarded.step(offset(row));
-            let potentials: Vec<f64> = (0..=columns)
-                .map(|column| retarded.load_potential(column))
-                .collect();
+            let load_potential = |column| retarded.load_potential(column);
+            let potentials: Vec<f64> = (0..=columns).map(load_potential).collect();
             for (sums, correlation) in sums.iter_mut().zip(quantities) {
                 sums[0] += dot(correlation.row(row), &potentials);
                 for (retardation, sum) in sums[1..].iter_mut().enumerate() {
@@ -375,10 +365,7 @@ impl KernelParameters {
 
     /// Contraction with the kernel of one part of the creep.
     fn contract(&self, correlation: &Correlation, part: &ElementCreep) -> f64 {
-        correlation.contract(&WakeTable::for_creep(
-            part,
-            self.aspect,
-            correlation.max_offsets(),
-        ))
+        let table = WakeTable::for_creep(part, self.aspect, correlation.max_offsets());
+        correlation.contract(&table)
     }
 }

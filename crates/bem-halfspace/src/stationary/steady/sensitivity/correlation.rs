@@ -39,6 +39,7 @@ impl Correlation {
     /// contain one of two mirror images y with twice the weight.
     pub(super) fn between(left: &Field, right: &Field) -> Self {
         let [rows, columns] = left.shape;
+        // Accumulate by signed distance along y.
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
         for (place, &value) in left
@@ -57,6 +58,8 @@ impl Correlation {
                 }
             }
         }
+
+        // Fold, because the kernel is even along y.
         let fold = |row: &[f64]| -> Vec<f64> {
             let middle = columns - 1;
             let both = |apart: usize| match apart {

@@ -96,6 +96,7 @@ impl CorrelationSpectrum<'_> {
             // In plane strain an element is longer than the influence radius.
             return vec![TAU / self.base.stiffness(q)];
         }
+        // The half space.
         let half_space = |column: usize| {
             let y = column as f64 * self.aspect;
             if y < half {
@@ -105,6 +106,7 @@ impl CorrelationSpectrum<'_> {
             }
         };
         let mut kernel: Vec<f64> = (0..=columns).map(half_space).collect();
+        // The difference of the base.
         let thickness = self.base.thickness();
         if q * thickness < MAX_LAYER_WAVE_NUMBER {
             self.add_base(q, &mut kernel);
@@ -120,6 +122,8 @@ impl CorrelationSpectrum<'_> {
         // Waves of the integrand per unit of u, at the end of the range and in the farthest column.
         let waves = MAX_LAYER_WAVE_NUMBER / thickness * (kernel.len() as f64 * self.aspect) / TAU;
         let step = QUADRATURE_STEP.min((STEPS_PER_WAVE * waves).recip());
+
+        // Trapezoidal rule from u = 0, where the weight is half, to the end.
         let nodes = iter::successors(Some(0.0), |u| Some(u + step));
         for u in nodes.take_while(|u| *u < end) {
             let [across, whole] = [q * u.sinh(), q * u.cosh()];

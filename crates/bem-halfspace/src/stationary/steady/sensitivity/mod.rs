@@ -182,9 +182,12 @@ impl SteadySensitivity {
             };
             SensitivityOnGrid::on_shifted_grids(surface, loading, &options, phases, &mut reuse)
         };
+        // Coarse before fine, because the solution on the coarse grid is the initial guess on the fine one.
         let coarse = on_grids(COARSE_SPACING_FACTOR)?;
         let fine = on_grids(1.0)?;
         let sensitivity = Self { fine, coarse };
+
+        // Halve the spacing where the derivatives are inaccurate and the contact has few elements.
         if sensitivity.fine.n_unknowns() > HALVING_MAX_UNKNOWNS || sensitivity.is_accurate() {
             return Ok(sensitivity);
         }
@@ -230,8 +233,8 @@ impl SteadySensitivity {
         self.limit_of_change(|grids| grids.try_mean(|state| state.between_bodies(bodies)))
     }
 
-    /// The change from one material and velocity to another, both near those of the state, on the same base; fast where both
-    /// have as many retardation elements.
+    /// The change from one material and velocity to another, both near those of the state, on the same base. It is fast if both
+    /// have as many retardation elements as the material of the state.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a velocity out of range, and [`BemError::Material`].
