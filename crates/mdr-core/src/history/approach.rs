@@ -11,8 +11,8 @@ use rheology::RelaxationSpectrum;
 
 use super::ContactSums;
 use super::integrals::{HistoryIntegrals, Ring, StepIntegrals, TimeWeightedIntegrals};
-use super::path::{ROUNDING, change_of_edge, decay_and_mean};
-use super::radius::{ORDER, Radii};
+use super::path::{EXTENT_ROUNDING, LOAD_ROUNDING, change_of_edge, decay_and_mean};
+use super::radius::{N_COEFFICIENTS, Radii};
 
 /// The element at the edge, and what became of the branches since it was touched.
 #[derive(Debug, Clone, Default)]
@@ -72,11 +72,14 @@ pub(super) struct Approach {
     partial: StepIntegrals,
 }
 
-/// Steps towards the edge before every other one halves a bracket, and until it is as narrow as rounding.
-const NEWTON_STEPS: usize = 16;
-const MOST_STEPS: usize = 200;
-/// Last relative change of the depth: the derivatives are known to that, the force to its square and better.
-const CLOSE: f64 = 1e-8;
+/// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the
+/// bracket.
+const UNGUARDED_EDGE_STEPS: usize = 16;
+/// Steps after which the search for the edge ends: the bracket is then as narrow as rounding.
+const MAX_EDGE_STEPS: usize = 200;
+/// Relative change of the depth of the edge at which its search ends. Derivatives are known to that, the force to its
+/// square and better.
+const EDGE_TOLERANCE: f64 = 1e-8;
 
 impl Approach {
     pub(super) fn new(
@@ -203,10 +206,10 @@ impl Approach {
             self.hold(here, [end, next]);
             let before = self.radius();
             self.find_edge();
-            let wider = self.has_receded && self.radius() > before * (1.0 + LEFT);
+            let wider = self.has_receded && self.radius() > before * (1.0 + EXTENT_ROUNDING);
             self.has_recontact |= wider || (end > start && self.reverses());
             let edge = self.edge.place.map(|[.., depth]| depth);
-            self.has_receded |= edge.is_none_or(|depth| depth < (1.0 - LEFT) * deepest);
+            self.has_receded |= edge.is_none_or(|depth| depth < (1.0 - EXTENT_ROUNDING) * deepest);
             return;
         }
         self.has_recontact |= self.has_receded;
@@ -257,10 +260,10 @@ impl Approach {
         }
         let scales = self.scales();
         // Of a dashpot the speed counts at once.
-        if self.viscosity > 0.0 && load.abs() > LEFT * scales[0] {
+        if self.viscosity > 0.0 && load.abs() > EXTENT_ROUNDING * scales[0] {
             return load;
         }
-        let has_rate = rate.abs() > ROUNDING * scales[1];
+        let has_rate = rate.abs() > LOAD_ROUNDING * scales[1];
         if has_rate { rate } else { 0.0 }
     }
 
@@ -405,7 +408,7 @@ impl Approach {
         let mut depth = (before + self.last_edge_shift).clamp(0.0, deepest);
         self.edge.place = None;
         let mut bracket = [0.0, deepest];
-        for step in 0..MOST_STEPS {
+        for step in 0..MAX_EDGE_STEPS {
             while ring > 0 && depth < self.rings[ring].start[1] {
                 ring -= 1;
             }
@@ -420,16 +423,20 @@ impl Approach {
             bracket[usize::from(is_left)] = depth;
             let next = (depth + shift).clamp(0.0, deepest);
             let change = (next - depth).abs() / next;
-            let of_force = change * change * (change + curvature.abs()) <= CLOSE * CLOSE;
+            let of_force =
+                change * change * (change + curvature.abs()) <= EDGE_TOLERANCE * EDGE_TOLERANCE;
             let is_still = next.total_cmp(&depth).is_eq();
-            if is_still || change <= CLOSE || (of_force && self.now.time_weighted.is_empty()) {
+            if is_still
+                || change <= EDGE_TOLERANCE
+                || (of_force && self.now.time_weighted.is_empty())
+            {
                 self.last_edge_shift = next - before;
                 self.integrate_to_edge(next - depth);
                 return;
             }
             depth = match step {
-                _ if step < NEWTON_STEPS => next,
-                NEWTON_STEPS => 0.0,
+                _ if step < UNGUARDED_EDGE_STEPS => next,
+                UNGUARDED_EDGE_STEPS => 0.0,
                 _ if step % 2 == 0 => 0.5 * (bracket[0] + bracket[1]),
                 _ => next,
             };
@@ -458,9 +465,9 @@ impl Approach {
     }
 
     /// A ring up to θ.
-    fn part(&self, ring: usize, theta: f64) -> (Ring, [f64; ORDER]) {
+    fn part(&self, ring: usize, theta: f64) -> (Ring, [f64; N_COEFFICIENTS]) {
         let mut ring = self.rings[ring];
-        let mut terms = [0.0; ORDER];
+        let mut terms = [0.0; N_COEFFICIENTS];
         let mut power = 1.0;
         let whole = &self.coefficients[ring.first..ring.first + ring.n_terms];
         for (part, term) in terms.iter_mut().zip(whole) {
@@ -498,6 +505,3 @@ impl Approach {
 fn rounding(time: f64, step: f64) -> f64 {
     4.0 * f64::EPSILON * time.abs().min(1e3 * step)
 }
-
-/// Relative changes of radii and depths that rounding may leave.
-const LEFT: f64 = 1e-10;

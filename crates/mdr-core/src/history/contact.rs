@@ -17,7 +17,7 @@ use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
 use super::ContactSums;
 use super::element::{EdgeDirection, EdgeMove, ElementState, LineElements};
-use super::path::{Path, ROUNDING, SegmentTime, change_of_edge};
+use super::path::{EXTENT_ROUNDING, LOAD_ROUNDING, Path, SegmentTime, change_of_edge};
 use super::radius::Radii;
 use crate::MdrError;
 use edge::Edge;
@@ -50,16 +50,15 @@ pub(super) struct Contact<'a> {
     direction_after_turn: Option<EdgeDirection>,
 }
 
-/// Tolerance of the quadrature along a path of the depth, of which all else is exact.
-const TO_ROUNDING: f64 = 1e-14;
-/// Nodes of a panel.
-const NODES: usize = 8;
-/// Gaps and loads of the wrong sign, relative to the depth and to the terms of a load, that rounding may leave.
-pub(super) const WRONG_SIGN: f64 = 1e-10;
-/// Part of the depth by which a body that touches is lifted off.
-const LIFT: f64 = 1e-12;
-/// Part of a radius that rounding may leave.
-const LEFT: f64 = 1e-10;
+/// Relative tolerance of the quadrature over rings along a path of the depth, where everything else is exact.
+const EXACT_QUADRATURE_TOLERANCE: f64 = 1e-14;
+/// Gauss–Lobatto nodes of a panel of the quadrature over a ring.
+const N_PANEL_NODES: usize = 8;
+/// Gaps and loads of the wrong sign that count as rounding: gaps relative to the largest depth, loads to the terms of
+/// a load. Chosen.
+pub(super) const SIGN_TOLERANCE: f64 = 1e-10;
+/// Part of the largest depth by which a body without force is lifted off the surface. Chosen.
+const LIFT_OFF_DEPTH: f64 = 1e-12;
 
 impl<'a> Contact<'a> {
     /// A body at the first point of a path, which will not be deeper than its radii are known.
@@ -75,8 +74,8 @@ impl<'a> Contact<'a> {
             sums: nothing.clone(),
             edge: nothing,
             widest: [0.0; 2],
-            rule: lobatto_rule(NODES),
-            tolerance: TO_ROUNDING,
+            rule: lobatto_rule(N_PANEL_NODES),
+            tolerance: EXACT_QUADRATURE_TOLERANCE,
             quadrature_error: 0.0,
             edge_modulus: None,
             direction_after_turn: None,
@@ -141,7 +140,7 @@ impl<'a> Contact<'a> {
     pub(super) fn rise(&mut self, time: f64) -> Result<(), MdrError> {
         let [now, depth] = self.path.last();
         if !self.rings.is_empty() {
-            self.follow(now, depth - LIFT * self.widest[1])?;
+            self.follow(now, depth - LIFT_OFF_DEPTH * self.widest[1])?;
         }
         self.path.push(time, depth);
         let centre = depth + self.gap(f64::MIN_POSITIVE, self.path.end());
@@ -175,14 +174,15 @@ impl<'a> Contact<'a> {
             None => self.path.tendency(&self.edge, at),
         };
         // At a flat end all elements were touched at once, and rounding leaves none of them.
-        if tendency > 0.0 && self.radius() < (1.0 - LEFT) * self.widest[0] {
+        if tendency > 0.0 && self.radius() < (1.0 - EXTENT_ROUNDING) * self.widest[0] {
             return self.grow_over_free([at, end], direction_after_turn.is_some());
         }
         if tendency > 0.0 && self.path.depth(end) > self.widest[1] {
             return Ok(self.grow(at, end));
         }
-        let stays =
-            |edge: Edge| self.path.load(&edge.stresses, end) >= -ROUNDING * self.path.scale(end);
+        let stays = |edge: Edge| {
+            self.path.load(&edge.stresses, end) >= -LOAD_ROUNDING * self.path.scale(end)
+        };
         if tendency >= 0.0 && self.outermost(end).is_some_and(stays) {
             self.hold(end);
             return Ok(end);
@@ -289,11 +289,11 @@ impl<'a> Contact<'a> {
         at: SegmentTime,
     ) -> Result<(), MdrError> {
         let inner = self.radius();
-        let allowed = WRONG_SIGN * self.widest[1];
-        for node in &self.rule.nodes[1..NODES - 1] {
+        let allowed = SIGN_TOLERANCE * self.widest[1];
+        for node in &self.rule.nodes[1..N_PANEL_NODES - 1] {
             let between = |[from, to]: [f64; 2]| from + 0.5 * (to - from) * (1.0 + node);
             let touched = self.gap(between([inner, edge]), at) <= allowed;
-            let none = edge >= (1.0 - LEFT) * widest;
+            let none = edge >= (1.0 - EXTENT_ROUNDING) * widest;
             let free = none || self.gap(between([edge, widest]), at) >= -allowed;
             if !(touched && free) {
                 let time = self.path.time(at);

@@ -16,14 +16,14 @@ use super::radius::Radii;
 use super::{CurvePoint, HistoryOptions};
 use crate::MdrError;
 
-/// Parts of all segments together after which the refinement is given up.
-const MOST_PARTS: usize = 1 << 14;
+/// Parts of all segments together beyond which the refinement under a force stops.
+const MAX_PARTS_UNDER_FORCE: usize = 1 << 14;
 
-/// Of depths and radii that follow from a root, relative to them.
-const ROUNDING: f64 = 1e-13;
+/// Rounding of depths and radii that are roots of an equation, relative to them.
+const ROOT_ROUNDING: f64 = 1e-13;
 
-/// Error of a sum over elements by quadrature, relative to what the depth may be off.
-const QUADRATURE: f64 = 1e-3;
+/// Error of a sum over elements by quadrature, as a part of the relative error that the depth may have. Chosen.
+const QUADRATURE_SHARE: f64 = 1e-3;
 
 /// A body under a force.
 pub(super) struct ForceHistory<'a> {
@@ -67,10 +67,10 @@ impl ForceHistory<'_> {
             let deepest = depths.fold(0.0, f64::max);
             let asked = self.options.relative_error;
             let is_reached = change <= asked * deepest;
-            if !is_reached && 2 * parts * self.points.len() <= MOST_PARTS {
+            if !is_reached && 2 * parts * self.points.len() <= MAX_PARTS_UNDER_FORCE {
                 continue;
             }
-            let rounding = ROUNDING + QUADRATURE * asked;
+            let rounding = ROOT_ROUNDING + QUADRATURE_SHARE * asked;
             let bars = [change + rounding * deepest, radius_change];
             let mut reached = self.with_bars(better, &radii, bars);
             reached[..before_shrinking.len()].copy_from_slice(&before_shrinking);
@@ -100,7 +100,7 @@ impl ForceHistory<'_> {
             let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * of_depths;
             CurvePoint {
                 indentation_depth: Estimate::new(depth, error),
-                contact_radius: Estimate::new(radius, of_radii + of_depth + ROUNDING * radius),
+                contact_radius: Estimate::new(radius, of_radii + of_depth + ROOT_ROUNDING * radius),
                 ..*point
             }
         };
@@ -182,7 +182,7 @@ impl ForceHistory<'_> {
             } else {
                 0.0
             };
-            let relative = ROUNDING + 2.0 * self.options.modulus_error;
+            let relative = ROOT_ROUNDING + 2.0 * self.options.modulus_error;
             let bar = |value: f64, error: f64| Estimate::new(value, relative * value + error);
             curve.push(CurvePoint {
                 time,
@@ -223,7 +223,7 @@ impl ForceHistory<'_> {
         let mut path = Path::new(self.material);
         path.push(self.points[0][0], 0.0);
         let mut contact = Contact::new(self.body, path, radii.clone());
-        contact.tolerance = QUADRATURE * self.options.relative_error;
+        contact.tolerance = QUADRATURE_SHARE * self.options.relative_error;
         let mut curve = Vec::with_capacity(self.points.len());
         // A flat end keeps its disc.
         let lifts = self.body.apex_exponent().is_finite();
@@ -266,7 +266,7 @@ fn press(
         }
         // Continuous, lest the interval of the root is only halved, but for what keeps a body that carries nothing in touch.
         let clearance = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
-        Ok::<f64, MdrError>(-needed - largest * (clearance / deepest + ROUNDING))
+        Ok::<f64, MdrError>(-needed - largest * (clearance / deepest + ROOT_ROUNDING))
     };
     let depth = try_bracketed_root(excess, [-deepest, deepest])?.unwrap_or(deepest);
     contact.follow(time, depth)
@@ -292,13 +292,15 @@ fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, [step, rise]: [f6
         rate
     };
     // Evenly, and ever closer to the beginning, where the fast elements decide.
-    let evenly = (0..=PLACES).map(|place| f64::from(place) / f64::from(PLACES));
-    let closer = (1..=2 * PLACES).map(|halvings| 0.5_f64.powi(halvings));
+    let evenly =
+        (0..=N_SHRINKING_CHECKS).map(|place| f64::from(place) / f64::from(N_SHRINKING_CHECKS));
+    let closer = (1..=2 * N_SHRINKING_CHECKS).map(|halvings| 0.5_f64.powi(halvings));
     evenly.chain(closer).any(|part| rate(part) < 0.0)
 }
 
-/// Places in a segment at which it is looked whether a contact shrinks.
-const PLACES: i32 = 24;
+/// Equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked; twice as many points halve the
+/// distance to its beginning. Chosen.
+const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth, or as far as the line of the body rises; then this is the depth.
 fn known_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {

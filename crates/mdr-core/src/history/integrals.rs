@@ -1,7 +1,7 @@
 //! What the branches remember of a contact that grows over new elements.
 
 use super::path::{RECIPROCALS, decay_from_mean, moments};
-use super::radius::ORDER;
+use super::radius::N_COEFFICIENTS;
 
 /// A sweep over new elements, the radius a polynomial of θ ∈ [0, 1].
 #[derive(Debug, Clone, Copy)]
@@ -58,8 +58,9 @@ pub(super) struct StepIntegrals {
     sums: Vec<f64>,
 }
 
-/// Orders above the last one whose error has fallen below rounding there, for steps up to τ.
-const FORGOTTEN: usize = 16;
+/// Orders above the last moment at which the downward recurrence starts from 0. For steps up to τ the error of that
+/// start falls below rounding on the way.
+const EXTRA_MOMENT_ORDERS: usize = 16;
 
 impl StepIntegrals {
     /// Orders below `n_moments` of a length that may differ from the last one by rounding of the time at its end.
@@ -75,7 +76,7 @@ impl StepIntegrals {
         // Downwards from far above, where it does not matter what they are: of all branches at once.
         self.sums.clear();
         self.sums.resize(n, 0.0);
-        for order in (1..=n_moments + FORGOTTEN).rev() {
+        for order in (1..=n_moments + EXTRA_MOMENT_ORDERS).rev() {
             for (moment, z) in self.sums.iter_mut().zip(&self.decays) {
                 *moment = (1.0 - z * *moment) * RECIPROCALS[order];
             }
@@ -85,7 +86,7 @@ impl StepIntegrals {
         }
         for (k, decay) in self.decays.iter_mut().enumerate() {
             if *decay > 1.0 {
-                let mut row = [0.0; ORDER + 1];
+                let mut row = [0.0; N_COEFFICIENTS + 1];
                 moments(*decay, &mut row[..n_moments]);
                 for (moments, moment) in self.moments.chunks_exact_mut(n).zip(row) {
                     moments[k] = moment;

@@ -268,8 +268,9 @@ struct ErrorBars {
     largest: f64,
 }
 
-/// Units in the last place of the terms of a sum that rounding may leave; the tests compare it with 40 digits.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Rounding of a sum of loads, relative to the sum of the sizes of its terms: 64 units in the last place. The tests
+/// compare such sums with 40 digits.
+const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A contact as it is computed, and what its rounding is made of.
 #[derive(Debug, Clone, Copy, Default)]
@@ -291,11 +292,11 @@ impl ErrorBars {
         let [time, depth] = contact.point;
         let force = self.factor * contact.load;
         self.largest = self.largest.max(force);
-        let rounding = ROUNDING * contact.terms + contact.load_error;
+        let rounding = SUM_ROUNDING * contact.terms + contact.load_error;
         // By a shift of the edge the force changes in second order only, because its elements carry nothing.
         let expansion = 2.0 * self.modulus_error * self.largest;
-        let edge_error = (ROUNDING + 2.0 * self.modulus_error) * contact.edge;
-        let radius_error = radius::TAIL * contact.radius + edge_error;
+        let edge_error = (SUM_ROUNDING + 2.0 * self.modulus_error) * contact.edge;
+        let radius_error = radius::TAIL_TOLERANCE * contact.radius + edge_error;
         CurvePoint {
             time,
             indentation_depth: Estimate::exact(depth),

@@ -242,9 +242,9 @@ impl Path {
             rate_scale += self.rates[k] * self.moduli[k] * strain_integrals[k].abs();
         }
         let load = self.load(stresses, at);
-        if self.viscosity > 0.0 && load.abs() > ROUNDING * self.scale(at) {
+        if self.viscosity > 0.0 && load.abs() > LOAD_ROUNDING * self.scale(at) {
             load
-        } else if rate.abs() > ROUNDING * rate_scale {
+        } else if rate.abs() > LOAD_ROUNDING * rate_scale {
             rate
         } else {
             0.0
@@ -252,8 +252,11 @@ impl Path {
     }
 }
 
-/// Loads and rates below this, relative to the terms that cancel in them, are rounding.
-pub(super) const ROUNDING: f64 = 1e-14;
+/// Loads of an element, and their rates, below this part of the terms that cancel in them count as rounding. Chosen,
+/// about 45 units in the last place.
+pub(super) const LOAD_ROUNDING: f64 = 1e-14;
+/// Relative changes of radii and depths below this count as rounding. Chosen.
+pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
 /// The branches between two instants.
 pub(super) struct DecayedHistory {
@@ -275,7 +278,7 @@ pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
 /// e^(−x) at x ≥ 0. The library takes long for numbers that are hardly there.
 #[inline]
 pub(super) fn decay(x: f64) -> f64 {
-    if x > LONG_GONE { 0.0 } else { (-x).exp() }
+    if x > EXP_UNDERFLOW { 0.0 } else { (-x).exp() }
 }
 
 /// e^(−x) at x ≥ 0, to its own rounding because it may be what is left of a large force, and its mean from 0 to x.
@@ -285,12 +288,12 @@ pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
         let decay = decay(x);
         return [decay, (1.0 - decay) / x];
     }
-    let mean = if x > SERIES_UP_TO {
+    let mean = if x > SERIES_MAX_ARGUMENT {
         (1.0 - (-x).exp()) / x
-    } else if x < SHORT_UP_TO {
-        series::<N_SHORT>(-x)
+    } else if x < SHORT_SERIES_MAX_ARGUMENT {
+        series::<N_SHORT_SERIES_TERMS>(-x)
     } else {
-        series::<N_TERMS>(-x)
+        series::<N_SERIES_TERMS>(-x)
     };
     [1.0 - x * mean, mean]
 }
@@ -307,32 +310,37 @@ fn series<const N: usize>(x: f64) -> f64 {
     let square = x * x;
     let [mut even, mut odd] = [0.0; 2];
     for n in (0..N / 2).rev() {
-        even = even * square + FACTORS[2 * n];
-        odd = odd * square + FACTORS[2 * n + 1];
+        even = even * square + RECIPROCAL_FACTORIALS[2 * n];
+        odd = odd * square + RECIPROCAL_FACTORIALS[2 * n + 1];
     }
     even + x * odd
 }
 
-/// e^(−x) is less than the smallest number from here on.
-const LONG_GONE: f64 = 745.2;
-/// Up to here the series is as accurate as the exponential, with so many terms.
-const SERIES_UP_TO: f64 = 0.5;
-const N_TERMS: usize = 14;
-const SHORT_UP_TO: f64 = 0.02;
-const N_SHORT: usize = 8;
+/// Argument x from which on e^(−x) is less than the smallest positive number, −ln(2^−1075) = 745.13.
+const EXP_UNDERFLOW: f64 = 745.2;
+/// Argument up to which the mean of e^(−x) is summed as a power series; up to there it is as accurate as the
+/// exponential.
+const SERIES_MAX_ARGUMENT: f64 = 0.5;
+/// Terms of the series of the mean of e^(−x) up to [`SERIES_MAX_ARGUMENT`]: the first one left out is 0.5^14/15! =
+/// 5e-17.
+const N_SERIES_TERMS: usize = 14;
+/// Argument up to which [`N_SHORT_SERIES_TERMS`] terms of the series are as accurate as all.
+const SHORT_SERIES_MAX_ARGUMENT: f64 = 0.02;
+/// Terms of the series up to [`SHORT_SERIES_MAX_ARGUMENT`]: the first one left out is 0.02^8/9! = 7e-20.
+const N_SHORT_SERIES_TERMS: usize = 8;
 
-/// 1/(n + 1)!.
-const FACTORS: [f64; N_TERMS] = {
-    let mut factors = [1.0; N_TERMS];
+/// 1/(n + 1)!, the coefficients of the mean of e^x.
+const RECIPROCAL_FACTORIALS: [f64; N_SERIES_TERMS] = {
+    let mut factors = [1.0; N_SERIES_TERMS];
     let mut n = 1;
-    while n < N_TERMS {
+    while n < N_SERIES_TERMS {
         factors[n] = factors[n - 1] / (n + 1) as f64;
         n += 1;
     }
     factors
 };
 
-/// 1/n.
+/// 1/n; the entry of n = 0 is 0 and not used.
 pub(super) const RECIPROCALS: [f64; 64] = {
     let mut reciprocals = [0.0; 64];
     let mut n = 1;

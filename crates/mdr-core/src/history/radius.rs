@@ -11,16 +11,16 @@ use numerics::bracketed_root;
 
 use crate::MdrError;
 
-/// Number of coefficients of a piece.
-pub(super) const ORDER: usize = 16;
-/// Last two coefficients, relative to the radius, below which a piece is not divided. Those that are missing are a
-/// hundredth of that.
-pub(super) const TAIL: f64 = 2e-13;
-/// A contact that is as near as this to a vertical edge, such as the equator of a sphere, relative to its radius, has reached
-/// the edge.
-const EDGE: f64 = 1e-10;
-/// Share of a piece in the area a d below which its error does not matter.
-const NEGLIGIBLE: f64 = 1e-14;
+/// Number of coefficients of the polynomial on one piece.
+pub(super) const N_COEFFICIENTS: usize = 16;
+/// Size of the last two coefficients, relative to the radius, below which a piece is not divided. The missing
+/// coefficients are a hundredth of that.
+pub(super) const TAIL_TOLERANCE: f64 = 2e-13;
+/// Distance from a vertical edge, such as the equator of a sphere, relative to its radius, at which a contact has
+/// reached the edge. Chosen.
+const EDGE_MARGIN: f64 = 1e-10;
+/// Part of the area a d below which the error of a piece does not matter.
+const NEGLIGIBLE_AREA: f64 = 1e-14;
 
 /// a(d) from first touch to the largest depth.
 #[derive(Debug, Clone)]
@@ -35,7 +35,7 @@ pub(super) struct Radii {
 struct Piece {
     depths: [f64; 2],
     /// Of the powers of ξ, which goes from −1 to 1.
-    coefficients: [f64; ORDER],
+    coefficients: [f64; N_COEFFICIENTS],
 }
 
 impl Radii {
@@ -47,7 +47,7 @@ impl Radii {
         };
         let largest = body.position(deepest)?;
         let end = body.end();
-        let edge = (1.0 - EDGE) * end;
+        let edge = (1.0 - EDGE_MARGIN) * end;
         if largest > edge && body.height_at(end) == f64::INFINITY {
             return Err(MdrError::DepthBeyondEdge {
                 position: end,
@@ -55,12 +55,12 @@ impl Radii {
                 indentation_depth: deepest,
             });
         }
-        let negligible = NEGLIGIBLE * deepest * largest;
+        let negligible = NEGLIGIBLE_AREA * deepest * largest;
         let exponent = body.apex_exponent();
         // cos(order · angle) at the angles π (2 node + 1)/(2 n).
-        let cosine = |n: usize| (0.5 * PI * n as f64 / ORDER as f64).cos();
-        let table: [f64; 4 * ORDER] = std::array::from_fn(cosine);
-        let cosine = |node, order| table[order * (2 * node + 1) % (4 * ORDER)];
+        let cosine = |n: usize| (0.5 * PI * n as f64 / N_COEFFICIENTS as f64).cos();
+        let table: [f64; 4 * N_COEFFICIENTS] = std::array::from_fn(cosine);
+        let cosine = |node, order| table[order * (2 * node + 1) % (4 * N_COEFFICIENTS)];
         let cosines = std::array::from_fn(|node| std::array::from_fn(|order| cosine(node, order)));
         let mut open = vec![([0.0, deepest], [0.0, largest])];
         while let Some((depths, radii_there)) = open.pop() {
@@ -71,7 +71,7 @@ impl Radii {
             let root = low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
             if tiny || !root {
                 let (piece, tail) = Piece::fitted(body, depths, radii_there, &cosines);
-                if tiny || tail <= TAIL * outer {
+                if tiny || tail <= TAIL_TOLERANCE * outer {
                     // At the apex the radius itself is the bound.
                     let tail = if root { outer } else { tail };
                     radii.area_error += 0.01 * tail * (high - low);
@@ -137,7 +137,7 @@ impl Radii {
         let mut coefficients = match quarters {
             2 => piece.about::<8>(start),
             3 => piece.about::<12>(start),
-            _ => piece.about::<ORDER>(start),
+            _ => piece.about::<N_COEFFICIENTS>(start),
         };
         let mut scale = 1.0;
         for coefficient in &mut coefficients[..n_terms] {
@@ -164,7 +164,7 @@ impl Radii {
 
 /// A radius over the powers of θ.
 pub(super) struct Polynomial {
-    coefficients: [f64; ORDER],
+    coefficients: [f64; N_COEFFICIENTS],
     n_terms: usize,
 }
 
@@ -176,10 +176,10 @@ impl Polynomial {
 
 impl Piece {
     /// The first coefficients over the powers of ξ − start.
-    fn about<const N_TERMS: usize>(&self, start: f64) -> [f64; ORDER] {
+    fn about<const N_TERMS: usize>(&self, start: f64) -> [f64; N_COEFFICIENTS] {
         let mut coefficients = self.coefficients;
         for first in 0..N_TERMS {
-            for order in (first..ORDER - 1).rev() {
+            for order in (first..N_COEFFICIENTS - 1).rev() {
                 coefficients[order] += start * coefficients[order + 1];
             }
         }
@@ -206,32 +206,38 @@ impl Piece {
         body: &dyn EquivalentProfile,
         depths: [f64; 2],
         [inner, outer]: [f64; 2],
-        cosines: &[[f64; ORDER]; ORDER],
+        cosines: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
     ) -> (Self, f64) {
         let [low, high] = depths;
         let mut above = outer;
-        let values: [f64; ORDER] = std::array::from_fn(|node| {
+        let values: [f64; N_COEFFICIENTS] = std::array::from_fn(|node| {
             let depth = low + 0.5 * (high - low) * (1.0 + cosines[node][1]);
             above = radius(body, depth, [inner, above]);
             above
         });
-        let mut series = sum_of_rows(&values.map(|value| 2.0 / ORDER as f64 * value), cosines);
+        let mut series = sum_of_rows(
+            &values.map(|value| 2.0 / N_COEFFICIENTS as f64 * value),
+            cosines,
+        );
         series[0] *= 0.5;
         let coefficients = sum_of_rows(&series, &CHEBYSHEV);
         let piece = Self {
             depths,
             coefficients,
         };
-        (piece, series[ORDER - 2].abs() + series[ORDER - 1].abs())
+        (
+            piece,
+            series[N_COEFFICIENTS - 2].abs() + series[N_COEFFICIENTS - 1].abs(),
+        )
     }
 }
 
-/// Row by row the coefficients of the Chebyshev polynomials over powers.
-const CHEBYSHEV: [[f64; ORDER]; ORDER] = {
-    let mut rows = [[0.0; ORDER]; ORDER];
+/// Coefficients of the Chebyshev polynomials over powers, one polynomial per row.
+const CHEBYSHEV: [[f64; N_COEFFICIENTS]; N_COEFFICIENTS] = {
+    let mut rows = [[0.0; N_COEFFICIENTS]; N_COEFFICIENTS];
     (rows[0][0], rows[1][1]) = (1.0, 1.0);
     let mut row = 2;
-    while row < ORDER {
+    while row < N_COEFFICIENTS {
         rows[row][0] = -rows[row - 2][0];
         let mut power = 1;
         while power <= row {
@@ -244,8 +250,11 @@ const CHEBYSHEV: [[f64; ORDER]; ORDER] = {
 };
 
 /// Row after row, so that all columns are summed at once.
-fn sum_of_rows(factors: &[f64; ORDER], rows: &[[f64; ORDER]; ORDER]) -> [f64; ORDER] {
-    let mut sums = [0.0; ORDER];
+fn sum_of_rows(
+    factors: &[f64; N_COEFFICIENTS],
+    rows: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
+) -> [f64; N_COEFFICIENTS] {
+    let mut sums = [0.0; N_COEFFICIENTS];
     for (factor, row) in factors.iter().zip(rows) {
         for (sum, value) in sums.iter_mut().zip(row) {
             *sum += factor * value;

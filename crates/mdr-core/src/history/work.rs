@@ -7,14 +7,14 @@ use rheology::Material;
 use super::{CurvePoint, HistoryOptions, indent_along};
 use crate::MdrError;
 
-/// Places and weights of Gauss's rule of three points from 0 to 1, √0.15 around the middle.
-const RULE: [[f64; 2]; 3] = [
+/// Nodes on [0, 1] and weights of the Gauss–Legendre rule of three points; the outer nodes are 1/2 ± √0.15.
+const GAUSS_RULE: [[f64; 2]; 3] = [
     [0.112_701_665_379_258_3, 5.0 / 18.0],
     [0.5, 8.0 / 18.0],
     [0.887_298_334_620_741_7, 5.0 / 18.0],
 ];
-/// Parts of all segments together after which the refinement is given up.
-const MOST_PARTS: usize = 1 << 13;
+/// Parts of all segments together beyond which the refinement of the work stops.
+const MAX_PARTS_OF_WORK: usize = 1 << 13;
 
 /// The work ∫ F dd \[J] from the first point of a history to each: up to the largest depth what is stored and dissipated, at
 /// the end of a history without contact what was dissipated and is left in a surface that has not recovered.
@@ -48,7 +48,7 @@ pub fn work_along(
             let known = |value| Estimate::new(value, error);
             return Ok(work.into_iter().map(known).collect());
         }
-        if 2 * parts * history.len() > MOST_PARTS {
+        if 2 * parts * history.len() > MAX_PARTS_OF_WORK {
             return Err(MdrError::WorkNotReached(NotReached {
                 quantity: 0,
                 relative_error: options.relative_error,
@@ -68,7 +68,7 @@ fn divided(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
     for pair in history.windows(2) {
         let [start, end] = [pair[0], pair[1]];
         for part in 0..parts {
-            let places = RULE.map(|[place, _]| (part as f64 + place) / parts as f64);
+            let places = GAUSS_RULE.map(|[place, _]| (part as f64 + place) / parts as f64);
             points.extend(places.map(|place| between(start, end, place)));
         }
         points.push(end);
@@ -98,10 +98,10 @@ fn summed(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
     let is_force = given_force(curve);
     let mut work = 0.0;
     let mut all = vec![work];
-    let length = RULE.len() * parts + 1;
+    let length = GAUSS_RULE.len() * parts + 1;
     for segment in curve.windows(length + 1).step_by(length) {
         let [start, end] = [segment[0], segment[length]].map(values);
-        let inside = segment[1..length].iter().zip(RULE.iter().cycle());
+        let inside = segment[1..length].iter().zip(GAUSS_RULE.iter().cycle());
         let weighted =
             inside.map(|(point, [_, weight])| values(*point).map(|value| weight * value));
         let sums = weighted.fold([0.0; 2], |[force, depth], [more, deeper]| {

@@ -2,7 +2,7 @@
 
 use numerics::bracketed_root;
 
-use super::{Contact, WRONG_SIGN};
+use super::{Contact, SIGN_TOLERANCE};
 use crate::MdrError;
 use crate::history::element::{EdgeDirection, EdgeMove, ElementState};
 use crate::history::path::SegmentTime;
@@ -24,7 +24,7 @@ impl Contact<'_> {
         let last = self.rings.last();
         let pulls = |ring: &EdgeMove| {
             let stresses = self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at);
-            self.path.load(&stresses, at) < -WRONG_SIGN * self.path.scale(at)
+            self.path.load(&stresses, at) < -SIGN_TOLERANCE * self.path.scale(at)
         };
         if last.is_some_and(|ring| ring.motion == EdgeDirection::Recontact && pulls(ring)) {
             let time = self.path.time(at);

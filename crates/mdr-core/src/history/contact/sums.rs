@@ -1,14 +1,15 @@
 //! The stresses of all elements in contact, summed.
 
-use super::{Contact, TO_ROUNDING};
+use super::{Contact, EXACT_QUADRATURE_TOLERANCE};
 use crate::history::element::{EdgeDirection, EdgeMove};
 use crate::history::path::{DecayedHistory, SegmentTime, decay_from_mean, moments};
-use crate::history::radius::ORDER;
+use crate::history::radius::N_COEFFICIENTS;
 
-/// How often a panel of the quadrature may be divided.
-const MAX_DIVISIONS: u32 = 12;
-/// Error of a divided panel over its last change: where the stress jumps inside a panel, as much again is left, in each half.
-const LEFT_OF_CHANGE: f64 = 4.0;
+/// How often a panel of the quadrature over a ring may be halved.
+const MAX_PANEL_DIVISIONS: u32 = 12;
+/// Error of a panel over its change by the last division. Where the stress jumps inside a panel, each half keeps an
+/// error as large as the change.
+const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
     /// Φ_k.
@@ -43,7 +44,7 @@ impl Contact<'_> {
         let step = path.time(ring.to) - path.time(ring.from);
         let depths = [ring.from, ring.to].map(|at| path.depth(at));
         let radius = self.radii.along(depths);
-        let mut row = [0.0; ORDER];
+        let mut row = [0.0; N_COEFFICIENTS];
         let row = &mut row[..radius.terms().len()];
         for ((sum, rate), modulus) in sums.iter_mut().zip(&path.rates).zip(&path.moduli) {
             moments(rate * step, row);
@@ -58,7 +59,7 @@ impl Contact<'_> {
     fn ring_sums(&mut self, ring: &EdgeMove, at: SegmentTime) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
         // Kinks that are small do not matter where the sums need not be exact.
-        let is_exact = self.tolerance <= TO_ROUNDING;
+        let is_exact = self.tolerance <= EXACT_QUADRATURE_TOLERANCE;
         let inside = |radius: &f64| is_exact && *radius > ring.inner && *radius < ring.outer;
         let known = self.edge_moves[..ring.before].iter();
         radii.extend(
@@ -80,8 +81,8 @@ impl Contact<'_> {
             let pairs = parts[0].iter().zip(&parts[1]);
             let fine = pairs.map(|(one, other)| one + other);
             let change: f64 = fine.clone().zip(&whole).map(|(a, b)| (a - b).abs()).sum();
-            if change <= tolerance || divisions == MAX_DIVISIONS {
-                self.quadrature_error += LEFT_OF_CHANGE * change;
+            if change <= tolerance || divisions == MAX_PANEL_DIVISIONS {
+                self.quadrature_error += QUADRATURE_ERROR_OVER_CHANGE * change;
                 let pairs = sums.iter_mut().zip(fine);
                 pairs.for_each(|(sum, part)| *sum += part);
             } else {
