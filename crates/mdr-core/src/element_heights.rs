@@ -8,15 +8,15 @@ use numerics::{golden_section, in_range, positive};
 
 use crate::MdrError;
 
-/// The most elements that a chain may have.
+/// Elements of a foundation at most.
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
-/// On an infinite domain the line is looked at this many times farther out than where it was last seen below the
+/// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the
 /// ceiling.
-const RATIO_OF_DISTANCES: usize = 1024;
-/// Beyond this many elements the look-out strides by one part in as many of the distance.
+const LOOKOUT_DISTANCE_RATIO: usize = 1024;
+/// Number of elements up to which every one is sampled; beyond it the stride is the distance divided by this number.
 const LOOKOUT_STRIDE: usize = 64;
 /// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
-const MARGIN: f64 = 1e-9;
+const CEILING_MARGIN: f64 = 1e-9;
 
 /// The part of a line that a chain can touch.
 pub(crate) struct ElementHeights {
@@ -117,7 +117,7 @@ impl ElementHeights {
             line,
             anchor,
             step,
-            ceiling: anchor_height + height * (1.0 + MARGIN),
+            ceiling: anchor_height + height * (1.0 + CEILING_MARGIN),
         };
         let too_many = || MdrError::TooManyElements {
             allowed: MAX_ELEMENTS,
@@ -138,7 +138,7 @@ impl ElementHeights {
         Ok(Self {
             heights,
             lowest_height,
-            ceiling: (height + raised) * (1.0 + MARGIN),
+            ceiling: (height + raised) * (1.0 + CEILING_MARGIN),
             anchor,
             anchor_index,
             spacing,
@@ -193,7 +193,8 @@ impl Ray<'_> {
             if n_needed > MAX_ELEMENTS {
                 return Ok(None);
             }
-            if next == usize::MAX || !bounded && element > RATIO_OF_DISTANCES * (last_below + 1) {
+            if next == usize::MAX || !bounded && element > LOOKOUT_DISTANCE_RATIO * (last_below + 1)
+            {
                 break;
             }
             element = next;
@@ -203,12 +204,12 @@ impl Ray<'_> {
 
     /// Position of an element, if the line reaches as far.
     fn position(&self, element: usize) -> Option<f64> {
-        // A last element that misses the end of the domain by rounding only lies on the end.
-        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        /// Relative rounding by which a last element may miss the end of the domain; it then lies on the end.
+        const DOMAIN_END_ROUNDING: f64 = 4.0 * f64::EPSILON;
         let end = self.end();
         let distance = element as f64 * self.step;
         let available = end - self.anchor;
-        if distance.abs() > available.abs() * (1.0 + ROUNDING) {
+        if distance.abs() > available.abs() * (1.0 + DOMAIN_END_ROUNDING) {
             return None;
         }
         let position = self.anchor + distance;

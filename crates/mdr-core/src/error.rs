@@ -263,17 +263,17 @@ pub enum MdrError {
     Material(#[from] RheologyError),
 }
 
-/// The fewest elements that the last contact must have.
-const MIN_CONTACT: usize = 3;
+/// Elements that the last contact must have at least for its result to mean anything.
+const MIN_CONTACT_ELEMENTS: usize = 3;
 
 /// Refuses a contact of too few elements.
 pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrError> {
-    if n_contact >= MIN_CONTACT {
+    if n_contact >= MIN_CONTACT_ELEMENTS {
         return Ok(());
     }
     Err(MdrError::TooCoarse {
         n_contact,
-        needed: MIN_CONTACT,
+        needed: MIN_CONTACT_ELEMENTS,
         spacing,
     })
 }

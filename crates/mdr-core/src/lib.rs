@@ -36,6 +36,7 @@ mod force_balance;
 mod history;
 mod motion;
 mod press;
+mod refinement;
 mod slide;
 mod steady;
 

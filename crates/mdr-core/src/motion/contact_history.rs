@@ -12,9 +12,11 @@
 
 use crate::steady::{Foundation, Mode};
 
-/// Residual with which conjugate gradients end, relative to that at first, and their most steps.
-const RESIDUAL: f64 = 1e-8;
-const MOST_ITERATIONS: usize = 200;
+/// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the
+/// preconditioned norm.
+const CG_TOLERANCE: f64 = 1e-8;
+/// Iterations of conjugate gradients at most.
+const MAX_CG_ITERATIONS: usize = 200;
 
 /// What happened to the elements of a chain; by default it has no elements, and notes nothing.
 #[derive(Debug, Clone, Default)]
@@ -38,8 +40,9 @@ struct Element {
 }
 
 impl ContactHistory {
-    /// Times T/λ below which F is found from the impulse of the load, which loses no digits against x.
-    pub(super) const SLOW: f64 = 1e-4;
+    /// Ratio T/λ below which F is computed from the impulse of the load: the difference of two states would lose its
+    /// digits.
+    pub(super) const MAX_PERIODS_FROM_IMPULSE: f64 = 1e-4;
 
     /// To be noted for so many elements.
     pub(super) fn of(n_elements: usize) -> Self {
@@ -93,7 +96,7 @@ impl ContactHistory {
             for (k, mode) in modes.iter().enumerate() {
                 let periods = self.period / mode.length;
                 let lost = mode.recovered(self.period);
-                row[k] = if periods < Self::SLOW {
+                row[k] = if periods < Self::MAX_PERIODS_FROM_IMPULSE {
                     let since = self.period * element.impulse - element.moment;
                     let prescribed = element.impulse - since / mode.length;
                     // What recovers is counted upwards.
@@ -239,8 +242,8 @@ impl<'a> CycleJacobian<'a> {
         let mut z = over(&r);
         let mut p = z.clone();
         let mut size = dot(&r, &z);
-        let enough = RESIDUAL * RESIDUAL * dot(free, &v);
-        for _ in 0..MOST_ITERATIONS {
+        let enough = CG_TOLERANCE * CG_TOLERANCE * dot(free, &v);
+        for _ in 0..MAX_CG_ITERATIONS {
             if size <= enough {
                 break;
             }

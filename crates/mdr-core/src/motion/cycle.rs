@@ -13,24 +13,31 @@ use super::winkler::WinklerFoundation;
 use crate::MdrError;
 use crate::steady::Mode;
 
-/// Cycles that are followed before the search is given up, and those after which what may be left is so much more.
-const MOST_CYCLES: usize = 400;
-const MANY_CYCLES: usize = 100;
-const LENIENCE: f64 = 10.0;
+/// Cycles that are computed before the search for the limit cycle is given up.
+const MAX_CYCLES: usize = 400;
+/// Cycles after which the tolerance is multiplied by [`LENIENT_TOLERANCE_FACTOR`]. Chosen.
+const CYCLES_AT_FULL_TOLERANCE: usize = 100;
+/// Factor on the tolerance after [`CYCLES_AT_FULL_TOLERANCE`]. Chosen.
+const LENIENT_TOLERANCE_FACTOR: f64 = 10.0;
 
-/// Deviation from what was expected, relative to what was missing, at which a step goes on by as many cycles as the one
-/// before; and the bounds of what those are multiplied by.
-const DEVIATION: f64 = 0.4;
-const SLOWER: f64 = 0.3;
-const FASTER: f64 = 10.0;
-const MOST_AT_ONCE: f64 = 1e16;
-/// Part of these cycles with which the next resolution begins.
-const CARRIED_OVER: f64 = 1e-3;
-/// What may be left relative to the change by a step that did what was expected, and the largest deviation that counts.
-const SAFETY: f64 = 2.0;
-const WORST: f64 = 0.9;
-/// Rounding of what is remembered.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as
+/// many cycles. Chosen.
+const TARGET_DEVIATION: f64 = 0.4;
+/// Smallest factor on the cycles that a step covers. Chosen.
+const MIN_CYCLES_FACTOR: f64 = 0.3;
+/// Largest factor on the cycles that a step covers. Chosen.
+const MAX_CYCLES_FACTOR: f64 = 10.0;
+/// Most cycles that a step covers; from there on it is the full step of Newton's method, to rounding.
+const MAX_CYCLES_PER_STEP: f64 = 1e16;
+/// Cycles per step with which the next resolution begins, as a part of the last ones on the resolution before.
+/// Chosen.
+const CARRIED_OVER_CYCLES: f64 = 1e-3;
+/// Safety factor on the change by a step that did what was expected, as a bound of what remains. Chosen.
+const REMAINDER_SAFETY_FACTOR: f64 = 2.0;
+/// Largest deviation that enters the geometric series of what remains, so that the series converges.
+const MAX_COUNTED_DEVIATION: f64 = 0.9;
+/// Rounding of the amplitudes of recovery, relative to them: 64 units in the last place.
+const AMPLITUDE_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The cycle that comes back, to the tolerance; nothing when the chain was not high enough.
 pub(super) fn find_limit_cycle(
@@ -47,7 +54,7 @@ pub(super) fn find_limit_cycle(
     let mut search = CycleSearch::new(problem, winkler.recovery_amplitudes().to_vec());
     let mut before: Option<MotionRecord> = None;
     let mut rest = f64::INFINITY;
-    for n_cycles in 1..=MOST_CYCLES {
+    for n_cycles in 1..=MAX_CYCLES {
         winkler.recovery_amplitudes().copy_from_slice(&search.state);
         let Some((mut record, contact_history)) = run_steps(problem, &mut winkler, steps)? else {
             return Ok(None);
@@ -56,8 +63,8 @@ pub(super) fn find_limit_cycle(
         if let Some(before) = before {
             rest = record.rest_after(&before, search.remaining_change_factor(deviation));
             report((rest.ln() / tolerance.ln()).clamp(0.0, 1.0));
-            let lenience = if n_cycles > MANY_CYCLES {
-                LENIENCE
+            let lenience = if n_cycles > CYCLES_AT_FULL_TOLERANCE {
+                LENIENT_TOLERANCE_FACTOR
             } else {
                 1.0
             };
@@ -71,7 +78,7 @@ pub(super) fn find_limit_cycle(
         before = Some(record);
     }
     Err(MdrError::NotPeriodic {
-        cycles: MOST_CYCLES,
+        cycles: MAX_CYCLES,
         change: rest,
         tolerance,
     })
@@ -119,7 +126,7 @@ impl<'a> CycleSearch<'a> {
             expected_residual: vec![0.0; state.len()],
             step_residual: 0.0,
             state,
-            cycles_per_step: (CARRIED_OVER * problem.cycles_per_step.get()).max(1.0),
+            cycles_per_step: (CARRIED_OVER_CYCLES * problem.cycles_per_step.get()).max(1.0),
         }
     }
 
@@ -151,7 +158,12 @@ impl<'a> CycleSearch<'a> {
         let weights: Vec<f64> = self
             .modes()
             .iter()
-            .map(|mode| ROUNDING / self.recovered_fraction(mode).max(ContactHistory::SLOW))
+            .map(|mode| {
+                AMPLITUDE_ROUNDING
+                    / self
+                        .recovered_fraction(mode)
+                        .max(ContactHistory::MAX_PERIODS_FROM_IMPULSE)
+            })
             .collect();
         let rows = self.state.chunks(n_history_variables);
         norm(rows.flat_map(|row| row.iter().zip(&weights).map(|(slot, weight)| slot * weight)))
@@ -165,13 +177,13 @@ impl<'a> CycleSearch<'a> {
             .iter()
             .map(|mode| self.recovered_fraction(mode).recip() - 1.0);
         let uncovered = remembered.fold(0.0, f64::max) / self.cycles_per_step;
-        let deviation = deviation.min(WORST);
-        SAFETY * (deviation / (1.0 - deviation)).max(1.0) + uncovered
+        let deviation = deviation.min(MAX_COUNTED_DEVIATION);
+        REMAINDER_SAFETY_FACTOR * (deviation / (1.0 - deviation)).max(1.0) + uncovered
     }
 
     fn adapt_step_length(&mut self, deviation: f64) {
-        let factor = (DEVIATION / deviation).clamp(SLOWER, FASTER);
-        self.cycles_per_step = (factor * self.cycles_per_step).clamp(1.0, MOST_AT_ONCE);
+        let factor = (TARGET_DEVIATION / deviation).clamp(MIN_CYCLES_FACTOR, MAX_CYCLES_FACTOR);
+        self.cycles_per_step = (factor * self.cycles_per_step).clamp(1.0, MAX_CYCLES_PER_STEP);
     }
 
     fn newton_step(&mut self, contact_history: &ContactHistory) {

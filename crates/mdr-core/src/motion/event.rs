@@ -3,10 +3,10 @@
 use super::time_step::{StepWork, TimeStep};
 use crate::steady::Foundation;
 
-/// Change of the part of a step with which Newton's method ends: the next change is about its square.
-const CLOSE: f64 = 1e-9;
-/// As many bisections reach the last digit.
-const MOST_ITERATIONS: usize = 60;
+/// Change of the time, as a part of the step, with which Newton's method ends: the next change is about its square.
+const CROSSING_TOLERANCE: f64 = 1e-9;
+/// Iterations of the search for a crossing at most; as many bisections reach the last digit.
+const MAX_CROSSING_STEPS: usize = 60;
 
 /// One element in a step of which a part is contact.
 pub(super) struct ContactEvent<'a> {
@@ -151,7 +151,7 @@ fn crossing(function: impl Fn(f64) -> [f64; 2]) -> f64 {
     }
     let (mut low, mut high) = (0.0, 1.0);
     let mut part = start / (start - end);
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_CROSSING_STEPS {
         let [value, rate] = function(part);
         if value > 0.0 {
             low = part;
@@ -166,7 +166,7 @@ fn crossing(function: impl Fn(f64) -> [f64; 2]) -> f64 {
         };
         let change = next - part;
         part = next;
-        if change.abs() <= CLOSE {
+        if change.abs() <= CROSSING_TOLERANCE {
             break;
         }
     }

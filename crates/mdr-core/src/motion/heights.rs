@@ -6,11 +6,11 @@ use numerics::whole_part;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
 
-/// Cells of the table per element of the chain.
-const CELLS: usize = 4;
-/// Error of a cubic through four nodes, relative to the largest height in the table, up to which a cell is smooth: far
-/// below what elements leave out.
-const SMOOTH: f64 = 1e-10;
+/// Cells of the table per element of the foundation.
+const CELLS_PER_ELEMENT: usize = 4;
+/// Error of a cubic through four nodes, relative to the largest height in the table, up to which the table is used in
+/// a cell. It is far below the error of the elements.
+const CUBIC_TOLERANCE: f64 = 1e-10;
 
 /// Heights above the lowest point, \[m].
 pub(super) struct HeightTable<'a> {
@@ -19,14 +19,14 @@ pub(super) struct HeightTable<'a> {
     start: f64,
     cells_per_metre: f64,
     /// By the place of the cell in its element, one element after the other, as all elements are at the same place.
-    nodes: [Vec<f64>; CELLS],
-    is_smooth: [Vec<bool>; CELLS],
+    nodes: [Vec<f64>; CELLS_PER_ELEMENT],
+    is_smooth: [Vec<bool>; CELLS_PER_ELEMENT],
 }
 
 impl<'a> HeightTable<'a> {
     /// Of the part that a chain can touch.
     pub(super) fn new(line: &'a dyn RigidLine, sampled: &ElementHeights) -> Result<Self, MdrError> {
-        let spacing = sampled.spacing / CELLS as f64;
+        let spacing = sampled.spacing / CELLS_PER_ELEMENT as f64;
         let [start, end] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let n_cells = ((end - start) / spacing).ceil().max(1.0);
         let (lowest, cells_per_metre) = (sampled.lowest_height, spacing.recip());
@@ -34,7 +34,7 @@ impl<'a> HeightTable<'a> {
         let places = (0_u32..).map(f64::from).take_while(|cell| *cell <= n_cells);
         let nodes: Vec<f64> = places.map(at).collect::<Result<_, _>>()?;
         let finite = nodes.iter().copied().filter(|height| height.is_finite());
-        let allowed = SMOOTH * finite.fold(0.0, f64::max);
+        let allowed = CUBIC_TOLERANCE * finite.fold(0.0, f64::max);
         let is_smooth = |cell: usize| {
             let around = cell
                 .checked_sub(1)
@@ -72,16 +72,16 @@ impl<'a> HeightTable<'a> {
         row: &mut Vec<f64>,
     ) -> Result<(), MdrError> {
         let place = (x - self.start) * self.cells_per_metre;
-        let spacing = CELLS as f64 / self.cells_per_metre;
+        let spacing = CELLS_PER_ELEMENT as f64 / self.cells_per_metre;
         let cell = place.floor();
         let weights = weights(place - cell);
         // Elements before the first one of which all nodes are there.
-        let before = (1.0 - cell).max(0.0) / CELLS as f64;
+        let before = (1.0 - cell).max(0.0) / CELLS_PER_ELEMENT as f64;
         let skipped = whole_part(before.ceil()).min(n_elements);
-        let cell = whole_part((cell + (skipped * CELLS) as f64).max(1.0));
-        let from = |number: usize| &self.nodes[number % CELLS][..];
+        let cell = whole_part((cell + (skipped * CELLS_PER_ELEMENT) as f64).max(1.0));
+        let from = |number: usize| &self.nodes[number % CELLS_PER_ELEMENT][..];
         let nodes = [cell - 1, cell, cell + 1, cell + 2].map(|node| {
-            let first = (node / CELLS).min(from(node).len());
+            let first = (node / CELLS_PER_ELEMENT).min(from(node).len());
             &from(node)[first..]
         });
         row.clear();
@@ -93,11 +93,11 @@ impl<'a> HeightTable<'a> {
         });
         row.extend(cubics.take(n_elements - skipped));
         row.resize(n_elements, f64::NAN);
-        let smooth = &self.is_smooth[cell % CELLS];
+        let smooth = &self.is_smooth[cell % CELLS_PER_ELEMENT];
         for (element, height) in row.iter_mut().enumerate() {
             let index = element
                 .checked_sub(skipped)
-                .map(|index| cell / CELLS + index);
+                .map(|index| cell / CELLS_PER_ELEMENT + index);
             if index.and_then(|index| smooth.get(index)) != Some(&true) {
                 *height = self.at(x + element as f64 * spacing)?;
             }
@@ -146,8 +146,15 @@ impl HeightRow {
 }
 
 /// Of a table of cells those at each place of an element.
-fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS] {
-    std::array::from_fn(|place| cells.iter().skip(place).step_by(CELLS).copied().collect())
+fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS_PER_ELEMENT] {
+    std::array::from_fn(|place| {
+        cells
+            .iter()
+            .skip(place)
+            .step_by(CELLS_PER_ELEMENT)
+            .copied()
+            .collect()
+    })
 }
 
 /// Weights of Lagrange's cubic through four nodes, at a part of the cell in their middle.

@@ -12,25 +12,26 @@ use super::winkler::{FoundationStep, Prescribed, SavedRecovery, WinklerFoundatio
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
 use crate::error::enough_elements;
+use crate::refinement::FOUNDATION_PER_CONTACT;
 use crate::steady::{Foundation, has_steep_kinks};
 
-/// Steps of a motion, or of one cycle, after which it is not begun.
-const MOST_STEPS: f64 = 4e6;
-/// Duration of the first touch, at rest, relative to that of the first step.
-const TOUCH: f64 = 1e-3;
+/// Steps of a motion, or of one cycle, beyond which it is refused. Chosen.
+const MAX_STEPS: f64 = 4e6;
+/// Duration of the first pressing, at rest, relative to that of the first step. Chosen.
+const FIRST_PRESSING_DURATION: f64 = 1e-3;
 
-/// Part of a force by which the mean over a step differs from it where steps resolve the change; forces that begin or end
-/// do not.
-const SMALL: f64 = 0.25;
+/// Relative difference between the force and its mean over a step up to which the next step corrects it. Forces that
+/// begin or end differ by more. Chosen.
+const MAX_FORCE_CORRECTION: f64 = 0.25;
 
-/// Where the contact may end at first, in lengths of that of the fastest sliding.
-const REACH: f64 = 0.75;
+/// Distance from the lowest point at which the contact is first assumed to end, in lengths of the contact of the
+/// fastest sliding. Chosen.
+const FIRST_CONTACT_REACH: f64 = 0.75;
 
-/// Elements of a chain per element of the contact, at most about, and what each takes besides its memory, \[bytes].
-const FOOTPRINT: f64 = 4.0;
-const PER_ELEMENT: f64 = 200.0;
-/// Lists of all that elements remember, in the search for a cycle.
-const KEPT_STATES: f64 = 8.0;
+/// Memory of an element besides its history variables, about and at most, \[bytes].
+const MOTION_BYTES_PER_ELEMENT: f64 = 200.0;
+/// Copies of all history variables that the search for a limit cycle holds, about and at most.
+const N_STORED_STATES: f64 = 8.0;
 
 /// What moves, on what, and how.
 pub(super) struct MotionProblem<'a> {
@@ -78,7 +79,7 @@ impl<'a> MotionProblem<'a> {
         report: &dyn Fn(f64),
     ) -> Result<MotionRecord, MdrError> {
         let spacing = self.length / elements as f64;
-        let steps = self.load.steps(elements, spacing, MOST_STEPS)?;
+        let steps = self.load.steps(elements, spacing, MAX_STEPS)?;
         let mut height = match self.load.largest_control() {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) => self.rise().max(self.height.get()),
@@ -121,16 +122,17 @@ impl<'a> MotionProblem<'a> {
     /// Memory of all resolutions up to these elements, \[bytes].
     pub(super) fn memory_for(&self, elements: usize) -> Result<f64, MdrError> {
         let spacing = self.length / elements as f64;
-        let n_steps = self.load.n_steps(elements, spacing, MOST_STEPS)?;
+        let n_steps = self.load.n_steps(elements, spacing, MAX_STEPS)?;
         let [rear, front] = self.load.range();
-        let n_elements = (front - rear) / spacing + FOOTPRINT * elements as f64;
+        let n_elements = (front - rear) / spacing + FOUNDATION_PER_CONTACT * elements as f64;
         let n_history_variables = n_history_variables(&self.foundation);
         let copies = if self.load.is_cycle() {
-            KEPT_STATES
+            N_STORED_STATES
         } else {
             1.0
         };
-        let per_element = copies * (n_history_variables * size_of::<f64>()) as f64 + PER_ELEMENT;
+        let per_element =
+            copies * (n_history_variables * size_of::<f64>()) as f64 + MOTION_BYTES_PER_ELEMENT;
         // The values on four resolutions, and a list grows by doubling.
         let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)
@@ -139,8 +141,11 @@ impl<'a> MotionProblem<'a> {
     /// Height of the line about where a contact may end.
     fn rise(&self) -> f64 {
         let lowest = self.line.height(0.0);
-        let sides =
-            [-REACH * self.length, REACH * self.length].map(|x| self.line.height(x) - lowest);
+        let sides = [
+            -FIRST_CONTACT_REACH * self.length,
+            FIRST_CONTACT_REACH * self.length,
+        ]
+        .map(|x| self.line.height(x) - lowest);
         let rise = sides[0].min(sides[1]);
         if rise.is_finite() && rise > 0.0 {
             rise
@@ -157,7 +162,7 @@ impl<'a> MotionProblem<'a> {
         report: &dyn Fn(f64),
     ) -> Result<Option<MotionRecord>, MdrError> {
         let start = self.load.stages()[0].start;
-        let make_contact = TOUCH * steps[0].duration;
+        let make_contact = FIRST_PRESSING_DURATION * steps[0].duration;
         let place = [start.time - make_contact, start.position];
         let mut winkler = WinklerFoundation::new(
             self.line,
@@ -239,7 +244,7 @@ impl<'a> MotionProblem<'a> {
 /// is too small, by the square of a step. Half of it, because a step in which much flows has its mean at once.
 fn step_residual(step: &MotionStep, mean: f64) -> f64 {
     let step_residual = 1.0 - mean / step.normal_force;
-    if step_residual.abs() < SMALL {
+    if step_residual.abs() < MAX_FORCE_CORRECTION {
         0.5 * step_residual
     } else {
         0.0

@@ -23,31 +23,29 @@ use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Progress, Request, positive, refi
 use rheology::Material;
 
 use crate::MdrError;
+use crate::refinement::{MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, MIN_ORDER, WORK_EXPONENT};
 use crate::steady::{LineProblem, has_steep_kinks};
 use march::MotionProblem;
 
-/// Elements along the contact after which a motion is given up.
-const MOST_ELEMENTS: usize = 4096;
-/// Elements times steps of all cycles that are not exceeded to reach an error: about a minute of one thread.
-const MOST_WORK: f64 = 5e8;
-/// Elements from which on a friction that still changes by more than itself is no more than the error of the elements.
-const ELEMENTS_OF_A_FRICTION: usize = 128;
-/// There are about as many steps as elements.
-const WORK: f64 = 2.0;
-/// Smallest and largest order that errors are taken to have: below the first nothing converges, and that of smooth bodies is
-/// the second, which the place of their outline between the elements makes unsafe to assume.
-const ORDERS: [f64; 2] = [0.1, 1.0];
-/// By how much the order is less than the exponent of a tip or a cusp, because of its place between two elements.
-const CHANCE: f64 = 0.5;
-/// Behind a steep kink the line rises like the root of the distance.
-const BEHIND_STEEP_KINK: f64 = 0.5;
-/// Elements over which a stroke goes on the resolution where a relative error is first sought, and the most elements there: on
-/// fewer of them the resolutions are alike by chance.
-const PER_STROKE: f64 = 4.0;
-const MOST_AT_FIRST: usize = 8 * FIRST_ELEMENTS;
-/// Part of the error asked for by which two cycles may differ, and that of a motion on given elements.
-const PART_OF_CYCLES: f64 = 0.05;
-const TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
+/// Elements times steps of all cycles that a refinement does not exceed to reach an error: about a minute of one
+/// thread.
+const MAX_WORK: f64 = 5e8;
+/// Elements from which on a friction that changes by more than its own size counts as error of the elements, so that
+/// the refinement stops. Chosen.
+const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
+/// Order of convergence below the exponent of a tip or cusp, because its place between two elements is arbitrary.
+const TIP_ORDER_LOSS: f64 = 0.5;
+/// Order of convergence behind a steep kink, where the line rises like the root of the distance.
+const STEEP_KINK_ORDER: f64 = 0.5;
+/// Elements over which a stroke goes at least on the resolution where a relative error is first sought. On fewer of
+/// them two resolutions agree by chance.
+const MIN_ELEMENTS_PER_STROKE: f64 = 4.0;
+/// Elements along the contact at most on the resolution where a relative error is first sought. Chosen.
+const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
+/// Tolerance of the limit cycle as a part of the relative error asked for. Chosen.
+const CYCLE_TOLERANCE_SHARE: f64 = 0.05;
+/// Relative tolerance of the limit cycle on a given number of elements. Chosen.
+const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 /// Moves a line over an undeformed chain: through the points of a motion, or to and fro until two cycles are alike; to an
 /// error of the mean friction coefficient relative to its value, or with a number of elements along the contact.
 ///
@@ -88,8 +86,8 @@ pub fn move_along<'w>(
     LineProblem::new(line, material, load.fastest())?.check_kinks(load.largest_control())?;
     let length = contact_length(line, material, load)?;
     let tolerance = match request.accuracy {
-        Accuracy::RelativeError(asked) => PART_OF_CYCLES * asked,
-        Accuracy::Elements(_) => TOLERANCE_ON_ELEMENTS,
+        Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_SHARE * asked,
+        Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ELEMENTS,
     };
     let problem = MotionProblem::new(line, material, load, (length, tolerance))?;
     let limited = WorkLimit {
@@ -105,9 +103,9 @@ pub fn move_along<'w>(
             ..request
         },
         initial_elements: first_elements(load, length),
-        max_elements: MOST_ELEMENTS,
+        max_elements: MAX_ELEMENTS_ALONG_CONTACT,
         order: convergence_order(line),
-        work_exponent: WORK,
+        work_exponent: WORK_EXPONENT,
         extra_work: 0.0,
         selection_factor: 1.0,
     };
@@ -135,7 +133,7 @@ pub fn move_along<'w>(
     }
 }
 
-/// Ends a refinement before a resolution with more work than [`MOST_WORK`], if that takes as many cycles as the one before, and where
+/// Ends a refinement before a resolution with more work than [`MAX_WORK`], if that takes as many cycles as the one before, and where
 /// the friction is not told from none.
 #[derive(Debug)]
 struct WorkLimit<'a> {
@@ -171,11 +169,11 @@ impl WorkLimit<'_> {
 impl Progress for WorkLimit<'_> {
     fn may_refine(&self, elements: usize) -> bool {
         let before = elements / 2;
-        if before >= ELEMENTS_OF_A_FRICTION && self.is_unresolved(before) {
+        if before >= MIN_ELEMENTS_TO_GIVE_UP && self.is_unresolved(before) {
             return false;
         }
         let n_cycles = self.solved(before).map_or(1, |(_, n_cycles)| n_cycles) as f64;
-        let allowed = MOST_WORK / (n_cycles * elements as f64);
+        let allowed = MAX_WORK / (n_cycles * elements as f64);
         let spacing = self.length / elements as f64;
         self.load.n_steps(elements, spacing, allowed).is_ok() && self.watch.may_refine(elements)
     }
@@ -191,9 +189,10 @@ fn first_elements(load: &MovingLoad, length: f64) -> usize {
         return FIRST_ELEMENTS;
     }
     let stroke = 0.5 * load.length();
-    let is_enough = |elements: &usize| *elements as f64 * stroke >= PER_STROKE * length;
+    let is_enough =
+        |elements: &usize| *elements as f64 * stroke >= MIN_ELEMENTS_PER_STROKE * length;
     let mut all = [1, 2, 4].map(|factor| factor * FIRST_ELEMENTS).into_iter();
-    all.find(is_enough).unwrap_or(MOST_AT_FIRST)
+    all.find(is_enough).unwrap_or(MAX_FIRST_ELEMENTS)
 }
 
 /// Length of the contact at the largest speed, force and depth of a motion, \[m].
@@ -210,9 +209,9 @@ fn contact_length(
 /// Order in the spacing with which the friction of a motion converges.
 fn convergence_order(line: &dyn RigidLine) -> f64 {
     if has_steep_kinks(line) {
-        BEHIND_STEEP_KINK
+        STEEP_KINK_ORDER
     } else {
-        (line.apex_exponent() - CHANCE).clamp(ORDERS[0], ORDERS[1])
+        (line.apex_exponent() - TIP_ORDER_LOSS).clamp(MIN_ORDER, MAX_ORDER)
     }
 }
 
@@ -239,5 +238,6 @@ pub fn move_along_memory(
     elements: usize,
 ) -> Result<f64, MdrError> {
     let length = contact_length(line, material, load)?;
-    MotionProblem::new(line, material, load, (length, TOLERANCE_ON_ELEMENTS))?.memory_for(elements)
+    MotionProblem::new(line, material, load, (length, CYCLE_TOLERANCE_ON_ELEMENTS))?
+        .memory_for(elements)
 }

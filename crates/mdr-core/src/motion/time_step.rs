@@ -9,17 +9,18 @@
 
 use crate::steady::{Branch, Foundation, Mode};
 
-/// Below, differences of φ are summed as series.
-const SHORT: f64 = 0.5;
-/// Terms of the series that matter there.
-const TERMS: usize = 18;
-/// Series of φ(a) − 1, φ(a) − φ(2a), and 1 − 2 φ(a) + φ(2a).
-const SERIES: [[f64; TERMS]; 3] = [
+/// Ratio a = Δt/τ up to which differences of φ are summed as series, because their terms cancel.
+const SERIES_MAX_RATIO: f64 = 0.5;
+/// Terms of these series that matter up to a = [`SERIES_MAX_RATIO`].
+const N_PHI_TERMS: usize = 18;
+/// Coefficients of a^k, k ≥ 1, in φ(a) − 1, φ(a) − φ(2a), and 1 − 2 φ(a) + φ(2a).
+const PHI_SERIES: [[f64; N_PHI_TERMS]; 3] = [
     coefficients([1.0, 0.0]),
     coefficients([1.0, -1.0]),
     coefficients([-2.0, 1.0]),
 ];
-/// Branches that are followed at once; a slot without a branch holds 0.
+/// Branches that are computed together, so that the compiler can use vector instructions; a history variable without
+/// a branch is 0.
 pub(super) const LANES: usize = 4;
 
 /// Numbers of so many branches.
@@ -105,8 +106,8 @@ impl TimeStep {
         let change = a.map(|a| (-a).exp_m1());
         let once: Lanes = std::array::from_fn(|k| -change[k] / a[k]);
         let twice: Lanes = std::array::from_fn(|k| once[k] * (1.0 + 0.5 * change[k]));
-        let mut differences = SERIES.map(|series| sum(&series, a));
-        for k in (0..LANES).filter(|k| a[*k] > SHORT) {
+        let mut differences = PHI_SERIES.map(|series| sum(&series, a));
+        for k in (0..LANES).filter(|k| a[*k] > SERIES_MAX_RATIO) {
             differences[0][k] = once[k] - 1.0;
             differences[1][k] = once[k] - twice[k];
             differences[2][k] = 1.0 - 2.0 * once[k] + twice[k];
@@ -199,10 +200,10 @@ fn total(lanes: Lanes) -> f64 {
 }
 
 /// Of a combination of φ(a) = Σ (−a)^k/(k + 1)! and φ(2a) what the powers from k = 1 on are multiplied by.
-const fn coefficients([once, twice]: [f64; 2]) -> [f64; TERMS] {
-    let mut coefficients = [0.0; TERMS];
+const fn coefficients([once, twice]: [f64; 2]) -> [f64; N_PHI_TERMS] {
+    let mut coefficients = [0.0; N_PHI_TERMS];
     let (mut term, mut power, mut k) = (1.0, 1.0, 0);
-    while k < TERMS {
+    while k < N_PHI_TERMS {
         term /= -(k as f64 + 2.0);
         power *= 2.0;
         coefficients[k] = (once + twice * power) * term;
@@ -212,7 +213,7 @@ const fn coefficients([once, twice]: [f64; 2]) -> [f64; TERMS] {
 }
 
 /// Σ c_k a^k from k = 1 on.
-fn sum(coefficients: &[f64; TERMS], a: Lanes) -> Lanes {
+fn sum(coefficients: &[f64; N_PHI_TERMS], a: Lanes) -> Lanes {
     let terms = coefficients.iter().rev();
     terms.fold([0.0; LANES], |sum, coefficient| {
         std::array::from_fn(|lane| a[lane] * (sum[lane] + coefficient))

@@ -23,15 +23,17 @@ use crate::error::finite;
 use crate::force_balance::ForceBalance;
 use crate::steady::Foundation;
 
-/// Elements beyond the footprint that are looked at, because a step takes it on by up to one.
-const MARGIN: f64 = 2.0;
+/// Elements of the foundation beyond each end of the range of the line, because a step moves it by up to one element.
+const FOUNDATION_MARGIN: f64 = 2.0;
 
-/// Distance at which what a dashpot holds is taken to be touched still, relative to the depth.
-const TOUCHING: f64 = 1e-9;
-/// Motion in a step that is none but for rounding, relative to an element.
-const AT_REST: f64 = 1e-7;
-/// Height up to which elements are looked at, relative to the depth.
-const LOOKOUT: f64 = 1.25;
+/// Gap, relative to the depth, up to which an element with a dashpot counts as in contact when the foundation is
+/// reloaded. Chosen.
+const DASHPOT_CONTACT_TOLERANCE: f64 = 1e-9;
+/// Motion in a step, relative to the spacing, up to which the line counts as at rest: rounding of positions.
+const REST_DISPLACEMENT: f64 = 1e-7;
+/// Height up to which elements are in the window of a step, relative to the depth before it. A deeper step enlarges
+/// the window and is repeated.
+const WINDOW_HEIGHT_FACTOR: f64 = 1.25;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ElementState {
@@ -119,8 +121,8 @@ impl<'a> WinklerFoundation<'a> {
     ) -> Result<Self, MdrError> {
         let spacing = sampled.spacing;
         let [rear, front] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
-        let first = ((range[0] + rear) / spacing).floor() - MARGIN;
-        let last = ((range[1] + front) / spacing).ceil() + MARGIN;
+        let first = ((range[0] + rear) / spacing).floor() - FOUNDATION_MARGIN;
+        let last = ((range[1] + front) / spacing).ceil() + FOUNDATION_MARGIN;
         let n_elements = whole(last - first) + 1;
         let n_history_variables = n_history_variables(foundation);
         let [time, position] = place;
@@ -157,7 +159,10 @@ impl<'a> WinklerFoundation<'a> {
         if duration.total_cmp(&self.step.duration).is_ne() {
             self.step = TimeStep::new(self.foundation, duration);
         }
-        let mut limit = self.sampled.ceiling.min(LOOKOUT * self.place.depth);
+        let mut limit = self
+            .sampled
+            .ceiling
+            .min(WINDOW_HEIGHT_FACTOR * self.place.depth);
         let depth = loop {
             self.update_window(position, limit)?;
             self.find_unloaded_displacements();
@@ -355,7 +360,7 @@ impl<'a> WinklerFoundation<'a> {
     fn slope(&self, element: usize, heights: [f64; 2], position: f64) -> f64 {
         let moved = position - self.place.position;
         let spacing = self.sampled.spacing;
-        if moved.abs() > AT_REST * spacing {
+        if moved.abs() > REST_DISPLACEMENT * spacing {
             return (heights[0] - heights[1]) / moved;
         }
         let x = self.along(element);
@@ -395,10 +400,12 @@ impl<'a> WinklerFoundation<'a> {
     pub(super) fn reload(&mut self) -> Result<f64, MdrError> {
         self.update_window(
             self.place.position,
-            self.sampled.ceiling.min(LOOKOUT * self.place.depth),
+            self.sampled
+                .ceiling
+                .min(WINDOW_HEIGHT_FACTOR * self.place.depth),
         )?;
         let noise = if self.foundation.has_dashpot() {
-            TOUCHING * self.place.depth
+            DASHPOT_CONTACT_TOLERANCE * self.place.depth
         } else {
             0.0
         };

@@ -11,30 +11,26 @@ use rheology::Material;
 
 use crate::MdrError;
 use crate::element_heights::lowest_candidate;
+use crate::refinement::{MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, MIN_ORDER, WORK_EXPONENT};
 use crate::steady::{LineProblem, has_steep_kinks};
 use half_step_shift::{depends_on_step, half_step_shifted};
 use on_grid::march;
 pub use on_grid::{SlideOptions, SlideRow, Transient, slide_memory, slide_on_grid};
 
-/// Elements along the contact after which a march is given up.
-const MOST_ELEMENTS: usize = 4096;
-/// There are as many steps as elements.
-const WORK: f64 = 2.0;
-/// Rounding of forces times slopes, relative to the mean slope.
-const ROUNDING: f64 = 1e-12;
-/// Changes that fall more slowly from contact length to contact length are rounding.
-const SLOWEST_RATIO: f64 = 0.99;
-/// The friction of smooth bodies is better than of the first order, which their outline on the elements makes safe to
-/// assume; below the smallest order nothing converges.
-const ORDERS: [f64; 2] = [0.1, 1.0];
-/// Behind a steep kink the line rises like the root of the distance, and the depth is of the order 1/2: by how much its error
-/// is larger than by the first order, (2 − 1)/(√2 − 1).
-const KINKED: f64 = 2.42;
-/// An end of the contact lies within a step of the outermost element, and is loaded within one more.
-const STEPS_OF_ENDS: f64 = 2.0;
+/// Rounding of forces times slopes, relative to the mean slope, and of distances, relative to them.
+const FRICTION_ROUNDING: f64 = 1e-12;
+/// Largest ratio of the changes over two successive contact lengths that counts as exponential decay; slower changes
+/// are rounding.
+const MAX_CHANGE_RATIO: f64 = 0.99;
+/// Factor on the error of the depth behind a steep kink, (2 − 1)/(√2 − 1). The line rises there like the root of the
+/// distance, so the depth is of order 1/2 and not of first order.
+const STEEP_KINK_ERROR_FACTOR: f64 = 2.42;
+/// Error of the ends of the contact in steps: an end lies within a step of the outermost element, which is loaded
+/// within one more.
+const END_ERROR_STEPS: f64 = 2.0;
 
-/// Steps before the end whose values tell how they scatter.
-const LAST_STEPS: usize = 6;
+/// Steps before the end whose values give the scatter from step to step. Chosen.
+const N_SCATTER_STEPS: usize = 6;
 
 /// The end of a march from first touch; an error of 0 says that a quantity is given, or exact.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,9 +85,9 @@ pub fn slide<'w>(
     let goal = Goal {
         request: request.into(),
         initial_elements: FIRST_ELEMENTS,
-        max_elements: MOST_ELEMENTS,
-        order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
-        work_exponent: WORK,
+        max_elements: MAX_ELEMENTS_ALONG_CONTACT,
+        order: (2.0 * line.apex_exponent() - 1.0).clamp(MIN_ORDER, MAX_ORDER),
+        work_exponent: WORK_EXPONENT,
         extra_work: f64::from(depends_on_step(&material.creep())),
         selection_factor: 1.0,
     };
@@ -102,7 +98,7 @@ pub fn slide<'w>(
     let error_parts = refined.parts[0];
     if has_steep_kinks(line) {
         let elements = refined.parts[1].discretisation.into_iter().sum::<f64>();
-        error[1] += (KINKED - 1.0) * elements;
+        error[1] += (STEEP_KINK_ERROR_FACTOR - 1.0) * elements;
     }
     let end_values = motion.end_values(&march.transient);
     let [friction_coefficient, indentation_depth, rear, front] =
@@ -186,7 +182,7 @@ impl<'a> Motion<'a> {
             ..quantity
         };
         let end = |end| Quantity {
-            error_floor: STEPS_OF_ENDS * march.options.spacing,
+            error_floor: END_ERROR_STEPS * march.options.spacing,
             ..known(end)
         };
         // The outermost elements are loaded as wholes: at the edge of a flat end they carry as much as any.
@@ -199,7 +195,11 @@ impl<'a> Motion<'a> {
         let scatter = |value| self.scatter(&march.transient.rows, value);
         vec![
             Quantity {
-                rounding_error: if is_elastic { 0.0 } else { ROUNDING * slope },
+                rounding_error: if is_elastic {
+                    0.0
+                } else {
+                    FRICTION_ROUNDING * slope
+                },
                 error_floor: scatter(|row| row.friction_coefficient),
                 ..friction
             },
@@ -217,7 +217,7 @@ impl<'a> Motion<'a> {
         let Some(_) = self.load.sliding_distance() else {
             return 0.0;
         };
-        let last = &rows[rows.len().saturating_sub(LAST_STEPS)..];
+        let last = &rows[rows.len().saturating_sub(N_SCATTER_STEPS)..];
         let jump = |rows: &[SlideRow]| value(&rows[0]) - 2.0 * value(&rows[1]) + value(&rows[2]);
         let jumps = last.windows(3).map(|rows| jump(rows).abs());
         jumps.fold(0.0, f64::max)
@@ -273,7 +273,8 @@ impl<'a> Motion<'a> {
     /// A march may end after little more than one contact length; then the change before it is that since the first step.
     fn remaining_changes(&self, rows: &[SlideRow]) -> Option<[Option<f64>; 4]> {
         let last = rows.last()?;
-        let is_there = |distance: f64| last.sliding_distance >= distance * (1.0 - ROUNDING);
+        let is_there =
+            |distance: f64| last.sliding_distance >= distance * (1.0 - FRICTION_ROUNDING);
         if self.load.sliding_distance().is_some_and(is_there) {
             return None;
         }
@@ -282,7 +283,7 @@ impl<'a> Motion<'a> {
             let back = |lengths: usize| value(&rows[end.saturating_sub(lengths * last.n_contact)]);
             let [now, before, earlier] = [0, 1, 2].map(back);
             let [change, change_before] = [now - before, before - earlier].map(f64::abs);
-            let ratio = (change / change_before).min(SLOWEST_RATIO);
+            let ratio = (change / change_before).min(MAX_CHANGE_RATIO);
             Some(change * ratio / (1.0 - ratio)).filter(|rest| rest.is_finite())
         };
         Some([

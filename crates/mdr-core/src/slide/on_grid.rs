@@ -20,6 +20,7 @@ use super::foundation_march::{FoundationMarch, MarchStep};
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS, checked_height};
 use crate::error::{enough_elements, finite};
+use crate::refinement::FOUNDATION_PER_CONTACT;
 use crate::steady::LineProblem;
 
 /// Numerics of sliding.
@@ -129,9 +130,8 @@ pub struct Transient {
     pub(super) subgrid_errors: [f64; 2],
 }
 
-/// Elements of a chain per element of the stationary contact, at most about, and what each takes besides its memory, \[bytes].
-const FOOTPRINT: f64 = 4.0;
-const PER_ELEMENT: f64 = 80.0;
+/// Memory of an element besides its history variables, about and at most, \[bytes].
+const SLIDE_BYTES_PER_ELEMENT: f64 = 80.0;
 
 /// Memory that [`slide`](super::slide) takes at most for a number of elements along the contact, or along the sliding distance where
 /// that is shorter, \[bytes].
@@ -150,9 +150,10 @@ pub fn slide_memory(
     // Lists grow by doubling, and their rows are taken out of them.
     let per_step = 3 * size_of::<MarchStep>() + 2 * size_of::<SlideRow>();
     let length = LineProblem::new(line, material, load.velocity())?.contact_span(load.control())?;
-    let n_elements = (FOOTPRINT * length / options.spacing).min(2.0 * MAX_ELEMENTS as f64);
+    let n_elements =
+        (FOUNDATION_PER_CONTACT * length / options.spacing).min(2.0 * MAX_ELEMENTS as f64);
     let n_fields = material.creep().elements().len() + 1;
-    let per_element = PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    let per_element = SLIDE_BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
     Ok(steps * per_step as f64 + n_elements * per_element)
 }
 
@@ -313,9 +314,9 @@ fn relative_change(steps: &[MarchStep]) -> f64 {
     let depths = [now, before].map(|step| step.row.indentation_depth);
     let frictions = [now, before].map(|step| step.row.friction_coefficient);
     // On an elastic chain the friction is nothing but the rounding of the slopes up and down.
-    let noise = ROUNDING * now.steepness;
+    let noise = FRICTION_SUM_ROUNDING * now.steepness;
     change(depths[0], depths[1], 0.0).max(change(frictions[0], frictions[1], noise))
 }
 
-/// Rounding of a sum of forces times rises, relative to the sum of their moduli.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Rounding of a sum of forces times rises, relative to the sum of their moduli: 64 units in the last place.
+const FRICTION_SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;

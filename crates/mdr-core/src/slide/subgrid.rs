@@ -20,12 +20,12 @@ use rheology::Material;
 use crate::element_heights::ElementHeights;
 use crate::steady::has_steep_kinks;
 
-/// Chords by which the tip in an element at the lowest point is seen, and of which part of the distance from there to its end
-/// the next one begins.
-const TIP_CHORDS: usize = 64;
-const NEXT_CHORD: f64 = 0.75;
-/// Of a power x⁴ these chords leave out a tenth.
-const LEFT_OUT: f64 = 1.25;
+/// Chords by which the tip in an element at the lowest point is resolved.
+const N_TIP_CHORDS: usize = 64;
+/// Distance from the lowest point to the inner end of a chord, relative to that to its outer end.
+const TIP_CHORD_RATIO: f64 = 0.75;
+/// Factor on the sum over the chords of a tip; of a power x⁴ they leave out a tenth.
+const TIP_EXCESS_FACTOR: f64 = 1.25;
 
 /// What a material does within a step, in terms of its moduli over 2 (1 − ν).
 pub(super) struct StepScaleModuli {
@@ -124,15 +124,15 @@ impl LastStep<'_> {
             let rise = |part: f64| line.height(anchor + part * step) - lowest_height;
             let (mut part, mut above) = (1.0, rise(1.0));
             let mut squares = -above * above;
-            for _ in 0..TIP_CHORDS {
-                let (nearer, below) = (NEXT_CHORD * part, rise(NEXT_CHORD * part));
+            for _ in 0..N_TIP_CHORDS {
+                let (nearer, below) = (TIP_CHORD_RATIO * part, rise(TIP_CHORD_RATIO * part));
                 squares += (above - below).powi(2) / (part - nearer);
                 (part, above) = (nearer, below);
             }
             (squares + above * above / part) / spacing
         };
         loaded
-            .map(|(_, step)| LEFT_OUT * excess(step).max(0.0))
+            .map(|(_, step)| TIP_EXCESS_FACTOR * excess(step).max(0.0))
             .sum()
     }
 

@@ -9,9 +9,10 @@
 
 use super::legendre::{DEGREE, end_value, square_integral, start_value};
 
-/// From here on the layer is split off. Below, terms of the expansion vanish like (a/2)^k/k!.
-const LAYER: f64 = 4.0;
-/// Enough terms for the polynomial and an exponential of a = LAYER to the last digit.
+/// Ratio a from which on the boundary layer is split off. Below, the terms of the expansion vanish like (a/2)^k/k!.
+const MIN_LAYER_RATIO: f64 = 4.0;
+/// Legendre terms of a stress: enough for the polynomial and an exponential of a = [`MIN_LAYER_RATIO`] to the last
+/// digit.
 pub(super) const MAX_TERMS: usize = DEGREE + 30;
 
 /// Stress e of a branch over one piece.
@@ -31,7 +32,11 @@ pub(super) struct BranchStress {
 
 /// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
 pub(super) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
-    let solution = if ratio < LAYER { expanded } else { with_layer };
+    let solution = if ratio < MIN_LAYER_RATIO {
+        expanded
+    } else {
+        with_layer
+    };
     solution(ratio, start, rates)
 }
 
@@ -55,10 +60,11 @@ fn expanded(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
 
 /// Terms beyond those of the rates until e^(−a t) is exhausted.
 fn exponential_terms(ratio: f64) -> usize {
-    const NEGLIGIBLE: f64 = 1e-18;
+    /// Size of the terms of e^(−a t) that are left out; it is below rounding.
+    const NEGLIGIBLE_TERM: f64 = 1e-18;
     let mut terms = 2;
     let mut size = ratio;
-    while size > NEGLIGIBLE && terms < MAX_TERMS - DEGREE - 2 {
+    while size > NEGLIGIBLE_TERM && terms < MAX_TERMS - DEGREE - 2 {
         size *= ratio / (2 * terms - 1) as f64;
         terms += 1;
     }

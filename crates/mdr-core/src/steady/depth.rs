@@ -7,15 +7,17 @@ use numerics::try_bracketed_root;
 
 use crate::MdrError;
 
-/// Where the search starts, \[m]; it stands for "anywhere".
-const START: f64 = 1.0;
-/// Every step of the secant method doubles the digits; the rest is for a bad start.
-const MAX_STEPS: usize = 12;
-/// Proportion may be exact, and the force then rounded to the wrong side.
-const MARGIN: f64 = 1e-6;
-/// By how much a bracket that proportion does not give is widened, and how often.
-const STRIDE: f64 = 8.0;
-const MAX_STRIDES: usize = 200;
+/// Depth at which the search starts, \[m]; any other would do.
+const SEARCH_START: f64 = 1.0;
+/// Steps of the secant method at most: each multiplies the number of digits, and the rest is for a bad start.
+const MAX_SECANT_STEPS: usize = 12;
+/// Relative margin of the bracket that proportion gives: proportion may be exact, and the force then rounded to the
+/// wrong side.
+const BRACKET_MARGIN: f64 = 1e-6;
+/// Factor by which a bracket is widened that does not hold the depth.
+const BRACKET_STRIDE: f64 = 8.0;
+/// How often a bracket is widened at most.
+const MAX_BRACKET_STRIDES: usize = 200;
 
 /// The depth \[m] at which `load` is as large as `target`.
 pub(super) fn depth_of_load(
@@ -42,7 +44,7 @@ pub(super) fn polished_depth(
     // Force and depth are nearly a power law; one between fluid and solid for the first step, which teaches the exponent: on
     // springs under a cusp x^p it is 1 + 1/p, and that step too long.
     let mut exponent = 1.5;
-    for step_number in 0..MAX_STEPS {
+    for step_number in 0..MAX_SECANT_STEPS {
         if excess.abs() <= f64::EPSILON {
             break;
         }
@@ -67,16 +69,16 @@ fn bracket(
     load: &impl Fn(f64) -> Result<f64, MdrError>,
     target: f64,
 ) -> Result<[f64; 2], MdrError> {
-    let (start, at_start) = within_reach(load, START, target)?;
+    let (start, at_start) = within_reach(load, SEARCH_START, target)?;
     let excessive = at_start > target;
     let mut near = start;
     let [margin, stride] = if excessive {
-        [1.0 - MARGIN, STRIDE.recip()]
+        [1.0 - BRACKET_MARGIN, BRACKET_STRIDE.recip()]
     } else {
-        [1.0 + MARGIN, STRIDE]
+        [1.0 + BRACKET_MARGIN, BRACKET_STRIDE]
     };
     let mut far = start * (target / at_start) * margin;
-    for _ in 0..MAX_STRIDES {
+    for _ in 0..MAX_BRACKET_STRIDES {
         if far <= f64::MIN_POSITIVE || !far.is_finite() {
             break;
         }

@@ -15,8 +15,9 @@ use super::legendre::{derivative, square_integral, start_value, value};
 use super::segment::Segment;
 use crate::MdrError;
 
-/// What a change of the displacement does to its rate in the mean over a segment, times 2 √2 from the square.
-const SENSITIVITY: f64 = 8.0;
+/// Change of the dissipation per change of the displacement: the mean change of the rate over a segment, times 2 √2
+/// from the square.
+const DISSIPATION_SENSITIVITY: f64 = 8.0;
 
 /// The foundation at one speed; all times are distances.
 pub(crate) struct Foundation {
@@ -215,7 +216,7 @@ impl Foundation {
             layers: Vec::with_capacity(self.branches.len()),
             load: self.spring * segment.length * segment.displacements[0] + self.dashpot * rise,
             dissipation: dashpot * square_rate,
-            dissipation_change: SENSITIVITY * dashpot * square_rate.sqrt(),
+            dissipation_change: DISSIPATION_SENSITIVITY * dashpot * square_rate.sqrt(),
             dissipation_rounding: dashpot * segment.rounding * segment.rounding,
             stresses: Vec::with_capacity(self.branches.len()),
         };
@@ -231,7 +232,7 @@ impl Foundation {
             solution.load += 0.5 * segment.length * stress.integral;
             solution.dissipation += ratio * (stress.square_integral / branch.modulus);
             solution.dissipation_change +=
-                SENSITIVITY * ratio.min(1.0) * stress.square_integral.sqrt();
+                DISSIPATION_SENSITIVITY * ratio.min(1.0) * stress.square_integral.sqrt();
         }
         solution
     }

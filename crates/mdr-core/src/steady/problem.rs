@@ -16,20 +16,23 @@ use crate::MdrError;
 use crate::error::finite;
 
 /// Relative error of friction and force by rounding; larger than any seen.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
-/// The terms that the polynomials leave out are estimated from the last ones. Around the sharp tips of hyperboloids they
-/// were up to 5.5 times as large (test `bars_hold_for_other_pieces_of_the_same_line`).
-const SAFETY: f64 = 6.0;
-/// How much smaller than the error of the friction what the polynomials leave out is at first, and how far it may fall.
-const FIRST_TOLERANCE: f64 = 0.1;
-const ROUGH_TOLERANCE: f64 = 1e-3;
-const LAST_TOLERANCE: f64 = 1e-14;
-/// Tolerance of the lengths that only decide on the size of elements.
+const STATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
+/// Factor on the estimated tails of the polynomials. Around the sharp tips of hyperboloids the tails were up to 5.5
+/// times as large as estimated (test `bars_hold_for_other_pieces_of_the_same_line`).
+const TAIL_SAFETY_FACTOR: f64 = 6.0;
+/// First tolerance of the polynomials, as a part of the relative error asked for.
+const FIRST_TOLERANCE_FRACTION: f64 = 0.1;
+/// Tolerance of the polynomials, in depths, in the search for a depth and in the check of kinks.
+const SEARCH_TOLERANCE: f64 = 1e-3;
+/// Smallest tolerance of the polynomials, in depths; an error that is still too large is not reached.
+const MIN_TOLERANCE: f64 = 1e-14;
+/// Tolerance of the polynomials for lengths that only decide on the size of elements.
 const LENGTH_TOLERANCE: f64 = 1e-9;
-/// Where polynomials leave out so many times less, a contact ends elsewhere by most of its error.
-const FINER: f64 = 1e-4;
-/// Part of the contact by which its ends may be off by rounding: the square root of that of heights, where a line is level.
-const ROUNDING_OF_ENDS: f64 = 2.4e-7;
+/// Factor on the tolerance of a second solution, from which the ends of the contact differ by most of their error.
+const END_TOLERANCE_FACTOR: f64 = 1e-4;
+/// Error of the ends by rounding, relative to the contact length: the square root of that of heights, where a line is
+/// level.
+const END_ROUNDING: f64 = 2.4e-7;
 
 /// A line that moves over a foundation.
 pub(crate) struct LineProblem<'a> {
@@ -60,7 +63,7 @@ impl<'a> LineProblem<'a> {
         relative_error: f64,
         (quantity, sought): (&'static str, fn(&SteadySliding) -> Estimate),
     ) -> Result<SteadySliding, MdrError> {
-        let mut tolerance = FIRST_TOLERANCE * relative_error;
+        let mut tolerance = FIRST_TOLERANCE_FRACTION * relative_error;
         loop {
             let state = self.state(control, tolerance)?;
             let ValueWithError { value, error } = *sought(&state);
@@ -68,7 +71,7 @@ impl<'a> LineProblem<'a> {
             if error <= wanted {
                 return self.with_ends(state, tolerance);
             }
-            if tolerance <= LAST_TOLERANCE {
+            if tolerance <= MIN_TOLERANCE {
                 return Err(MdrError::NotConverged {
                     quantity,
                     value,
@@ -77,7 +80,7 @@ impl<'a> LineProblem<'a> {
                     reached: Box::new(self.with_ends(state, tolerance)?),
                 });
             }
-            tolerance = LAST_TOLERANCE.max(tolerance * (0.1 * wanted / error));
+            tolerance = MIN_TOLERANCE.max(tolerance * (0.1 * wanted / error));
         }
     }
 
@@ -90,8 +93,8 @@ impl<'a> LineProblem<'a> {
         if kinks.is_empty() {
             return Ok(());
         }
-        let depth = self.depth(control, ROUGH_TOLERANCE);
-        let in_contact = match depth.and_then(|depth| self.solve(depth, ROUGH_TOLERANCE)) {
+        let depth = self.depth(control, SEARCH_TOLERANCE);
+        let in_contact = match depth.and_then(|depth| self.solve(depth, SEARCH_TOLERANCE)) {
             Ok(sweep) => kinks.iter().find(|kink| kink.is_in(&sweep.contacts)),
             // No depth is large enough: behind the kink the line rises by all of it within the rounding of positions.
             Err(MdrError::NonFinite {
@@ -127,7 +130,7 @@ impl<'a> LineProblem<'a> {
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
         // Most of the search needs few polynomials.
-        let rough = tolerance.max(ROUGH_TOLERANCE);
+        let rough = tolerance.max(SEARCH_TOLERANCE);
         let start = depth_of_load(|depth| self.quarter_force(depth, rough), target)?;
         polished_depth(|depth| self.quarter_force(depth, tolerance), target, start)
     }
@@ -143,7 +146,7 @@ impl<'a> LineProblem<'a> {
             Control::NormalForce(normal_force) => MdrError::ForceBeyondEdge {
                 position,
                 available: height,
-                carried_force: 4.0 * self.quarter_force(height, ROUGH_TOLERANCE)?,
+                carried_force: 4.0 * self.quarter_force(height, SEARCH_TOLERANCE)?,
                 normal_force,
             },
             Control::IndentationDepth(indentation_depth) => MdrError::DepthBeyondEdge {
@@ -195,12 +198,12 @@ impl<'a> LineProblem<'a> {
         let force = finite("normal force", force, 0.0)?;
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
         let errors = [sums.load_error, sums.work_error];
-        let [load_error, work_error] = errors.map(|error| SAFETY * error);
+        let [load_error, work_error] = errors.map(|error| TAIL_SAFETY_FACTOR * error);
         // A larger force at the same depth is a smaller depth at the same force, which moves the friction again.
         let friction_error = depth * (work_error / load) + 2.0 * friction * (load_error / load);
-        let friction_error = friction_error.abs() + ROUNDING * friction.abs();
+        let friction_error = friction_error.abs() + STATE_ROUNDING * friction.abs();
         // The force grows with the depth at least in proportion.
-        let relative_error = load_error / load + ROUNDING;
+        let relative_error = load_error / load + STATE_ROUNDING;
         let [depth_error, force_error] = match control {
             Control::NormalForce(_) => [relative_error * depth, 0.0],
             Control::IndentationDepth(_) => [0.0, relative_error * force],
@@ -227,10 +230,10 @@ impl<'a> LineProblem<'a> {
         tolerance: f64,
     ) -> Result<SteadySliding, MdrError> {
         let depth = state.indentation_depth;
-        let finer = LAST_TOLERANCE.max(FINER * tolerance);
+        let finer = MIN_TOLERANCE.max(END_TOLERANCE_FACTOR * tolerance);
         let sums = self.solve_with(depth.value - depth.error, finer, Some(Vec::new()))?;
         let ends = sums.ends();
-        let rounding = ROUNDING_OF_ENDS * (ends[1] - ends[0]);
+        let rounding = END_ROUNDING * (ends[1] - ends[0]);
         for (end, finer) in state.ends.iter_mut().zip(ends) {
             *end = Estimate::new(end.value, 2.0 * (end.value - finer).abs() + rounding);
         }

@@ -15,20 +15,21 @@ use super::segment::Segment;
 use crate::MdrError;
 use crate::element_heights::{checked_height, invalid_height};
 
-/// Positions at which the line is looked at, besides the nodes, along the whole range.
-const STATIONS: f64 = 64.0;
-/// Samples of the slope of a piece in search of its turning points.
-const SLOPE_SAMPLES: usize = 24;
-/// A piece this many times shorter than every distance of relaxation acts through the heights of its ends alone.
-const SHORT: f64 = 0.125;
+/// Positions along the whole range at which the polynomials are compared with the line, besides their nodes.
+const N_STATIONS: f64 = 64.0;
+/// Samples of the slope of a piece in the search for its turning points.
+const N_SLOPE_SAMPLES: usize = 24;
+/// Length of a piece, relative to the shortest distance of relaxation, below which it acts through the heights of its
+/// ends alone.
+const SHORT_PIECE_RATIO: f64 = 0.125;
 
-/// Most polynomials of one line; more take seconds for every depth that is tried.
+/// Polynomials of one line at most; more take seconds for every depth that is tried.
 const MAX_PIECES: usize = 1 << 18;
-/// What the rounding of heights and positions does to the last terms of a polynomial, as a multiple of both.
-const NOISE: f64 = 8.0;
+/// Effect of the rounding of heights and positions on the last terms of a polynomial, as a multiple of both.
+const TERM_ROUNDING_FACTOR: f64 = 8.0;
 
-/// A piece this short at its distance from zero has nodes at the rounding of positions.
-const SMALLEST: f64 = 1024.0 * f64::EPSILON;
+/// Shortest piece, relative to its distance from zero; shorter ones have nodes at the rounding of positions.
+const MIN_PIECE_LENGTH: f64 = 1024.0 * f64::EPSILON;
 
 /// What counts as resolved.
 #[derive(Debug, Clone, Copy)]
@@ -119,7 +120,7 @@ impl Piece {
         let Segment { ends, length, .. } = self.segment;
         let rise = self.rise();
         let moved = rise * (ends[0].abs().max(ends[1].abs()) / length);
-        self.tail <= NOISE * f64::EPSILON * (self.terms()[0].abs() + rise + moved)
+        self.tail <= TERM_ROUNDING_FACTOR * f64::EPSILON * (self.terms()[0].abs() + rise + moved)
     }
 
     /// Where the line turns inside the piece.
@@ -131,8 +132,8 @@ impl Piece {
         }
         let slopes = derivative(terms);
         let slope = |t: f64| value(&slopes[..degree.max(1)], t);
-        let sample = |k: usize| (2 * k + 1) as f64 / SLOPE_SAMPLES as f64 - 1.0;
-        (1..SLOPE_SAMPLES)
+        let sample = |k: usize| (2 * k + 1) as f64 / N_SLOPE_SAMPLES as f64 - 1.0;
+        (1..N_SLOPE_SAMPLES)
             .map(|k| [sample(k - 1), sample(k)])
             .find(|[from, to]| slope(*from) * slope(*to).signum() < 0.0)
             .and_then(|bracket| bracketed_root(slope, bracket))
@@ -177,7 +178,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             let piece = self.piece(ends)?;
             let middle = ends[0].midpoint(ends[1]);
             let farthest = ends[0].abs().max(ends[1].abs());
-            let smallest = (SMALLEST * farthest).max(f64::MIN_POSITIVE);
+            let smallest = (MIN_PIECE_LENGTH * farthest).max(f64::MIN_POSITIVE);
             let indivisible = piece.segment.length <= smallest || ends.contains(&middle);
             if piece.is_rounding() || self.is_resolved(&piece)? {
                 self.split_at_turning_point(piece, pieces)?;
@@ -253,7 +254,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         let tolerance = self.resolution.tolerance;
         let (rise, length) = (piece.rise(), piece.segment.length);
         // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
-        let steep = length > SHORT * self.resolution.shortest_length
+        let steep = length > SHORT_PIECE_RATIO * self.resolution.shortest_length
             && piece.tail > tolerance * rise
             && piece.tail * rise * (self.length / length) > tolerance;
         Ok(piece.tail <= tolerance && !steep && self.agrees(piece)?)
@@ -261,12 +262,13 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
 
     /// Whether the line is where the polynomial says it is, between the nodes as well.
     fn agrees(&self, piece: &Piece) -> Result<bool, MdrError> {
-        let share = STATIONS * piece.segment.length / self.length;
-        // An irrational stride does not fall into step with a periodic line.
-        const STRIDE: f64 = 0.618_033_988_749_894_9;
+        let share = N_STATIONS * piece.segment.length / self.length;
+        /// Stride of the stations, the golden ratio minus 1: an irrational number does not fall into step with a
+        /// periodic line.
+        const STATION_STRIDE: f64 = 0.618_033_988_749_894_9;
         let mut station = 1.0;
         while station <= share.ceil() {
-            let t = 2.0 * (station * STRIDE).fract() - 1.0;
+            let t = 2.0 * (station * STATION_STRIDE).fract() - 1.0;
             let difference = (self.drop)(piece.position(t))? - value(piece.terms(), t);
             let is_close = difference.abs() <= 8.0 * self.resolution.tolerance;
             if !is_close {
@@ -285,10 +287,11 @@ fn remainder(coefficients: &Polynomial) -> f64 {
     let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
     let (last, before) = (pair(DEGREE), pair(DEGREE - 2));
     match last / before {
-        ratio if last < before => last * ratio / (1.0 - ratio).max(LEAST_DECAY),
+        ratio if last < before => last * ratio / (1.0 - ratio).max(MIN_PAIR_DECAY),
         _ => last,
     }
 }
 
-/// Less decay from pair to pair than this is rounding, whose terms add up to nothing.
-const LEAST_DECAY: f64 = 0.25;
+/// Smallest decay from pair to pair of terms in the geometric series of the rest; less decay is rounding, whose terms
+/// add up to nothing.
+const MIN_PAIR_DECAY: f64 = 0.25;

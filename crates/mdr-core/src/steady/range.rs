@@ -6,16 +6,18 @@ use numerics::bracketed_root;
 use crate::MdrError;
 use crate::element_heights::{checked_height, lowest_candidate};
 
-/// Stations per doubling of the distance from the anchor; narrower parts that come down again between kinks may be overlooked.
+/// Samples of the line per doubling of the distance from the anchor. Narrower parts that come down again between
+/// kinks may be overlooked.
 const STATIONS_PER_OCTAVE: f64 = 16.0;
-/// An endless line is looked at this many times farther out than where it first rises above the ceiling.
-const RATIO_OF_DISTANCES: f64 = 1024.0;
-/// Factor by which the search on an endless line goes outwards.
-const STRIDE: f64 = 8.0;
+/// On an endless line the search begins at this multiple of the distance at which the line first rises above the
+/// ceiling.
+const SEARCH_DISTANCE_RATIO: f64 = 1024.0;
+/// Factor by which the search for a first height above the ceiling goes outwards on an endless line.
+const OUTWARD_STRIDE: f64 = 8.0;
 
-/// A body that ends with a vertical edge, as a sphere at its equator, is followed up to this part of its length from there:
-/// closer to it pieces of the line have nodes at the rounding of positions.
-const EDGE: f64 = 1024.0 * f64::EPSILON;
+/// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its
+/// length from the lowest point. Closer to the edge the nodes of a piece are at the rounding of positions.
+const EDGE_INSET: f64 = 1024.0 * f64::EPSILON;
 
 /// Positions between which all heights below the ceiling lie.
 #[derive(Debug, Clone, Copy)]
@@ -92,7 +94,7 @@ pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>
         return Ok(None);
     }
     let anchor = lowest_candidate(line)?;
-    let inside = position - EDGE * (position - anchor);
+    let inside = position - EDGE_INSET * (position - anchor);
     let height = checked_height(line, inside)? - checked_height(line, anchor)?;
     Ok(Some(VerticalEdge { position, height }))
 }
@@ -124,7 +126,7 @@ fn outermost(
     let mut outside = if end.is_finite() {
         end - anchor
     } else {
-        RATIO_OF_DISTANCES * first_above(&excess, anchor, end.signum())?
+        SEARCH_DISTANCE_RATIO * first_above(&excess, anchor, end.signum())?
     };
     // The sum of two positions may be rounded beyond the end.
     let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };
@@ -152,7 +154,7 @@ fn first_above(
 ) -> Result<f64, MdrError> {
     let mut distance = sign;
     while excess(anchor + distance)? <= 0.0 {
-        distance *= STRIDE;
+        distance *= OUTWARD_STRIDE;
         if !distance.is_finite() {
             return Err(MdrError::NotRising { position: anchor });
         }

@@ -3,7 +3,7 @@
 use super::legendre::{Interpolation, Polynomial, derivative, end_value, value};
 
 /// Rounding of the displacements of a part, which is interpolated once more, in depths.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
+const REINTERPOLATION_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.
 #[derive(Debug, Clone)]
@@ -54,7 +54,7 @@ impl Segment {
             degree: self.degree,
             ends: [self.position(from), self.position(to)],
             length: half * self.length,
-            rounding: ROUNDING,
+            rounding: REINTERPOLATION_ROUNDING,
         }
     }
 }

@@ -5,14 +5,15 @@
 
 use indenters::RigidLine;
 
-/// First distance from a kink at which the slope is taken, relative to the position of the kink.
-const REACH: f64 = 1.0 / (1 << 20) as f64;
-/// By which the distances of the second and third slope are smaller each.
-const CLOSER: f64 = 0.25;
-/// What differences of an inverse root grow by from distance to distance, less what smaller powers leave.
-const GROWTH: f64 = 1.99;
+/// First distance from a kink at which the slope is computed, relative to the position of the kink.
+const FIRST_KINK_DISTANCE: f64 = 1.0 / (1 << 20) as f64;
+/// Ratio of the second distance from a kink to the first, and of the third to the second.
+const KINK_DISTANCE_RATIO: f64 = 0.25;
+/// Smallest ratio of the differences of slopes from distance to distance at a steep kink: 2 for an inverse root, less
+/// a margin for smaller powers.
+const MIN_DIFFERENCE_RATIO: f64 = 1.99;
 /// Differences of slopes below this part of them are rounding.
-const ROUNDING: f64 = 1e-9;
+const SLOPE_ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope has no limit.
 pub(super) struct SteepKink {
@@ -33,7 +34,7 @@ impl SteepKink {
         let sides = kinks.flat_map(|position| [-1.0, 1.0].map(|side| (position, side)));
         let steep = sides.filter(|&(position, side)| is_steep(line, position, side));
         let kink = |(position, side): (f64, f64)| {
-            let end = position + side * REACH * position.abs();
+            let end = position + side * FIRST_KINK_DISTANCE * position.abs();
             let side = [position.min(end), position.max(end)];
             Self { position, side }
         };
@@ -51,9 +52,15 @@ impl SteepKink {
 
 /// Whether the slope rises beyond all limits towards the kink, at least like the inverse root of the distance.
 fn is_steep(line: &dyn RigidLine, position: f64, side: f64) -> bool {
-    let parts = [1.0, CLOSER, CLOSER * CLOSER];
+    let parts = [
+        1.0,
+        KINK_DISTANCE_RATIO,
+        KINK_DISTANCE_RATIO * KINK_DISTANCE_RATIO,
+    ];
     let [far, near, nearest] =
-        parts.map(|part| line.slope(position + side * part * REACH * position.abs()));
+        parts.map(|part| line.slope(position + side * part * FIRST_KINK_DISTANCE * position.abs()));
     let (first, second) = (near - far, nearest - near);
-    first > ROUNDING * near.abs() && second >= GROWTH * first && second.is_finite()
+    first > SLOPE_ROUNDING * near.abs()
+        && second >= MIN_DIFFERENCE_RATIO * first
+        && second.is_finite()
 }

@@ -9,22 +9,25 @@ use super::profile::{Piece, Profile};
 use super::segment::Segment;
 use crate::MdrError;
 
-/// Positions in a segment at which contact and gap are looked at.
-const SAMPLES: usize = 12;
-/// A gap that is closed by less than this part of the depth is rounding.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// A line that ends under load releases more than this part of the depth, whose energy is below 1e-12 of the whole.
-const LEFT_BY_ROUNDING: f64 = 1e-6;
-/// Layers thinner than this part of a segment are not looked into.
-const THINNEST: f64 = 1e-9;
-/// Difference from a straight line, relative to the load, that is left out of what is drawn and transformed.
-const STRAIGHT: f64 = 1e-3;
-/// A touch that is late by more than this part of the depth is a jump.
-const LARGEST_MISS: f64 = 1e-12;
-/// A contact that ends after less than this part of a segment ends at its start, and one that begins so close to its end
-/// begins there: the dissipation of a dashpot in so short a part is the square of rounding over its length.
-const SHORTEST: f64 = 1e-13;
-/// Most contact intervals of one line.
+/// Positions in a segment at which the signs of load and gap are checked.
+const N_SEGMENT_SAMPLES: usize = 12;
+/// Penetration, in depths, up to which a gap counts as open: rounding.
+const GAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Displacement at the rear end of the line, in depths, below which what an elastic foundation releases there counts
+/// as rounding. Its energy is below 1e-12 of the whole.
+const ELASTIC_END_DISPLACEMENT: f64 = 1e-6;
+/// Smallest width of a boundary layer, and of a part of a drawn load, in units of t, that is sampled.
+const MIN_LAYER_WIDTH: f64 = 1e-9;
+/// Deviation of the load from its chord, relative to the load, up to which the list of loads is straight between two
+/// positions.
+const CHORD_TOLERANCE: f64 = 1e-3;
+/// Compression, in depths, by which a contact may begin late through rounding of positions; more is a jump.
+const MAX_MISSED_COMPRESSION: f64 = 1e-12;
+/// Shortest contact in units of t. A contact that ends earlier ends at the start of its segment, and one that begins
+/// so close to the end begins there: the dissipation of a dashpot in so short a part is the square of rounding over
+/// its length.
+const MIN_CONTACT_PART: f64 = 1e-13;
+/// Contact intervals of one line at most.
 const MAX_CONTACTS: usize = 1 << 12;
 
 /// What a pass sums up to.
@@ -143,7 +146,7 @@ impl SurfaceMarch<'_> {
                 position: segment.position(t),
             });
         }
-        let t = if 1.0 - t > SHORTEST { t } else { 1.0 };
+        let t = if 1.0 - t > MIN_CONTACT_PART { t } else { 1.0 };
         let distance = 0.5 * (1.0 + t) * segment.length;
         let free = self.foundation.free_displacement(&recovery, distance);
         let mut stresses = self.foundation.free_stresses(&recovery, distance);
@@ -151,7 +154,7 @@ impl SurfaceMarch<'_> {
         let displacement = self.nonelastic_displacement(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         let compression = segment.displacement(t) - free;
-        if compression > LARGEST_MISS {
+        if compression > MAX_MISSED_COMPRESSION {
             self.foundation
                 .apply_strain_jump(&mut stresses, compression);
         }
@@ -173,7 +176,7 @@ impl SurfaceMarch<'_> {
         };
         let mut before = -1.0;
         for t in samples() {
-            if gap(t) < -ROUNDING {
+            if gap(t) < -GAP_ROUNDING {
                 // On the very start the gap may be closed by rounding; but no element is let go and touched at once.
                 let nearest = if recovery.distance <= 0.0 { t } else { before };
                 return Some(bracketed_root(gap, [before, t]).unwrap_or(nearest));
@@ -193,7 +196,7 @@ impl SurfaceMarch<'_> {
     /// jump at all.
     fn miss(&mut self, compression: f64, segment: &Segment, t: f64) {
         let rate = segment.rate(t);
-        let [carried, resisted] = if compression > LARGEST_MISS {
+        let [carried, resisted] = if compression > MAX_MISSED_COMPRESSION {
             self.foundation.damping(rate)
         } else {
             self.foundation.resistance(rate, self.profile.length)
@@ -204,7 +207,7 @@ impl SurfaceMarch<'_> {
 
     fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = stresses.to_vec();
-        if 1.0 + t > SHORTEST {
+        if 1.0 + t > MIN_CONTACT_PART {
             let loaded = segment.part(&self.profile.interpolation, [-1.0, t]);
             let solution = self.foundation.pass(&loaded, &stresses);
             self.add(&solution, &loaded, tail);
@@ -251,7 +254,7 @@ impl SurfaceMarch<'_> {
         let behind = match (surface, self.profile.pieces.last()) {
             (Surface::Loaded { stresses, .. }, Some(piece)) => {
                 let mut end = piece.segment.end();
-                if end.abs() < LEFT_BY_ROUNDING {
+                if end.abs() < ELASTIC_END_DISPLACEMENT {
                     end = self.nonelastic_displacement(end);
                 }
                 self.close(end, &stresses, piece.segment.ends[1]);
@@ -266,8 +269,8 @@ impl SurfaceMarch<'_> {
 
 /// Positions from the front to the rear end, denser at both.
 fn samples() -> impl Iterator<Item = f64> {
-    let angle = std::f64::consts::PI / SAMPLES as f64;
-    (1..=SAMPLES).map(move |k| -(angle * k as f64).cos())
+    let angle = std::f64::consts::PI / N_SEGMENT_SAMPLES as f64;
+    (1..=N_SEGMENT_SAMPLES).map(move |k| -(angle * k as f64).cos())
 }
 
 /// Places between −1 and 1, and the values of a function there, which is straight between them.
@@ -281,7 +284,7 @@ fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> 
         let middle = at(0.5 * (from[0] + to[0]));
         let mean = 0.5 * (from[1] + to[1]);
         let scale = middle[1].abs().max(mean.abs());
-        if to[0] - from[0] > THINNEST && (middle[1] - mean).abs() > STRAIGHT * scale {
+        if to[0] - from[0] > MIN_LAYER_WIDTH && (middle[1] - mean).abs() > CHORD_TOLERANCE * scale {
             ahead.push(middle);
         } else {
             parts.push(to);
@@ -316,7 +319,7 @@ fn layer_samples(solution: &SegmentSolution) -> Vec<f64> {
         .iter()
         .rev()
         .map(|layer| layer.ratio.recip());
-    let thin = thin.filter(|width| *width > THINNEST && width - 1.0 < first);
+    let thin = thin.filter(|width| *width > MIN_LAYER_WIDTH && width - 1.0 < first);
     let mut samples: Vec<f64> = thin.map(|width| width - 1.0).collect();
     samples.sort_by(f64::total_cmp);
     samples

@@ -17,11 +17,12 @@ use super::range::Range;
 use super::sweep::{SweepSums, sweep};
 use crate::MdrError;
 
-/// Passes after which the search is given up.
-const MOST_PASSES: usize = 300;
-/// What may be left of the way to the stationary state, in depths; more where the modes forget slowly, by rounding.
-const TOLERANCE: f64 = 1e-11;
-const ROUNDING: f64 = 1024.0 * f64::EPSILON;
+/// Passes of the track after which the search for the periodic state is given up.
+const MAX_PASSES: usize = 300;
+/// Remaining distance to the periodic state, in depths, at which the search ends.
+const PERIODICITY_TOLERANCE: f64 = 1e-11;
+/// Rounding of one pass, in depths, which bounds the tolerance from below where the modes recover slowly.
+const PERIODICITY_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// Refuses a track that is not longer than the line is below the surface.
 pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
@@ -42,7 +43,7 @@ pub(super) fn sweep_until_periodic(
     // Of depths that are too large for the track, on the way to one that is not, a monotone force is all that is needed.
     let free = (track - profile.length).max(0.0);
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
-    let tolerance = TOLERANCE.max(ROUNDING * slowness);
+    let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
     let mut left = 0.0;
     let pass = |ahead: &[f64]| {
         let (_, behind) = sweep(
@@ -61,13 +62,13 @@ pub(super) fn sweep_until_periodic(
         left
     };
     let start = foundation.remaining_amplitudes(&FreeSurface::untouched(), free);
-    let ahead = match anderson_fixed_point(start, MOST_PASSES, tolerance, pass, rest)? {
+    let ahead = match anderson_fixed_point(start, MAX_PASSES, tolerance, pass, rest)? {
         FixedPoint::Converged { result, .. } => result,
         FixedPoint::NotConverged {
             remaining_error: change,
         } => {
             return Err(MdrError::NotPeriodic {
-                cycles: MOST_PASSES,
+                cycles: MAX_PASSES,
                 change,
                 tolerance,
             });
