@@ -157,7 +157,7 @@ impl Approach {
             terms: terms + radius * scale,
             load_error: self.load_error,
             radius: self.radius(),
-            edge: change_of_edge(slope, self.edge.modulus, scale),
+            edge_change: change_of_edge(slope, self.edge.modulus, scale),
         }
     }
 

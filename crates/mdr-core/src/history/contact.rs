@@ -4,10 +4,16 @@
 //! F = 8/(2 (1 − ν)) [η₀ ḋ a + Σ Φ_k]      Φ_k = ∫₀^a σ_k dx
 //! Φ_k(t) = e^(−(t − s)/τ_k) Φ_k(s) + G_k ∫ e^(−(t − s')/τ_k) ḋ a ds'      while the contact grows over new elements
 //! ```
-//! The contact is a stack of rings in the order in which they were touched, each with the Φ_k of everything inside it at
-//! the moment it began. All elements inside stay in contact from then on, so that the sums follow from these at any later
-//! time; a contact that shrinks takes rings from the top (Ting 1966, J. Appl. Mech. 33, 845). Elements that are touched
-//! again are followed one by one, each from event to event in closed form, and summed over a ring by quadrature.
+//! The contact is a stack of rings in the order in which their elements came into contact. Each ring has the Φ_k of
+//! everything inside it at the moment it began. All elements inside stay in contact from then on, so that the Φ_k follow
+//! from these values at any later time. A contact that shrinks removes rings from the top (Ting 1966, J. Appl. Mech. 33,
+//! 845).
+//!
+//! Elements that come into contact again are followed one by one, from event to event in closed form, and summed over a
+//! ring by quadrature.
+//!
+//! Within one segment of the path the edge moves in stretches of one direction each. [`Contact::follow`] computes one
+//! stretch after the other: growth over new elements, growth over free elements, rest, or shrinkage.
 
 mod edge;
 mod sums;
@@ -30,24 +36,34 @@ pub(super) struct Contact<'a> {
     pub(super) radii: Radii,
     /// Rings in contact, from the centre outwards.
     pub(super) rings: Vec<EdgeMove>,
-    /// Φ_k inside each ring when it began, ring by ring.
-    pub(super) inside: Vec<f64>,
-    /// All that happened.
+    /// Φ_k inside each ring when it began, ring by ring, \[Pa m²].
+    pub(super) inner_sums: Vec<f64>,
+    /// All moves of the edge so far.
     pub(super) edge_moves: Vec<EdgeMove>,
-    /// Φ_k of the whole contact now, and σ_k at its edge.
+    /// Φ_k of the whole contact now, \[Pa m²].
     pub(super) sums: Vec<f64>,
-    edge: Vec<f64>,
-    /// Largest radius and depth that were ever in contact.
-    widest: [f64; 2],
+    /// σ_k of the element at the edge now, \[Pa m].
+    edge_stresses: Vec<f64>,
+    largest: LargestContact,
+    /// Quadrature rule of a panel of a ring.
     pub(super) rule: LobattoRule,
-    /// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided.
+    /// Change of a panel of the quadrature by its division, relative to the sums, below which it is not divided.
     pub(super) tolerance: f64,
-    /// Error of Σ Φ_k by quadrature.
+    /// Error of Σ Φ_k by quadrature, \[Pa m²].
     pub(super) quadrature_error: f64,
-    /// Modulus G(t − s) of the element at the edge; none while it is being touched.
+    /// Modulus G(t − s) of the element at the edge, \[Pa]; `None` while it comes into contact.
     pub(super) edge_modulus: Option<f64>,
-    /// What comes after the edge has turned within a segment.
+    /// Direction of the edge after it has turned within a segment; `None` if it has not just turned.
     direction_after_turn: Option<EdgeDirection>,
+}
+
+/// The largest contact so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct LargestContact {
+    /// Contact radius, \[m].
+    radius: f64,
+    /// Indentation depth, \[m].
+    depth: f64,
 }
 
 /// Relative tolerance of the quadrature over rings along a path of the depth, where everything else is exact.
@@ -61,7 +77,7 @@ pub(super) const SIGN_TOLERANCE: f64 = 1e-10;
 const LIFT_OFF_DEPTH: f64 = 1e-12;
 
 impl<'a> Contact<'a> {
-    /// A body at the first point of a path, which will not be deeper than its radii are known.
+    /// A body at the first point of a path; `radii` must reach to its largest depth.
     pub(super) fn new(body: &'a dyn EquivalentProfile, path: Path, radii: Radii) -> Self {
         let nothing = vec![0.0; path.n_branches()];
         Self {
@@ -69,11 +85,11 @@ impl<'a> Contact<'a> {
             path,
             radii,
             rings: Vec::new(),
-            inside: Vec::new(),
+            inner_sums: Vec::new(),
             edge_moves: Vec::new(),
             sums: nothing.clone(),
-            edge: nothing,
-            widest: [0.0; 2],
+            edge_stresses: nothing,
+            largest: LargestContact::default(),
             rule: lobatto_rule(N_PANEL_NODES),
             tolerance: EXACT_QUADRATURE_TOLERANCE,
             quadrature_error: 0.0,
@@ -87,7 +103,7 @@ impl<'a> Contact<'a> {
         self.rings.last().map_or(0.0, |ring| ring.outer)
     }
 
-    /// η₀ ḋ a + Σ Φ_k, and the size of its terms.
+    /// The load η₀ ḋ a + Σ Φ_k, and the size of its terms, \[Pa m²].
     pub(super) fn load(&self) -> [f64; 2] {
         let end = self.path.end();
         let viscous = match self.path.step(end.segment) {
@@ -103,7 +119,7 @@ impl<'a> Contact<'a> {
     pub(super) fn measured(&self) -> ContactSums {
         let [load, terms] = self.load();
         let at_edge = self.rings.last().zip(self.edge_modulus);
-        let edge = at_edge.map(|(ring, modulus)| {
+        let edge_change = at_edge.map(|(ring, modulus)| {
             let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
             let slope = self.radii.at(depths)[1];
             change_of_edge(slope, modulus, self.path.scale(self.path.end()))
@@ -114,7 +130,7 @@ impl<'a> Contact<'a> {
             terms,
             load_error: self.quadrature_error + self.path.glass_modulus() * self.radii.area_error,
             radius: self.radius(),
-            edge: edge.unwrap_or(0.0),
+            edge_change: edge_change.unwrap_or(0.0),
         }
     }
 
@@ -125,22 +141,69 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// Follows the body to a point, at a later time or at once.
+    /// Follows the body to the next point, at a later time or by a jump of the depth.
     pub(super) fn follow(&mut self, time: f64, depth: f64) -> Result<(), MdrError> {
         self.path.push(time, depth);
-        let mut at = self.path.end();
-        at.part = 0.0;
+        let end = self.path.end();
+        let mut at = SegmentTime { part: 0.0, ..end };
         while at.part < 1.0 {
-            at = self.advance_edge(at)?;
+            at = if self.rings.is_empty() {
+                self.begin_contact(at, end)?
+            } else {
+                // Which way the edge moves: after a turn it is known, and rounding must not decide it again.
+                let turned = self.direction_after_turn.take();
+                let tendency = match turned {
+                    Some(EdgeDirection::Separation) => -1.0,
+                    Some(_) => 1.0,
+                    None => self.path.tendency(&self.edge_stresses, at),
+                };
+                let stays = |edge: Edge| {
+                    self.path.load(&edge.stresses, end) >= -LOAD_ROUNDING * self.path.scale(end)
+                };
+                // At a flat end all elements come into contact together, and none is free but by rounding.
+                let has_free = self.radius() < (1.0 - EXTENT_ROUNDING) * self.largest.radius;
+                if tendency > 0.0 && has_free {
+                    self.grow_over_free(at, end, turned.is_some())?
+                } else if tendency > 0.0 && self.path.depth(end) > self.largest.depth {
+                    self.grow_over_new(at, end)
+                } else if tendency >= 0.0 && self.outermost(end).is_some_and(stays) {
+                    self.hold(end);
+                    end
+                } else {
+                    self.shrink(at, end, turned.is_some())?
+                }
+            };
         }
         Ok(())
     }
 
-    /// The body is not pressed and rises with the centre of the surface, which recovers freely.
-    pub(super) fn rise(&mut self, time: f64) -> Result<(), MdrError> {
+    /// The first stretch of a body that is not in contact; returns its end.
+    fn begin_contact(
+        &mut self,
+        at: SegmentTime,
+        end: SegmentTime,
+    ) -> Result<SegmentTime, MdrError> {
+        if let ElementState::Free(centre) =
+            self.elements().follow(f64::MIN_POSITIVE, &self.edge_moves)
+        {
+            // A contact that begins and ends within one segment is not seen.
+            if self.elements().gap(&centre, end) > 0.0 {
+                return Ok(end);
+            }
+            return self.grow_over_free(at, end, true);
+        }
+        if self.path.depth(end) <= 0.0 || self.path.rise(at.segment) <= 0.0 {
+            return Ok(end);
+        }
+        let contact = self.path.time_of_depth(at.segment, 0.0);
+        Ok(self.grow_over_new(if contact.part > at.part { contact } else { at }, end))
+    }
+
+    /// Follows a body without force, which stays on the centre of the freely recovering surface.
+    pub(super) fn rise_freely(&mut self, time: f64) -> Result<(), MdrError> {
         let [now, depth] = self.path.last();
         if !self.rings.is_empty() {
-            self.follow(now, depth - LIFT_OFF_DEPTH * self.widest[1])?;
+            self.follow(now, depth - LIFT_OFF_DEPTH * self.largest.depth)?;
         }
         self.path.push(time, depth);
         let centre = depth + self.gap(f64::MIN_POSITIVE, self.path.end());
@@ -148,57 +211,17 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// One leg; returns its end.
-    fn advance_edge(&mut self, at: SegmentTime) -> Result<SegmentTime, MdrError> {
-        let end = SegmentTime { part: 1.0, ..at };
-        if self.rings.is_empty() {
-            if let ElementState::Free(centre) =
-                self.elements().follow(f64::MIN_POSITIVE, &self.edge_moves)
-            {
-                // A contact that begins and ends within one segment is not seen.
-                if self.elements().gap(&centre, end) > 0.0 {
-                    return Ok(end);
-                }
-                return self.grow_over_free([at, end], true);
-            }
-            if self.path.depth(end) <= 0.0 || self.path.rise(at.segment) <= 0.0 {
-                return Ok(end);
-            }
-            let touch = self.path.time_of_depth(at.segment, 0.0);
-            return Ok(self.grow(if touch.part > at.part { touch } else { at }, end));
-        }
-        let direction_after_turn = self.direction_after_turn.take();
-        let tendency = match direction_after_turn {
-            Some(EdgeDirection::Separation) => -1.0,
-            Some(_) => 1.0,
-            None => self.path.tendency(&self.edge, at),
-        };
-        // At a flat end all elements were touched at once, and rounding leaves none of them.
-        if tendency > 0.0 && self.radius() < (1.0 - EXTENT_ROUNDING) * self.widest[0] {
-            return self.grow_over_free([at, end], direction_after_turn.is_some());
-        }
-        if tendency > 0.0 && self.path.depth(end) > self.widest[1] {
-            return Ok(self.grow(at, end));
-        }
-        let stays = |edge: Edge| {
-            self.path.load(&edge.stresses, end) >= -LOAD_ROUNDING * self.path.scale(end)
-        };
-        if tendency >= 0.0 && self.outermost(end).is_some_and(stays) {
-            self.hold(end);
-            return Ok(end);
-        }
-        self.shrink([at, end], direction_after_turn.is_some())
-    }
-
-    /// Over elements that were never touched.
-    fn grow(&mut self, at: SegmentTime, end: SegmentTime) -> SegmentTime {
-        let deepest = self.widest[1];
+    /// Grows over elements that were never in contact; returns the end of the stretch.
+    fn grow_over_new(&mut self, at: SegmentTime, end: SegmentTime) -> SegmentTime {
+        let deepest = self.largest.depth;
         let path = &self.path;
-        let time_of_depth = path.time_of_depth(at.segment, deepest);
-        if path.depth(at) < deepest && time_of_depth.part > at.part {
-            self.hold(time_of_depth);
-            return time_of_depth;
+        let at_deepest = path.time_of_depth(at.segment, deepest);
+        if path.depth(at) < deepest && at_deepest.part > at.part {
+            self.hold(at_deepest);
+            return at_deepest;
         }
+
+        // One polynomial holds for the radius up to the end of its piece.
         let mut depths = [path.depth(at).max(deepest), path.depth(end)];
         let mut to = end;
         let limit = self.radii.end_of_piece(depths[0]);
@@ -207,29 +230,37 @@ impl<'a> Contact<'a> {
             to = path.time_of_depth(at.segment, limit);
         }
         let [outer, _] = self.radii.at(depths);
-        self.widest = [outer, depths[1]];
-        self.edge.fill(0.0);
-        self.add(EdgeDirection::FirstContact, [at, to], outer);
+        self.largest = LargestContact {
+            radius: outer,
+            depth: depths[1],
+        };
+        self.edge_stresses.fill(0.0);
+        self.add_ring(EdgeDirection::FirstContact, at, to, outer);
         to
     }
 
-    /// Over elements that recover, up to the last one that was ever touched.
+    /// Grows over free elements, up to the largest radius so far; returns the end of the stretch.
     fn grow_over_free(
         &mut self,
-        [at, end]: [SegmentTime; 2],
+        at: SegmentTime,
+        end: SegmentTime,
         has_turned: bool,
     ) -> Result<SegmentTime, MdrError> {
-        let [widest, deepest] = self.widest;
-        let instant = |part: f64| SegmentTime { part, ..at };
+        let LargestContact {
+            radius: widest,
+            depth: deepest,
+        } = self.largest;
+
+        // The stretch ends where new elements follow, or where the edge turns.
         let mut to = end;
-        let time_of_depth = self.path.rise(at.segment) > 0.0 && self.path.depth(end) > deepest;
-        if time_of_depth {
+        let reaches_new = self.path.rise(at.segment) > 0.0 && self.path.depth(end) > deepest;
+        if reaches_new {
             to = self.path.time_of_depth(at.segment, deepest);
         } else {
             let tendency = |part: f64| {
-                let at = instant(part);
-                self.path
-                    .tendency(&self.stresses_on_contact(self.edge_outwards(at), at), at)
+                let at = SegmentTime { part, ..at };
+                let stresses = self.stresses_on_contact(self.edge_outwards(at), at);
+                self.path.tendency(&stresses, at)
             };
             if tendency(1.0) < 0.0
                 && let Some(turn) = turn(tendency, at, has_turned)
@@ -238,8 +269,9 @@ impl<'a> Contact<'a> {
                 self.direction_after_turn = Some(EdgeDirection::Separation);
             }
         }
-        // Where it passes, whatever rounding makes of a gap there.
-        let outer = if time_of_depth {
+
+        // At the beginning of new elements the edge is known; the gap there would be rounding.
+        let outer = if reaches_new {
             widest
         } else {
             self.edge_outwards(to)
@@ -248,13 +280,13 @@ impl<'a> Contact<'a> {
             self.hold(to);
             return Ok(to);
         }
-        self.check_contact_order([outer, widest], to)?;
-        self.edge = self.stresses_on_contact(outer, to);
-        self.add(EdgeDirection::Recontact, [at, to], outer);
+        self.check_contact_order(outer, to)?;
+        self.edge_stresses = self.stresses_on_contact(outer, to);
+        self.add_ring(EdgeDirection::Recontact, at, to, outer);
         Ok(to)
     }
 
-    /// Height of the body over an element that is not in contact.
+    /// Height of the body over an element that is not in contact, \[m].
     pub(super) fn gap(&self, radius: f64, at: SegmentTime) -> f64 {
         let radius = radius.max(self.radius().next_up());
         match self.elements().follow(radius, &self.edge_moves) {
@@ -263,7 +295,7 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// σ_k of an element that is touched at that moment.
+    /// σ_k of an element that comes into contact at that time, \[Pa m].
     fn stresses_on_contact(&self, radius: f64, at: SegmentTime) -> Vec<f64> {
         let radius = radius.max(self.radius().next_up());
         match self.elements().follow(radius, &self.edge_moves) {
@@ -272,9 +304,9 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// The radius up to which free elements are touched.
+    /// The radius up to which free elements have come into contact, \[m].
     fn edge_outwards(&self, at: SegmentTime) -> f64 {
-        let (inner, widest) = (self.radius(), self.widest[0]);
+        let (inner, widest) = (self.radius(), self.largest.radius);
         match bracketed_root(|radius| self.gap(radius, at), [inner, widest]) {
             Some(edge) => edge,
             None if self.gap(inner, at) <= 0.0 => widest,
@@ -282,20 +314,16 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// Refuses a body that touches free elements in another order than from inside outwards.
-    fn check_contact_order(
-        &self,
-        [edge, widest]: [f64; 2],
-        at: SegmentTime,
-    ) -> Result<(), MdrError> {
-        let inner = self.radius();
-        let allowed = SIGN_TOLERANCE * self.widest[1];
+    /// Refuses free elements that come into contact in another order than from inside outwards.
+    fn check_contact_order(&self, edge: f64, at: SegmentTime) -> Result<(), MdrError> {
+        let (inner, widest) = (self.radius(), self.largest.radius);
+        let allowed = SIGN_TOLERANCE * self.largest.depth;
         for node in &self.rule.nodes[1..N_PANEL_NODES - 1] {
             let between = |[from, to]: [f64; 2]| from + 0.5 * (to - from) * (1.0 + node);
-            let touched = self.gap(between([inner, edge]), at) <= allowed;
-            let none = edge >= (1.0 - EXTENT_ROUNDING) * widest;
-            let free = none || self.gap(between([edge, widest]), at) >= -allowed;
-            if !(touched && free) {
+            let inside_touches = self.gap(between([inner, edge]), at) <= allowed;
+            let none_outside = edge >= (1.0 - EXTENT_ROUNDING) * widest;
+            let outside_is_free = none_outside || self.gap(between([edge, widest]), at) >= -allowed;
+            if !(inside_touches && outside_is_free) {
                 let time = self.path.time(at);
                 return Err(MdrError::NotADisc { time });
             }
@@ -303,45 +331,44 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// The contact stays as it is up to an instant.
+    /// Keeps the contact as it is up to a time.
     fn hold(&mut self, to: SegmentTime) {
         if let Some(edge) = self.outermost(to) {
-            self.edge = edge.stresses;
+            self.edge_stresses = edge.stresses;
         }
         self.sums = self.sums_at(to);
     }
 
-    /// A ring around the contact, which ends with the σ_k at the edge.
-    fn add(&mut self, motion: EdgeDirection, span: [SegmentTime; 2], outer: f64) {
-        let edge_move = self.record(motion, span, [self.radius(), outer]);
-        self.rings.push(edge_move);
-        self.inside.extend_from_slice(&self.sums);
-        self.sums = self.sums_at(edge_move.to);
-    }
-
-    fn record(
+    /// Adds a ring around the contact over which the edge moves from one time to another.
+    fn add_ring(
         &mut self,
-        motion: EdgeDirection,
-        [from, to]: [SegmentTime; 2],
-        [inner, outer]: [f64; 2],
-    ) -> EdgeMove {
-        let edge_move = EdgeMove {
-            motion,
+        direction: EdgeDirection,
+        from: SegmentTime,
+        to: SegmentTime,
+        outer: f64,
+    ) {
+        let ring = EdgeMove {
+            direction,
             from,
             to,
-            inner,
+            inner: self.radius(),
             outer,
-            before: self.edge_moves.len(),
+            n_earlier: self.edge_moves.len(),
         };
-        self.edge_moves.push(edge_move);
-        edge_move
+        self.edge_moves.push(ring);
+        self.rings.push(ring);
+        self.inner_sums.extend_from_slice(&self.sums);
+        self.sums = self.sums_at(to);
     }
 
+    /// Shrinks the contact, or separates all of it; returns the end of the stretch.
     fn shrink(
         &mut self,
-        [at, end]: [SegmentTime; 2],
+        at: SegmentTime,
+        end: SegmentTime,
         has_turned: bool,
     ) -> Result<SegmentTime, MdrError> {
+        // The stretch ends where the edge turns.
         let instant = |part: f64| SegmentTime { part, ..at };
         let tendency = |edge: &Option<Edge>, part: f64| match edge {
             Some(edge) => self.path.tendency(&edge.stresses, instant(part)),
@@ -358,29 +385,41 @@ impl<'a> Contact<'a> {
             self.direction_after_turn = Some(EdgeDirection::Recontact);
             edge = self.edge_inwards(to);
         }
+
+        // Record the elements that separate.
         let [inner, outer] = [edge.as_ref().map_or(0.0, |edge| edge.radius), self.radius()];
         if inner < outer {
-            self.record(EdgeDirection::Separation, [at, to], [inner, outer]);
+            self.edge_moves.push(EdgeMove {
+                direction: EdgeDirection::Separation,
+                from: at,
+                to,
+                inner,
+                outer,
+                n_earlier: self.edge_moves.len(),
+            });
         }
+
+        // Remove the rings that separate, and cut the one in which the edge is now.
         let Some(edge) = edge else {
             self.rings.clear();
-            self.inside.clear();
+            self.inner_sums.clear();
             self.sums.fill(0.0);
             return Ok(to);
         };
         self.rings.truncate(edge.n_rings);
-        self.inside.truncate(edge.n_rings * self.path.n_branches());
+        self.inner_sums
+            .truncate(edge.n_rings * self.path.n_branches());
         let ring = &mut self.rings[edge.n_rings - 1];
         ring.to = edge.since.unwrap_or(ring.to);
         ring.outer = edge.radius;
-        self.edge = edge.stresses;
+        self.edge_stresses = edge.stresses;
         self.sums = self.sums_at(to);
         self.check_compressive(to)?;
         Ok(to)
     }
 }
 
-/// The instant after another one in its segment at which the edge turns; right after a turn none, lest the edge stands still.
+/// The time after `at` in its segment at which the edge turns; `None` if it does not, or if it has just turned at `at`.
 fn turn(tendency: impl Fn(f64) -> f64, at: SegmentTime, has_turned: bool) -> Option<SegmentTime> {
     let part = bracketed_root(tendency, [at.part, 1.0])?;
     (part > at.part || !has_turned).then_some(SegmentTime { part, ..at })

@@ -26,14 +26,14 @@ pub(super) enum EdgeDirection {
 /// A ring over which the edge moves in one direction, within one segment of the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeMove {
-    pub(super) motion: EdgeDirection,
+    pub(super) direction: EdgeDirection,
     pub(super) from: SegmentTime,
     pub(super) to: SegmentTime,
     /// Radii of the ring, \[m].
     pub(super) inner: f64,
     pub(super) outer: f64,
     /// Number of legs before it.
-    pub(super) before: usize,
+    pub(super) n_earlier: usize,
 }
 
 /// An element in contact.
@@ -72,7 +72,7 @@ impl LineElements<'_> {
         let height = self.body.height_at(radius.min(self.body.end()));
         let mut state = ElementState::Untouched;
         for edge_move in edge_moves.iter().filter(inside) {
-            state = match (edge_move.motion, state) {
+            state = match (edge_move.direction, state) {
                 (EdgeDirection::FirstContact, ElementState::Untouched) => {
                     let at = self.path.time_of_depth(edge_move.from.segment, height);
                     let part = at.part.clamp(edge_move.from.part, edge_move.to.part);

@@ -233,7 +233,7 @@ impl ForceHistory<'_> {
             if let Some(point) = before_shrinking.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
             } else if !pressed && !was_pressed {
-                contact.rise(time)?;
+                contact.rise_freely(time)?;
             } else if time > contact.path.last()[0] || contact.path.viscosity == 0.0 {
                 let needed = [force, largest].map(|force| force / factor);
                 press(&mut contact, time, needed, radii.deepest())?;

@@ -283,7 +283,7 @@ struct ContactSums {
     load_error: f64,
     radius: f64,
     /// Change of the radius by the terms that cancel at its edge.
-    edge: f64,
+    edge_change: f64,
 }
 
 impl ErrorBars {
@@ -295,7 +295,7 @@ impl ErrorBars {
         let rounding = SUM_ROUNDING * contact.terms + contact.load_error;
         // By a shift of the edge the force changes in second order only, because its elements carry nothing.
         let expansion = 2.0 * self.modulus_error * self.largest;
-        let edge_error = (SUM_ROUNDING + 2.0 * self.modulus_error) * contact.edge;
+        let edge_error = (SUM_ROUNDING + 2.0 * self.modulus_error) * contact.edge_change;
         let radius_error = radius::TAIL_TOLERANCE * contact.radius + edge_error;
         CurvePoint {
             time,

@@ -26,7 +26,7 @@ impl Contact<'_> {
             let stresses = self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at);
             self.path.load(&stresses, at) < -SIGN_TOLERANCE * self.path.scale(at)
         };
-        if last.is_some_and(|ring| ring.motion == EdgeDirection::Recontact && pulls(ring)) {
+        if last.is_some_and(|ring| ring.direction == EdgeDirection::Recontact && pulls(ring)) {
             let time = self.path.time(at);
             return Err(MdrError::NotADisc { time });
         }
@@ -36,7 +36,7 @@ impl Contact<'_> {
     /// The edge as it is, later.
     pub(super) fn outermost(&self, at: SegmentTime) -> Option<Edge> {
         let ring = self.rings.last()?;
-        let is_first = ring.motion == EdgeDirection::FirstContact;
+        let is_first = ring.direction == EdgeDirection::FirstContact;
         Some(Edge {
             n_rings: self.rings.len(),
             radius: ring.outer,
@@ -53,7 +53,7 @@ impl Contact<'_> {
     pub(super) fn edge_inwards(&self, at: SegmentTime) -> Option<Edge> {
         let mut rings = self.rings.iter().enumerate().rev();
         rings.find_map(|(below, ring)| {
-            let mut edge = match ring.motion {
+            let mut edge = match ring.direction {
                 EdgeDirection::FirstContact => self.edge_in_first_contact(ring, at)?,
                 _ => self.edge_in_recontact(ring, at)?,
             };
@@ -101,7 +101,7 @@ impl Contact<'_> {
         let radius = radius.max(ring.inner.next_up());
         match self
             .elements()
-            .follow(radius, &self.edge_moves[..=ring.before])
+            .follow(radius, &self.edge_moves[..=ring.n_earlier])
         {
             ElementState::Loaded(touched) => self.elements().stresses(&touched, at),
             // Rounding puts an element of no extent beside the ring.

@@ -18,9 +18,9 @@ impl Contact<'_> {
         let Some(ring) = self.rings.last().copied() else {
             return vec![0.0; n_branches];
         };
-        let mut sums = self.inside[(self.rings.len() - 1) * n_branches..].to_vec();
+        let mut sums = self.inner_sums[(self.rings.len() - 1) * n_branches..].to_vec();
         self.edge_modulus = None;
-        if ring.motion == EdgeDirection::FirstContact {
+        if ring.direction == EdgeDirection::FirstContact {
             self.before_shrinking(&ring, &mut sums);
             if ring.to != at {
                 let lag = self.path.lag(ring.to, at);
@@ -61,7 +61,7 @@ impl Contact<'_> {
         // Kinks that are small do not matter where the sums need not be exact.
         let is_exact = self.tolerance <= EXACT_QUADRATURE_TOLERANCE;
         let inside = |radius: &f64| is_exact && *radius > ring.inner && *radius < ring.outer;
-        let known = self.edge_moves[..ring.before].iter();
+        let known = self.edge_moves[..ring.n_earlier].iter();
         radii.extend(
             known
                 .flat_map(|edge_move| [edge_move.inner, edge_move.outer])
