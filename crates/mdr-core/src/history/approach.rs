@@ -4,8 +4,11 @@
 //! F = 8/(2 (1 − ν)) [a w + Σ G_k e^(−(t − t₁)/τ_k) P_k(t₁)]        w = η₀ ḋ + Σ G_k [q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁)]
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ ds        P_k(t) = ∫ e^(−(t − s)/τ_k) a(D) ḋ ds        D(s) = max d(s') up to s
 //! ```
-//! The element at the edge was touched at t₁ and carries w: nothing where the contact shrinks, so that ∂F/∂t₁ ∝ w = 0 there
-//! (Ting 1966, J. Appl. Mech. 33, 845).
+//! The element at the edge came into contact at t₁ and carries w. Where the contact shrinks w = 0, so that ∂F/∂t₁ ∝ w
+//! vanishes there (Ting 1966, J. Appl. Mech. 33, 845).
+//!
+//! For each point of the path [`Approach::follow`] integrates q_k, and P_k while the contact grows, and finds t₁ by Halley's
+//! method inside a bracket. The derivatives need the integrals weighted by the time that has passed, too.
 
 use rheology::RelaxationSpectrum;
 
@@ -14,62 +17,107 @@ use super::integrals::{HistoryIntegrals, Ring, StepIntegrals, TimeWeightedIntegr
 use super::path::{EXTENT_ROUNDING, LOAD_ROUNDING, change_of_edge, decay_and_mean};
 use super::radius::{N_COEFFICIENTS, Radii};
 
-/// The element at the edge, and what became of the branches since it was touched.
+/// A point of the path.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct DepthAt {
+    /// Time, \[s].
+    pub(super) time: f64,
+    /// Indentation depth, \[m].
+    pub(super) depth: f64,
+}
+
+/// The element that came into contact at a depth D.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EdgePlace {
+    /// Its radius a(D), \[m].
+    pub(super) radius: f64,
+    /// da/dD.
+    pub(super) slope: f64,
+    /// D, \[m].
+    pub(super) depth: f64,
+}
+
+/// Sizes of the terms that cancel in the load w of an element, \[Pa m], and in its rate, \[Pa m/s].
+struct LoadScales {
+    load: f64,
+    rate: f64,
+}
+
+/// A step of the search for the edge.
+struct EdgeStep {
+    /// How much deeper the edge is, \[m].
+    shift: f64,
+    /// Half the relative change of the modulus on the way there.
+    curvature: f64,
+}
+
+/// The element at the edge, and the decay of the branches since it came into contact.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Edge {
+pub(super) struct EdgeElement {
+    /// Index of the ring in which the edge is, and its position θ ∈ [0, 1] in it.
     ring: usize,
     theta: f64,
-    /// a, a' and D there; none without contact.
-    pub(super) place: Option<[f64; 3]>,
-    /// By how much deeper it lies than where all this is computed, what that adds to the sum of the loads, and the radius
-    /// there.
+    /// Where the sums are computed, short of `shift`; `None` without contact.
+    pub(super) place: Option<EdgePlace>,
+    /// How much deeper the edge is than `place`, by the last step of the search, \[m].
     shift: f64,
+    /// What this shift adds to the sum of the loads, \[Pa m²].
     correction: f64,
+    /// Contact radius after the shift, \[m].
     radius: f64,
-    /// t − t₁.
+    /// t − t₁, \[s].
     pub(super) lag: f64,
-    /// w, and G(t − t₁).
+    /// w, \[Pa m].
     pub(super) load: f64,
+    /// G(t − t₁), \[Pa].
     pub(super) modulus: f64,
     /// e^(−(t − t₁)/τ_k).
     pub(super) decays: Vec<f64>,
-    /// q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁).
+    /// q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁), \[m].
     pub(super) strains: Vec<f64>,
-    /// ∫ of the same over the contact, without G_k, [m²].
+    /// ∫ of the strain of branch k over the contact, \[m²]: Φ_k/G_k.
     pub(super) sums: Vec<f64>,
 }
 
-/// The body on its way.
+/// A body that follows a path of the depth, and the integrals over its history.
 pub(super) struct Approach {
     radii: Radii,
-    /// Error of the sum of the loads that the polynomials of the radii make, [Pa m²].
+    /// Error of the sum of the loads by the polynomials of the radii, \[Pa m²].
     load_error: f64,
-    /// Of the branches, the lone spring last.
+    /// Moduli G_k of the branches, the lone spring last, \[Pa].
     pub(super) moduli: Vec<f64>,
+    /// 1/τ_k of the branches, 0 of the lone spring, \[1/s].
     pub(super) rates: Vec<f64>,
+    /// Viscosity η₀ of the lone dashpot, \[Pa s].
     pub(super) viscosity: f64,
+    /// The integrals now; those of the load only as long as the contact grows.
     pub(super) now: HistoryIntegrals,
-    /// Time and depth, and the speed up to there.
-    pub(super) point: [f64; 2],
+    pub(super) point: DepthAt,
+    /// Speed ḋ up to the point, \[m/s].
     pub(super) speed: f64,
     rings: Vec<Ring>,
+    /// Coefficients of the radius over θ, ring by ring.
     coefficients: Vec<f64>,
-    /// At the beginning of every ring, q of all branches, then P.
+    /// q_k and then P_k at the beginning of every ring.
     integrals_at_rings: Vec<f64>,
+    /// The time-weighted integrals at the beginning of every ring; empty without derivatives.
     time_weighted_at_rings: Vec<TimeWeightedIntegrals>,
-    /// At the end of the last one, and when the element at the edge was touched.
+    /// The integrals at the end of the last ring.
     at_front: HistoryIntegrals,
+    /// The integrals at t₁, when the element at the edge came into contact.
     pub(super) at_contact: HistoryIntegrals,
-    pub(super) edge: Edge,
-    /// Whether the depth has been less than it was.
+    pub(super) edge: EdgeElement,
+    /// Whether the depth has been less than its maximum since the last growth, so that the P_k of now are outdated.
     front_is_behind: bool,
-    /// Whether elements were left, and touched again.
+    /// Whether the edge lies inside the largest contact.
     has_receded: bool,
+    /// Whether elements have come into contact again, for which the closed form does not hold.
     pub(super) has_recontact: bool,
-    /// Change of the depth of the edge in the last step.
+    /// Change of the depth of the edge between the last two points, \[m].
     last_edge_shift: f64,
-    step: StepIntegrals,
-    partial: StepIntegrals,
+    /// Moments of the last step; steps of one length share them.
+    step_integrals: StepIntegrals,
+    partial_integrals: StepIntegrals,
 }
 
 /// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the
@@ -82,6 +130,7 @@ const MAX_EDGE_STEPS: usize = 200;
 const EDGE_TOLERANCE: f64 = 1e-8;
 
 impl Approach {
+    /// A body before its first point; with `differentiates` the integrals for derivatives are kept too.
     pub(super) fn new(
         radii: Radii,
         spectrum: &RelaxationSpectrum,
@@ -110,37 +159,43 @@ impl Approach {
             at_front: now.clone(),
             at_contact: now.clone(),
             now,
-            point: [0.0; 2],
+            point: DepthAt::default(),
             speed: 0.0,
             rings: Vec::with_capacity(n_points),
             coefficients: Vec::with_capacity(8 * n_points),
             integrals_at_rings: Vec::with_capacity(2 * n * n_points),
             time_weighted_at_rings: Vec::new(),
-            edge: Edge {
+            edge: EdgeElement {
                 decays: vec![1.0; n],
                 strains: vec![0.0; n],
                 sums: vec![0.0; n],
-                ..Edge::default()
+                ..EdgeElement::default()
             },
             front_is_behind: false,
             has_receded: false,
             has_recontact: false,
             last_edge_shift: 0.0,
-            step: StepIntegrals::default(),
-            partial: StepIntegrals::default(),
+            step_integrals: StepIntegrals::default(),
+            partial_integrals: StepIntegrals::default(),
             rates,
         }
     }
 
-    /// Begins at a point, or above it at the undeformed surface.
-    pub(super) fn start(&mut self, [time, depth]: [f64; 2]) {
-        self.point = [time, depth.min(0.0)];
+    /// Starts at a point, or above it at the undeformed surface.
+    pub(super) fn start(&mut self, time: f64, depth: f64) {
+        self.point = DepthAt {
+            time,
+            depth: depth.min(0.0),
+        };
     }
 
+    /// Sums over the contact now.
     pub(super) fn measured(&self) -> ContactSums {
-        let Some([radius, slope, _]) = self.edge.place else {
+        let DepthAt { time, depth } = self.point;
+        let Some(EdgePlace { radius, slope, .. }) = self.edge.place else {
             return ContactSums {
-                point: self.point,
+                time,
+                depth,
                 ..ContactSums::default()
             };
         };
@@ -150,9 +205,10 @@ impl Approach {
             load += modulus * sum;
             terms += modulus * sum.abs();
         }
-        let [scale, _] = self.scales();
+        let scale = self.scales().load;
         ContactSums {
-            point: self.point,
+            time,
+            depth,
             load,
             terms: terms + radius * scale,
             load_error: self.load_error,
@@ -166,72 +222,81 @@ impl Approach {
         self.edge.place.map_or(0.0, |_| self.edge.radius)
     }
 
-    /// D.
+    /// Largest depth D so far, \[m].
     fn deepest(&self) -> f64 {
         let last = self.rings.last();
-        last.map_or(0.0, |ring| ring.start[1] + ring.rise)
+        last.map_or(0.0, |ring| ring.start_depth + ring.rise)
     }
 
-    /// Σ G_k q_k and so on: sizes of the terms that cancel in w, and in its rate.
-    pub(super) fn scales(&self) -> [f64; 2] {
-        let mut scales = [self.viscosity * self.speed.abs(), 0.0];
+    fn scales(&self) -> LoadScales {
+        let mut scales = LoadScales {
+            load: self.viscosity * self.speed.abs(),
+            rate: 0.0,
+        };
         for (k, depth) in self.now.depth.iter().enumerate() {
             let stress = self.moduli[k] * depth.abs();
-            scales[0] += stress;
-            scales[1] += self.rates[k] * stress;
+            scales.load += stress;
+            scales.rate += self.rates[k] * stress;
         }
         scales
     }
 
-    /// Goes on to the next point; a surface counts as recovered once the body is above its undeformed position.
-    pub(super) fn follow(&mut self, [end, next]: [f64; 2]) {
-        let [start, depth] = self.point;
-        self.point = [end, next];
-        self.speed = match end - start {
+    /// Follows the body to the next point. Once the body is above the undeformed surface, this counts as recovered.
+    pub(super) fn follow(&mut self, time: f64, depth: f64) {
+        let start = std::mem::replace(&mut self.point, DepthAt { time, depth });
+        let end = self.point;
+        self.speed = match end.time - start.time {
             0.0 => 0.0,
-            step => (next - depth) / step,
+            step => (end.depth - start.depth) / step,
         };
-        if next <= 0.0 {
+        if end.depth <= 0.0 {
             self.recover();
             return;
         }
-        let at = |there: f64| {
-            let part = (there - depth) / (next - depth);
-            [start + part * (end - start), there]
+        let at = |depth: f64| {
+            let part = (depth - start.depth) / (end.depth - start.depth);
+            DepthAt {
+                time: start.time + part * (end.time - start.time),
+                depth,
+            }
         };
-        let mut here = if depth < 0.0 { at(0.0) } else { [start, depth] };
-        self.has_recontact |= end > start && self.reverses();
+        let mut here = if start.depth < 0.0 { at(0.0) } else { start };
+        self.has_recontact |= end.time > start.time && self.reverses();
         let deepest = self.deepest();
-        if next <= deepest {
-            self.hold(here, [end, next]);
+
+        // Below the largest depth the contact shrinks or rests: only the edge is sought.
+        if end.depth <= deepest {
+            self.hold(here, end);
             let before = self.radius();
             self.find_edge();
             let wider = self.has_receded && self.radius() > before * (1.0 + EXTENT_ROUNDING);
-            self.has_recontact |= wider || (end > start && self.reverses());
-            let edge = self.edge.place.map(|[.., depth]| depth);
+            self.has_recontact |= wider || (end.time > start.time && self.reverses());
+            let edge = self.edge.place.map(|place| place.depth);
             self.has_receded |= edge.is_none_or(|depth| depth < (1.0 - EXTENT_ROUNDING) * deepest);
             return;
         }
+
+        // Beyond it the contact grows over new elements, piece by piece of the radii.
         self.has_recontact |= self.has_receded;
         self.has_receded = false;
-        if here[1] < deepest {
+        if here.depth < deepest {
             let there = at(deepest);
             self.hold(here, there);
             here = there;
         }
         if self.front_is_behind {
-            self.catch_up_from_front(here[0]);
+            self.catch_up_from_front(here.time);
         }
-        while self.deepest() < next {
-            let limit = self.radii.end_of_piece(self.deepest()).min(next);
-            let there = if limit < next { at(limit) } else { [end, next] };
+        while self.deepest() < end.depth {
+            let limit = self.radii.end_of_piece(self.deepest()).min(end.depth);
+            let there = if limit < end.depth { at(limit) } else { end };
             self.grow(here, there);
             here = there;
         }
         self.put_edge_at_front();
     }
 
-    /// The body is above the surface, which is taken as undeformed.
+    /// Forgets the contact: the body is above the surface, which counts as recovered.
     fn recover(&mut self) {
         self.has_receded |= !self.rings.is_empty();
         self.rings.clear();
@@ -246,12 +311,12 @@ impl Approach {
         self.edge.place = None;
     }
 
-    /// Whether an edge that has moved inwards turns, at the speed of now.
+    /// Whether an edge that has moved inwards moves outwards at the present speed.
     fn reverses(&self) -> bool {
         self.has_receded && self.edge.place.is_some() && self.edge_direction() > 0.0
     }
 
-    /// Whether the element at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
+    /// Direction of the edge: positive if the load of its element grows while it stays in contact, negative if it falls.
     fn edge_direction(&self) -> f64 {
         let [mut load, mut rate] = [self.viscosity * self.speed, 0.0];
         for (k, strain) in self.edge.strains.iter().enumerate() {
@@ -259,33 +324,39 @@ impl Approach {
             rate += self.moduli[k] * (self.speed - self.rates[k] * strain);
         }
         let scales = self.scales();
-        // Of a dashpot the speed counts at once.
-        if self.viscosity > 0.0 && load.abs() > EXTENT_ROUNDING * scales[0] {
+        // A dashpot makes the load itself jump with the speed.
+        if self.viscosity > 0.0 && load.abs() > EXTENT_ROUNDING * scales.load {
             return load;
         }
-        let has_rate = rate.abs() > LOAD_ROUNDING * scales[1];
+        let has_rate = rate.abs() > LOAD_ROUNDING * scales.rate;
         if has_rate { rate } else { 0.0 }
     }
 
-    /// Over elements that were touched before: only q goes on, the rest follows from the front.
-    fn hold(&mut self, from: [f64; 2], to: [f64; 2]) {
+    /// Integrates q_k over a step in which the contact does not grow; the other integrals follow from those at the front.
+    fn hold(&mut self, from: DepthAt, to: DepthAt) {
         if self.rings.is_empty() {
             return;
         }
         self.front_is_behind = true;
-        let step = to[0] - from[0];
-        self.step.set(&self.rates, step, 2, rounding(to[0], step));
-        self.step.hold(&mut self.now, to[1] - from[1]);
+        let step = to.time - from.time;
+        let rounding = rounding(to.time, step);
+        self.step_integrals.set(&self.rates, step, 2, rounding);
+        self.step_integrals
+            .hold(&mut self.now, to.depth - from.depth);
     }
 
-    /// What is remembered at the front, later.
+    /// Integrals of now from those at the front, for a contact that is about to grow again.
     fn catch_up_from_front(&mut self, time: f64) {
         self.front_is_behind = false;
         let Some(ring) = self.rings.last().copied() else {
             return;
         };
-        let lag = time - (ring.start[0] + ring.step);
-        let [radius, slope, depth] = self.place(self.rings.len() - 1, 1.0);
+        let lag = time - (ring.start_time + ring.duration);
+        let EdgePlace {
+            radius,
+            slope,
+            depth,
+        } = self.place(self.rings.len() - 1, 1.0);
         for (k, rate) in self.rates.iter().enumerate() {
             let decay = (-rate * lag).exp();
             let [at_contact, load] = [self.at_front.depth[k], self.at_front.load[k]];
@@ -302,21 +373,22 @@ impl Approach {
         }
     }
 
-    /// Over new elements, within a piece of the radii.
-    fn grow(&mut self, from: [f64; 2], to: [f64; 2]) {
+    /// Grows over new elements, within a piece of the radii.
+    fn grow(&mut self, from: DepthAt, to: DepthAt) {
         let deepest = self.deepest();
-        let radius = self.radii.along([deepest, to[1]]);
+        let radius = self.radii.along([deepest, to.depth]);
         let terms = radius.terms();
         let ring = Ring {
-            start: [from[0], deepest],
-            step: to[0] - from[0],
-            rise: to[1] - deepest,
-            first: self.coefficients.len(),
-            n_terms: terms.len(),
+            start_time: from.time,
+            start_depth: deepest,
+            duration: to.time - from.time,
+            rise: to.depth - deepest,
+            first_coefficient: self.coefficients.len(),
+            n_coefficients: terms.len(),
         };
         self.coefficients.extend_from_slice(terms);
         if self.rings.is_empty() {
-            // A flat end is touched at once.
+            // All of a flat end comes into contact together.
             for time_weighted in &mut self.now.time_weighted {
                 time_weighted.edge = terms[0];
             }
@@ -327,26 +399,33 @@ impl Approach {
         self.time_weighted_at_rings
             .extend_from_slice(&self.now.time_weighted);
         let n_moments = terms.len() + usize::from(!self.now.time_weighted.is_empty());
-        let rounding = rounding(to[0], ring.step);
-        self.step.set(&self.rates, ring.step, n_moments, rounding);
-        self.step.grow(&mut self.now, &ring, terms);
+        let rounding = rounding(to.time, ring.duration);
+        self.step_integrals
+            .set(&self.rates, ring.duration, n_moments, rounding);
+        self.step_integrals.grow(&mut self.now, &ring, terms);
         self.at_front.copy_from(&self.now);
     }
 
-    /// a, a' and D at θ of a ring.
-    fn place(&self, ring: usize, theta: f64) -> [f64; 3] {
+    /// The element at θ of a ring.
+    fn place(&self, ring: usize, theta: f64) -> EdgePlace {
         let ring = &self.rings[ring];
-        let terms = &self.coefficients[ring.first..ring.first + ring.n_terms];
+        let terms = &self.coefficients
+            [ring.first_coefficient..ring.first_coefficient + ring.n_coefficients];
         let [radius, slope] = terms.iter().rev().fold([0.0; 2], |[value, slope], term| {
             [term + theta * value, value + theta * slope]
         });
-        [radius, slope / ring.rise, ring.start[1] + theta * ring.rise]
+        EdgePlace {
+            radius,
+            slope: slope / ring.rise,
+            depth: ring.start_depth + theta * ring.rise,
+        }
     }
 
+    /// Puts the edge at the end of the last ring: a growing contact.
     fn put_edge_at_front(&mut self) {
         let ring = self.rings.len() - 1;
         let place = self.place(ring, 1.0);
-        (self.edge.place, self.edge.radius) = (Some(place), place[0]);
+        (self.edge.place, self.edge.radius) = (Some(place), place.radius);
         (self.edge.ring, self.edge.theta, self.edge.lag) = (ring, 1.0, 0.0);
         self.edge.load = self.viscosity * self.speed;
         self.edge.modulus = f64::INFINITY;
@@ -358,16 +437,18 @@ impl Approach {
         (self.edge.shift, self.edge.correction) = (0.0, 0.0);
     }
 
-    /// The element of a ring that was touched at a depth: how much deeper the edge is by Halley's method, and by how much the
-    /// modulus changes on the way there; where that is much, by Newton's.
-    fn step_to_edge(&mut self, index: usize, depth: f64) -> [f64; 2] {
+    /// Computes the load of the element that came into contact at a depth in a ring, and the step from there to the edge.
+    ///
+    /// The step is that of Halley's method for w = 0; where the modulus changes much on the way, of Newton's.
+    fn step_to_edge(&mut self, index: usize, depth: f64) -> EdgeStep {
         let n = self.rates.len();
         let integrals_at_rings = &self.integrals_at_rings[2 * index * n..(2 * index + 1) * n];
         let ring = &self.rings[index];
-        let theta = ((depth - ring.start[1]) / ring.rise).clamp(0.0, 1.0);
-        let (step, rise) = (theta * ring.step, theta * ring.rise);
+        let theta = ((depth - ring.start_depth) / ring.rise).clamp(0.0, 1.0);
+        let (step, rise) = (theta * ring.duration, theta * ring.rise);
         let edge = &mut self.edge;
-        (edge.ring, edge.theta, edge.lag) = (index, theta, self.point[0] - (ring.start[0] + step));
+        (edge.ring, edge.theta, edge.lag) =
+            (index, theta, self.point.time - (ring.start_time + step));
         edge.load = self.viscosity * self.speed;
         let [mut modulus, mut slope] = [0.0; 2];
         for (k, at_contact) in integrals_at_rings.iter().enumerate() {
@@ -383,39 +464,50 @@ impl Approach {
         }
         edge.modulus = modulus;
         if edge.load == 0.0 || modulus <= f64::MIN_POSITIVE {
-            // What has forgotten when it was touched is loaded or not whenever that was.
-            return [edge.load * f64::INFINITY, 0.0].map(|x| if x.is_nan() { 0.0 } else { x });
+            // Where all branches have relaxed since, the load does not depend on the time of contact.
+            let shift = edge.load * f64::INFINITY;
+            return EdgeStep {
+                shift: if shift.is_nan() { 0.0 } else { shift },
+                curvature: 0.0,
+            };
         }
         let shift = edge.load / modulus;
-        let curvature = 0.5 * shift * slope / modulus * (ring.step / ring.rise);
-        match curvature.abs() < 0.25 {
-            true => [shift / (1.0 + curvature), curvature],
-            false => [shift, curvature],
+        let curvature = 0.5 * shift * slope / modulus * (ring.duration / ring.rise);
+        let is_moderate = curvature.abs() < 0.25;
+        EdgeStep {
+            shift: if is_moderate {
+                shift / (1.0 + curvature)
+            } else {
+                shift
+            },
+            curvature,
         }
     }
 
-    /// For the depth at which the element at the edge was touched: its load falls outwards, ever more steeply, so that the
-    /// steps come from outside; those that are too short are replaced by halving a bracket.
+    /// Finds the depth at which the element at the edge came into contact.
+    ///
+    /// The load of the elements falls outwards, ever more steeply, so that the steps come from outside. Steps that are too
+    /// short are replaced by halving a bracket.
     fn find_edge(&mut self) {
         let Some(last) = self.rings.len().checked_sub(1) else {
             return;
         };
         let deepest = self.deepest();
         let (mut ring, before) = match self.edge.place {
-            Some([.., depth]) => (self.edge.ring, depth + self.edge.shift),
+            Some(place) => (self.edge.ring, place.depth + self.edge.shift),
             None => (0, 0.0),
         };
         let mut depth = (before + self.last_edge_shift).clamp(0.0, deepest);
         self.edge.place = None;
         let mut bracket = [0.0, deepest];
         for step in 0..MAX_EDGE_STEPS {
-            while ring > 0 && depth < self.rings[ring].start[1] {
+            while ring > 0 && depth < self.rings[ring].start_depth {
                 ring -= 1;
             }
-            while ring < last && depth > self.rings[ring + 1].start[1] {
+            while ring < last && depth > self.rings[ring + 1].start_depth {
                 ring += 1;
             }
-            let [shift, curvature] = self.step_to_edge(ring, depth);
+            let EdgeStep { shift, curvature } = self.step_to_edge(ring, depth);
             let is_left = self.edge.load < 0.0;
             if depth <= 0.0 && is_left {
                 return;
@@ -444,10 +536,15 @@ impl Approach {
         self.integrate_to_edge(0.0);
     }
 
-    /// Φ_k/G_k from the edge as it was found but for a last shift of its depth.
+    /// Computes Φ_k/G_k from the edge, up to a last shift of its depth.
     fn integrate_to_edge(&mut self, shift: f64) {
-        let Edge { ring, theta, .. } = self.edge;
-        let [radius, slope, depth] = self.place(ring, theta);
+        let EdgeElement { ring, theta, .. } = self.edge;
+        let place = self.place(ring, theta);
+        let EdgePlace {
+            radius,
+            slope,
+            depth,
+        } = place;
         if ring + 1 == self.rings.len() && theta >= 1.0 {
             self.at_contact.copy_from(&self.at_front);
         } else {
@@ -459,30 +556,31 @@ impl Approach {
         }
         // ∂F/∂D = a' w at constant t, and w falls to 0 within the shift.
         (edge.shift, edge.correction) = (shift, 0.5 * slope * edge.load * shift);
-        edge.place = Some([radius, slope, depth]);
-        let from = self.rings[ring].start[1];
+        edge.place = Some(place);
+        let from = self.rings[ring].start_depth;
         edge.radius = self.radii.at([from, depth + shift])[0];
     }
 
-    /// A ring up to θ.
-    fn part(&self, ring: usize, theta: f64) -> (Ring, [f64; N_COEFFICIENTS]) {
+    /// The part of a ring up to θ, and the coefficients of its radius.
+    fn ring_up_to(&self, ring: usize, theta: f64) -> (Ring, [f64; N_COEFFICIENTS]) {
         let mut ring = self.rings[ring];
         let mut terms = [0.0; N_COEFFICIENTS];
         let mut power = 1.0;
-        let whole = &self.coefficients[ring.first..ring.first + ring.n_terms];
+        let whole = &self.coefficients
+            [ring.first_coefficient..ring.first_coefficient + ring.n_coefficients];
         for (part, term) in terms.iter_mut().zip(whole) {
             *part = power * term;
             power *= theta;
         }
-        ring.step *= theta;
+        ring.duration *= theta;
         ring.rise *= theta;
         (ring, terms)
     }
 
-    /// What the branches remembered when the element at the edge was touched.
+    /// Computes the integrals at t₁, when the element at the edge came into contact.
     fn find_integrals_at_edge(&mut self) {
         let (n, index) = (self.rates.len(), self.edge.ring);
-        let (ring, terms) = self.part(index, self.edge.theta);
+        let (ring, terms) = self.ring_up_to(index, self.edge.theta);
         let integrals_at_rings = &self.integrals_at_rings[2 * index * n..2 * (index + 1) * n];
         let n_time_weighted = self.now.time_weighted.len();
         self.at_contact
@@ -494,14 +592,15 @@ impl Approach {
         let time_weighted =
             &self.time_weighted_at_rings[index * n_time_weighted..(index + 1) * n_time_weighted];
         self.at_contact.time_weighted.copy_from_slice(time_weighted);
-        let n_moments = ring.n_terms + usize::from(n_time_weighted > 0);
-        self.partial.set(&self.rates, ring.step, n_moments, 0.0);
-        self.partial
-            .grow(&mut self.at_contact, &ring, &terms[..ring.n_terms]);
+        let n_moments = ring.n_coefficients + usize::from(n_time_weighted > 0);
+        self.partial_integrals
+            .set(&self.rates, ring.duration, n_moments, 0.0);
+        self.partial_integrals
+            .grow(&mut self.at_contact, &ring, &terms[..ring.n_coefficients]);
     }
 }
 
-/// By how much steps that end at a time may differ, as times are rounded.
+/// Difference of two steps that end at a time which is within its rounding, \[s].
 fn rounding(time: f64, step: f64) -> f64 {
     4.0 * f64::EPSILON * time.abs().min(1e3 * step)
 }

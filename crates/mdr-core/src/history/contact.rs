@@ -124,8 +124,10 @@ impl<'a> Contact<'a> {
             let slope = self.radii.at(depths)[1];
             change_of_edge(slope, modulus, self.path.scale(self.path.end()))
         });
+        let [time, depth] = self.path.last();
         ContactSums {
-            point: self.path.last(),
+            time,
+            depth,
             load,
             terms,
             load_error: self.quadrature_error + self.path.glass_modulus() * self.radii.area_error,

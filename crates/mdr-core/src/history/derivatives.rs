@@ -1,17 +1,17 @@
-//! The derivatives of a force along a path of the depth by everything that a fit may vary.
+//! Derivatives of the force along a path of the depth by material, position of first contact and shape of the body.
 //!
-//! At the edge of a contact that shrinks w = 0, so that they are those of the closed form at constant t₁.
+//! At the edge of a contact that shrinks w = 0, so that they are those of the closed form in `approach.rs` at constant t₁.
 
 use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{in_range, positive};
 use rheology::Material;
 
-use super::approach::Approach;
+use super::approach::{Approach, EdgePlace};
 use super::radius::Radii;
 use super::validated_points;
 use crate::{MdrError, error};
 
-/// The force of a history and its derivatives; every list has an entry for every point, 0 without contact.
+/// The force along a history and its derivatives; each list has one entry per point of the history, 0 without contact.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ForceDerivatives {
@@ -27,21 +27,20 @@ pub struct ForceDerivatives {
     pub moduli: Vec<Vec<f64>>,
     /// ∂F/∂τ_k, [N/s], branch by branch.
     pub relaxation_times: Vec<Vec<f64>>,
-    /// Change by a shift of all depths, [N/m]: minus the derivative by the position of first contact.
+    /// Derivative by a shift of all depths, [N/m]: minus the derivative by the position of first contact.
     pub depth: Vec<f64>,
     /// ∂F/∂ln c, \[N], of a body whose heights are all multiplied by c: the slope of a cone, the inverse radius of a
     /// paraboloid; for the radius R of a sphere ∂F/∂R is the sum of F and this over R.
     pub stretch: Vec<f64>,
-    /// Number of points up to which all this is exact; after that elements are touched that the contact had left.
+    /// Number of points up to which all derivatives are exact; afterwards elements come into contact again.
     pub exact_until: usize,
 }
 
-/// The force along a path of the depth with its derivatives, for a contact that grows once and shrinks once, with holds.
+/// The force along a path of the depth and its derivatives, for a contact that grows once and shrinks once, with holds.
 ///
-/// Small dips of the depth are allowed: an element that is touched again counts as if it had never been left, which is
-/// wrong in the second order of the dip, and a surface as recovered once the body is above its undeformed position. Where
-/// that begins, judged at the points, is [`ForceDerivatives::exact_until`]; [`indent_along`](super::indent_along) is
-/// exact there too.
+/// Small dips of the depth are allowed: an element that comes into contact again counts as if it had never separated, an
+/// error of second order in the dip. A surface counts as recovered once the body is above its undeformed position. The
+/// first such point is [`ForceDerivatives::exact_until`]; [`indent_along`](super::indent_along) is exact there too.
 ///
 /// # Errors
 /// Like [`indent_along`](super::indent_along); [`MdrError::InvalidParameter`] for a force, too.
@@ -69,13 +68,13 @@ pub fn force_derivatives(
         return Ok(result);
     }
     let mut approach = Approach::new(Radii::new(body, deepest)?, &spectrum, points.len(), true);
-    approach.start(points[0]);
+    approach.start(points[0][0], points[0][1]);
     let factor = 8.0 / material.half_space_factor();
     for (index, point) in points.iter().enumerate() {
         if approach.viscosity > 0.0 && index > 0 {
             positive("time between two depths", point[0] - points[index - 1][0])?;
         }
-        approach.follow(*point);
+        approach.follow(point[0], point[1]);
         let place = approach.edge.place;
         result.push(place.map(|place| (&approach, place)), factor);
         error::finite("normal force", result.normal_force[index], point[0])?;
@@ -87,13 +86,18 @@ pub fn force_derivatives(
 }
 
 impl ForceDerivatives {
-    fn push(&mut self, contact: Option<(&Approach, [f64; 3])>, factor: f64) {
+    /// Appends a point; `None` without contact. `factor` is 8/(2 (1 − ν)).
+    fn push(&mut self, contact: Option<(&Approach, EdgePlace)>, factor: f64) {
         let n_branches = self.moduli.len();
         let [mut force, mut by_depth, mut by_stretch] = [0.0; 3];
         let [mut by_viscosity, mut contact_radius] = [0.0; 2];
         let mut columns = vec![[0.0; 2]; n_branches + 1];
         if let Some((approach, place)) = contact {
-            let [radius, slope, depth] = place;
+            let EdgePlace {
+                radius,
+                slope,
+                depth,
+            } = place;
             contact_radius = approach.radius();
             let (edge, at_contact, rates) = (&approach.edge, &approach.at_contact, &approach.rates);
             by_viscosity = approach.speed * radius;

@@ -1,33 +1,42 @@
-//! What the branches remember of a contact that grows over new elements.
+//! Integrals over the history of a contact that grows over new elements, branch by branch.
+//!
+//! ```text
+//! ∫ e^(−(t − s)/τ) f(s) ds        f = ḋ, a ḋ, and what the derivatives of the force need
+//! ```
+//! Over a step the radius a is a polynomial of θ ∈ [0, 1], so that the moments ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ are enough.
 
 use super::path::{RECIPROCALS, decay_from_mean, moments};
 use super::radius::N_COEFFICIENTS;
 
-/// A sweep over new elements, the radius a polynomial of θ ∈ [0, 1].
+/// A ring of new elements, over which the edge moves in one step; its radius is a polynomial of θ ∈ [0, 1].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ring {
-    /// Time and depth at its beginning, and what is added up to its end.
-    pub(super) start: [f64; 2],
-    pub(super) step: f64,
+    /// Time at its beginning, \[s].
+    pub(super) start_time: f64,
+    /// Depth at its beginning, \[m].
+    pub(super) start_depth: f64,
+    /// Time up to its end, \[s].
+    pub(super) duration: f64,
+    /// Increase of the depth up to its end, \[m].
     pub(super) rise: f64,
-    /// Its coefficients are those from here on.
-    pub(super) first: usize,
-    pub(super) n_terms: usize,
+    /// Index of its first coefficient in the list of those of all rings.
+    pub(super) first_coefficient: usize,
+    pub(super) n_coefficients: usize,
 }
 
-/// Integrals of e^(−(t − s)/τ) f ds up to now, branch by branch.
+/// ∫ e^(−(t − s)/τ) f(s) ds up to now, branch by branch.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HistoryIntegrals {
-    /// q, f = ḋ.
+    /// q_k with f = ḋ, \[m].
     pub(super) depth: Vec<f64>,
-    /// P, f = a ḋ.
+    /// P_k with f = a ḋ, \[m²].
     pub(super) load: Vec<f64>,
-    /// Empty where no derivatives are wanted.
+    /// The integrals for derivatives; empty where none are wanted.
     pub(super) time_weighted: Vec<TimeWeightedIntegrals>,
 }
 
 impl HistoryIntegrals {
-    /// Takes the values of another one of as many branches.
+    /// Copies the values of others with as many branches.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.depth.copy_from_slice(&other.depth);
         self.load.copy_from_slice(&other.load);
@@ -35,26 +44,29 @@ impl HistoryIntegrals {
     }
 }
 
-/// The same of f (t − s), and of what the force changes by with first contact and body.
+/// ∫ e^(−(t − s)/τ) f(s) ds for the derivatives of the force, of one branch.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TimeWeightedIntegrals {
-    /// f = (t − s) ḋ.
+    /// f = (t − s) ḋ, for the derivative by the relaxation time, \[m s].
     pub(super) depth: f64,
-    /// f = (t − s) a ḋ.
+    /// f = (t − s) a ḋ, for the derivative by the relaxation time, \[m² s].
     pub(super) load: f64,
-    /// f = a' ḋ.
+    /// f = a' ḋ, for the derivative by a shift of all depths, \[m].
     pub(super) edge: f64,
-    /// f = −D a' ḋ.
+    /// f = −D a' ḋ, for the derivative by the heights of the body, \[m²].
     pub(super) stretch: f64,
 }
 
-/// A step of a length, branch by branch.
+/// Moments of the exponentials over a step of one length, branch by branch.
 #[derive(Debug, Default)]
 pub(super) struct StepIntegrals {
+    /// Length Δt of the step, \[s].
     length: f64,
+    /// e^(−Δt/τ).
     pub(super) decays: Vec<f64>,
     /// ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ, order by order.
     moments: Vec<f64>,
+    /// Scratch of one number per branch.
     sums: Vec<f64>,
 }
 
@@ -63,7 +75,7 @@ pub(super) struct StepIntegrals {
 const EXTRA_MOMENT_ORDERS: usize = 16;
 
 impl StepIntegrals {
-    /// Orders below `n_moments` of a length that may differ from the last one by rounding of the time at its end.
+    /// Computes the moments of the orders below `n_moments`, unless they are those of the last length, up to `rounding`.
     pub(super) fn set(&mut self, rates: &[f64], length: f64, n_moments: usize, rounding: f64) {
         let n = rates.len();
         if self.moments.len() >= n_moments * n && (length - self.length).abs() <= rounding {
@@ -73,7 +85,7 @@ impl StepIntegrals {
         self.moments.resize(n_moments * n, 0.0);
         self.decays.clear();
         self.decays.extend(rates.iter().map(|rate| rate * length));
-        // Downwards from far above, where it does not matter what they are: of all branches at once.
+        // Downward recurrence, for all branches together; the start far above does not matter.
         self.sums.clear();
         self.sums.resize(n, 0.0);
         for order in (1..=n_moments + EXTRA_MOMENT_ORDERS).rev() {
@@ -101,7 +113,7 @@ impl StepIntegrals {
         self.moments[order * self.decays.len() + branch]
     }
 
-    /// Over elements that were touched before: only the depth goes on.
+    /// Advances the integrals of ḋ over a step in which the contact does not grow.
     pub(super) fn hold(&self, memory: &mut HistoryIntegrals, rise: f64) {
         for (k, time_weighted) in memory.time_weighted.iter_mut().enumerate() {
             let gained = rise * self.length * (self.moment(0, k) - self.moment(1, k));
@@ -113,7 +125,7 @@ impl StepIntegrals {
         }
     }
 
-    /// Over new elements.
+    /// Advances all integrals over a ring of new elements, with the coefficients of its radius.
     pub(super) fn grow(&mut self, memory: &mut HistoryIntegrals, ring: &Ring, terms: &[f64]) {
         for (k, time_weighted) in memory.time_weighted.iter_mut().enumerate() {
             let gained = self.time_weighted(k, ring, terms);
@@ -140,7 +152,7 @@ impl StepIntegrals {
         }
     }
 
-    /// What a branch gains.
+    /// Contribution of a ring to the time-weighted integrals of a branch.
     fn time_weighted(&self, k: usize, ring: &Ring, terms: &[f64]) -> TimeWeightedIntegrals {
         let [mut load, mut edge, mut stretch] = [0.0; 3];
         let mut before = 0.0;
@@ -148,7 +160,7 @@ impl StepIntegrals {
             let (here, slope) = (self.moment(j, k), j as f64 * term);
             load += term * (here - self.moment(j + 1, k));
             edge += slope * before;
-            stretch += slope * (ring.start[1] * before + ring.rise * here);
+            stretch += slope * (ring.start_depth * before + ring.rise * here);
             before = here;
         }
         let scale = ring.rise * self.length;

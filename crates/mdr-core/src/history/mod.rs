@@ -193,10 +193,10 @@ fn follow_depths(
         positive("time between two depths", 0.0)?;
     }
     let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);
-    approach.start(points[0]);
+    approach.start(points[0][0], points[0][1]);
     let mut curve = Vec::with_capacity(points.len());
     for point in points {
-        approach.follow(*point);
+        approach.follow(point[0], point[1]);
         if approach.has_recontact {
             if !body.is_exact_where_touched_again() {
                 return Err(MdrError::TouchedAgain { time: point[0] });
@@ -275,7 +275,10 @@ const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// A contact as it is computed, and what its rounding is made of.
 #[derive(Debug, Clone, Copy, Default)]
 struct ContactSums {
-    point: [f64; 2],
+    /// Time, \[s].
+    time: f64,
+    /// Indentation depth, \[m].
+    depth: f64,
     /// Sum of the loads of all elements, \[Pa m²], and of the sizes of the terms in it.
     load: f64,
     terms: f64,
@@ -289,7 +292,7 @@ struct ContactSums {
 impl ErrorBars {
     /// The next contact of a curve.
     fn point(&mut self, contact: &ContactSums) -> CurvePoint {
-        let [time, depth] = contact.point;
+        let ContactSums { time, depth, .. } = *contact;
         let force = self.factor * contact.load;
         self.largest = self.largest.max(force);
         let rounding = SUM_ROUNDING * contact.terms + contact.load_error;
