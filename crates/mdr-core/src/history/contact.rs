@@ -130,7 +130,8 @@ impl<'a> Contact<'a> {
             depth,
             load,
             terms,
-            load_error: self.quadrature_error + self.path.glass_modulus() * self.radii.area_error,
+            load_error: self.quadrature_error
+                + self.path.instantaneous_modulus() * self.radii.area_error,
             radius: self.radius(),
             edge_change: edge_change.unwrap_or(0.0),
         }

@@ -1,23 +1,23 @@
-//! One element of the line: when the body touches and leaves it, and what it remembers.
+//! One element of the line: its contacts and separations, and its stresses in between.
 //!
 //! ```text
-//! touched at s:  u = d − h̃       σ_k(t) = G_k (q_k(t) − e^(−(t − s)/τ_k) q_k(s)) + e^(−(t − s)/τ_k) σ_k(s)
-//! free from s:   u = Σ y_j e^(−(t − s)/λ_j)       w = 0
+//! contact since s:  u = d − h̃       σ_k(t) = G_k (q_k(t) − e^(−(t − s)/τ_k) q_k(s)) + e^(−(t − s)/τ_k) σ_k(s)
+//! free since s:     u = Σ y_j e^(−(t − s)/λ_j)       w = 0
 //! y_j = (J_j/λ_j) [η₀ u + Σ G_k τ_k z_k/(1 − τ_k/λ_j)]      z_k = u − σ_k/G_k
 //! ```
-//! The last line is the expansion of u in the poles of 1/(s Ĝ(s)), with what the branches hold at the moment s.
+//! The last line expands u in the poles of 1/(s Ĝ(s)), with the stresses of the branches at s as initial values.
 
 use indenters::EquivalentProfile;
 use numerics::bracketed_root;
 
 use super::path::{Path, RecoveryMode, SegmentTime, decay};
 
-/// How the edge moves.
+/// Direction in which the edge moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum EdgeDirection {
-    /// Outwards, over elements that were never touched.
+    /// Outwards, over elements that were never in contact.
     FirstContact,
-    /// Outwards, over elements that were touched before.
+    /// Outwards, over elements that have been in contact.
     Recontact,
     /// Inwards.
     Separation,
@@ -29,29 +29,31 @@ pub(super) struct EdgeMove {
     pub(super) direction: EdgeDirection,
     pub(super) from: SegmentTime,
     pub(super) to: SegmentTime,
-    /// Radii of the ring, \[m].
+    /// Inner radius of the ring, \[m].
     pub(super) inner: f64,
+    /// Outer radius of the ring, \[m].
     pub(super) outer: f64,
-    /// Number of legs before it.
+    /// Number of earlier moves.
     pub(super) n_earlier: usize,
 }
 
 /// An element in contact.
 pub(super) struct Loaded {
     since: SegmentTime,
-    /// σ_k at that moment.
+    /// σ_k at that time, \[Pa m].
     stresses: Vec<f64>,
 }
 
-/// An element that the body has left.
+/// A free element, which has separated from the body.
 pub(super) struct Free {
     since: SegmentTime,
+    /// Height h̃ of the body over the element, \[m].
     height: f64,
-    /// y_j.
+    /// y_j at that time, \[m].
     amplitudes: Vec<f64>,
 }
 
-/// What became of an element in the last event of its history.
+/// State of an element after the last event of its history.
 pub(super) enum ElementState {
     Untouched,
     Loaded(Loaded),
@@ -65,10 +67,10 @@ pub(super) struct LineElements<'a> {
 }
 
 impl LineElements<'_> {
-    /// The element at a radius after the legs of a contact.
+    /// State of the element at a radius after all moves of the edge.
     pub(super) fn follow(&self, radius: f64, edge_moves: &[EdgeMove]) -> ElementState {
         let inside = |edge_move: &&EdgeMove| edge_move.inner < radius && radius <= edge_move.outer;
-        // Beyond the end of a body is only what rounding of its radius puts there.
+        // Only rounding of its radius puts an element beyond the end of the body.
         let height = self.body.height_at(radius.min(self.body.end()));
         let mut state = ElementState::Untouched;
         for edge_move in edge_moves.iter().filter(inside) {
@@ -101,21 +103,23 @@ impl LineElements<'_> {
         state
     }
 
-    /// σ_k of an element in contact.
+    /// σ_k of an element in contact, \[Pa m].
     pub(super) fn stresses(&self, touched: &Loaded, at: SegmentTime) -> Vec<f64> {
         let lag = self.path.lag(touched.since, at);
-        let held = touched.stresses.iter().zip(&lag.decays);
-        let held = held.map(|(stress, decay)| stress * decay);
-        let both = held.zip(lag.stresses);
-        both.map(|(held, gained)| held + gained).collect()
+        let terms = touched.stresses.iter().zip(&lag.decays).zip(lag.stresses);
+        terms
+            .map(|((stress, decay), gained)| stress * decay + gained)
+            .collect()
     }
 
+    /// Separates an element of these stresses from the body.
     fn release(&self, height: f64, stresses: &[f64], since: SegmentTime) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
-        let viscous = path.moduli.iter().zip(stresses);
-        let viscous = viscous.map(|(modulus, stress)| modulus * displacement - stress);
-        let viscous: Vec<f64> = viscous.collect();
+        let branches = path.moduli.iter().zip(stresses);
+        let viscous: Vec<f64> = branches
+            .map(|(modulus, stress)| modulus * displacement - stress)
+            .collect();
         let amplitude = |(mode, row): (&RecoveryMode, &[f64])| {
             let held: f64 = row.iter().zip(&viscous).map(|(c, held)| c * held).sum();
             mode.fluidity * (path.viscosity * displacement + held)
@@ -132,7 +136,7 @@ impl LineElements<'_> {
         free.height + self.recovering(free, at).sum::<f64>() - self.path.depth(at)
     }
 
-    /// y_j e^(−(t − s)/λ_j).
+    /// y_j e^(−(t − s)/λ_j), \[m].
     fn recovering(&self, free: &Free, at: SegmentTime) -> impl Iterator<Item = f64> {
         let lag = self.path.time(at) - self.path.time(free.since);
         let modes = self.path.modes().zip(&free.amplitudes);
@@ -150,16 +154,18 @@ impl LineElements<'_> {
                 *strain -= rate * coupling;
             }
         }
-        // A lone spring is stretched by all of it.
-        let springs = strains.iter_mut().zip(&path.rates);
-        let springs = springs.filter(|(_, rate)| **rate == 0.0);
-        springs.for_each(|(strain, _)| *strain = height);
+        // A lone spring is stretched by the whole displacement.
+        for (strain, rate) in strains.iter_mut().zip(&path.rates) {
+            if *rate == 0.0 {
+                *strain = height;
+            }
+        }
         let stresses = path.moduli.iter().zip(strains);
         stresses.map(|(modulus, strain)| modulus * strain).collect()
     }
 }
 
-/// The instant of a leg at which a falling quantity vanishes; its beginning or end where it does not.
+/// The time during a move at which a falling quantity vanishes; its beginning or end if it does not.
 fn zero_in(edge_move: &EdgeMove, falling: impl Fn(SegmentTime) -> f64) -> SegmentTime {
     let at = |part| SegmentTime {
         part,

@@ -3,8 +3,8 @@
 //! ```text
 //! 8/(2 (1 − ν)) ∫₀^a x h̃' dx = ∫ J(t − s) dF        as long as the contact does not shrink (Lee & Radok 1960)
 //! ```
-//! After that the depth is taken as straight over parts of each segment, at whose ends the force is as given; the parts are
-//! halved until that does not matter, and extrapolated in their length.
+//! Once the contact has shrunk, the depth is taken as linear over parts of each segment, at whose ends the force is as given.
+//! The parts are halved until the depth changes by less than the tolerance, with Richardson extrapolation in their length.
 
 use indenters::{EquivalentProfile, IndenterError};
 use numerics::{Estimate, NotReached, finite, positive, try_bracketed_root};
@@ -25,7 +25,7 @@ const ROOT_ROUNDING: f64 = 1e-13;
 /// Error of a sum over elements by quadrature, as a part of the relative error that the depth may have. Chosen.
 const QUADRATURE_SHARE: f64 = 1e-3;
 
-/// A body under a force.
+/// A body under a history of the force.
 pub(super) struct ForceHistory<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     pub(super) material: &'a dyn Material,
@@ -35,15 +35,19 @@ pub(super) struct ForceHistory<'a> {
 }
 
 impl ForceHistory<'_> {
-    /// Depth and contact radius at all points.
+    /// Depth and contact radius at all points of the history.
     pub(super) fn curve(&self) -> Result<Vec<CurvePoint>, MdrError> {
         let factor = 8.0 / self.material.half_space_factor();
         let duration = self.points[self.points.len() - 1][0] - self.points[0][0];
-        let radii = self.reaching(self.material.creep_compliance(duration)? / factor)?;
-        let before_shrinking = self.before_shrinking(&self.points, &radii, factor);
-        if before_shrinking.len() == self.points.len() {
-            return Ok(before_shrinking);
+        let radii = self.radii_for_force(self.material.creep_compliance(duration)? / factor)?;
+
+        // In closed form as long as the contact does not shrink.
+        let grown = self.before_shrinking(&self.points, &radii, factor);
+        if grown.len() == self.points.len() {
+            return Ok(grown);
         }
+
+        // Refine the parts; row k of the table is extrapolated k times.
         let mut parts = 1;
         let mut change_before = f64::INFINITY;
         let mut table = vec![self.march(&radii, parts)?];
@@ -57,6 +61,8 @@ impl ForceHistory<'_> {
             if coarse.len() < table.len() {
                 continue;
             }
+
+            // Stop by the change of the best extrapolated depths.
             let [before, better] = [&coarse, &table].map(|rows| &rows[rows.len() - 1]);
             let depth_change = changes(before, better, |point| point.indentation_depth.value);
             // Two changes, because one may be small by chance; both are at least of second order.
@@ -71,9 +77,9 @@ impl ForceHistory<'_> {
                 continue;
             }
             let rounding = ROOT_ROUNDING + QUADRATURE_SHARE * asked;
-            let bars = [change + rounding * deepest, radius_change];
-            let mut reached = self.with_bars(better, &radii, bars);
-            reached[..before_shrinking.len()].copy_from_slice(&before_shrinking);
+            let depth_error = change + rounding * deepest;
+            let mut reached = self.with_bars(better, &radii, depth_error, radius_change);
+            reached[..grown.len()].copy_from_slice(&grown);
             let missed = NotReached {
                 quantity: 0,
                 relative_error: asked,
@@ -90,32 +96,42 @@ impl ForceHistory<'_> {
         }
     }
 
-    /// A curve with the errors of its depths and radii.
-    fn with_bars(&self, curve: &[CurvePoint], radii: &Radii, bars: [f64; 2]) -> Vec<CurvePoint> {
-        let [of_depths, of_radii] = bars;
+    /// A curve with the errors of its depths and radii, \[m].
+    fn with_bars(
+        &self,
+        curve: &[CurvePoint],
+        radii: &Radii,
+        depth_error: f64,
+        radius_error: f64,
+    ) -> Vec<CurvePoint> {
         let point = |point: &CurvePoint| {
             let depth = point.indentation_depth.value;
             let radius = point.contact_radius.value.max(0.0);
-            let error = of_depths + 2.0 * self.options.modulus_error * depth.abs();
-            let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * of_depths;
+            let error = depth_error + 2.0 * self.options.modulus_error * depth.abs();
+            let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * depth_error;
             CurvePoint {
                 indentation_depth: Estimate::new(depth, error),
-                contact_radius: Estimate::new(radius, of_radii + of_depth + ROOT_ROUNDING * radius),
+                contact_radius: Estimate::new(
+                    radius,
+                    radius_error + of_depth + ROOT_ROUNDING * radius,
+                ),
                 ..*point
             }
         };
         curve.iter().map(point).collect()
     }
 
-    /// Orders of the errors in the length of the parts: a lone dashpot has the speed of the whole part at its end.
+    /// Orders of the errors in the length of the parts: a lone dashpot adds the first, because its load has the speed of the
+    /// whole part at its end.
     fn orders(&self) -> &'static [i32] {
         let has_dashpot = self.material.relaxation().viscosity() > 0.0;
         if has_dashpot { &[1, 2] } else { &[2] }
     }
 
-    /// The radii up to a depth at which ∫ a dd is well above that of the largest force, by its compliance over the factor of
-    /// the force; up to the end of the body where that comes before.
-    fn reaching(&self, compliance: f64) -> Result<Radii, MdrError> {
+    /// The radii up to a depth at which ∫ a dd is well above what the largest force needs, or up to the end of the body.
+    ///
+    /// `compliance` is the creep compliance of the whole history over the factor of the force.
+    fn radii_for_force(&self, compliance: f64) -> Result<Radii, MdrError> {
         let forces = self.points.iter().map(|[_, force]| *force);
         let normal_force = forces.fold(0.0, f64::max);
         let area = normal_force * compliance;
@@ -145,7 +161,7 @@ impl ForceHistory<'_> {
         Ok(radii)
     }
 
-    /// The points before the contact shrinks for the first time, as it does not wherever ∫ J dF grows.
+    /// The curve before the contact shrinks for the first time; it does not shrink as long as ∫ J dF grows.
     fn before_shrinking(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
         let creep = self.material.creep();
         let mut delayed = vec![0.0; creep.elements().len()];
@@ -156,7 +172,7 @@ impl ForceHistory<'_> {
         for point in points {
             let ([time, force], step, rise) = (*point, point[0] - before[0], point[1] - before[1]);
             has_fallen |= rise < 0.0;
-            if has_fallen && shrinks(&creep, &delayed, before[1], [step, rise]) {
+            if has_fallen && shrinks(&creep, &delayed, before[1], step, rise) {
                 break;
             }
             for (value, element) in delayed.iter_mut().zip(creep.elements()) {
@@ -195,7 +211,7 @@ impl ForceHistory<'_> {
         curve
     }
 
-    /// The curve with so many parts per segment.
+    /// The curve with a number of parts per segment.
     fn march(&self, radii: &Radii, parts: usize) -> Result<Vec<CurvePoint>, MdrError> {
         let mut before = [self.points[0][0], 0.0];
         let mut points = Vec::new();
@@ -203,9 +219,9 @@ impl ForceHistory<'_> {
             let step = [point[0] - before[0], point[1] - before[1]];
             let n = if step[0] > 0.0 { parts } else { 1 };
             for part in 1..=n {
-                // Shorter parts at both ends, where the depth goes with a root of the time.
-                let share = part as f64 / n as f64;
-                let share = share * share * (3.0 - 2.0 * share);
+                // Shorter parts at both ends, where the depth changes like a root of the time.
+                let uniform = part as f64 / n as f64;
+                let share = uniform * uniform * (3.0 - 2.0 * uniform);
                 let between = [0, 1].map(|k| before[k] + share * step[k]);
                 // What was given comes back as it is.
                 points.push(if part == n {
@@ -216,10 +232,12 @@ impl ForceHistory<'_> {
             }
             before = *point;
         }
+
+        // In closed form up to the first shrinkage, then by the depth that each force needs.
         let forces: Vec<[f64; 2]> = points.iter().map(|(point, _)| *point).collect();
         let factor = 8.0 / self.material.half_space_factor();
         let largest = forces.iter().map(|[_, force]| *force).fold(0.0, f64::max);
-        let before_shrinking = self.before_shrinking(&forces, radii, factor);
+        let grown = self.before_shrinking(&forces, radii, factor);
         let mut path = Path::new(self.material);
         path.push(self.points[0][0], 0.0);
         let mut contact = Contact::new(self.body, path, radii.clone());
@@ -230,13 +248,13 @@ impl ForceHistory<'_> {
         let mut pressed = true;
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
             let was_pressed = std::mem::replace(&mut pressed, force > 0.0 || !lifts);
-            if let Some(point) = before_shrinking.get(index) {
+            if let Some(point) = grown.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
             } else if !pressed && !was_pressed {
                 contact.rise_freely(time)?;
             } else if time > contact.path.last()[0] || contact.path.viscosity == 0.0 {
-                let needed = [force, largest].map(|force| force / factor);
-                press(&mut contact, time, needed, radii.deepest())?;
+                let (needed, largest) = (force / factor, largest / factor);
+                follow_to_load(&mut contact, time, needed, largest, radii.deepest())?;
             }
             if is_asked {
                 curve.push(CurvePoint {
@@ -251,11 +269,12 @@ impl ForceHistory<'_> {
     }
 }
 
-/// Goes on to the depth at which the sum of the loads is as needed; without load the body touches.
-fn press(
+/// Follows the body to the depth at which the sum of the loads is as needed; without load the body touches the surface.
+fn follow_to_load(
     contact: &mut Contact<'_>,
     time: f64,
-    [needed, largest]: [f64; 2],
+    needed: f64,
+    largest: f64,
     deepest: f64,
 ) -> Result<(), MdrError> {
     let excess = |depth: f64| {
@@ -264,7 +283,8 @@ fn press(
         if trial.radius() > 0.0 {
             return Ok(trial.load()[0] - needed);
         }
-        // Continuous, lest the interval of the root is only halved, but for what keeps a body that carries nothing in touch.
+        // The clearance makes the excess continuous, so that the root is not only bisected; the rounding keeps a body without
+        // load in contact.
         let clearance = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
         Ok::<f64, MdrError>(-needed - largest * (clearance / deepest + ROOT_ROUNDING))
     };
@@ -272,18 +292,18 @@ fn press(
     contact.follow(time, depth)
 }
 
-/// Whether ∫ J dF falls anywhere while a force rises by `rise` within a step.
+/// Whether ∫ J dF falls anywhere while the force changes linearly by `rise` within a step.
 ///
 /// ```text
 /// d/dt ∫ J dF = J₀ Ḟ + φ F + Σ g_k      g_k = J_k Ḟ + (g_k(0) − J_k Ḟ) e^(−t/λ_k)      g_k(0) = (J_k F − D_k)/λ_k
 /// ```
-fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, [step, rise]: [f64; 2]) -> bool {
-    let at_once = creep.instantaneous_compliance();
+fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, step: f64, rise: f64) -> bool {
+    let instantaneous = creep.instantaneous_compliance();
     if step <= 0.0 {
-        return at_once * rise < 0.0;
+        return instantaneous * rise < 0.0;
     }
     let rate = |part: f64| {
-        let mut rate = at_once * (rise / step) + creep.fluidity() * (force + part * rise);
+        let mut rate = instantaneous * (rise / step) + creep.fluidity() * (force + part * rise);
         for (delayed, element) in delayed.iter().zip(creep.elements()) {
             let ramp = element.compliance * (rise / step);
             let start = (element.compliance * force - delayed) / element.retardation_time;
@@ -302,14 +322,14 @@ fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, [step, rise]: [f6
 /// distance to its beginning. Chosen.
 const N_SHRINKING_CHECKS: i32 = 24;
 
-/// The radii up to a depth, or as far as the line of the body rises; then this is the depth.
+/// The radii up to a depth, or as far as the line of the body rises; `deepest` is then reduced to that.
 fn known_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {
     let available = match Radii::new(body, *deepest) {
         Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,
         Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {
             limiting_depth
         }
-        // Well inside the edge.
+        // The largest depth that is well inside the vertical edge.
         Err(MdrError::DepthBeyondEdge { available, .. }) => 0.999 * available,
         other => return other,
     };
@@ -317,7 +337,7 @@ fn known_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii,
     Radii::new(body, available)
 }
 
-/// From the errors of both, which are of an order in the length of their parts; the finer one has twice as many.
+/// Richardson extrapolation of two curves, the finer one with twice as many parts, for errors of the given order.
 fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint], order: i32) -> Vec<CurvePoint> {
     let gain = 2.0_f64.powi(order) - 1.0;
     let better = |coarse: Estimate, fine: Estimate| {
@@ -331,7 +351,7 @@ fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint], order: i32) -> Vec<C
     coarse.iter().zip(fine).map(point).collect()
 }
 
-/// Largest change of a quantity.
+/// Largest change of a quantity between two curves.
 fn changes(coarse: &[CurvePoint], fine: &[CurvePoint], of: impl Fn(&CurvePoint) -> f64) -> f64 {
     let pairs = coarse.iter().zip(fine);
     let changes = pairs.map(|(one, other)| (of(one) - of(other)).abs());

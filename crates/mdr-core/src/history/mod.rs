@@ -1,11 +1,14 @@
-//! Pressing, unloading and pressing again, on any path of the depth.
+//! Pressing, unloading and pressing again, along any path of the depth or the force.
 //!
 //! ```text
-//! w(x, t) = η₀ ḋ + ∫_s^t G(t − t') ḋ dt'        of an element touched at s(x), as long as w > 0
+//! w(x, t) = η₀ ḋ + ∫_s^t G(t − t') ḋ dt'        of an element in contact since s(x), as long as w > 0
 //! F(t) = 8/(2 (1 − ν)) ∫₀^a w dx
 //! ```
-//! The elements of the line touch and leave the body one by one; on a half space that is exact as long as the contact is
-//! a disc (Ting 1966, J. Appl. Mech. 33, 845; Argatov & Popov 2016, ZAMM 96, 956).
+//! Each element of the line comes into contact and separates on its own. On a half space that is exact as long as the
+//! contact is a disc (Ting 1966, J. Appl. Mech. 33, 845; Argatov & Popov 2016, ZAMM 96, 956).
+//!
+//! [`approach`] is the closed form for one growth and one shrinkage; [`contact`] takes over where elements come into contact
+//! again, and [`force`] seeks the depth of a given force. See also docs/theory/line-viscoelastic.md, "Step by step".
 
 mod approach;
 mod contact;
@@ -50,15 +53,16 @@ pub struct CurvePoint {
 /// Options of [`indent_along`] and [`work_along`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HistoryOptions {
-    /// Relative error of the modulus of a material that stands for another one, as a Prony series for a springpot
-    /// ([`PronyExpansion::relative_error`](rheology::PronyExpansion::relative_error)), which is part of all error bars.
+    /// Relative error of the modulus of a material that approximates another one, as a Prony series a springpot
+    /// ([`PronyExpansion::relative_error`](rheology::PronyExpansion::relative_error)); it is part of all error bars.
     pub modulus_error: f64,
-    /// Error of the depth from where a contact under a force shrinks, relative to the largest depth; everything else is exact.
+    /// Error that the depth may have once a contact under a force has shrunk, relative to the largest depth. Everything else
+    /// is exact.
     pub relative_error: f64,
 }
 
 impl Default for HistoryOptions {
-    /// A material that stands for itself, and depths to one part in a thousand.
+    /// An exact material, and depths to one part in a thousand.
     fn default() -> Self {
         Self {
             modulus_error: 0.0,
@@ -67,13 +71,12 @@ impl Default for HistoryOptions {
     }
 }
 
-/// Presses a body into an undeformed material along a path of the depth or of the force, and lets it go again, as often as
-/// it says.
+/// Presses a body into an undeformed material along a path of the depth or of the force, with any number of unloadings.
 ///
-/// The surface is at rest before the first point, to which a body jumps that is below the surface there, or pressed. At a
-/// depth everything is exact up to rounding; between two points the edge of the contact may turn once. So is the depth
-/// under a force as long as the contact does not shrink; without force the body touches. A profile that is exact only for a
-/// contact that grows once and shrinks once, as that of a body on a layer, is followed so far.
+/// The surface is at rest before the first point. A body that is below the surface at that point, or pressed, jumps to it.
+/// Along a path of the depth everything is exact up to rounding; between two points the edge of the contact may turn once.
+/// Under a force the depth is exact as long as the contact does not shrink; without force the body touches the surface.
+/// The profile of a body on a layer is exact only until the contact grows again after it has shrunk, and is refused there.
 ///
 /// ```
 /// use mdr_core::indenters::{Control, HistoryPoint, PowerProfile};
@@ -95,12 +98,14 @@ impl Default for HistoryOptions {
 /// ```
 ///
 /// # Errors
-/// [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
-/// depth on a material with a lone dashpot; [`MdrError::Empty`] without points; [`MdrError::Indenter`] when the line of the
-/// body turns down or ends before the largest depth; [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical
-/// edge, as the equator of a sphere, and [`MdrError::ForceBeyondEdge`] when it would under a force, or the line turns down or
-/// ends; [`MdrError::NotADisc`] when a part of the contact would open inside
-/// it, or close outside; [`MdrError::TouchedAgain`] on such a profile; [`MdrError::HistoryNotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
+/// - [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
+///   depth on a material with a lone dashpot; [`MdrError::Empty`] without points.
+/// - [`MdrError::Indenter`] when the line of the body turns down or ends before the largest depth.
+/// - [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical edge, as the equator of a sphere;
+///   [`MdrError::ForceBeyondEdge`] when it would under a force, or the line turns down or ends.
+/// - [`MdrError::NotADisc`] when a part of the contact would open inside it, or close outside.
+/// - [`MdrError::TouchedAgain`] when the contact grows again on the profile of a body on a layer.
+/// - [`MdrError::HistoryNotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
 pub fn indent_along(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
@@ -135,7 +140,7 @@ pub fn indent_along(
     Ok(curve)
 }
 
-/// A body without load.
+/// A point of the curve without load, at a time and depth.
 const fn unloaded_point([time, depth]: [f64; 2]) -> CurvePoint {
     CurvePoint {
         time,
@@ -145,7 +150,7 @@ const fn unloaded_point([time, depth]: [f64; 2]) -> CurvePoint {
     }
 }
 
-/// Times and depths, or times and forces.
+/// Times and depths, or times and forces, of a valid history.
 fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
     let is_force = |point: &HistoryPoint| matches!(point.control, Control::NormalForce(_));
     let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
@@ -171,6 +176,7 @@ fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError>
     Ok(points)
 }
 
+/// Follows a path of the depth in closed form, or from event to event once elements come into contact again.
 fn follow_depths(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
@@ -189,7 +195,7 @@ fn follow_depths(
         positive("time between two depths", pair[1][0] - pair[0][0])?;
     }
     if spectrum.viscosity() > 0.0 && points[0][1] > 0.0 {
-        // To the first point the body would jump.
+        // The body would jump to the first point.
         positive("time between two depths", 0.0)?;
     }
     let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);
@@ -209,7 +215,7 @@ fn follow_depths(
     Ok(curve)
 }
 
-/// Refuses a contact under a force that grows again after it has shrunk, unless that is exact too.
+/// Refuses a contact that grows again after it has shrunk, unless the profile is exact for that too.
 fn refuse_inexact_recontact(
     body: &dyn EquivalentProfile,
     curve: Vec<CurvePoint>,
@@ -237,7 +243,7 @@ fn refuse_inexact_recontact(
     Ok(curve)
 }
 
-/// A contact that grows again over elements which it left.
+/// Follows the whole path again, element by element, for a contact that grows over elements which have separated.
 fn follow_recontact(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
@@ -246,7 +252,7 @@ fn follow_recontact(
     mut bars: ErrorBars,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let mut path = Path::new(material);
-    // A body that begins above the surface is there; one below it jumps there.
+    // The path begins at or above the surface; a body below it jumps there from the surface.
     path.push(points[0][0], points[0][1].min(0.0));
     let begins_above = points[0][1] <= 0.0;
     let mut curve = Vec::with_capacity(points.len());
@@ -259,10 +265,11 @@ fn follow_recontact(
     Ok(curve)
 }
 
-/// What errors are made of.
+/// Error bars of the points of a curve.
 struct ErrorBars {
     /// 8/(2 (1 − ν)).
     factor: f64,
+    /// [`HistoryOptions::modulus_error`].
     modulus_error: f64,
     /// Largest force so far, \[N].
     largest: f64,
@@ -272,31 +279,33 @@ struct ErrorBars {
 /// compare such sums with 40 digits.
 const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// A contact as it is computed, and what its rounding is made of.
+/// Sums over a contact, and the sizes of their terms, from which their rounding follows.
 #[derive(Debug, Clone, Copy, Default)]
 struct ContactSums {
     /// Time, \[s].
     time: f64,
     /// Indentation depth, \[m].
     depth: f64,
-    /// Sum of the loads of all elements, \[Pa m²], and of the sizes of the terms in it.
+    /// Sum of the loads of all elements, \[Pa m²].
     load: f64,
+    /// Sum of the sizes of the terms in it, \[Pa m²].
     terms: f64,
-    /// Error of the sum by anything but rounding.
+    /// Error of the sum by anything but rounding, \[Pa m²].
     load_error: f64,
+    /// Contact radius, \[m].
     radius: f64,
-    /// Change of the radius by the terms that cancel at its edge.
+    /// Change of the radius by all of the terms that cancel in the load at the edge, \[m].
     edge_change: f64,
 }
 
 impl ErrorBars {
-    /// The next contact of a curve.
+    /// The next point of a curve.
     fn point(&mut self, contact: &ContactSums) -> CurvePoint {
         let ContactSums { time, depth, .. } = *contact;
         let force = self.factor * contact.load;
         self.largest = self.largest.max(force);
         let rounding = SUM_ROUNDING * contact.terms + contact.load_error;
-        // By a shift of the edge the force changes in second order only, because its elements carry nothing.
+        // A shift of the edge changes the force in second order only, because its elements carry nothing.
         let expansion = 2.0 * self.modulus_error * self.largest;
         let edge_error = (SUM_ROUNDING + 2.0 * self.modulus_error) * contact.edge_change;
         let radius_error = radius::TAIL_TOLERANCE * contact.radius + edge_error;

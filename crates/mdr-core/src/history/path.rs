@@ -1,4 +1,4 @@
-//! A depth that is straight from point to point, and what a material remembers of it.
+//! A piecewise linear path of the depth, and the integrals of the material over it.
 //!
 //! ```text
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ(s) ds        a lone spring is a branch with 1/τ = 0
@@ -11,14 +11,14 @@ use std::sync::Arc;
 
 use rheology::Material;
 
-/// A time in a segment between two points, `part` ∈ [0, 1] of it after its beginning.
+/// A time in a segment of the path, `part` ∈ [0, 1] of its duration after its beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SegmentTime {
     pub(super) segment: usize,
     pub(super) part: f64,
 }
 
-/// An exponential in which a free element recovers; free flow has the rate 0.
+/// A mode in which a free element recovers exponentially; free flow has the rate 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RecoveryMode {
     /// 1/λ, \[1/s].
@@ -27,32 +27,36 @@ pub(super) struct RecoveryMode {
     pub(super) fluidity: f64,
 }
 
-/// Depth over time on one material.
+/// Depth over time, and the response of one material to it.
 #[derive(Debug, Clone)]
 pub(super) struct Path {
     /// Moduli G_k of the branches, \[Pa].
     pub(super) moduli: Vec<f64>,
     /// 1/τ_k, \[1/s].
     pub(super) rates: Vec<f64>,
-    /// Viscosity η₀ of the lone dashpot.
+    /// Viscosity η₀ of the lone dashpot, \[Pa s].
     pub(super) viscosity: f64,
     modes: Vec<RecoveryMode>,
-    /// 1/(1/τ_k − 1/λ_j), mode by mode.
+    /// 1/(1/τ_k − 1/λ_j), mode by mode, \[s]; 0 of a lone spring.
     couplings: Arc<[f64]>,
-    /// Times and depths.
+    /// Times \[s] and depths \[m].
     points: Vec<[f64; 2]>,
-    /// q_k at the points, branch by branch within a point.
-    memory: Vec<f64>,
+    /// q_k at the points, branch by branch within a point, \[m].
+    point_integrals: Vec<f64>,
 }
 
 impl Path {
-    /// The path that is still without points.
+    /// A path without points.
     pub(super) fn new(material: &dyn Material) -> Self {
         let (relaxation, creep) = (material.relaxation(), material.creep());
-        let branches = relaxation.branches().iter();
-        let branches = branches.map(|branch| [branch.modulus, branch.relaxation_time.recip()]);
         let spring = Some([relaxation.equilibrium_modulus(), 0.0]).filter(|[g, _]| *g > 0.0);
-        let branches: Vec<[f64; 2]> = branches.chain(spring).collect();
+        // Modulus and rate of each branch.
+        let branches: Vec<[f64; 2]> = relaxation
+            .branches()
+            .iter()
+            .map(|branch| [branch.modulus, branch.relaxation_time.recip()])
+            .chain(spring)
+            .collect();
         let delayed = creep.elements().iter().map(|element| RecoveryMode {
             rate: element.retardation_time.recip(),
             fluidity: element.fluidity(),
@@ -72,35 +76,36 @@ impl Path {
             couplings: modes.iter().flat_map(row).collect(),
             modes,
             points: Vec::new(),
-            memory: Vec::new(),
+            point_integrals: Vec::new(),
         }
     }
 
-    /// Goes on to a point, at a later time or at once.
+    /// Appends a point, at a later time or, for a jump, at the same.
     pub(super) fn push(&mut self, time: f64, depth: f64) {
         self.points.push([time, depth]);
         let [.., before, _] = self.points[..] else {
-            self.memory = vec![0.0; self.n_branches()];
+            self.point_integrals = vec![0.0; self.n_branches()];
             return;
         };
         let (step, rise) = (time - before[0], depth - before[1]);
-        let start = self.memory.len() - self.n_branches();
+        let start = self.point_integrals.len() - self.n_branches();
         for (k, rate) in self.rates.iter().enumerate() {
             let [decay, mean] = decay_and_mean(rate * step);
-            self.memory
-                .push(decay * self.memory[start + k] + rise * mean);
+            self.point_integrals
+                .push(decay * self.point_integrals[start + k] + rise * mean);
         }
     }
 
-    /// Puts the last point at another depth.
+    /// Moves the last point to another depth.
     pub(super) fn set_last_depth(&mut self, depth: f64) {
-        self.memory.truncate(self.memory.len() - self.n_branches());
+        self.point_integrals
+            .truncate(self.point_integrals.len() - self.n_branches());
         if let Some([time, _]) = self.points.pop() {
             self.push(time, depth);
         }
     }
 
-    /// Time and depth of the last point.
+    /// Time and depth of the last point, \[s], \[m].
     pub(super) fn last(&self) -> [f64; 2] {
         self.points[self.points.len() - 1]
     }
@@ -117,7 +122,7 @@ impl Path {
         self.moduli.len()
     }
 
-    /// The modes with 1/(1/τ_k − 1/λ) of each branch; 0 of a lone spring.
+    /// The modes, each with 1/(1/τ_k − 1/λ) of all branches.
     pub(super) fn modes(&self) -> impl Iterator<Item = (&RecoveryMode, &[f64])> {
         let n = self.n_branches();
         let row = move |j: usize| &self.couplings[j * n..(j + 1) * n];
@@ -127,20 +132,22 @@ impl Path {
             .map(move |(j, mode)| (mode, row(j)))
     }
 
-    /// Modulus of all springs, \[Pa].
-    pub(super) fn glass_modulus(&self) -> f64 {
+    /// Instantaneous modulus Σ G_k, \[Pa].
+    pub(super) fn instantaneous_modulus(&self) -> f64 {
         self.moduli.iter().sum()
     }
 
+    /// Duration of a segment, \[s].
     pub(super) fn step(&self, segment: usize) -> f64 {
         self.points[segment + 1][0] - self.points[segment][0]
     }
 
+    /// Increase of the depth in a segment, \[m].
     pub(super) fn rise(&self, segment: usize) -> f64 {
         self.points[segment + 1][1] - self.points[segment][1]
     }
 
-    /// Speed ḋ in a segment; of a jump, its height instead, which has the same sign.
+    /// Speed ḋ in a segment, \[m/s]; for a jump its height \[m], which has the same sign.
     pub(super) fn speed(&self, segment: usize) -> f64 {
         match self.step(segment) {
             0.0 => self.rise(segment),
@@ -156,7 +163,7 @@ impl Path {
         self.points[at.segment][1] + at.part * self.rise(at.segment)
     }
 
-    /// The instant of a segment at which the body has a depth; its beginning or end where that is outside.
+    /// The time in a segment at which the body has a depth; its beginning or end if it has none there.
     pub(super) fn time_of_depth(&self, segment: usize, depth: f64) -> SegmentTime {
         let part = (depth - self.points[segment][1]) / self.rise(segment);
         SegmentTime {
@@ -165,14 +172,14 @@ impl Path {
         }
     }
 
-    /// q_k of all branches.
+    /// q_k of all branches at a time, \[m].
     pub(super) fn strain_integrals(&self, at: SegmentTime) -> Cow<'_, [f64]> {
         let n = self.n_branches();
-        let here = &self.memory[at.segment * n..];
+        let here = &self.point_integrals[at.segment * n..];
         if at.part == 0.0 {
             return Cow::Borrowed(&here[..n]);
         }
-        // The end of a segment is known as such.
+        // The end of a segment has its own values, without rounding of the interpolation.
         if at.part >= 1.0 {
             return Cow::Borrowed(&here[n..2 * n]);
         }
@@ -185,7 +192,7 @@ impl Path {
         Cow::Owned(later.collect())
     }
 
-    /// What became of the branches from one instant to another.
+    /// Decay of the branches from one time to another, and the stresses gained in between.
     pub(super) fn lag(&self, since: SegmentTime, at: SegmentTime) -> DecayedHistory {
         let time = self.time(at) - self.time(since);
         let decays: Vec<f64> = self.rates.iter().map(|rate| decay(rate * time)).collect();
@@ -198,7 +205,7 @@ impl Path {
         }
     }
 
-    /// G(t − s), \[Pa].
+    /// Relaxation modulus G(t − s) over the time of `lag`, \[Pa]; without the lone dashpot.
     pub(super) fn modulus(&self, lag: &DecayedHistory) -> f64 {
         let branches = self.moduli.iter().zip(&lag.decays);
         branches.map(|(modulus, decay)| modulus * decay).sum()
@@ -207,17 +214,17 @@ impl Path {
     /// Size of the terms that cancel in the load of an element, \[Pa m].
     pub(super) fn scale(&self, at: SegmentTime) -> f64 {
         let strain_integrals = self.strain_integrals(at);
-        let stresses = self.moduli.iter().zip(strain_integrals.iter());
-        let stresses = stresses.map(|(modulus, strain)| modulus * strain.abs());
+        let branches = self.moduli.iter().zip(strain_integrals.iter());
+        let stresses = branches.map(|(modulus, strain)| modulus * strain.abs());
         self.viscosity * self.speed(at.segment).abs() + stresses.sum::<f64>()
     }
 
-    /// w of an element of these stresses, \[Pa m].
+    /// Load w of an element with branch stresses σ_k, \[Pa m].
     pub(super) fn load(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         self.viscosity * self.speed(at.segment) + stresses.iter().sum::<f64>()
     }
 
-    /// w at a later instant of a segment, of an element in contact that has these stresses before, \[Pa m].
+    /// Load w at `at` of an element in contact with the branch stresses `stresses` at `from`, in one segment, \[Pa m].
     pub(super) fn load_later(&self, stresses: &[f64], from: SegmentTime, at: SegmentTime) -> f64 {
         let step = self.time(at) - self.time(from);
         let rise = self.depth(at) - self.depth(from);
@@ -229,13 +236,16 @@ impl Path {
         self.viscosity * self.speed(at.segment) + later.sum::<f64>()
     }
 
-    /// Whether an element of these stresses at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
+    /// Direction of the edge, given the branch stresses of its element: positive outwards, negative inwards.
+    ///
+    /// Its sign is that of a jump of the depth, of the load that a lone dashpot gives at this speed, or of the rate of the load;
+    /// 0 if these are rounding.
     pub(super) fn tendency(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         let speed = self.speed(at.segment);
         if self.step(at.segment) == 0.0 {
             return speed;
         }
-        let (mut rate, mut rate_scale) = (self.glass_modulus() * speed, 0.0);
+        let (mut rate, mut rate_scale) = (self.instantaneous_modulus() * speed, 0.0);
         let strain_integrals = self.strain_integrals(at);
         for (k, stress) in stresses.iter().enumerate() {
             rate -= self.rates[k] * stress;
@@ -258,15 +268,15 @@ pub(super) const LOAD_ROUNDING: f64 = 1e-14;
 /// Relative changes of radii and depths below this count as rounding. Chosen.
 pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
-/// The branches between two instants.
+/// Decay of the branches between two times, and the stresses gained in between.
 pub(super) struct DecayedHistory {
     /// e^(−(t − s)/τ_k).
     pub(super) decays: Vec<f64>,
-    /// σ_k of an element that was touched for the first time at the earlier instant.
+    /// σ_k of an element that came into contact for the first time at the earlier time, \[Pa m].
     pub(super) stresses: Vec<f64>,
 }
 
-/// How far loads that cancel may move the edge; where every branch has forgotten when an element was touched, the edge stays.
+/// Change of the edge by all of the terms that cancel in its load, \[m]; 0 if all branches have relaxed since contact.
 pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
     if modulus > f64::MIN_POSITIVE {
         slope.abs() / modulus * scale
@@ -275,13 +285,13 @@ pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
     }
 }
 
-/// e^(−x) at x ≥ 0. The library takes long for numbers that are hardly there.
+/// e^(−x) at x ≥ 0, without the slow evaluation of the library for results below the smallest number.
 #[inline]
 pub(super) fn decay(x: f64) -> f64 {
     if x > EXP_UNDERFLOW { 0.0 } else { (-x).exp() }
 }
 
-/// e^(−x) at x ≥ 0, to its own rounding because it may be what is left of a large force, and its mean from 0 to x.
+/// e^(−x) at x ≥ 0 and its mean from 0 to x, both to their own rounding: they may multiply a large force.
 #[inline]
 pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
     if x > 1.0 {
@@ -298,13 +308,14 @@ pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
     [1.0 - x * mean, mean]
 }
 
-/// e^(−x) where its mean up to x is known.
+/// e^(−x) from its mean from 0 to x.
 #[inline]
 pub(super) fn decay_from_mean(x: f64, mean: f64) -> f64 {
     if x > 1.0 { decay(x) } else { 1.0 - x * mean }
 }
 
-/// So many terms; even and odd ones are summed side by side, which does not wait for one chain.
+/// The first N terms of the mean of e^x, Σ x^n/(n + 1)!. Even and odd ones are summed apart, so that the processor computes
+/// both together.
 #[inline]
 fn series<const N: usize>(x: f64) -> f64 {
     let square = x * x;
@@ -353,9 +364,12 @@ pub(super) const RECIPROCALS: [f64; 64] = {
 
 /// ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0.
 ///
-/// By μ_j = (1 − j μ_(j−1))/z upwards to j ≤ z and downwards from the last one, each where it does not amplify errors.
+/// The recurrence μ_j = (1 − j μ_(j−1))/z goes upwards to j ≤ z and downwards from the last one, each where it does not
+/// amplify errors.
 pub(super) fn moments(z: f64, moments: &mut [f64]) {
     let last = moments.len() - 1;
+
+    // Upwards.
     moments[0] = decay_and_mean(z)[1];
     let mut order = 1;
     while order <= last && (order as f64) <= z {
@@ -365,7 +379,8 @@ pub(super) fn moments(z: f64, moments: &mut [f64]) {
     if order > last {
         return;
     }
-    // 1/(n+1) − z/((n+1)(n+2)) + …, whose terms fall from the first on, and by 50 of them as far as rounding.
+
+    // Downwards from the series 1/(n+1) − z/((n+1)(n+2)) + …, whose terms fall from the first on; 50 of them reach rounding.
     let mut term = RECIPROCALS[last + 1];
     let mut sum = term;
     for reciprocal in &RECIPROCALS[last + 2..] {

@@ -22,24 +22,26 @@ const EDGE_MARGIN: f64 = 1e-10;
 /// Part of the area a d below which the error of a piece does not matter.
 const NEGLIGIBLE_AREA: f64 = 1e-14;
 
-/// a(d) from first touch to the largest depth.
+/// Contact radius a(d) from first contact to the largest depth, as piecewise polynomials.
 #[derive(Debug, Clone)]
 pub(super) struct Radii {
-    /// By increasing depth.
+    /// Pieces by increasing depth.
     pieces: Vec<Piece>,
-    /// Bound of the error of ∫ a dd, [m²].
+    /// Bound of the error of ∫ a dd, \[m²].
     pub(super) area_error: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
+/// A polynomial of ξ ∈ [−1, 1] between two depths.
 struct Piece {
+    /// Depths at ξ = −1 and ξ = 1, \[m].
     depths: [f64; 2],
-    /// Of the powers of ξ, which goes from −1 to 1.
+    /// Coefficients of the radius over the powers of ξ, \[m].
     coefficients: [f64; N_COEFFICIENTS],
 }
 
 impl Radii {
-    /// For a body whose line rises up to the largest depth > 0.
+    /// The radii of a body whose line rises up to the largest depth > 0.
     pub(super) fn new(body: &dyn EquivalentProfile, deepest: f64) -> Result<Self, MdrError> {
         let mut radii = Self {
             pieces: Vec::new(),
@@ -62,6 +64,8 @@ impl Radii {
         let table: [f64; 4 * N_COEFFICIENTS] = std::array::from_fn(cosine);
         let cosine = |node, order| table[order * (2 * node + 1) % (4 * N_COEFFICIENTS)];
         let cosines = std::array::from_fn(|node| std::array::from_fn(|order| cosine(node, order)));
+
+        // Halve the range of depths until each piece is resolved; the halves are pushed so that the lower one comes first.
         let mut open = vec![([0.0, deepest], [0.0, largest])];
         while let Some((depths, radii_there)) = open.pop() {
             let [[low, high], [inner, outer]] = [depths, radii_there];
@@ -86,8 +90,8 @@ impl Radii {
         Ok(radii)
     }
 
-    /// The piece into which a body goes on from a depth.
-    fn from(&self, depth: f64) -> &Piece {
+    /// The piece that begins at a depth, or holds it inside.
+    fn piece_at(&self, depth: f64) -> &Piece {
         let inside = &self.pieces[..self.pieces.len() - 1];
         &self.pieces[inside.partition_point(|piece| piece.depths[1] <= depth)]
     }
@@ -97,12 +101,12 @@ impl Radii {
         self.pieces[self.pieces.len() - 1].depths[1]
     }
 
-    /// ∫ a dd up to the largest depth, [m²].
+    /// ∫ a dd up to the largest depth, \[m²].
     pub(super) fn area(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.area(1.0)).sum()
     }
 
-    /// The depth at which ∫ a dd is an area; the largest one beyond.
+    /// The depth at which ∫ a dd is `area` \[m²]; the largest depth if it is less everywhere.
     pub(super) fn depth_of_area(&self, area: f64) -> f64 {
         let mut below = 0.0;
         for piece in &self.pieces {
@@ -120,16 +124,16 @@ impl Radii {
 
     /// The depth up to which one polynomial holds from `depth` on.
     pub(super) fn end_of_piece(&self, depth: f64) -> f64 {
-        self.from(depth).depths[1]
+        self.piece_at(depth).depths[1]
     }
 
-    /// Coefficients of a over the powers of θ, which goes from 0 to 1 while the body sinks through a part of a piece.
+    /// The radius over θ ∈ [0, 1] while the depth increases linearly within a piece.
     pub(super) fn along(&self, [from, to]: [f64; 2]) -> Polynomial {
         // By its middle, because rounding may put the ends into the pieces next to it.
-        let piece = self.from(0.5 * (from + to));
+        let piece = self.piece_at(0.5 * (from + to));
         let start = piece.position(from);
         let length = piece.position(to) - start;
-        // What a piece stands for is smooth in a circle of radius 2 around any of its points, or it would be divided.
+        // The radius is analytic in a circle of radius 2 around any point of a piece, or the piece would have been divided.
         let fourth = (0.5 * length).powi(4);
         let enough = |quarters: &i32| fourth.powi(*quarters) < 0.1 * f64::EPSILON;
         let quarters = (2..4).find(enough).map_or(4, i32::unsigned_abs);
@@ -150,9 +154,10 @@ impl Radii {
         }
     }
 
-    /// The radius, and its derivative, where a body that came from a depth above has another one.
-    pub(super) fn at(&self, [from, depth]: [f64; 2]) -> [f64; 2] {
-        let piece = self.from(0.5 * (from + depth));
+    /// The radius and its derivative at the second of two depths, on the piece that holds both.
+    pub(super) fn at(&self, depths: [f64; 2]) -> [f64; 2] {
+        let [from, depth] = depths;
+        let piece = self.piece_at(0.5 * (from + depth));
         let position = piece.position(depth);
         let powers = piece.coefficients.iter().rev();
         let [radius, slope] = powers.fold([0.0; 2], |[value, slope], coefficient| {
@@ -162,7 +167,7 @@ impl Radii {
     }
 }
 
-/// A radius over the powers of θ.
+/// A radius as a polynomial of θ ∈ [0, 1].
 pub(super) struct Polynomial {
     coefficients: [f64; N_COEFFICIENTS],
     n_terms: usize,
@@ -175,7 +180,7 @@ impl Polynomial {
 }
 
 impl Piece {
-    /// The first coefficients over the powers of ξ − start.
+    /// The first coefficients over the powers of ξ − `start`.
     fn about<const N_TERMS: usize>(&self, start: f64) -> [f64; N_COEFFICIENTS] {
         let mut coefficients = self.coefficients;
         for first in 0..N_TERMS {
@@ -186,7 +191,7 @@ impl Piece {
         coefficients
     }
 
-    /// ∫ a dd from the beginning of the piece up to ξ, [m²].
+    /// ∫ a dd from the beginning of the piece up to ξ, \[m²].
     fn area(&self, position: f64) -> f64 {
         let antiderivative = |position: f64| {
             let terms = self.coefficients.iter().enumerate().rev();
@@ -195,13 +200,14 @@ impl Piece {
         0.5 * (self.depths[1] - self.depths[0]) * (antiderivative(position) - antiderivative(-1.0))
     }
 
-    /// ξ.
+    /// ξ at a depth.
     fn position(&self, depth: f64) -> f64 {
         let [low, high] = self.depths;
         (depth - low) / (0.5 * (high - low)) - 1.0
     }
 
-    /// Interpolates at the zeros of the Chebyshev polynomial T_n; the size of the last two terms tells how well.
+    /// Interpolates the radius at the zeros of the Chebyshev polynomial T_n; returns also the size of the last two terms, a
+    /// measure of the error.
     fn fitted(
         body: &dyn EquivalentProfile,
         depths: [f64; 2],
@@ -249,7 +255,7 @@ const CHEBYSHEV: [[f64; N_COEFFICIENTS]; N_COEFFICIENTS] = {
     rows
 };
 
-/// Row after row, so that all columns are summed at once.
+/// Σ_k factor_k row_k, row by row, so that the compiler sums all columns together.
 fn sum_of_rows(
     factors: &[f64; N_COEFFICIENTS],
     rows: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
@@ -263,8 +269,8 @@ fn sum_of_rows(
     sums
 }
 
-/// The radius between two others at which the line has a height; the outer one where it is lower up to there, as a punch
-/// is.
+/// The radius between two others at which the line has a height; the outer one if the line is lower up to there, as the
+/// flat end of a punch.
 fn radius(body: &dyn EquivalentProfile, height: f64, [inner, outer]: [f64; 2]) -> f64 {
     let closed = body.closed_position(height);
     let excess = |x: f64| body.height_at(x) - height;

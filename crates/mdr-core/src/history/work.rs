@@ -1,4 +1,4 @@
-//! The work that is done on the material along a history.
+//! The work ∫ F dd done on the material along a history.
 
 use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{Estimate, NotReached};
@@ -16,11 +16,14 @@ const GAUSS_RULE: [[f64; 2]; 3] = [
 /// Parts of all segments together beyond which the refinement of the work stops.
 const MAX_PARTS_OF_WORK: usize = 1 << 13;
 
-/// The work ∫ F dd \[J] from the first point of a history to each: up to the largest depth what is stored and dissipated, at
-/// the end of a history without contact what was dissipated and is left in a surface that has not recovered.
+/// The work ∫ F dd \[J] from the first point of a history to each point.
 ///
-/// [`indent_along`] is asked for the force, or the depth, at the points of Gauss's rule on parts of each segment, which are
-/// halved until the work changes by [`HistoryOptions::relative_error`] of the largest; the change is a part of its error.
+/// Up to the largest depth it is the energy stored and dissipated. At the end of a history without contact it is the energy
+/// dissipated, and that still stored in a surface that has not recovered.
+///
+/// [`indent_along`] computes the force, or the depth, at the nodes of Gauss's rule on parts of each segment. The parts are
+/// halved until the work changes by at most [`HistoryOptions::relative_error`] of its largest value; the change is a part of
+/// the error.
 ///
 /// # Errors
 /// As for [`indent_along`], and [`MdrError::WorkNotReached`].
@@ -30,21 +33,21 @@ pub fn work_along(
     history: &[HistoryPoint],
     options: &HistoryOptions,
 ) -> Result<Vec<Estimate>, MdrError> {
-    let on = |parts: usize| {
+    let work_on = |parts: usize| {
         let curve = indent_along(body, material, &divided(history, parts), options)?;
-        Ok::<_, MdrError>((summed(&curve, parts), bar(&curve)))
+        Ok::<_, MdrError>((summed(&curve, parts), work_error(&curve)))
     };
     let mut parts = 1;
-    let (mut before, _) = on(parts)?;
+    let (mut before, _) = work_on(parts)?;
     loop {
         parts *= 2;
-        let (work, bar) = on(parts)?;
+        let (work, curve_error) = work_on(parts)?;
         let pairs = work.iter().zip(&before);
-        let change = pairs.map(|(one, other)| (one - other).abs());
-        let change = change.fold(0.0, f64::max);
+        let changes = pairs.map(|(one, other)| (one - other).abs());
+        let change = changes.fold(0.0, f64::max);
         let largest = work.iter().copied().map(f64::abs).fold(0.0, f64::max);
         if change <= options.relative_error * largest {
-            let error = change + bar;
+            let error = change + curve_error;
             let known = |value| Estimate::new(value, error);
             return Ok(work.into_iter().map(known).collect());
         }
@@ -62,7 +65,7 @@ pub fn work_along(
     }
 }
 
-/// The history with the points of the rule on so many parts of each segment.
+/// The history with the nodes of the rule on `parts` parts of each segment.
 fn divided(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
     let mut points: Vec<HistoryPoint> = history.iter().take(1).copied().collect();
     for pair in history.windows(2) {
@@ -76,6 +79,7 @@ fn divided(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
     points
 }
 
+/// The point at a part of the way from one point to the next.
 fn between(start: HistoryPoint, end: HistoryPoint, part: f64) -> HistoryPoint {
     let mean = |from: f64, to: f64| from + part * (to - from);
     HistoryPoint {
@@ -118,17 +122,18 @@ fn summed(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
     all
 }
 
+/// Force and depth of a point.
 fn values(point: CurvePoint) -> [f64; 2] {
     [point.normal_force, point.indentation_depth].map(|known| known.value)
 }
 
-/// Whether the force is what has no error.
+/// Whether the force is prescribed, which has no error then.
 fn given_force(curve: &[CurvePoint]) -> bool {
     curve.iter().all(|point| point.normal_force.error == 0.0)
 }
 
-/// What the error of the depth, or of the force, does to the work at any point, at most.
-fn bar(curve: &[CurvePoint]) -> f64 {
+/// Bound of the error of the work by the error of the depth, or of the force, \[J].
+fn work_error(curve: &[CurvePoint]) -> f64 {
     let largest = |of: fn(&CurvePoint) -> f64| curve.iter().map(of).fold(0.0, f64::max);
     let way = |of: fn(&CurvePoint) -> f64| {
         let step = |pair: &[CurvePoint]| (of(&pair[1]) - of(&pair[0])).abs();

@@ -1,4 +1,4 @@
-//! Where the contact ends while it shrinks: at the element that carries nothing.
+//! The edge of a shrinking contact: the element that carries nothing.
 
 use numerics::bracketed_root;
 
@@ -7,33 +7,34 @@ use crate::MdrError;
 use crate::history::element::{EdgeDirection, EdgeMove, ElementState};
 use crate::history::path::SegmentTime;
 
-/// The edge of a contact that shrinks.
+/// The element at the edge of a contact.
 pub(super) struct Edge {
-    /// Rings that are left.
+    /// Number of rings in contact, the last one in part.
     pub(super) n_rings: usize,
+    /// Contact radius, \[m].
     pub(super) radius: f64,
-    /// σ_k there.
+    /// σ_k at the edge, \[Pa m].
     pub(super) stresses: Vec<f64>,
-    /// In a ring over new elements: when the one at the edge was touched.
+    /// When the element at the edge came into contact, in a ring of new elements; `None` in other rings.
     pub(super) since: Option<SegmentTime>,
 }
 
 impl Contact<'_> {
-    /// Refuses a tension half way between the beginning of a ring of elements touched again and the edge in it.
+    /// Refuses tension half way between the inner radius of the last ring and the edge, if its elements were in contact before.
     pub(super) fn check_compressive(&self, at: SegmentTime) -> Result<(), MdrError> {
         let last = self.rings.last();
-        let pulls = |ring: &EdgeMove| {
+        let is_tensile = |ring: &EdgeMove| {
             let stresses = self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at);
             self.path.load(&stresses, at) < -SIGN_TOLERANCE * self.path.scale(at)
         };
-        if last.is_some_and(|ring| ring.direction == EdgeDirection::Recontact && pulls(ring)) {
+        if last.is_some_and(|ring| ring.direction == EdgeDirection::Recontact && is_tensile(ring)) {
             let time = self.path.time(at);
             return Err(MdrError::NotADisc { time });
         }
         Ok(())
     }
 
-    /// The edge as it is, later.
+    /// The edge at a later time if it has not moved; `None` without contact.
     pub(super) fn outermost(&self, at: SegmentTime) -> Option<Edge> {
         let ring = self.rings.last()?;
         let is_first = ring.direction == EdgeDirection::FirstContact;
@@ -49,7 +50,7 @@ impl Contact<'_> {
         })
     }
 
-    /// The edge of a contact that can only shrink; none where nothing is loaded.
+    /// The edge at a later time if it has only moved inwards; `None` if nothing is loaded any more.
     pub(super) fn edge_inwards(&self, at: SegmentTime) -> Option<Edge> {
         let mut rings = self.rings.iter().enumerate().rev();
         rings.find_map(|(below, ring)| {
@@ -62,7 +63,7 @@ impl Contact<'_> {
         })
     }
 
-    /// The edge in a ring over new elements: the load falls outwards.
+    /// The edge in a ring of new elements, in which the load falls outwards; `None` if all of the ring has separated.
     fn edge_in_first_contact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
         let path = &self.path;
         let since = |part: f64| SegmentTime { part, ..ring.from };
@@ -80,7 +81,7 @@ impl Contact<'_> {
         })
     }
 
-    /// The edge in a ring of elements that were touched again.
+    /// The edge in a ring of elements that came into contact again; `None` if all of the ring has separated.
     fn edge_in_recontact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
         let load = |radius| self.path.load(&self.stresses_in(ring, radius, at), at);
         let radius = if load(ring.outer) >= 0.0 {
@@ -96,7 +97,7 @@ impl Contact<'_> {
         })
     }
 
-    /// σ_k of an element in a ring of elements that were touched again.
+    /// σ_k of an element in a ring of elements that came into contact again, \[Pa m].
     pub(super) fn stresses_in(&self, ring: &EdgeMove, radius: f64, at: SegmentTime) -> Vec<f64> {
         let radius = radius.max(ring.inner.next_up());
         match self
@@ -104,7 +105,7 @@ impl Contact<'_> {
             .follow(radius, &self.edge_moves[..=ring.n_earlier])
         {
             ElementState::Loaded(touched) => self.elements().stresses(&touched, at),
-            // Rounding puts an element of no extent beside the ring.
+            // By rounding an element of no extent may lie beside the ring.
             _ => self.path.lag(ring.to, at).stresses,
         }
     }

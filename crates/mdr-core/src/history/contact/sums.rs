@@ -1,4 +1,4 @@
-//! The stresses of all elements in contact, summed.
+//! Integrals Φ_k of the branch stresses over the contact.
 
 use super::{Contact, EXACT_QUADRATURE_TOLERANCE};
 use crate::history::element::{EdgeDirection, EdgeMove};
@@ -12,7 +12,7 @@ const MAX_PANEL_DIVISIONS: u32 = 12;
 const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
-    /// Φ_k.
+    /// Φ_k of the present rings at a time, \[Pa m²].
     pub(super) fn sums_at(&mut self, at: SegmentTime) -> Vec<f64> {
         let n_branches = self.path.n_branches();
         let Some(ring) = self.rings.last().copied() else {
@@ -20,6 +20,8 @@ impl Contact<'_> {
         };
         let mut sums = self.inner_sums[(self.rings.len() - 1) * n_branches..].to_vec();
         self.edge_modulus = None;
+
+        // A ring of new elements has grown, and may have been held since.
         if ring.direction == EdgeDirection::FirstContact {
             self.before_shrinking(&ring, &mut sums);
             if ring.to != at {
@@ -29,6 +31,8 @@ impl Contact<'_> {
             }
             return sums;
         }
+
+        // Elements that came into contact again are summed by quadrature, those inside as held.
         let lag = self.path.lag(ring.from, at);
         held(&mut sums, ring.inner, &lag);
         self.edge_modulus = Some(self.path.modulus(&lag));
@@ -38,7 +42,7 @@ impl Contact<'_> {
         sums
     }
 
-    /// Φ_k when a ring over new elements has grown.
+    /// Advances Φ_k over the growth of a ring of new elements.
     fn before_shrinking(&self, ring: &EdgeMove, sums: &mut [f64]) {
         let path = &self.path;
         let step = path.time(ring.to) - path.time(ring.from);
@@ -55,10 +59,10 @@ impl Contact<'_> {
         }
     }
 
-    /// ∫ σ_k dx over a ring of elements that were touched again.
+    /// ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature.
     fn ring_sums(&mut self, ring: &EdgeMove, at: SegmentTime) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
-        // Kinks that are small do not matter where the sums need not be exact.
+        // Panels end where earlier moves of the edge began or ended; such kinks are small, and matter only for exact sums.
         let is_exact = self.tolerance <= EXACT_QUADRATURE_TOLERANCE;
         let inside = |radius: &f64| is_exact && *radius > ring.inner && *radius < ring.outer;
         let known = self.edge_moves[..ring.n_earlier].iter();
@@ -71,9 +75,11 @@ impl Contact<'_> {
         radii.dedup();
         let mut sums = vec![0.0; self.path.n_branches()];
         let tolerance = self.tolerance * self.path.scale(at) * ring.outer;
-        let whole = |ends: [f64; 2]| (ends, self.panel(ring, ends, at), 0);
-        let panels = radii.windows(2).map(|ends| whole([ends[0], ends[1]]));
+        let panel = |ends: [f64; 2]| (ends, self.panel(ring, ends, at), 0);
+        let panels = radii.windows(2).map(|ends| panel([ends[0], ends[1]]));
         let mut open: Vec<([f64; 2], Vec<f64>, u32)> = panels.collect();
+
+        // Halve the panels whose sums still change.
         while let Some((ends, whole, divisions)) = open.pop() {
             let middle = 0.5 * (ends[0] + ends[1]);
             let halves = [[ends[0], middle], [middle, ends[1]]];
@@ -93,6 +99,7 @@ impl Contact<'_> {
         sums
     }
 
+    /// ∫ σ_k dx over one panel of a ring.
     fn panel(&self, ring: &EdgeMove, [inner, outer]: [f64; 2], at: SegmentTime) -> Vec<f64> {
         let mut sums = vec![0.0; self.path.n_branches()];
         let half = 0.5 * (outer - inner);
@@ -106,7 +113,7 @@ impl Contact<'_> {
     }
 }
 
-/// Φ_k later, inside a radius in which all elements stay in contact.
+/// Advances Φ_k inside a radius in which all elements stay in contact.
 fn held(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
     for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
         *sum = decay * *sum + radius * stress;
