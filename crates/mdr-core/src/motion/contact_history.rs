@@ -1,14 +1,16 @@
-//! Which elements were in contact in a cycle, and with it what elements remember when a cycle comes back, about.
+//! Contacts of the elements in a cycle, and an approximate Newton step to the limit cycle from them.
 //!
-//! An element x of the retardation time λ ends a cycle of the time T with the part that it keeps and what the load adds:
+//! In a limit cycle of period T, the amplitude x of an element in the mode of retardation time λ is what decays of it in a
+//! cycle plus what the load w adds, so that F(x) = 0:
 //!
 //! ```text
-//! F(x) = β ∫ w e^(−(T − t)/λ) dt / (λ (1 − e^(−T/λ))) − x = 0      where a cycle comes back
-//! δ = F − θ β M v,   v = Σ θ δ,   θ = (λ/T)(1 − e^(−T/λ))           the step of Newton's method, about
+//! F(x) = β ∫ w e^(−(T − t)/λ) dt / (λ (1 − e^(−T/λ))) − x = 0
+//! δ = F − θ β M v,   v = Σ θ δ,   θ = (λ/T)(1 − e^(−T/λ))           the approximate Newton step
 //! M v = ⟨k (v − d)⟩ over the cycle in contact,   Σ k (v − d) = 0 under a force,   d = 0 at a depth
 //! ```
-//! k is the modulus in the mean over the time for which an element is touched without a break. M is symmetric and not negative: where
-//! more is remembered, less is carried.
+//! k is the mean modulus over the time for which an element is in contact without interruption, and M v the change of the
+//! mean load by the change v of the mean free displacement. M is symmetric and positive semidefinite: an element that has recovered
+//! less carries less load.
 
 use crate::steady::{Foundation, Mode};
 
@@ -18,25 +20,41 @@ const CG_TOLERANCE: f64 = 1e-8;
 /// Iterations of conjugate gradients at most.
 const MAX_CG_ITERATIONS: usize = 200;
 
-/// What happened to the elements of a chain; by default it has no elements, and notes nothing.
+/// Contacts of all elements over a cycle; the default has no elements and records nothing.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ContactHistory {
     /// Duration of each step, \[s], and the number of runs up to its end.
     steps: Vec<(f64, usize)>,
-    /// First loaded element, and the one after the last.
+    /// First loaded element of each run of neighbours, and the one after the last.
     runs: Vec<[usize; 2]>,
     elements: Vec<Element>,
-    /// Of all steps, \[s].
+    /// Duration of all steps, \[s].
     period: f64,
 }
 
+/// Contacts of one element over a cycle.
 #[derive(Debug, Clone, Copy, Default)]
 struct Element {
-    /// How many times it was touched.
-    n_touches: f64,
-    /// ∫ w dt and ∫ w t dt.
+    /// Number of its contacts.
+    n_contacts: f64,
+    /// ∫ w dt.
     impulse: f64,
+    /// ∫ w t dt.
     moment: f64,
+}
+
+/// One element in one step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ElementRecord {
+    pub(super) element: usize,
+    /// ∫ w dt over the step.
+    pub(super) impulse: f64,
+    /// Duration of the step, \[s].
+    pub(super) duration: f64,
+    /// Whether it was loaded at the beginning of the step.
+    pub(super) was_loaded: bool,
+    /// Whether it is loaded at the end of the step.
+    pub(super) is_loaded: bool,
 }
 
 impl ContactHistory {
@@ -44,31 +62,27 @@ impl ContactHistory {
     /// digits.
     pub(super) const MAX_PERIODS_FROM_IMPULSE: f64 = 1e-4;
 
-    /// To be noted for so many elements.
-    pub(super) fn of(n_elements: usize) -> Self {
+    /// An empty record of a number of elements.
+    pub(super) fn new(n_elements: usize) -> Self {
         Self {
             elements: vec![Element::default(); n_elements],
             ..Self::default()
         }
     }
 
-    /// An element gets an impulse in a step of this duration; it was loaded, and is so at the end. In the order of elements.
-    pub(super) fn note(
-        &mut self,
-        index: usize,
-        (impulse, duration): (f64, f64),
-        [was, is]: [bool; 2],
-    ) {
+    /// Records one element in the present step; the elements of a step come in increasing order.
+    pub(super) fn record(&mut self, step: ElementRecord) {
+        let index = step.element;
         let Some(element) = self.elements.get_mut(index) else {
             return;
         };
-        element.impulse += impulse;
-        element.moment += impulse * (self.period + 0.5 * duration);
-        if !is {
+        element.impulse += step.impulse;
+        element.moment += step.impulse * (self.period + 0.5 * step.duration);
+        if !step.is_loaded {
             return;
         }
-        if !was {
-            element.n_touches += 1.0;
+        if !step.was_loaded {
+            element.n_contacts += 1.0;
         }
         let before = self.steps.last().map_or(0, |(_, end)| *end);
         match self.runs[before..].last_mut() {
@@ -77,6 +91,7 @@ impl ContactHistory {
         }
     }
 
+    /// Ends the present step.
     pub(super) fn end_step(&mut self, duration: f64) {
         if !self.elements.is_empty() {
             self.steps.push((duration, self.runs.len()));
@@ -84,7 +99,7 @@ impl ContactHistory {
         }
     }
 
-    /// F of all elements, of a cycle from a state to an end.
+    /// Residual F of all elements and modes, for a cycle from the amplitudes `state` to `end`.
     pub(super) fn residual(&self, modes: &[Mode], state: &[f64], end: &[f64]) -> Vec<f64> {
         let n_history_variables = state.len() / self.elements.len();
         let mut residual = vec![0.0; state.len()];
@@ -98,9 +113,9 @@ impl ContactHistory {
                 let lost = mode.recovered(self.period);
                 row[k] = if periods < Self::MAX_PERIODS_FROM_IMPULSE {
                     let since = self.period * element.impulse - element.moment;
-                    let prescribed = element.impulse - since / mode.length;
-                    // What recovers is counted upwards.
-                    -mode.compliance * prescribed / mode.length / lost - state[k]
+                    let weighted = element.impulse - since / mode.length;
+                    // Amplitudes of recovery are positive upwards, loads downwards.
+                    -mode.compliance * weighted / mode.length / lost - state[k]
                 } else {
                     (end[k] - state[k]) / lost
                 };
@@ -109,7 +124,7 @@ impl ContactHistory {
         residual
     }
 
-    /// Durations of the steps, and the runs of elements that were loaded at their ends.
+    /// Duration of each step, and the runs of elements that are loaded at its end.
     fn steps_with_runs(&self) -> impl Iterator<Item = (f64, &[[usize; 2]])> {
         let starts = std::iter::once(0).chain(self.steps.iter().map(|(_, end)| *end));
         let steps = self.steps.iter().zip(starts);
@@ -117,14 +132,25 @@ impl ContactHistory {
     }
 }
 
-/// How the elements answer to what they remember.
+/// Approximate Jacobian of the residual: the response of the loads to the free displacements.
 pub(super) struct CycleJacobian<'a> {
     contact_history: &'a ContactHistory,
+    /// Whether the force is prescribed, and not the depth.
     is_force: bool,
-    /// k of each element; 0 if it is never touched.
+    /// Mean modulus k of each element; 0 if it is never in contact.
     moduli: Vec<f64>,
-    /// Part of the cycle for which it is touched.
+    /// Fraction of the cycle for which each element is in contact.
     contact_fractions: Vec<f64>,
+}
+
+/// Factors of one mode in a step.
+struct ModeWeights {
+    /// On F and β, for a step that covers a finite number of cycles.
+    step_factor: f64,
+    /// θ: mean over a cycle of the displacement per amplitude.
+    mean_factor: f64,
+    /// θ β with the factor of the step: amplitude per mean load.
+    load_compliance: f64,
 }
 
 impl<'a> CycleJacobian<'a> {
@@ -143,7 +169,7 @@ impl<'a> CycleJacobian<'a> {
             .iter()
             .zip(&times)
             .map(|(element, time)| {
-                let time = time / element.n_touches.max(1.0);
+                let time = time / element.n_contacts.max(1.0);
                 foundation.mean_modulus(time)
             });
         Self {
@@ -157,40 +183,48 @@ impl<'a> CycleJacobian<'a> {
         }
     }
 
-    /// δ over n cycles at once instead of all: with κ = e^(−T/λ), F and β count for (1 − κ)/(1 − κ + κ/n).
+    /// Step δ that covers n cycles instead of all: with κ = e^(−T/λ), F and β are multiplied by (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
         let n_history_variables = residual.len() / self.contact_history.elements.len();
         let weights = modes.iter().map(|mode| {
             let period = self.contact_history.period;
             let lost = mode.recovered(period);
-            let now = lost / (lost + (1.0 - lost) / cycles);
-            let part = lost * mode.length / period;
-            [now, part, part * mode.compliance * now]
+            let step_factor = lost / (lost + (1.0 - lost) / cycles);
+            let mean_factor = lost * mode.length / period;
+            ModeWeights {
+                step_factor,
+                mean_factor,
+                load_compliance: mean_factor * mode.compliance * step_factor,
+            }
         });
-        let weights: Vec<[f64; 3]> = weights.collect();
+        let weights: Vec<ModeWeights> = weights.collect();
+
+        // The step without the response of the loads, and its mean displacement over a cycle.
         let mut step = residual.to_vec();
         let rows = step.chunks_mut(n_history_variables).map(|row| {
             let history = row.iter_mut().zip(&weights);
-            history.fold(0.0, |sum, (slot, [now, part, _])| {
-                *slot *= now;
-                sum + part * *slot
+            history.fold(0.0, |sum, (amplitude, mode)| {
+                *amplitude *= mode.step_factor;
+                sum + mode.mean_factor * *amplitude
             })
         });
         let free: Vec<f64> = rows.collect();
         let compliance = weights
             .iter()
-            .map(|[_, part, prescribed]| part * prescribed)
+            .map(|mode| mode.mean_factor * mode.load_compliance)
             .sum();
+
+        // Subtract the response of the loads.
         let load_response = self.load_response(&free, compliance);
         for (row, load_response) in step.chunks_mut(n_history_variables).zip(&load_response) {
-            for (slot, [_, _, prescribed]) in row.iter_mut().zip(&weights) {
-                *slot -= prescribed * load_response;
+            for (amplitude, mode) in row.iter_mut().zip(&weights) {
+                *amplitude -= mode.load_compliance * load_response;
             }
         }
         step
     }
 
-    /// M v.
+    /// The product M v.
     fn multiply(&self, v: &[f64]) -> Vec<f64> {
         let weights = self.moduli.iter().zip(&self.contact_fractions);
         let mut product: Vec<f64> = weights.zip(v).map(|((k, part), v)| k * part * v).collect();
@@ -221,7 +255,8 @@ impl<'a> CycleJacobian<'a> {
         product
     }
 
-    /// M v of the v = free − compliance · M v, by conjugate gradients, which take the M of a depth first.
+    /// M v for the v that solves v = free − compliance · M v, by conjugate gradients, preconditioned by the M of a prescribed
+    /// depth, which is diagonal.
     fn load_response(&self, free: &[f64], compliance: f64) -> Vec<f64> {
         let over = |r: &[f64]| -> Vec<f64> {
             let weights = self.moduli.iter().zip(&self.contact_fractions);
@@ -260,7 +295,7 @@ impl<'a> CycleJacobian<'a> {
     }
 }
 
-/// Adds a number to the differences of a list whose elements in the runs become that much larger.
+/// Adds a number to all elements in the runs, in a list of differences from element to element.
 fn add_to_runs(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
     for [start, end] in runs {
         differences[*start] += number;
@@ -268,13 +303,14 @@ fn add_to_runs(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
     }
 }
 
-/// Over the elements of the runs, from the sums of all up to each.
+/// Sum over the elements of the runs, from cumulative sums.
 fn sum_over_runs(sums: &[f64], runs: &[[usize; 2]]) -> f64 {
     runs.iter()
         .map(|[start, end]| sums[*end] - sums[*start])
         .sum()
 }
 
+/// Replaces values by their cumulative sums.
 fn accumulate(values: &mut [f64]) {
     values.iter_mut().fold(0.0, |sum, value| {
         *value += sum;

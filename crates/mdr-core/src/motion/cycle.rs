@@ -1,8 +1,8 @@
-//! The cycle in which a reciprocating motion ends: what the elements remember at its beginning is what they remember at its end.
+//! Limit cycle of a reciprocating motion: the amplitudes of recovery at its end are those at its beginning.
 //!
-//! A material may remember many cycles, which are not followed one by one: what one of them leaves tells the step of Newton's
-//! method to the last one. On the way a step goes on by only so many cycles, more of them where the one before did what
-//! was expected (pseudo-transient continuation; Kelley & Keyes 1998, SIAM J. Numer. Anal. 35, 508).
+//! A slow material needs many cycles to settle, which are not computed one by one. The residual of one cycle gives an
+//! approximate Newton step to the limit cycle. Far from it a step covers a finite number of cycles, and more of them after
+//! a step that did what was expected (pseudo-transient continuation; Kelley & Keyes 1998, SIAM J. Numer. Anal. 35, 508).
 
 use indenters::{Control, MotionRecord, MovingStep};
 
@@ -27,7 +27,7 @@ const TARGET_DEVIATION: f64 = 0.4;
 const MIN_CYCLES_FACTOR: f64 = 0.3;
 /// Largest factor on the cycles that a step covers. Chosen.
 const MAX_CYCLES_FACTOR: f64 = 10.0;
-/// Most cycles that a step covers; from there on it is the full step of Newton's method, to rounding.
+/// Most cycles that a step covers. Chosen.
 const MAX_CYCLES_PER_STEP: f64 = 1e16;
 /// Cycles per step with which the next resolution begins, as a part of the last ones on the resolution before.
 /// Chosen.
@@ -39,7 +39,7 @@ const MAX_COUNTED_DEVIATION: f64 = 0.9;
 /// Rounding of the amplitudes of recovery, relative to them: 64 units in the last place.
 const AMPLITUDE_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// The cycle that comes back, to the tolerance; nothing when the chain was not high enough.
+/// Finds the limit cycle to the tolerance; `None` if the foundation was not high enough.
 pub(super) fn find_limit_cycle(
     problem: &MotionProblem<'_>,
     mut winkler: WinklerFoundation<'_>,
@@ -55,10 +55,23 @@ pub(super) fn find_limit_cycle(
     let mut before: Option<MotionRecord> = None;
     let mut rest = f64::INFINITY;
     for n_cycles in 1..=MAX_CYCLES {
+        // Compute one cycle from the present amplitudes; its energy balance includes what the loaded elements store.
         winkler.recovery_amplitudes().copy_from_slice(&search.state);
-        let Some((mut record, contact_history)) = run_steps(problem, &mut winkler, steps)? else {
+        let returned = winkler.reload()?;
+        let depth = winkler.depth();
+        winkler.start_recording();
+        let record = problem.run_steps(&mut winkler, steps, depth, &|_| ())?;
+        let contact_history = winkler.take_contact_history();
+        let released = winkler.unload_all(0.0);
+        problem
+            .saved_recovery
+            .replace(Some(winkler.save_recovery()));
+        let Some(mut record) = record else {
             return Ok(None);
         };
+        record.imbalance -= problem.force_unit(winkler.spacing()) * (released - returned);
+
+        // Stop when the change that may remain is below the tolerance.
         let deviation = search.update_residual(&contact_history, winkler.recovery_amplitudes());
         if let Some(before) = before {
             rest = record.rest_after(&before, search.remaining_change_factor(deviation));
@@ -72,7 +85,11 @@ pub(super) fn find_limit_cycle(
                 problem.cycles_per_step.set(search.cycles_per_step);
                 return Ok(Some(MotionRecord { n_cycles, ..record }));
             }
-            search.adapt_step_length(deviation);
+
+            // Cover more cycles by the next step if this one did what was expected, fewer if not.
+            let factor = (TARGET_DEVIATION / deviation).clamp(MIN_CYCLES_FACTOR, MAX_CYCLES_FACTOR);
+            search.cycles_per_step =
+                (factor * search.cycles_per_step).clamp(1.0, MAX_CYCLES_PER_STEP);
         }
         search.newton_step(&contact_history);
         before = Some(record);
@@ -84,37 +101,18 @@ pub(super) fn find_limit_cycle(
     })
 }
 
-/// One cycle from what the chain remembers.
-fn run_steps(
-    problem: &MotionProblem<'_>,
-    winkler: &mut WinklerFoundation<'_>,
-    steps: &[MovingStep],
-) -> Result<Option<(MotionRecord, ContactHistory)>, MdrError> {
-    let returned = winkler.reload()?;
-    let depth = winkler.depth();
-    winkler.start_recording();
-    let record = problem.run_steps(winkler, steps, depth, &|_| ())?;
-    let contact_history = winkler.take_contact_history();
-    let released = winkler.unload_all(0.0);
-    problem
-        .saved_recovery
-        .replace(Some(winkler.save_recovery()));
-    Ok(record.map(|mut record| {
-        record.imbalance -= problem.force_unit(winkler.spacing()) * (released - returned);
-        (record, contact_history)
-    }))
-}
-
-/// On the way to what is remembered when a cycle comes back.
+/// State of the search for the limit cycle.
 struct CycleSearch<'a> {
     problem: &'a MotionProblem<'a>,
+    /// Amplitudes of recovery at the beginning of the cycle, element by element, \[m].
     state: Vec<f64>,
-    /// What is missing at the state.
+    /// Residual F at the state, \[m].
     residual: Vec<f64>,
-    /// What should be missing after the step, and was before.
+    /// Residual that the last step should have left, \[m].
     expected_residual: Vec<f64>,
-    step_residual: f64,
-    /// Cycles by which a step goes on.
+    /// Norm of the residual before the last step, \[m].
+    residual_before: f64,
+    /// Number of cycles that a step covers.
     cycles_per_step: f64,
 }
 
@@ -124,7 +122,7 @@ impl<'a> CycleSearch<'a> {
             problem,
             residual: Vec::new(),
             expected_residual: vec![0.0; state.len()],
-            step_residual: 0.0,
+            residual_before: 0.0,
             state,
             cycles_per_step: (CARRIED_OVER_CYCLES * problem.cycles_per_step.get()).max(1.0),
         }
@@ -134,25 +132,26 @@ impl<'a> CycleSearch<'a> {
         &self.problem.foundation.modes
     }
 
-    /// Part of a mode that a cycle forgets.
+    /// Fraction of a mode that recovers in one cycle.
     fn recovered_fraction(&self, mode: &Mode) -> f64 {
         mode.recovered(self.problem.load.duration())
     }
 
-    /// Compares the cycle from the state, which has this end, with what was expected.
+    /// Computes the residual of a cycle that ends with the amplitudes `end`; returns its deviation from the expected one,
+    /// relative to the residual before the step.
     fn update_residual(&mut self, contact_history: &ContactHistory, end: &[f64]) -> f64 {
         self.residual = contact_history.residual(self.modes(), &self.state, end);
         let pairs = self.residual.iter().zip(&self.expected_residual);
         let deviation = norm(pairs.map(|(found, expected_residual)| found - expected_residual));
         let noise = self.rounding();
         if deviation > noise {
-            (deviation - noise) / self.step_residual
+            (deviation - noise) / self.residual_before
         } else {
             0.0
         }
     }
 
-    /// Of what is missing.
+    /// Rounding of the norm of the residual, \[m].
     fn rounding(&self) -> f64 {
         let n_history_variables = n_history_variables(&self.problem.foundation);
         let weights: Vec<f64> = self
@@ -169,23 +168,21 @@ impl<'a> CycleSearch<'a> {
         norm(rows.flat_map(|row| row.iter().zip(&weights).map(|(slot, weight)| slot * weight)))
     }
 
-    /// How many times the change by the last step may be left: it covers at least these cycles of those that are remembered, and
-    /// what it does not cover as expected follows like a geometric series.
+    /// Bound of the remaining change over the change by the last step.
+    ///
+    /// Cycles that the step does not cover remain in proportion. The deviation from what was expected remains like a geometric
+    /// series.
     fn remaining_change_factor(&self, deviation: f64) -> f64 {
-        let remembered = self
+        let settling_cycles = self
             .modes()
             .iter()
             .map(|mode| self.recovered_fraction(mode).recip() - 1.0);
-        let uncovered = remembered.fold(0.0, f64::max) / self.cycles_per_step;
-        let deviation = deviation.min(MAX_COUNTED_DEVIATION);
-        REMAINDER_SAFETY_FACTOR * (deviation / (1.0 - deviation)).max(1.0) + uncovered
+        let uncovered = settling_cycles.fold(0.0, f64::max) / self.cycles_per_step;
+        let counted = deviation.min(MAX_COUNTED_DEVIATION);
+        REMAINDER_SAFETY_FACTOR * (counted / (1.0 - counted)).max(1.0) + uncovered
     }
 
-    fn adapt_step_length(&mut self, deviation: f64) {
-        let factor = (TARGET_DEVIATION / deviation).clamp(MIN_CYCLES_FACTOR, MAX_CYCLES_FACTOR);
-        self.cycles_per_step = (factor * self.cycles_per_step).clamp(1.0, MAX_CYCLES_PER_STEP);
-    }
-
+    /// Takes the approximate Newton step from the state, and computes the residual that it should leave.
     fn newton_step(&mut self, contact_history: &ContactHistory) {
         let foundation = &self.problem.foundation;
         let is_force = matches!(self.problem.load.largest_control(), Control::NormalForce(_));
@@ -199,7 +196,7 @@ impl<'a> CycleSearch<'a> {
                 (1.0 - lost) / lost / self.cycles_per_step
             })
             .collect();
-        self.step_residual = norm(self.residual.iter().copied());
+        self.residual_before = norm(self.residual.iter().copied());
         let rows = self
             .expected_residual
             .chunks_mut(n_history_variables(foundation))

@@ -1,12 +1,12 @@
-//! Tangential forces as means over the way of one element.
+//! Tangential forces averaged over a sliding distance of one element.
 //!
-//! Behind a steep kink the slope has no limit, and neither has the force of the element that the kink passes at that moment.
-//! Its mean over the way of an element is what elements resolve; a shorter step shows a part of it by chance.
+//! Behind a steep kink the slope is unbounded, and so is the force of the element under the kink. Only its mean over a distance
+//! of one element is resolved; a shorter step catches a part of it by chance.
 
 use indenters::MotionRecord;
 
-/// Replaces the tangential force of every step by its mean over the way of one element around the step, within its stage; `ways`
-/// are the lengths of the steps, \[m].
+/// Replaces the tangential force of every step by its mean over a distance of one element around the step, within its stage;
+/// `step_lengths` are in \[m].
 pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths: &[f64]) {
     let spacing = record.spacing;
     let stages = record.steps.chunk_by_mut(|a, b| a.stage == b.stage);
@@ -16,10 +16,10 @@ pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths:
         first += steps.len();
         let work =
             CumulativeWork::new(step_lengths, steps.iter().map(|step| step.tangential_force));
-        let whole = work.way[steps.len()];
+        let whole = work.distance[steps.len()];
         let window = spacing.min(whole);
         if window > 0.0 {
-            for (step, ends) in steps.iter_mut().zip(work.way.windows(2)) {
+            for (step, ends) in steps.iter_mut().zip(work.distance.windows(2)) {
                 let middle = ends[0].midpoint(ends[1]);
                 let start = (middle - 0.5 * window).clamp(0.0, whole - window);
                 step.tangential_force = (work.up_to(start + window) - work.up_to(start)) / window;
@@ -28,36 +28,40 @@ pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths:
     }
 }
 
-/// The work done on the way.
+/// Cumulative work over the sliding distance.
 struct CumulativeWork {
-    /// Lengths \[m] and works \[J] up to the beginning of each step, and to the end of the last.
-    way: Vec<f64>,
-    done: Vec<f64>,
+    /// Distance up to the beginning of each step, and to the end of the last, \[m].
+    distance: Vec<f64>,
+    /// Work up to there, \[J].
+    work: Vec<f64>,
 }
 
 impl CumulativeWork {
     fn new(step_lengths: &[f64], forces: impl Iterator<Item = f64>) -> Self {
-        let (mut way, mut done) = (vec![0.0], vec![0.0]);
+        let (mut distance, mut work) = (vec![0.0], vec![0.0]);
         let mut sums = [0.0, 0.0];
         for (length, force) in step_lengths.iter().zip(forces) {
             sums = [sums[0] + length, sums[1] + force * length];
-            way.push(sums[0]);
-            done.push(sums[1]);
+            distance.push(sums[0]);
+            work.push(sums[1]);
         }
-        Self { way, done }
+        Self { distance, work }
     }
 
-    /// After a length of the way.
+    /// Work up to a distance, \[J].
     fn up_to(&self, length: f64) -> f64 {
-        let last = self.way.len() - 1;
-        let after = self.way.partition_point(|end| *end < length).clamp(1, last);
-        let [from, to] = [self.way[after - 1], self.way[after]];
+        let last = self.distance.len() - 1;
+        let after = self
+            .distance
+            .partition_point(|end| *end < length)
+            .clamp(1, last);
+        let [from, to] = [self.distance[after - 1], self.distance[after]];
         let part = if to > from {
             (length - from) / (to - from)
         } else {
             1.0
         };
-        self.done[after - 1] + part.min(1.0) * (self.done[after] - self.done[after - 1])
+        self.work[after - 1] + part.min(1.0) * (self.work[after] - self.work[after - 1])
     }
 }
 
@@ -97,8 +101,8 @@ mod tests {
         let mut record = record(&forces, 1.0);
         average_tangential_forces(&mut record, &[0.25; 24]);
         for (index, step) in record.steps.iter().enumerate() {
-            let expected_residual = if index < 12 { 3.0 } else { -3.0 };
-            assert_close!(step.tangential_force => expected_residual, within 1e-12; "step {index}");
+            let expected = if index < 12 { 3.0 } else { -3.0 };
+            assert_close!(step.tangential_force => expected, within 1e-12; "step {index}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! An element that is touched or let go inside a step.
+//! An element that comes into contact or separates inside a step.
 
 use super::time_step::{StepWork, TimeStep};
 use crate::steady::Foundation;
@@ -8,26 +8,29 @@ const CROSSING_TOLERANCE: f64 = 1e-9;
 /// Iterations of the search for a crossing at most; as many bisections reach the last digit.
 const MAX_CROSSING_STEPS: usize = 60;
 
-/// One element in a step of which a part is contact.
+/// One element in a step during which it is in contact for a part of the time.
 pub(super) struct ContactEvent<'a> {
     pub(super) foundation: &'a Foundation,
+    /// Duration of the step, \[s].
     pub(super) duration: f64,
-    /// Stresses, or amplitudes of recovery.
+    /// History variables: stresses e_i in contact, amplitudes β_k of recovery if free.
     pub(super) history: &'a mut [f64],
 }
 
 impl ContactEvent<'_> {
-    /// Lets go of a loaded element when it carries nothing any more, on the way from one displacement to another; gives
-    /// the displacement to which it recovers. What is stored then is lost while it recovers.
+    /// Separates a loaded element when its load vanishes, on the way from one displacement to another.
+    ///
+    /// Returns the displacement to which it recovers, and its work. The energy stored at separation counts as dissipated: it is
+    /// lost during recovery.
     pub(super) fn separate(self, [from, to]: [f64; 2]) -> (f64, StepWork) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
         let carried = |part: f64| {
             let branches = foundation.branches.iter().zip(&self.history[..n_branches]);
-            let cycles_per_step = foundation.dashpot * rise / self.duration;
+            let viscous = foundation.dashpot * rise / self.duration;
             let start = [
-                foundation.spring * (from + part * rise) + cycles_per_step,
+                foundation.spring * (from + part * rise) + viscous,
                 foundation.spring * rise,
             ];
             branches.fold(start, |[carried, rate], (branch, stress)| {
@@ -52,7 +55,7 @@ impl ContactEvent<'_> {
         (self.recover(displacement, rest), work)
     }
 
-    /// Lets go of a loaded element at once; gives also what is stored in it.
+    /// Separates a loaded element immediately; returns the displacement to which it recovers, and the energy stored in it.
     pub(super) fn separate_instantly(self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
@@ -68,7 +71,8 @@ impl ContactEvent<'_> {
         (self.recover(displacement - back, 0.0), stored)
     }
 
-    /// Amplitudes of recovery instead of stresses, a time after the element was let go.
+    /// Replaces the stresses by amplitudes of recovery, a time after separation; returns the displacement after complete
+    /// recovery.
     fn recover(self, displacement: f64, time: f64) -> f64 {
         let foundation = self.foundation;
         let stresses = self.history[..foundation.branches.len()].to_vec();
@@ -78,11 +82,11 @@ impl ContactEvent<'_> {
             limit += amplitude;
             *slot = amplitude * (-time / mode.length).exp();
         }
-        // A solid recovers, and rounding does not stay.
+        // A solid recovers completely; the limit would only be rounding.
         if foundation.spring > 0.0 { 0.0 } else { limit }
     }
 
-    /// Touches an element that recovers to a `limit`, where the line goes from one displacement to another.
+    /// Brings a free element that recovers to `limit` into contact, while the line moves from one displacement to another.
     pub(super) fn make_contact(self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
@@ -118,7 +122,8 @@ impl ContactEvent<'_> {
         work
     }
 
-    /// Stresses instead of amplitudes, of an element that is touched at once; gives its displacement, and what is stored.
+    /// Replaces the amplitudes by stresses of an element that is in contact immediately; returns its displacement, and the energy
+    /// stored in it.
     pub(super) fn make_contact_instantly(self, limit: f64, under: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let left = self.history[..foundation.modes.len()].to_vec();
@@ -127,7 +132,7 @@ impl ContactEvent<'_> {
             *slot = Foundation::free_stress(branch, &left);
         }
         let stresses = &mut self.history[..foundation.branches.len()];
-        // A dashpot holds against a jump.
+        // A lone dashpot resists a jump of the displacement.
         if !foundation.has_dashpot() {
             foundation.apply_strain_jump(stresses, under - displacement);
             displacement = under;
@@ -139,8 +144,9 @@ impl ContactEvent<'_> {
     }
 }
 
-/// Where a function, given with its derivative, falls below 0 between 0 and 1: by Newton's method, inside a bracket that
-/// shrinks; 0 where it is not above 0 at first, and 1 where it stays so.
+/// Zero in [0, 1] of a falling function that is given with its derivative, by Newton's method inside a bracket.
+///
+/// 0 if the function is not positive at 0, and 1 if it is not negative at 1.
 fn crossing(function: impl Fn(f64) -> [f64; 2]) -> f64 {
     let [start, end] = [0.0, 1.0].map(|part| function(part)[0]);
     if start <= 0.0 {

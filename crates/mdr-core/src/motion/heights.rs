@@ -1,4 +1,4 @@
-//! The heights of a line at any position, from a table where it is smooth.
+//! Heights of a line at any position, interpolated from a table where the line is smooth.
 
 use indenters::RigidLine;
 use numerics::whole_part;
@@ -12,19 +12,20 @@ const CELLS_PER_ELEMENT: usize = 4;
 /// a cell. It is far below the error of the elements.
 const CUBIC_TOLERANCE: f64 = 1e-10;
 
-/// Heights above the lowest point, \[m].
+/// Table of the heights above the lowest point, \[m].
 pub(super) struct HeightTable<'a> {
     line: &'a dyn RigidLine,
     lowest: f64,
     start: f64,
     cells_per_metre: f64,
-    /// By the place of the cell in its element, one element after the other, as all elements are at the same place.
+    /// Heights at the nodes, one list per position of a node in its element: the elements of a row all have the same one.
     nodes: [Vec<f64>; CELLS_PER_ELEMENT],
+    /// Whether the cubic holds in the cell that begins at a node, in the same order.
     is_smooth: [Vec<bool>; CELLS_PER_ELEMENT],
 }
 
 impl<'a> HeightTable<'a> {
-    /// Of the part that a chain can touch.
+    /// Table over the part of a line that can come into contact.
     pub(super) fn new(line: &'a dyn RigidLine, sampled: &ElementHeights) -> Result<Self, MdrError> {
         let spacing = sampled.spacing / CELLS_PER_ELEMENT as f64;
         let [start, end] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
@@ -39,7 +40,7 @@ impl<'a> HeightTable<'a> {
             let around = cell
                 .checked_sub(1)
                 .and_then(|first| nodes.get(first..first + 4));
-            // Between the nodes, not in the middle, where odd terms vanish.
+            // Not only in the middle, where odd terms of the error vanish.
             let is_close = |part: f64| {
                 let exact = at(cell as f64 + part);
                 let terms = around.into_iter().flatten().zip(weights(part));
@@ -59,13 +60,13 @@ impl<'a> HeightTable<'a> {
         })
     }
 
-    /// At a position on the line.
-    pub(super) fn at(&self, x: f64) -> Result<f64, MdrError> {
+    /// Height at a position on the line, \[m].
+    pub(super) fn height_at(&self, x: f64) -> Result<f64, MdrError> {
         Ok(checked_height(self.line, x)? - self.lowest)
     }
 
-    /// Over a number of elements, of which the first is at a position on the line: all are at the same place of their cells.
-    pub(super) fn over(
+    /// Heights over a row of elements, of which the first is at a position on the line, \[m].
+    pub(super) fn fill_row(
         &self,
         x: f64,
         n_elements: usize,
@@ -75,7 +76,7 @@ impl<'a> HeightTable<'a> {
         let spacing = CELLS_PER_ELEMENT as f64 / self.cells_per_metre;
         let cell = place.floor();
         let weights = weights(place - cell);
-        // Elements before the first one of which all nodes are there.
+        // Elements in front of the first one whose four nodes are in the table.
         let before = (1.0 - cell).max(0.0) / CELLS_PER_ELEMENT as f64;
         let skipped = whole_part(before.ceil()).min(n_elements);
         let cell = whole_part((cell + (skipped * CELLS_PER_ELEMENT) as f64).max(1.0));
@@ -99,27 +100,28 @@ impl<'a> HeightTable<'a> {
                 .checked_sub(skipped)
                 .map(|index| cell / CELLS_PER_ELEMENT + index);
             if index.and_then(|index| smooth.get(index)) != Some(&true) {
-                *height = self.at(x + element as f64 * spacing)?;
+                *height = self.height_at(x + element as f64 * spacing)?;
             }
         }
         Ok(())
     }
 }
 
-/// The heights of a line at one position, over one element after the other.
+/// Heights of a line at one position of it, over a row of elements, \[m].
 #[derive(Debug, Default)]
 pub(super) struct HeightRow {
+    /// Index of the first element.
     pub(super) first: usize,
     pub(super) heights: Vec<f64>,
 }
 
 impl HeightRow {
-    /// Over an element that is covered.
+    /// Height over an element of the row.
     pub(super) fn over(&self, element: usize) -> f64 {
         self.heights[element - self.first]
     }
 
-    /// Covers some elements at places `x` on the line, of which most were covered before.
+    /// Extends the row to the elements from `first` to `last`, which are at the positions `x` on the line.
     pub(super) fn cover(
         &mut self,
         line: &HeightTable<'_>,
@@ -129,15 +131,15 @@ impl HeightRow {
         let known = self.first..self.first + self.heights.len();
         if !known.contains(&first) && !known.contains(&last) {
             self.first = first;
-            return line.over(x(first), last + 1 - first, &mut self.heights);
+            return line.fill_row(x(first), last + 1 - first, &mut self.heights);
         }
         let mut row = Vec::new();
         if last >= known.end {
-            line.over(x(known.end), last + 1 - known.end, &mut row)?;
+            line.fill_row(x(known.end), last + 1 - known.end, &mut row)?;
             self.heights.append(&mut row);
         }
         if first < known.start {
-            line.over(x(first), known.start - first, &mut row)?;
+            line.fill_row(x(first), known.start - first, &mut row)?;
             self.heights.splice(..0, row);
             self.first = first;
         }
@@ -145,7 +147,7 @@ impl HeightRow {
     }
 }
 
-/// Of a table of cells those at each place of an element.
+/// Splits a list of cells by their position in an element.
 fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS_PER_ELEMENT] {
     std::array::from_fn(|place| {
         cells
@@ -157,7 +159,7 @@ fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS_PER_ELEMENT] {
     })
 }
 
-/// Weights of Lagrange's cubic through four nodes, at a part of the cell in their middle.
+/// Weights of Lagrange's cubic through four nodes, at a fraction `t` of the cell in their middle.
 fn weights(t: f64) -> [f64; 4] {
     let (r, s, q) = (t + 1.0, 1.0 - t, 2.0 - t);
     [

@@ -1,4 +1,6 @@
-//! A motion on one resolution.
+//! A motion with a given number of elements along the contact.
+//!
+//! The line is pressed at its first position, and then moves by about one element per step.
 
 use std::cell::{Cell, RefCell};
 
@@ -33,19 +35,20 @@ const MOTION_BYTES_PER_ELEMENT: f64 = 200.0;
 /// Copies of all history variables that the search for a limit cycle holds, about and at most.
 const N_STORED_STATES: f64 = 8.0;
 
-/// What moves, on what, and how.
+/// A line, its motion and the foundation under it.
 pub(super) struct MotionProblem<'a> {
     pub(super) line: &'a dyn RigidLine,
     pub(super) foundation: Foundation,
     pub(super) load: &'a MovingLoad,
     /// Length of the contact that is divided into elements, \[m].
     pub(super) length: f64,
-    /// Relative error by which cycles may differ.
+    /// Relative tolerance of the limit cycle.
     pub(super) tolerance: f64,
-    /// What the cycle on the resolution before remembers, with which the next one begins.
+    /// Amplitudes of recovery on the resolution before, with which the next one begins.
     pub(super) saved_recovery: RefCell<Option<SavedRecovery>>,
-    /// How far its search went on at once, in cycles, and the height of the chain that it took, \[m].
+    /// Cycles that a step of the search covered last on the resolution before.
     pub(super) cycles_per_step: Cell<f64>,
+    /// Height of the foundation that the cycle on the resolution before needed, \[m].
     height: Cell<f64>,
 }
 
@@ -54,7 +57,8 @@ impl<'a> MotionProblem<'a> {
         line: &'a dyn RigidLine,
         material: &dyn Material,
         load: &'a MovingLoad,
-        (length, tolerance): (f64, f64),
+        length: f64,
+        tolerance: f64,
     ) -> Result<Self, MdrError> {
         let creep = material.creep();
         if load.is_cycle() && creep.fluidity() > 0.0 {
@@ -72,7 +76,7 @@ impl<'a> MotionProblem<'a> {
         })
     }
 
-    /// Follows the motion with a number of elements along the contact.
+    /// Computes the motion with a number of elements along the contact, on a foundation as high as it needs.
     pub(super) fn solve_on(
         &self,
         elements: usize,
@@ -119,7 +123,7 @@ impl<'a> MotionProblem<'a> {
         steps.iter().map(way).collect()
     }
 
-    /// Memory of all resolutions up to these elements, \[bytes].
+    /// Memory of all resolutions up to a number of elements along the contact, \[bytes].
     pub(super) fn memory_for(&self, elements: usize) -> Result<f64, MdrError> {
         let spacing = self.length / elements as f64;
         let n_steps = self.load.n_steps(elements, spacing, MAX_STEPS)?;
@@ -133,12 +137,12 @@ impl<'a> MotionProblem<'a> {
         };
         let per_element =
             copies * (n_history_variables * size_of::<f64>()) as f64 + MOTION_BYTES_PER_ELEMENT;
-        // The values on four resolutions, and a list grows by doubling.
+        // Values on four resolutions, of which a list that grows by doubling.
         let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
 
-    /// Height of the line about where a contact may end.
+    /// Height of the line about where the contact may end, \[m]; the contact length where that is not positive.
     fn rise(&self) -> f64 {
         let lowest = self.line.height(0.0);
         let sides = [
@@ -154,7 +158,7 @@ impl<'a> MotionProblem<'a> {
         }
     }
 
-    /// The motion, or nothing when the chain was not high enough.
+    /// The motion, or `None` if the foundation was not high enough.
     fn run(
         &self,
         sampled: &ElementHeights,
@@ -162,25 +166,26 @@ impl<'a> MotionProblem<'a> {
         report: &dyn Fn(f64),
     ) -> Result<Option<MotionRecord>, MdrError> {
         let start = self.load.stages()[0].start;
-        let make_contact = FIRST_PRESSING_DURATION * steps[0].duration;
-        let place = [start.time - make_contact, start.position];
+        let pressing = FIRST_PRESSING_DURATION * steps[0].duration;
         let mut winkler = WinklerFoundation::new(
             self.line,
             &self.foundation,
             sampled,
             self.load.range(),
-            place,
+            start.time - pressing,
+            start.position,
         )?;
         let first = self.prescribed(start.control, sampled.spacing);
-        let Some(touched) = winkler.advance(make_contact, start.position, first)? else {
+        let Some(pressed) = winkler.advance(pressing, start.position, first)? else {
             return Ok(None);
         };
         if self.load.is_cycle() {
             return find_limit_cycle(self, winkler, steps, report);
         }
-        self.run_steps(&mut winkler, steps, touched.depth, report)
+        self.run_steps(&mut winkler, steps, pressed.depth, report)
     }
 
+    /// The prescribed depth, or the prescribed load in the units of the foundation.
     fn prescribed(&self, control: Control, spacing: f64) -> Prescribed {
         match control {
             Control::IndentationDepth(depth) => Prescribed::Depth(depth),
@@ -191,12 +196,12 @@ impl<'a> MotionProblem<'a> {
         }
     }
 
-    /// Force of all elements \[N] per what they add up to.
+    /// Force \[N] per unit of the sum of the loads of all elements.
     pub(super) fn force_unit(&self, spacing: f64) -> f64 {
         4.0 * spacing * self.foundation.unit
     }
 
-    /// All steps once.
+    /// Runs all steps once, from a depth; `None` if the foundation was not high enough.
     pub(super) fn run_steps(
         &self,
         winkler: &mut WinklerFoundation<'_>,
@@ -211,12 +216,16 @@ impl<'a> MotionProblem<'a> {
             spacing,
             ..MotionRecord::default()
         };
-        let (mut lost, mut more) = (0.0, 1.0);
+        let (mut dissipated, mut force_factor) = (0.0, 1.0);
         let first = self.load.stages()[0].start;
-        let mut before = (first.position, first.control, depth);
+        let mut before = StepEnd {
+            position: first.position,
+            control: first.control,
+            depth,
+        };
         for (index, scheduled) in steps.iter().enumerate() {
             let prescribed = match self.prescribed(scheduled.end.control, spacing) {
-                Prescribed::Load(load) => Prescribed::Load(more * load),
+                Prescribed::Load(load) => Prescribed::Load(force_factor * load),
                 depth @ Prescribed::Depth(_) => depth,
             };
             let Some(stepped) =
@@ -224,52 +233,65 @@ impl<'a> MotionProblem<'a> {
             else {
                 return Ok(None);
             };
-            lost += force_unit * stepped.sums.lost;
-            let step = step_of(scheduled, &stepped, before, force_unit);
-            more += step_residual(
+            dissipated += force_unit * stepped.sums.lost;
+            let step = step_of(scheduled, &stepped, &before, force_unit);
+            force_factor += force_correction(
                 &step,
                 force_unit * stepped.sums.normal_impulse / scheduled.duration,
             );
-            record.push(step, scheduled.end.position - before.0);
-            before = (scheduled.end.position, scheduled.end.control, stepped.depth);
+            record.push(step, scheduled.end.position - before.position);
+            before = StepEnd {
+                position: scheduled.end.position,
+                control: scheduled.end.control,
+                depth: stepped.depth,
+            };
             report((index + 1) as f64 / steps.len() as f64);
         }
-        record.imbalance = record.work - lost;
+        record.imbalance = record.work - dissipated;
         Ok(Some(record))
     }
 }
 
-/// What the force at the end of the next step is to be more, relative to that which is given, when the mean over this step
-/// was another: chords lie below the path of an element under a round body, and with the same force at all ends the mean
-/// is too small, by the square of a step. Half of it, because a step in which much flows has its mean at once.
-fn step_residual(step: &MotionStep, mean: f64) -> f64 {
-    let step_residual = 1.0 - mean / step.normal_force;
-    if step_residual.abs() < MAX_FORCE_CORRECTION {
-        0.5 * step_residual
+/// Correction of the relative force at the end of the next step, from the mean force over this step.
+///
+/// The chord of a step lies below the path of an element under a round body. With the prescribed force at the ends of all
+/// steps their mean is therefore too small, by the square of the step. Half of the difference is corrected, because a step
+/// of much flow has its mean immediately.
+fn force_correction(step: &MotionStep, mean: f64) -> f64 {
+    let missing = 1.0 - mean / step.normal_force;
+    if missing.abs() < MAX_FORCE_CORRECTION {
+        0.5 * missing
     } else {
         0.0
     }
 }
 
-/// The step of a leg, from a position, control and depth.
+/// State of the line at the end of a step.
+struct StepEnd {
+    position: f64,
+    control: Control,
+    depth: f64,
+}
+
+/// The result of a step that began at `start`.
 fn step_of(
     step: &MovingStep,
     stepped: &FoundationStep,
-    (position, control, depth): (f64, Control, f64),
+    start: &StepEnd,
     force_unit: f64,
 ) -> MotionStep {
     let force = |impulse: f64| force_unit * impulse / step.duration;
-    let normal_force = match control {
+    let normal_force = match start.control {
         Control::NormalForce(force) => force.midpoint(step.end.control.value()),
         Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
     };
     MotionStep {
         stage: step.stage,
         time: step.end.time - 0.5 * step.duration,
-        position: position.midpoint(step.end.position),
+        position: start.position.midpoint(step.end.position),
         tangential_force: force(stepped.sums.tangential_impulse),
         normal_force,
-        indentation_depth: depth.midpoint(stepped.depth),
+        indentation_depth: start.depth.midpoint(stepped.depth),
         contact: stepped.contact,
         n_contact: stepped.sums.n_loaded,
     }
@@ -282,8 +304,8 @@ mod tests {
 
     use super::*;
 
-    /// ∮ F_t dx is what the elements lose: to rounding at a depth; under a force ∮ F_N dd of the means over steps is left, which
-    /// vanishes with the square of the step.
+    /// ∮ F_t dx is the energy that the elements dissipate, to rounding at a depth. Under a force ∮ F_N dd of the means over steps
+    /// is added, which vanishes with the square of the step.
     #[test]
     fn a_cycle_dissipates_its_work() {
         let ball = Sphere::new(5e-3).expect("a sphere");
@@ -304,7 +326,7 @@ mod tests {
             };
             let load = MovingLoad::reciprocating(control, stroke).expect("a load");
             let problem =
-                MotionProblem::new(&line, &material, &load, (2e-3, 1e-9)).expect("a problem");
+                MotionProblem::new(&line, &material, &load, 2e-3, 1e-9).expect("a problem");
             let record = problem.solve_on(elements, &|_| ()).expect("a cycle");
             let difference = (record.imbalance / record.work).abs();
             assert!(

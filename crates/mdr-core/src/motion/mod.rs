@@ -1,10 +1,12 @@
-//! Any motion of a line over a chain: starts, stops, dwells, returns, once or to and fro.
+//! Any motion of a line over a Winkler foundation: starts, stops, dwells and returns, once or reciprocating.
 //!
 //! ```text
-//! F_t = 4 Σ Δx w h̃'(X − x),   ∫ F_t dx + ∫ F_N dd = stored and lost energy
+//! F_t = 4 Σ Δx w h̃'(X − x),   ∫ F_t dx + ∫ F_N dd = stored and dissipated energy
 //! ```
-//! Steps in time are as long as elements, or grow after a stop, so that both become finer together; values on several
-//! resolutions tell their errors.
+//! A step moves the line by about one element, or its duration grows after a stop, so that spacing and time step are refined
+//! together. Errors are estimated from several resolutions.
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "One law".
 
 mod contact_history;
 mod cycle;
@@ -46,11 +48,12 @@ const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
 const CYCLE_TOLERANCE_SHARE: f64 = 0.05;
 /// Relative tolerance of the limit cycle on a given number of elements. Chosen.
 const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
-/// Moves a line over an undeformed chain: through the points of a motion, or to and fro until two cycles are alike; to an
-/// error of the mean friction coefficient relative to its value, or with a number of elements along the contact.
+
+/// Moves a line over an undeformed Winkler foundation, through the points of a motion or reciprocating in its limit cycle.
 ///
-/// At the beginning the line is pressed at once. The friction force of a motion through points has the same error, relative
-/// to its largest value.
+/// The request is a relative error of the mean friction coefficient, or a number of elements along the contact. At the
+/// beginning the line is pressed without delay. The friction force of a motion through points has the same error, relative to
+/// its largest value.
 ///
 /// ```
 /// use mdr_core::indenters::{Control, EquivalentLine, MovingLoad, Shape, Sphere, Stroke};
@@ -73,8 +76,8 @@ const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 /// ```
 ///
 /// # Errors
-/// [`MdrError::MotionNotReached`] with what the finest chain gives; [`MdrError::NoCycle`] to and fro on a material that
-/// flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps); [`MdrError::ContactReachesEdge`];
+/// [`MdrError::MotionNotReached`] with the result of the finest resolution; [`MdrError::NoCycle`] for a reciprocating motion on
+/// a material that flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps); [`MdrError::ContactReachesEdge`];
 /// [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot; otherwise like [`slide`](crate::slide()).
 pub fn move_along<'w>(
     line: &dyn RigidLine,
@@ -89,7 +92,7 @@ pub fn move_along<'w>(
         Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_SHARE * asked,
         Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ELEMENTS,
     };
-    let problem = MotionProblem::new(line, material, load, (length, tolerance))?;
+    let problem = MotionProblem::new(line, material, load, length, tolerance)?;
     let limited = WorkLimit {
         watch: request.watch,
         load,
@@ -117,7 +120,7 @@ pub fn move_along<'w>(
         &goal,
         |elements, report: &dyn Fn(f64)| {
             let record = problem.solve_on(elements, report)?;
-            limited.note(elements, &record);
+            limited.record(elements, &record);
             Ok(record)
         },
         |record| view.quantities(record),
@@ -133,21 +136,23 @@ pub fn move_along<'w>(
     }
 }
 
-/// Ends a refinement before a resolution with more work than [`MAX_WORK`], if that takes as many cycles as the one before, and where
-/// the friction is not told from none.
+/// Progress that stops the refinement before a resolution with more work than [`MAX_WORK`], or at a friction that is not
+/// resolved.
+///
+/// The next resolution is assumed to take as many cycles as the last one.
 #[derive(Debug)]
 struct WorkLimit<'a> {
     watch: &'a dyn Progress,
     load: &'a MovingLoad,
-    /// Of the contact, \[m].
+    /// Length of the contact, \[m].
     length: f64,
     is_elastic: bool,
-    /// Friction coefficients and cycles by the elements.
+    /// Friction coefficient and number of cycles, by the number of elements.
     solved: Mutex<BTreeMap<usize, (f64, usize)>>,
 }
 
 impl WorkLimit<'_> {
-    fn note(&self, elements: usize, record: &MotionRecord) {
+    fn record(&self, elements: usize, record: &MotionRecord) {
         let mut solved = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
         solved.insert(elements, (record.friction(), record.n_cycles.max(1)));
     }
@@ -157,7 +162,7 @@ impl WorkLimit<'_> {
         solved.get(&elements).copied()
     }
 
-    /// Whether the friction on so many elements is smaller than its change from half of them.
+    /// Whether the friction on a number of elements is smaller than its change from half of them.
     fn is_unresolved(&self, elements: usize) -> bool {
         let pair = self.solved(elements).zip(self.solved(elements / 2));
         let is_smaller =
@@ -218,7 +223,7 @@ fn convergence_order(line: &dyn RigidLine) -> f64 {
 /// Elements along the contact with which [`move_along`] first seeks a relative error.
 ///
 /// # Errors
-/// As for [`move_along`], before anything is followed.
+/// As for [`move_along`], before the motion is computed.
 pub fn elements_of_motion(
     line: &dyn RigidLine,
     material: &dyn Material,
@@ -230,7 +235,7 @@ pub fn elements_of_motion(
 /// Memory that [`move_along`] takes at most for a number of elements along the contact, \[bytes].
 ///
 /// # Errors
-/// As for [`move_along`], before anything is followed.
+/// As for [`move_along`], before the motion is computed.
 pub fn move_along_memory(
     line: &dyn RigidLine,
     material: &dyn Material,
@@ -238,6 +243,6 @@ pub fn move_along_memory(
     elements: usize,
 ) -> Result<f64, MdrError> {
     let length = contact_length(line, material, load)?;
-    MotionProblem::new(line, material, load, (length, CYCLE_TOLERANCE_ON_ELEMENTS))?
+    MotionProblem::new(line, material, load, length, CYCLE_TOLERANCE_ON_ELEMENTS)?
         .memory_for(elements)
 }

@@ -1,4 +1,4 @@
-//! What the Maxwell branches of an element do while it is compressed evenly for a time Δt, exactly.
+//! Exact response of the Maxwell branches of an element to a compression at constant rate over a time Δt.
 //!
 //! ```text
 //! τ de/dt + e = τ G du/dt,   du/dt = Δu/Δt,   a = Δt/τ,   φ(a) = (1 − e^(−a))/a
@@ -23,52 +23,57 @@ const PHI_SERIES: [[f64; N_PHI_TERMS]; 3] = [
 /// a branch is 0.
 pub(super) const LANES: usize = 4;
 
-/// Numbers of so many branches.
+/// One number for each of [`LANES`] branches.
 type Lanes = [f64; LANES];
 
-/// A step of one length over all branches and modes.
+/// Coefficients of a step of one duration, for all branches and modes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct TimeStep {
+    /// Duration Δt, \[s].
     pub(super) duration: f64,
-    /// What an element carries at the end, per its compression in the step: G_∞ + η₀/Δt + Σ G φ.
+    /// Load of an element at the end per compression in the step: G_∞ + η₀/Δt + Σ G φ.
     pub(super) stiffness: f64,
     spring: f64,
     /// η₀/Δt.
     dashpot: f64,
     branches: Vec<BranchGroup>,
-    /// Of all branches the parts of mean and loss that have no stress in them.
+    /// Mean load of all branches per compression, if they are free of stress before.
     mean: f64,
+    /// Dissipation of all branches per squared compression, if they are free of stress before.
     lost: f64,
     /// e^(−Δt/λ) of the modes of recovery.
     decays: Vec<Lanes>,
 }
 
-/// What [`LANES`] branches make of their stresses e and the compression u: a e + b u, and of the energy that they lose e (c e + d u).
+/// Coefficients of [`LANES`] branches with the stresses e before a compression u.
 #[derive(Debug, Clone, Copy, Default)]
 struct BranchGroup {
+    /// Stress after the step is `decay` e + `gain` u.
     decay: Lanes,
     gain: Lanes,
+    /// Mean stress per e.
     mean: Lanes,
+    /// Dissipation is e (c e + d u) with these c and d, besides that of u alone.
     lost: [Lanes; 2],
 }
 
-/// What an element does in a step, in the units of the foundation.
+/// Impulse and dissipation of an element in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepWork {
     /// ∫ w dt.
     pub(super) impulse: f64,
-    /// Energy that its dashpots take.
+    /// Energy that its dashpots dissipate.
     pub(super) lost: f64,
 }
 
-/// Numbers that an element remembers, stresses of branches or amplitudes of modes: whole [`LANES`].
+/// Number of history variables of an element, stresses of branches or amplitudes of modes: a multiple of [`LANES`].
 pub(super) fn n_history_variables(foundation: &Foundation) -> usize {
     let used = foundation.branches.len().max(foundation.modes.len());
     used.max(1).next_multiple_of(LANES)
 }
 
 impl TimeStep {
-    /// Over branches and modes.
+    /// Coefficients of branches and modes.
     pub(super) fn new(foundation: &Foundation, duration: f64) -> Self {
         let decay = |mode: &Mode| (-duration / mode.length).exp();
         let modes = foundation.modes.chunks(LANES);
@@ -78,7 +83,7 @@ impl TimeStep {
         }
     }
 
-    /// Over branches alone.
+    /// Coefficients of the branches alone.
     pub(super) fn of_branches(foundation: &Foundation, duration: f64) -> Self {
         let mut step = Self {
             duration,
@@ -97,7 +102,7 @@ impl TimeStep {
         step
     }
 
-    /// Up to [`LANES`] more branches.
+    /// Adds up to [`LANES`] branches.
     fn add(&mut self, branches: &[Branch]) {
         let modulus = lanes(branches, 0.0, |branch| branch.modulus);
         let compliance = lanes(branches, 0.0, |branch| branch.modulus.recip());
@@ -106,7 +111,7 @@ impl TimeStep {
         let change = a.map(|a| (-a).exp_m1());
         let once: Lanes = std::array::from_fn(|k| -change[k] / a[k]);
         let twice: Lanes = std::array::from_fn(|k| once[k] * (1.0 + 0.5 * change[k]));
-        let mut differences = PHI_SERIES.map(|series| sum(&series, a));
+        let mut differences = PHI_SERIES.map(|series| power_series(&series, a));
         for k in (0..LANES).filter(|k| a[*k] > SERIES_MAX_RATIO) {
             differences[0][k] = once[k] - 1.0;
             differences[1][k] = once[k] - twice[k];
@@ -131,7 +136,7 @@ impl TimeStep {
         });
     }
 
-    /// The sum of what recovers, at the end.
+    /// Displacement that is left to recover at the end of the step, Σ β_k e^(−Δt/λ_k).
     pub(super) fn remaining_recovery(&self, history: &[f64]) -> f64 {
         let decays = self.decays.iter().zip(history.as_chunks().0);
         total(decays.fold([0.0; LANES], |sum, (decays, history)| {
@@ -139,14 +144,14 @@ impl TimeStep {
         }))
     }
 
-    /// What recovers does so for the step.
+    /// Lets the amplitudes of a free element decay over the step.
     pub(super) fn recover(&self, history: &mut [f64]) {
         for (decays, history) in self.decays.iter().zip(history.as_chunks_mut().0) {
             *history = product(*decays, *history);
         }
     }
 
-    /// What is carried at the end without compression.
+    /// Load of an element at the end of a step without compression.
     pub(super) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses.as_chunks().0);
         let left = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
@@ -155,7 +160,7 @@ impl TimeStep {
         self.spring * displacement + total(left)
     }
 
-    /// Compresses an element by so much during the step; there are whole [`LANES`] of stresses.
+    /// Compresses an element during the step; the length of `stresses` is a multiple of [`LANES`].
     pub(super) fn compress(
         &self,
         displacement: f64,
@@ -181,9 +186,9 @@ impl TimeStep {
     }
 }
 
-/// Numbers of up to [`LANES`] things, and of those that are missing.
-fn lanes<T>(of: &[T], step_residual: f64, number: impl Fn(&T) -> f64) -> Lanes {
-    std::array::from_fn(|lane| of.get(lane).map_or(step_residual, &number))
+/// One number for each of up to [`LANES`] items, and `missing` for the others.
+fn lanes<T>(of: &[T], missing: f64, number: impl Fn(&T) -> f64) -> Lanes {
+    std::array::from_fn(|lane| of.get(lane).map_or(missing, &number))
 }
 
 /// sum + a b.
@@ -199,7 +204,7 @@ fn total(lanes: Lanes) -> f64 {
     lanes.iter().sum()
 }
 
-/// Of a combination of φ(a) = Σ (−a)^k/(k + 1)! and φ(2a) what the powers from k = 1 on are multiplied by.
+/// Coefficients of a^k, k ≥ 1, in `once` φ(a) + `twice` φ(2a), with φ(a) = Σ (−a)^k/(k + 1)!.
 const fn coefficients([once, twice]: [f64; 2]) -> [f64; N_PHI_TERMS] {
     let mut coefficients = [0.0; N_PHI_TERMS];
     let (mut term, mut power, mut k) = (1.0, 1.0, 0);
@@ -213,7 +218,7 @@ const fn coefficients([once, twice]: [f64; 2]) -> [f64; N_PHI_TERMS] {
 }
 
 /// Σ c_k a^k from k = 1 on.
-fn sum(coefficients: &[f64; N_PHI_TERMS], a: Lanes) -> Lanes {
+fn power_series(coefficients: &[f64; N_PHI_TERMS], a: Lanes) -> Lanes {
     let terms = coefficients.iter().rev();
     terms.fold([0.0; LANES], |sum, coefficient| {
         std::array::from_fn(|lane| a[lane] * (sum[lane] + coefficient))

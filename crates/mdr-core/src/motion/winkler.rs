@@ -1,11 +1,13 @@
-//! The chain under a line that moves anyhow: which elements are compressed, which recover.
+//! A Winkler foundation under a line that moves arbitrarily: loaded, free and untouched elements.
 //!
 //! ```text
 //! u = d − h̃(X − x),   w = G_∞ u + η₀ du/dt + Σ e_i           an element at X under the line
-//! w = 0,   u = u_∞ − Σ β_k e^(−t/λ_k)                         one that nothing touches
+//! w = 0,   u = u_∞ − Σ β_k e^(−t/λ_k)                         a free element
 //! ```
-//! Over a step position and depth are straight in time, and so is the displacement of an element that is compressed. It is
-//! touched and let go at times inside the step, so that all work of the line is stored or lost, exactly.
+//! Over a step position and depth are linear in time, and so is the displacement of a loaded element. Contact and separation
+//! happen at times inside the step, so that the work of the line is stored or dissipated exactly.
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "One law".
 
 mod saved_recovery;
 
@@ -13,7 +15,7 @@ use indenters::RigidLine;
 
 pub(super) use saved_recovery::SavedRecovery;
 
-use super::contact_history::ContactHistory;
+use super::contact_history::{ContactHistory, ElementRecord};
 use super::event::ContactEvent;
 use super::heights::{HeightRow, HeightTable};
 use super::time_step::{StepWork, TimeStep, n_history_variables};
@@ -35,69 +37,83 @@ const REST_DISPLACEMENT: f64 = 1e-7;
 /// the window and is repeated.
 const WINDOW_HEIGHT_FACTOR: f64 = 1.25;
 
+/// Contact state of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ElementState {
+    /// Never in contact.
     Untouched,
-    /// Recovers to a displacement at last; its amplitudes are those at a time.
+    /// Recovers freely.
     Free {
+        /// Displacement u_∞ after complete recovery, \[m].
         limit: f64,
+        /// Time to which its amplitudes belong, \[s].
         since: f64,
     },
+    /// In contact.
     Loaded {
+        /// Displacement u, \[m].
         displacement: f64,
     },
 }
 
-/// What is given at the end of a step.
+/// The quantity prescribed at the end of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Prescribed {
-    /// Σ w over the elements.
+    /// Σ w over the elements, in the units of the foundation.
     Load(f64),
+    /// Indentation depth, \[m].
     Depth(f64),
 }
 
-/// Where the line is.
+/// Time, position and depth of the line.
 #[derive(Debug, Clone, Copy, Default)]
 struct BodyState {
+    /// \[s].
     time: f64,
+    /// Position of the lowest point along the surface, \[m].
     position: f64,
+    /// Indentation depth, \[m].
     depth: f64,
 }
 
-/// The elements that a motion can touch, and what they remember.
+/// The elements that can come into contact in a motion, with their history variables.
 pub(super) struct WinklerFoundation<'a> {
     line: HeightTable<'a>,
+    /// Law of an element.
     foundation: &'a Foundation,
     sampled: &'a ElementHeights,
     /// Position of the first element over the spacing.
     first: f64,
     states: Vec<ElementState>,
-    /// Stresses of a loaded element, amplitudes of one that recovers.
+    /// History variables, element by element: stresses e_i of a loaded one, amplitudes β_k of a free one.
     history: Vec<f64>,
     n_history_variables: usize,
     step: TimeStep,
-    place: BodyState,
-    /// Elements that were looked at last, and the heights over them.
+    body: BodyState,
+    /// First and last element of the window in which elements can be loaded in the step.
     window: [usize; 2],
+    /// Heights of the line over the window at the end of the step, \[m].
     heights: Vec<f64>,
-    /// Where the line is.
-    before: HeightRow,
-    /// Displacements at which the elements carry nothing at the end of the step.
+    /// Heights of the line where it is before the step.
+    heights_before: HeightRow,
+    /// Displacements at which the elements of the window carry nothing at the end of the step, \[m].
     unloaded_displacements: Vec<f64>,
+    /// Contacts of the present cycle.
     contact_history: ContactHistory,
 }
 
-/// What the elements add up to in a step, in the units of the foundation.
+/// Sums over the elements in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepSums {
     /// ∫ Σ w dt.
     pub(super) normal_impulse: f64,
     /// ∫ Σ w h̃' dt.
     pub(super) tangential_impulse: f64,
-    /// Energy that dashpots took, also after an element was let go.
+    /// Energy that the dashpots dissipate, also after the separation of an element.
     pub(super) lost: f64,
     /// The rearmost and the foremost loaded element at the end.
     ends: Option<[usize; 2]>,
+    /// Number of elements that are loaded at the end.
     pub(super) n_loaded: usize,
 }
 
@@ -111,13 +127,16 @@ pub(super) struct FoundationStep {
 }
 
 impl<'a> WinklerFoundation<'a> {
-    /// At rest, under the elements of a line that will be between two positions \[m].
+    /// An undeformed foundation for a line whose position stays in `range`, \[m].
+    ///
+    /// The line is at `position` \[m] at `time` \[s], with depth 0.
     pub(super) fn new(
         line: &'a dyn RigidLine,
         foundation: &'a Foundation,
         sampled: &'a ElementHeights,
         range: [f64; 2],
-        place: [f64; 2],
+        time: f64,
+        position: f64,
     ) -> Result<Self, MdrError> {
         let spacing = sampled.spacing;
         let [rear, front] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
@@ -125,7 +144,6 @@ impl<'a> WinklerFoundation<'a> {
         let last = ((range[1] + front) / spacing).ceil() + FOUNDATION_MARGIN;
         let n_elements = whole(last - first) + 1;
         let n_history_variables = n_history_variables(foundation);
-        let [time, position] = place;
         Ok(Self {
             line: HeightTable::new(line, sampled)?,
             foundation,
@@ -135,34 +153,36 @@ impl<'a> WinklerFoundation<'a> {
             history: vec![0.0; n_elements * n_history_variables],
             n_history_variables,
             step: TimeStep::default(),
-            place: BodyState {
+            body: BodyState {
                 time,
                 position,
                 depth: 0.0,
             },
             window: [0; 2],
             heights: Vec::new(),
-            before: HeightRow::default(),
+            heights_before: HeightRow::default(),
             unloaded_displacements: Vec::new(),
             contact_history: ContactHistory::default(),
         })
     }
 
-    /// Goes to a position within a time, both from where it is; none where the depth needs more elements.
+    /// Moves the line to a position within `duration`; `None` if the depth needs more elements than the foundation has.
     pub(super) fn advance(
         &mut self,
         duration: f64,
         position: f64,
         prescribed: Prescribed,
     ) -> Result<Option<FoundationStep>, MdrError> {
-        let time = self.place.time + duration;
+        let time = self.body.time + duration;
         if duration.total_cmp(&self.step.duration).is_ne() {
             self.step = TimeStep::new(self.foundation, duration);
         }
+
+        // Find the depth; if it exceeds the height of the window, enlarge the window.
         let mut limit = self
             .sampled
             .ceiling
-            .min(WINDOW_HEIGHT_FACTOR * self.place.depth);
+            .min(WINDOW_HEIGHT_FACTOR * self.body.depth);
         let depth = loop {
             self.update_window(position, limit)?;
             self.find_unloaded_displacements();
@@ -175,6 +195,8 @@ impl<'a> WinklerFoundation<'a> {
             }
             limit = self.sampled.ceiling;
         };
+
+        // Advance the elements of the window.
         let to = BodyState {
             time,
             position,
@@ -185,9 +207,9 @@ impl<'a> WinklerFoundation<'a> {
             self.advance_element(index, to, &mut sums);
         }
         self.contact_history.end_step(duration);
-        self.place = to;
-        std::mem::swap(&mut self.heights, &mut self.before.heights);
-        self.before.first = self.window[0];
+        self.body = to;
+        std::mem::swap(&mut self.heights, &mut self.heights_before.heights);
+        self.heights_before.first = self.window[0];
         self.check_edge(&sums)?;
         Ok(Some(FoundationStep {
             depth,
@@ -198,41 +220,43 @@ impl<'a> WinklerFoundation<'a> {
         }))
     }
 
+    /// Spacing of the elements, \[m].
     pub(super) const fn spacing(&self) -> f64 {
         self.sampled.spacing
     }
 
-    /// Where the line is now, \[m].
+    /// Indentation depth now, \[m].
     pub(super) const fn depth(&self) -> f64 {
-        self.place.depth
+        self.body.depth
     }
 
     /// Position of an element relative to the lowest point, \[m].
     fn along(&self, element: usize) -> f64 {
-        (self.first + element as f64) * self.sampled.spacing - self.place.position
+        (self.first + element as f64) * self.sampled.spacing - self.body.position
     }
 
+    /// Refuses a contact beside an element over which there is no body.
     fn check_edge(&self, sums: &StepSums) -> Result<(), MdrError> {
         let Some([rear, front]) = sums.ends else {
             return Ok(());
         };
         let height = |element: usize| {
-            let index = element.checked_sub(self.before.first)?;
-            self.before.heights.get(index).copied()
+            let index = element.checked_sub(self.heights_before.first)?;
+            self.heights_before.heights.get(index).copied()
         };
         for (end, beyond) in [(rear, rear.wrapping_sub(1)), (front, front + 1)] {
             if height(beyond) == Some(f64::INFINITY) {
                 return Err(MdrError::ContactReachesEdge {
                     position: self.along(end),
-                    indentation_depth: self.place.depth,
-                    time: self.place.time,
+                    indentation_depth: self.body.depth,
+                    time: self.body.time,
                 });
             }
         }
         Ok(())
     }
 
-    /// The heights up to a limit over the elements around a position, there and where the line is.
+    /// Sets the window to the elements below a height limit at the start or the end of the step, and its heights.
     fn update_window(&mut self, position: f64, limit: f64) -> Result<(), MdrError> {
         let spacing = self.sampled.spacing;
         let heights = &self.sampled.heights;
@@ -246,20 +270,21 @@ impl<'a> WinklerFoundation<'a> {
         let front = heights.iter().rposition(is_low).unwrap_or(anchor) + 1;
         let rear = self.sampled.position(rear);
         let front = self.sampled.position(front.min(heights.len() - 1));
-        let places = [self.place.position, position];
-        let low = (places[0].min(places[1]) + rear) / spacing - self.first;
-        let high = (places[0].max(places[1]) + front) / spacing - self.first;
+        let positions = [self.body.position, position];
+        let low = (positions[0].min(positions[1]) + rear) / spacing - self.first;
+        let high = (positions[0].max(positions[1]) + front) / spacing - self.first;
         let last = self.states.len() - 1;
         let window = [whole(low.floor() - 1.0), whole(high.ceil() + 1.0).min(last)];
         let start = (self.first + window[0] as f64) * spacing;
         let count = window[1] + 1 - window[0];
         self.window = window;
-        self.line.over(start - position, count, &mut self.heights)?;
-        let x = |element: usize| (self.first + element as f64) * spacing - self.place.position;
-        self.before.cover(&self.line, window, x)
+        self.line
+            .fill_row(start - position, count, &mut self.heights)?;
+        let x = |element: usize| (self.first + element as f64) * spacing - self.body.position;
+        self.heights_before.cover(&self.line, window, x)
     }
 
-    /// Displacements at which the elements carry nothing at the end of the step.
+    /// Computes the displacements at which the elements of the window carry nothing at the end of the step.
     fn find_unloaded_displacements(&mut self) {
         let start = self.window[0];
         self.unloaded_displacements.clear();
@@ -267,27 +292,28 @@ impl<'a> WinklerFoundation<'a> {
             let history =
                 element * self.n_history_variables..(element + 1) * self.n_history_variables;
             let history = &mut self.history[history];
-            let unloaded_displacements = match &mut self.states[element] {
+            let displacement_at_end = match &mut self.states[element] {
                 ElementState::Untouched => 0.0,
                 ElementState::Loaded { displacement } => {
                     *displacement
                         - self.step.relaxed_load(*displacement, history) / self.step.stiffness
                 }
                 ElementState::Free { limit, since } => {
-                    let waited = self.place.time - *since;
+                    let waited = self.body.time - *since;
                     if waited > 0.0 {
                         for (slot, mode) in history.iter_mut().zip(&self.foundation.modes) {
                             *slot *= (-waited / mode.length).exp();
                         }
-                        *since = self.place.time;
+                        *since = self.body.time;
                     }
                     *limit - self.step.remaining_recovery(history)
                 }
             };
-            self.unloaded_displacements.push(unloaded_displacements);
+            self.unloaded_displacements.push(displacement_at_end);
         }
     }
 
+    /// Depth at the end of the step, \[m].
     fn solve_depth(&self, prescribed: Prescribed) -> f64 {
         let balance = ForceBalance {
             heights: &self.heights,
@@ -297,18 +323,18 @@ impl<'a> WinklerFoundation<'a> {
             Prescribed::Depth(depth) => depth,
             Prescribed::Load(load) if load > 0.0 => {
                 let compression = load / self.step.stiffness;
-                balance.solve(compression, self.place.depth).depth
+                balance.solve(compression, self.body.depth).depth
             }
-            // Without a force the line touches the first element.
+            // Without a force the line just touches the first element.
             Prescribed::Load(_) => balance.first_contact_depth(),
         }
     }
 
-    /// Takes one element of the window to the end of the step.
+    /// Advances one element of the window to the end of the step, and adds its work to the sums.
     fn advance_element(&mut self, index: usize, to: BodyState, sums: &mut StepSums) {
         let element = self.window[0] + index;
-        let heights = [self.before.over(element), self.heights[index]];
-        let under = [self.place.depth - heights[0], to.depth - heights[1]];
+        let heights = [self.heights_before.over(element), self.heights[index]];
+        let under = [self.body.depth - heights[0], to.depth - heights[1]];
         let history = element * self.n_history_variables..(element + 1) * self.n_history_variables;
         let event = ContactEvent {
             foundation: self.foundation,
@@ -345,9 +371,13 @@ impl<'a> WinklerFoundation<'a> {
             ElementState::Untouched => return,
         };
         let was_loaded = matches!(self.states[element], ElementState::Loaded { .. });
-        let prescribed = (work.impulse, self.step.duration);
-        self.contact_history
-            .note(element, prescribed, [was_loaded, is_loaded]);
+        self.contact_history.record(ElementRecord {
+            element,
+            impulse: work.impulse,
+            duration: self.step.duration,
+            was_loaded,
+            is_loaded,
+        });
         self.states[element] = state;
         sums.add(work, self.slope(element, heights, to.position));
         if is_loaded {
@@ -356,24 +386,25 @@ impl<'a> WinklerFoundation<'a> {
         }
     }
 
-    /// Mean slope that an element meets while the line goes to a position.
+    /// Mean slope of the line over an element while the line moves to a position.
     fn slope(&self, element: usize, heights: [f64; 2], position: f64) -> f64 {
-        let moved = position - self.place.position;
+        let moved = position - self.body.position;
         let spacing = self.sampled.spacing;
         if moved.abs() > REST_DISPLACEMENT * spacing {
             return (heights[0] - heights[1]) / moved;
         }
         let x = self.along(element);
-        let height = |x: f64| self.line.at(x).unwrap_or(f64::NAN);
+        let height = |x: f64| self.line.height_at(x).unwrap_or(f64::NAN);
         (height(x + 0.5 * spacing) - height(x - 0.5 * spacing)) / spacing
     }
 
-    /// Lets go of everything, so that what recovers is all that is remembered, and the time begins anew.
+    /// Separates all elements at once and sets the time, so that the amplitudes of recovery are the whole state; returns the
+    /// energy that was stored in the loaded elements.
     ///
-    /// Where a spring acts at once, what it gives back is taken again when the line comes back to the same place.
+    /// Where the instantaneous modulus is finite, [`reload`](Self::reload) at the same place takes up that energy again.
     pub(super) fn unload_all(&mut self, time: f64) -> f64 {
         let mut lost = 0.0;
-        let elapsed = self.place.time - time;
+        let elapsed = self.body.time - time;
         for (element, state) in self.states.iter_mut().enumerate() {
             let history =
                 element * self.n_history_variables..(element + 1) * self.n_history_variables;
@@ -392,20 +423,21 @@ impl<'a> WinklerFoundation<'a> {
                 }
             }
         }
-        self.place.time = time;
+        self.body.time = time;
         lost
     }
 
-    /// Presses again what was let go, at the place where the line is; gives the energy that comes back.
+    /// Brings the elements into contact again that [`unload_all`](Self::unload_all) separated; returns the energy stored in
+    /// them.
     pub(super) fn reload(&mut self) -> Result<f64, MdrError> {
         self.update_window(
-            self.place.position,
+            self.body.position,
             self.sampled
                 .ceiling
-                .min(WINDOW_HEIGHT_FACTOR * self.place.depth),
+                .min(WINDOW_HEIGHT_FACTOR * self.body.depth),
         )?;
-        let noise = if self.foundation.has_dashpot() {
-            DASHPOT_CONTACT_TOLERANCE * self.place.depth
+        let tolerance = if self.foundation.has_dashpot() {
+            DASHPOT_CONTACT_TOLERANCE * self.body.depth
         } else {
             0.0
         };
@@ -417,8 +449,8 @@ impl<'a> WinklerFoundation<'a> {
             let ElementState::Free { limit, .. } = self.states[element] else {
                 continue;
             };
-            let under = self.place.depth - height;
-            if under + noise > limit - history.iter().sum::<f64>() {
+            let under = self.body.depth - height;
+            if under + tolerance > limit - history.iter().sum::<f64>() {
                 let event = ContactEvent {
                     foundation: self.foundation,
                     duration: 0.0,
@@ -432,19 +464,19 @@ impl<'a> WinklerFoundation<'a> {
         Ok(stored)
     }
 
-    /// Notes what happens to the elements from now on.
+    /// Records the contacts of the elements from now on.
     pub(super) fn start_recording(&mut self) {
-        self.contact_history = ContactHistory::of(self.states.len());
+        self.contact_history = ContactHistory::new(self.states.len());
     }
 
-    /// What was noted.
+    /// The contacts since the start of the record, which ends.
     pub(super) fn take_contact_history(&mut self) -> ContactHistory {
         std::mem::take(&mut self.contact_history)
     }
 
-    /// What recovers, of all elements one after the other, at one time.
+    /// Amplitudes of recovery at the present time, element by element; all elements must be free or untouched.
     pub(super) fn recovery_amplitudes(&mut self) -> &mut [f64] {
-        let time = self.place.time;
+        let time = self.body.time;
         for (element, state) in self.states.iter_mut().enumerate() {
             if let ElementState::Free { since, .. } = state {
                 let history =
@@ -468,7 +500,7 @@ impl StepSums {
     }
 }
 
-/// A whole number that is not negative.
+/// Conversion of a whole number that is not negative.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

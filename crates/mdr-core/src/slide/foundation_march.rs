@@ -37,7 +37,7 @@ pub(super) struct FoundationMarch {
     /// Compliance α of a step, [1/Pa], and what all elements are compressed by in sum, \[m].
     compliance: f64,
     compression: f64,
-    step_scale_moduli: StepScaleModuli,
+    moduli: StepScaleModuli,
     normal_force: f64,
     time_step: f64,
     n_steps: usize,
@@ -102,7 +102,7 @@ impl FoundationMarch {
             depth: 0.0,
             compliance,
             compression: positive("compression", compression)?,
-            step_scale_moduli: StepScaleModuli::new(material, load.velocity(), spacing),
+            moduli: StepScaleModuli::new(material, load.velocity(), spacing),
             creep,
             half_space_factor,
             step,
@@ -122,7 +122,7 @@ impl FoundationMarch {
             loads: &self.element_values,
             depth: self.depth,
             normal_force: self.normal_force,
-            step_scale_moduli: &self.step_scale_moduli,
+            moduli: &self.moduli,
         };
         let [tangential, normal] = step.subgrid_errors(line);
         // The force grows with the depth at least in proportion, and a change of the depth moves the friction again.

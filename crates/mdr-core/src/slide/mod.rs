@@ -250,20 +250,14 @@ impl<'a> Motion<'a> {
         report: &dyn Fn(f64),
     ) -> Result<Option<[f64; 4]>, MdrError> {
         let time_step = marched.options.spacing / self.load.velocity();
-        let Some(half_step_shifted) = half_step_shifted(self.material, time_step)? else {
+        let Some(shifted) = half_step_shifted(self.material, time_step)? else {
             return Ok(None);
         };
-        let transient = march(
-            self.line,
-            &half_step_shifted,
-            self.load,
-            &marched.options,
-            report,
-        )?;
-        let [end_values, half_step_shifted] =
+        let transient = march(self.line, &shifted, self.load, &marched.options, report)?;
+        let [end_values, shifted_values] =
             [&marched.transient, &transient].map(|march| self.end_values(march));
         Ok(Some(std::array::from_fn(|k| {
-            (half_step_shifted[k] - end_values[k]).abs()
+            (shifted_values[k] - end_values[k]).abs()
         })))
     }
 

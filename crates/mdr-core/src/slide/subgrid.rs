@@ -46,7 +46,7 @@ pub(super) struct LastStep<'a> {
     pub(super) loads: &'a [f64],
     pub(super) depth: f64,
     pub(super) normal_force: f64,
-    pub(super) step_scale_moduli: &'a StepScaleModuli,
+    pub(super) moduli: &'a StepScaleModuli,
 }
 
 impl StepScaleModuli {
@@ -74,8 +74,7 @@ impl LastStep<'_> {
             return [0.0; 2];
         };
         let mut parts = self.behind_rearmost(line, rear);
-        parts[0] += (self.step_scale_moduli.viscous + self.step_scale_moduli.carried)
-            * self.tip_excess(line);
+        parts[0] += (self.moduli.viscous + self.moduli.carried) * self.tip_excess(line);
         if has_steep_kinks(line) {
             let at_steep_kinks = self.at_steep_kinks();
             parts = [0, 1].map(|k| parts[k] + at_steep_kinks[k]);
@@ -86,20 +85,20 @@ impl LastStep<'_> {
     /// Of what follows the rearmost element, where the line goes on.
     fn behind_rearmost(&self, line: &dyn RigidLine, rear: usize) -> [f64; 2] {
         let position = self.elements.position(rear);
-        let [slope, behind_rearmost] = [position, position.next_down()].map(|x| line.slope(x));
+        let [slope, slope_behind] = [position, position.next_down()].map(|x| line.slope(x));
         let mean = self.rise(rear) / self.elements.spacing;
-        if rear == 0 || !(slope.is_finite() && behind_rearmost.is_finite() && mean.is_finite()) {
+        if rear == 0 || !(slope.is_finite() && slope_behind.is_finite() && mean.is_finite()) {
             return [0.0; 2];
         }
-        let at_once = self.step_scale_moduli.viscous + self.step_scale_moduli.carried;
-        let load = (self.loads[rear] - at_once * (mean - behind_rearmost)).max(0.0);
+        let at_once = self.moduli.viscous + self.moduli.carried;
+        let load = (self.loads[rear] - at_once * (mean - slope_behind)).max(0.0);
         let spacing = self.elements.spacing;
         // A load that fades is a convex function of the distance: its mean is at most half of what it begins with.
-        let fading = self.step_scale_moduli.left * (slope - behind_rearmost).abs();
+        let fading = self.moduli.left * (slope - slope_behind).abs();
         let carried = 0.5 * load * spacing + fading.min(0.5 * self.loads[rear] * spacing);
         [
-            carried * behind_rearmost.abs(),
-            carried + self.step_scale_moduli.left * (mean - slope).abs(),
+            carried * slope_behind.abs(),
+            carried + self.moduli.left * (mean - slope).abs(),
         ]
     }
 
@@ -153,8 +152,8 @@ impl LastStep<'_> {
             beyond = load * (self.elements.heights[element + 1] - self.depth).max(0.0);
         }
         [
-            beyond + 0.5 * self.step_scale_moduli.stored * squares,
-            2.0 * self.step_scale_moduli.carried * jumps,
+            beyond + 0.5 * self.moduli.stored * squares,
+            2.0 * self.moduli.carried * jumps,
         ]
     }
 

@@ -1,18 +1,19 @@
-//! What a chain remembers, for a chain of other elements.
+//! Transfer of the state of recovery between foundations of different spacing.
 
 use super::{ElementState, WinklerFoundation, whole};
 
-/// What a chain remembers.
+/// Amplitudes of recovery of a foundation.
 #[derive(Debug, Clone)]
 pub(crate) struct SavedRecovery {
     /// Position of its first element, \[m].
     first: f64,
     spacing: f64,
+    /// Amplitudes, element by element, \[m].
     history: Vec<f64>,
 }
 
 impl WinklerFoundation<'_> {
-    /// What recovers, for a chain of other elements.
+    /// Saves the amplitudes of recovery for a foundation with another spacing.
     pub(crate) fn save_recovery(&mut self) -> SavedRecovery {
         let spacing = self.sampled.spacing;
         SavedRecovery {
@@ -22,21 +23,21 @@ impl WinklerFoundation<'_> {
         }
     }
 
-    /// Remembers what other elements do, straight between them.
-    pub(crate) fn restore_recovery(&mut self, saved_recovery: &SavedRecovery) {
-        let (spacing, since) = (self.sampled.spacing, self.place.time);
-        let last = saved_recovery.history.len() / self.n_history_variables;
+    /// Sets the amplitudes of recovery by linear interpolation of saved ones.
+    pub(crate) fn restore_recovery(&mut self, saved: &SavedRecovery) {
+        let (spacing, since) = (self.sampled.spacing, self.body.time);
+        let last = saved.history.len() / self.n_history_variables;
         for (element, state) in self.states.iter_mut().enumerate() {
             let x = (self.first + element as f64) * spacing;
-            let place = ((x - saved_recovery.first) / saved_recovery.spacing).max(0.0);
+            let place = ((x - saved.first) / saved.spacing).max(0.0);
             let (at, part) = (whole(place), place.fract());
             if at + 1 >= last {
                 continue;
             }
             let history =
                 &mut self.history[element * self.n_history_variables..][..self.n_history_variables];
-            let (rear, front) = saved_recovery.history[at * self.n_history_variables..]
-                .split_at(self.n_history_variables);
+            let (rear, front) =
+                saved.history[at * self.n_history_variables..].split_at(self.n_history_variables);
             for (slot, (rear, front)) in history.iter_mut().zip(rear.iter().zip(front)) {
                 *slot = rear + part * (front - rear);
             }
