@@ -1,41 +1,44 @@
-//! The chain in motion: the elements under a line, and what they remember.
+//! Marching of the elements under a sliding line and their history variables.
 //!
 //! ```text
 //! u_new = α w + history,   f = 4 Δx w        over one step of compliance α, w held
 //! ```
-//! A chain stores one number per element and retardation element of its material, one for free flow, none for an
-//! elastic material ([`rheology::ExponentialStep`]). A Poisson ratio other than 1/2 makes both parts of u larger by
-//! 2 (1 − ν).
+//! There is one history variable per element and retardation element of the material, one more for free flow, and none for
+//! an elastic material ([`rheology::ExponentialStep`]). A Poisson ratio ν multiplies both parts of u by 2 (1 − ν).
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "Step by step".
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material, check_spectra};
 
 use super::on_grid::SlideRow;
-use super::subgrid::{LastStep, StepScaleModuli};
+use super::subgrid::{LastStep, StepScaleModuli, SubgridForces};
 use crate::MdrError;
 use crate::compensated::CompensatedSum;
 use crate::element_heights::ElementHeights;
 use crate::error::{enough_elements, finite};
 use crate::force_balance::ForceBalance;
 
-/// A line moving over a chain. All lists run from the rear to the front of the line.
+/// A line that slides over a Winkler foundation. All lists run from the rear to the front of the line.
 pub(super) struct FoundationMarch {
     line: ElementHeights,
-    /// Mean slope that an element meets during the step to which its force belongs.
+    /// Mean slope of the line over each element during the step to which its force belongs.
     mean_slopes: Vec<f64>,
-    /// h̃'(x) at the end of a step.
+    /// Slope h̃'(x) at the end of a step.
     end_slopes: Vec<f64>,
     creep: CreepSpectrum,
     half_space_factor: f64,
     step: ExponentialStep,
+    /// History variables, one field over all elements after the other.
     state: Vec<f64>,
     /// Displacement without load \[m] of each element within a step, load potential w \[Pa] after it.
     element_values: Vec<f64>,
     /// Depth after the last step, \[m].
     depth: f64,
-    /// Compliance α of a step, [1/Pa], and what all elements are compressed by in sum, \[m].
+    /// Compliance α of a step, [1/Pa].
     compliance: f64,
+    /// Sum of the compressions of all elements that carries the normal force, \[m].
     compression: f64,
     moduli: StepScaleModuli,
     normal_force: f64,
@@ -49,16 +52,16 @@ pub(super) struct MarchStep {
     pub(super) row: SlideRow,
     /// Number of elements from the rearmost to the foremost loaded one.
     pub(super) span: usize,
-    /// Friction coefficient if all slopes were uphill, which says what rounding is.
+    /// Friction coefficient with the moduli of all slopes, to which rounding is relative.
     pub(super) steepness: f64,
 }
 
-/// What the loaded elements of a step sum up to: parts of the force times slopes.
+/// Sums over the loaded elements of a step: fractions of the force times slopes.
 #[derive(Debug, Clone, Copy, Default)]
 struct MarchSums {
-    /// With the mean slope that an element meets during the step.
+    /// With the mean slope over an element during the step.
     mean_slope: CompensatedSum,
-    /// The same with the modulus of the slope.
+    /// With the modulus of the mean slope.
     steepness: f64,
     /// With the slope of the line at the end of the step.
     end_slope: CompensatedSum,
@@ -67,7 +70,7 @@ struct MarchSums {
 }
 
 impl FoundationMarch {
-    /// A chain at rest under the elements of the line, touched at the lowest one.
+    /// An undeformed foundation, touched by the lowest point of the line.
     pub(super) fn from_first_touch(
         line: &dyn RigidLine,
         sampled: ElementHeights,
@@ -88,7 +91,7 @@ impl FoundationMarch {
         let slopes: Vec<f64> = pairs.map(|h| (h[1] - h[0]) / spacing).collect();
         let positions = (0..n_elements).map(|element| sampled.position(element));
         let end_slopes = positions.map(|x| line.slope(x)).collect();
-        // Part of the compliance of a step that is there at once.
+        // Instantaneous part of the compliance of a step.
         let elastic_share = creep.instantaneous_compliance() / step.response();
         let mut mean_slopes = mean_slopes(&slopes, elastic_share);
         // The last element never carries load: see `advance`.
@@ -112,7 +115,7 @@ impl FoundationMarch {
         })
     }
 
-    /// What this resolution does not see of the `last` step: errors of friction and depth \[m].
+    /// Sub-grid errors of the `last` step: of the friction coefficient, and of the depth \[m].
     pub(super) fn subgrid_errors(&self, line: &dyn RigidLine, last: &SlideRow) -> [f64; 2] {
         if self.creep.is_elastic() {
             return [0.0; 2];
@@ -124,7 +127,7 @@ impl FoundationMarch {
             normal_force: self.normal_force,
             moduli: &self.moduli,
         };
-        let [tangential, normal] = step.subgrid_errors(line);
+        let SubgridForces { tangential, normal } = step.relative_errors(line);
         // The force grows with the depth at least in proportion, and a change of the depth moves the friction again.
         let friction = tangential + 2.0 * last.friction_coefficient.abs() * normal;
         [friction, normal * self.depth]
@@ -152,16 +155,18 @@ impl FoundationMarch {
         (self.n_steps + 1) as f64 * self.line.spacing
     }
 
-    /// One step; nothing at a depth at which elements would be needed that the chain has not.
+    /// One step; `None` if the depth needs more elements than the foundation has.
     pub(super) fn advance(&mut self) -> Result<Option<MarchStep>, MdrError> {
         self.n_steps += 1;
         let time = self.n_steps as f64 * self.time_step;
-        // The line moves on by one element: each comes under the place behind, and one that is at rest enters in front.
+        // Move the line by one element: in its frame each element moves backwards, and an undeformed one enters in front.
         let n_elements = self.element_values.len();
         for field in self.state.chunks_exact_mut(n_elements) {
             field.copy_within(1.., 0);
             field[n_elements - 1] = 0.0;
         }
+
+        // Find the depth at which the elements carry the normal force.
         let depth_before = self.depth;
         self.step.history(&self.state, &mut self.element_values);
         for value in &mut self.element_values {
@@ -173,6 +178,8 @@ impl FoundationMarch {
         };
         let level = balance.solve(self.compression, depth_before);
         self.depth = finite("indentation depth", level.depth, time)?;
+
+        // Load the elements, and check that the contact lies on the foundation.
         let mut sums = self.load_elements();
         self.step.advance(&self.element_values, &mut self.state);
         if self.depth > self.line.ceiling {
@@ -184,7 +191,7 @@ impl FoundationMarch {
         if front + 1 == self.line.heights.len() {
             return Err(self.line.reached(front, self.depth, time));
         }
-        // The slopes of a contact that ends inside the line sum up to nothing on springs.
+        // On springs the sum of the slopes vanishes if the contact ends inside the line.
         if self.creep.is_elastic() && rear > 0 {
             sums.mean_slope = CompensatedSum::default();
         }
@@ -195,7 +202,7 @@ impl FoundationMarch {
         }))
     }
 
-    /// Loads the elements that would be above the line, from the rear to the front.
+    /// Loads the elements that penetrate the line, from the rear to the front.
     fn load_elements(&mut self) -> MarchSums {
         let mut sums = MarchSums::default();
         let elements = self.element_values.iter_mut().zip(&self.line.heights);
@@ -216,6 +223,7 @@ impl FoundationMarch {
         sums
     }
 
+    /// The results of a step.
     fn row(
         &self,
         n_contact: usize,

@@ -1,4 +1,6 @@
-//! Sliding from first touch, by marching in time: to the error asked for, or on one stated resolution.
+//! Sliding from first contact by marching in time, to an error asked for or with a stated spacing.
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "Step by step".
 
 mod foundation_march;
 mod half_step_shift;
@@ -32,7 +34,7 @@ const END_ERROR_STEPS: f64 = 2.0;
 /// Steps before the end whose values give the scatter from step to step. Chosen.
 const N_SCATTER_STEPS: usize = 6;
 
-/// The end of a march from first touch; an error of 0 says that a quantity is given, or exact.
+/// The end of a march from first contact; an error of 0 means that a quantity is prescribed, or exact.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -48,15 +50,16 @@ pub struct Sliding {
     pub normal_force: Estimate,
     /// Rear and front end of the contact, \[m].
     pub ends: [Estimate; 2],
-    /// The march on the finest chain.
+    /// The march on the finest resolution.
     pub finest: Transient,
-    /// Its resolution.
+    /// Resolution and stopping rule of that march.
     pub options: SlideOptions,
 }
 
-/// Slides a line over an undeformed chain of elements, over the sliding distance of the load or until the state is
-/// stationary, with as many elements as the relative error of the friction coefficient needs; or with a number of elements
-/// along the contact, and whatever error that has.
+/// Slides a line over an undeformed Winkler foundation, over the sliding distance of the load or until the state is
+/// stationary.
+///
+/// The request is a relative error of the friction coefficient, or a number of elements along the contact.
 ///
 /// ```
 /// use mdr_core::indenters::{EquivalentLine, PowerProfile, SlidingLoad};
@@ -72,7 +75,7 @@ pub struct Sliding {
 /// ```
 ///
 /// # Errors
-/// [`MdrError::SlidingNotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
+/// [`MdrError::SlidingNotReached`] with the result of the finest resolution; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
 /// dashpot; otherwise like [`slide_on_grid`].
 pub fn slide<'w>(
     line: &dyn RigidLine,
@@ -121,7 +124,7 @@ pub fn slide<'w>(
     }
 }
 
-/// What slides, on what, and how.
+/// A line, the material under it and its load.
 struct Motion<'a> {
     line: &'a dyn RigidLine,
     /// Height of its lowest point, \[m].
@@ -130,7 +133,7 @@ struct Motion<'a> {
     load: &'a SlidingLoad,
 }
 
-/// A march on one resolution.
+/// A march on one resolution, with its options.
 struct OnElements {
     options: SlideOptions,
     transient: Transient,
@@ -158,7 +161,7 @@ impl<'a> Motion<'a> {
         })
     }
 
-    /// Friction, depth, rear and front.
+    /// Friction coefficient, depth, rear and front end of the contact at the end.
     ///
     /// The friction of a step belongs to its middle; before the stationary state the end is half a step further.
     fn end_values(&self, transient: &Transient) -> [f64; 4] {
@@ -185,11 +188,11 @@ impl<'a> Motion<'a> {
             error_floor: END_ERROR_STEPS * march.options.spacing,
             ..known(end)
         };
-        // The outermost elements are loaded as wholes: at the edge of a flat end they carry as much as any.
-        let mut outline = 0.0;
+        // The outermost elements are loaded over all of their length; at the edge of a flat end they carry as much as any.
+        let mut edge_error = 0.0;
         if has_steep_kinks(self.line) {
             let above = last.indentation_depth - (self.line.height(front.value) - self.lowest);
-            outline = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
+            edge_error = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
         }
         let is_elastic = self.material.creep().is_elastic();
         let scatter = |value| self.scatter(&march.transient.rows, value);
@@ -204,7 +207,7 @@ impl<'a> Motion<'a> {
                 ..friction
             },
             Quantity {
-                error_floor: outline.max(scatter(|row| row.indentation_depth)),
+                error_floor: edge_error.max(scatter(|row| row.indentation_depth)),
                 ..known(depth)
             },
             end(rear),
@@ -212,7 +215,7 @@ impl<'a> Motion<'a> {
         ]
     }
 
-    /// Before the stationary state elements come and go at the ends of the contact, and values jump by that from step to step.
+    /// Scatter of a value from step to step, by elements that come into contact or separate at its ends; 0 if stationary.
     fn scatter(&self, rows: &[SlideRow], value: fn(&SlideRow) -> f64) -> f64 {
         let Some(_) = self.load.sliding_distance() else {
             return 0.0;
@@ -223,7 +226,7 @@ impl<'a> Motion<'a> {
         jumps.fold(0.0, f64::max)
     }
 
-    /// What all resolutions have in common: the step in time, the distance that is left, and what no element resolves.
+    /// Errors that are not estimated from several resolutions: of the step in time, of the distance, and below one element.
     fn other_errors(
         &self,
         march: &OnElements,
@@ -243,7 +246,7 @@ impl<'a> Motion<'a> {
         Ok(parts)
     }
 
-    /// What the step does to the memory of the material, if it has one.
+    /// Errors of the step in time; `None` if the result does not depend on it.
     fn errors_of_step(
         &self,
         marched: &OnElements,
@@ -261,8 +264,9 @@ impl<'a> Motion<'a> {
         })))
     }
 
-    /// What is left of an exponential approach, by its change over the last contact length and over the one before; nothing
-    /// where the given distance was slid to its end and not only until the state was stationary.
+    /// Remaining changes of an exponential approach, from the changes over the last two contact lengths.
+    ///
+    /// `None` if the sliding distance of the load was reached; an entry is `None` if its change is not finite.
     ///
     /// A march may end after little more than one contact length; then the change before it is that since the first step.
     fn remaining_changes(&self, rows: &[SlideRow]) -> Option<[Option<f64>; 4]> {

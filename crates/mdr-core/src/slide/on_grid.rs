@@ -1,16 +1,18 @@
-//! Sliding from first touch on a chain of stated resolution.
+//! Sliding from first contact on a Winkler foundation of stated spacing.
 //!
 //! In every step the line moves on by one element and sinks until the elements carry the normal force. The elements
-//! stay where they are in the material, so that the shift is exact; they enter at the front undeformed (on a line
-//! nothing sinks ahead of the contact) and leave at the rear, where they recover and may be touched again.
+//! stay where they are in the material, so that the shift is exact. They enter at the front undeformed (on a line
+//! nothing sinks ahead of the contact) and leave at the rear, where they recover and may come into contact again.
 //!
 //! ```text
 //! Σ (d − h_i − u_i)⁺ = α F_N / (4 Δx)        one step of compliance α, Δt = Δx / v
 //! d = F_N / (4 η v)                          (12), a dashpot: reached exactly at any spacing
 //! μ = (4 η v / F_N) ∫ h̃'² dx                 (16), reached to second order
 //! ```
-//! On a dashpot the sum telescopes along the leading edge, so that the depth never exceeds (12). A chain that turns out
-//! too short for the depth of another material is begun anew, twice as high.
+//! On a dashpot the sum telescopes along the leading edge, so that the depth never exceeds (12). For the depth of another
+//! material a foundation may turn out too low; the march then begins anew on one that is twice as high.
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "Step by step".
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::{between_zero_and_one, in_range, positive};
@@ -23,7 +25,7 @@ use crate::error::{enough_elements, finite};
 use crate::refinement::FOUNDATION_PER_CONTACT;
 use crate::steady::LineProblem;
 
-/// Numerics of sliding.
+/// Resolution and stopping rule of a march.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlideOptions {
@@ -55,7 +57,7 @@ impl SlideOptions {
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         let value = line.apex_exponent();
-        // On any chain the friction is finite, but it grows without limit on refinement.
+        // At any spacing the friction is finite, but it grows without limit on refinement.
         let diverges = value <= 0.5 && material.relaxation().viscosity() > 0.0;
         let allowed = "above 1/2, where the friction integral (16) converges";
         in_range("apex exponent", value, !diverges, allowed)?;
@@ -104,7 +106,7 @@ pub struct SlideRow {
     pub sinking_velocity: f64,
     /// Positions of the rearmost and the foremost loaded element on the line, \[m].
     pub contact: [f64; 2],
-    /// Number of loaded elements; one that is touched and not compressed may count or not, by rounding.
+    /// Number of loaded elements; whether an element without compression counts is decided by rounding.
     pub n_contact: usize,
     /// Length of the loaded elements, `n_contact` Δx, \[m]; gaps between several contacts do not count.
     pub contact_length: f64,
@@ -125,7 +127,7 @@ pub struct Transient {
     /// Positions of the elements around the last contact \[m] from the rear to the front, and the load per length there
     /// \[N/m].
     pub load: Vec<[f64; 2]>,
-    /// What is shorter than one element may do to friction and depth.
+    /// Sub-grid errors of the friction coefficient, and of the depth \[m].
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) subgrid_errors: [f64; 2],
 }
@@ -157,8 +159,8 @@ pub fn slide_memory(
     Ok(steps * per_step as f64 + n_elements * per_element)
 }
 
-/// Slides a line over an undeformed chain until the state is stationary, or over the sliding distance of the load, to half a
-/// step; a state that has become stationary before stays as it is.
+/// Slides a line over an undeformed Winkler foundation until the state is stationary, or over the sliding distance of the
+/// load, to half a step. A march that becomes stationary before ends there.
 ///
 /// # Errors
 /// - [`MdrError::ForceBeyondEdge`] when the material flows and the leading edge is too low for it (Remark 4).
@@ -166,7 +168,7 @@ pub fn slide_memory(
 /// - [`MdrError::ContactReachesEdge`] when the contact reaches the last element in front. The rear end of the line
 ///   may carry load: elements that pass it are free.
 /// - [`MdrError::TooCoarse`] when fewer than three elements are in the stationary contact,
-///   [`MdrError::TooManyElements`] when the chain would be too long.
+///   [`MdrError::TooManyElements`] when the foundation would be too long.
 /// - [`MdrError::Indenter`] when the load prescribes the depth.
 /// - [`MdrError::InvalidParameter`], [`MdrError::InvalidHeight`], [`MdrError::NonFinite`], [`MdrError::Material`].
 pub fn slide_on_grid(
@@ -205,7 +207,7 @@ pub(super) fn march(
     }
 }
 
-/// The transient, or nothing when the chain was not high enough.
+/// Marches to the end; `None` if the foundation was not high enough.
 fn march_to_end(
     march: &mut FoundationMarch,
     load: &SlidingLoad,
@@ -214,7 +216,7 @@ fn march_to_end(
 ) -> Result<Option<Transient>, MdrError> {
     let mut steps: Vec<MarchStep> = Vec::new();
     let mut drift = 1.0;
-    // Half a step more than the distance, so that rounding does not lose the last one.
+    // Half a step more than the distance, so that rounding does not omit the last step.
     let given = load.sliding_distance();
     let beyond = given.map(|distance| distance + 0.5 * options.spacing);
     let farthest = beyond.unwrap_or(options.max_sliding_distance);
@@ -225,9 +227,9 @@ fn march_to_end(
         steps.push(step);
         drift = relative_change(&steps);
         // Towards the stationary state the changes fall exponentially.
-        let settled = drift.ln() / options.drift_tolerance.ln();
+        let settled_part = drift.ln() / options.drift_tolerance.ln();
         let travelled = march.next_sliding_distance() / farthest;
-        report(travelled.max(settled).clamp(0.0, 1.0));
+        report(travelled.max(settled_part).clamp(0.0, 1.0));
         if drift <= options.drift_tolerance {
             enough_elements(step.row.n_contact, options.spacing)?;
             break;
@@ -251,7 +253,7 @@ fn march_to_end(
     }
 }
 
-/// Elements up to the depth that a flowing material has at least, or that the first step can displace.
+/// Elements up to the least stationary depth of a flowing material, or up to the depth that the first step needs.
 fn first_elements(
     line: &dyn RigidLine,
     material: &dyn Material,
@@ -295,7 +297,7 @@ fn check_leading_edge(
     })
 }
 
-/// Change of depth and friction over the last contact; 1, as from nothing, when the distance was not as long.
+/// Relative change of depth and friction over the last contact length; 1 if the distance is shorter.
 fn relative_change(steps: &[MarchStep]) -> f64 {
     let n_steps = steps.len();
     let span = steps[n_steps - 1].span;
@@ -313,7 +315,7 @@ fn relative_change(steps: &[MarchStep]) -> f64 {
     };
     let depths = [now, before].map(|step| step.row.indentation_depth);
     let frictions = [now, before].map(|step| step.row.friction_coefficient);
-    // On an elastic chain the friction is nothing but the rounding of the slopes up and down.
+    // On an elastic foundation the friction is only the rounding of the positive and negative slopes.
     let noise = FRICTION_SUM_ROUNDING * now.steepness;
     change(depths[0], depths[1], 0.0).max(change(frictions[0], frictions[1], noise))
 }

@@ -1,4 +1,4 @@
-//! What a march does not see because it is shorter than one element, and what may therefore be alike on all resolutions.
+//! Sub-grid errors: contributions of lengths below one element, which may be equal on all resolutions.
 //!
 //! ```text
 //! F' = 4 [w Δx/2 + w' + Σ_k G_k l_k² |r/Δx − h̃'| + 2 Σ_k G_k l_k Σ_j |r_j − r_(j−1)|],   l_k = min(Δx, v τ_k)
@@ -6,13 +6,16 @@
 //!         + w_f (h_(f+1) − d)⁺ + Σ_k ½ G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²]
 //! δd = d F'/F_N,   δμ = H'/F_N + 2 μ F'/F_N
 //! ```
-//! The contact may go on behind its rearmost element, with the load w that this has at the end of the step. It is left at the
-//! slope h̃' there and not at the mean r/Δx over the last element. Where the slope jumps there, as at the tip of a cone, what
-//! branches carry fades over the lengths l_k behind it: w' = Σ_k G_k l_k² |δh̃'|, at most w Δx/2. A tip inside an element is
-//! steeper than the mean.
-//! At a steep kink the foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and
-//! branches that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r,
-//! which is r_(j−1) where it rises evenly, and which the step does not see.
+//! F' and H' bound the missing normal and tangential force; r_j is the rise of the line over element j up to the depth.
+//!
+//! - The contact may continue behind its rearmost element, with the load w of this element at the end of the step. It ends
+//!   at the slope h̃' there and not at the mean r/Δx over the last element.
+//! - Where the slope jumps there, as at the tip of a cone, the stress of the branches decays over the lengths l_k behind it:
+//!   w' = Σ_k G_k l_k² |δh̃'|, at most w Δx/2.
+//! - A tip inside an element is steeper than the mean.
+//! - At a steep kink the foremost element f has the slope up to its neighbour, although the contact ends at the depth d.
+//! - Branches that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r.
+//!   The step does not resolve this. Of an even rise r_j = r_(j−1), so that only the difference counts.
 
 use indenters::RigidLine;
 use rheology::Material;
@@ -27,7 +30,7 @@ const TIP_CHORD_RATIO: f64 = 0.75;
 /// Factor on the sum over the chords of a tip; of a power x⁴ they leave out a tenth.
 const TIP_EXCESS_FACTOR: f64 = 1.25;
 
-/// What a material does within a step, in terms of its moduli over 2 (1 − ν).
+/// Moduli of a material that act within a step, over 2 (1 − ν).
 pub(super) struct StepScaleModuli {
     /// η₀ v, \[Pa m].
     viscous: f64,
@@ -44,12 +47,22 @@ pub(super) struct LastStep<'a> {
     pub(super) elements: &'a ElementHeights,
     /// Load potentials, \[Pa].
     pub(super) loads: &'a [f64],
+    /// Indentation depth, \[m].
     pub(super) depth: f64,
+    /// \[N].
     pub(super) normal_force: f64,
     pub(super) moduli: &'a StepScaleModuli,
 }
 
+/// Contributions to tangential and normal force, or their ratios to the normal force.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SubgridForces {
+    pub(super) tangential: f64,
+    pub(super) normal: f64,
+}
+
 impl StepScaleModuli {
+    /// The moduli at a velocity \[m/s], for steps of one spacing \[m].
     pub(super) fn new(material: &dyn Material, velocity: f64, spacing: f64) -> Self {
         let relaxation = material.relaxation();
         let sum = |weight: fn(f64, f64) -> f64| -> f64 {
@@ -68,41 +81,47 @@ impl StepScaleModuli {
 
 impl LastStep<'_> {
     /// H'/F_N and F'/F_N.
-    pub(super) fn subgrid_errors(&self, line: &dyn RigidLine) -> [f64; 2] {
+    pub(super) fn relative_errors(&self, line: &dyn RigidLine) -> SubgridForces {
         let is_loaded = |load: &f64| *load > 0.0;
         let Some(rear) = self.loads.iter().position(is_loaded) else {
-            return [0.0; 2];
+            return SubgridForces::default();
         };
         let mut parts = self.behind_rearmost(line, rear);
-        parts[0] += (self.moduli.viscous + self.moduli.carried) * self.tip_excess(line);
+        parts.tangential += (self.moduli.viscous + self.moduli.carried) * self.tip_excess(line);
         if has_steep_kinks(line) {
-            let at_steep_kinks = self.at_steep_kinks();
-            parts = [0, 1].map(|k| parts[k] + at_steep_kinks[k]);
+            let at_kinks = self.at_steep_kinks();
+            parts.tangential += at_kinks.tangential;
+            parts.normal += at_kinks.normal;
         }
-        parts.map(|part| 4.0 * part / self.normal_force)
+        SubgridForces {
+            tangential: 4.0 * parts.tangential / self.normal_force,
+            normal: 4.0 * parts.normal / self.normal_force,
+        }
     }
 
-    /// Of what follows the rearmost element, where the line goes on.
-    fn behind_rearmost(&self, line: &dyn RigidLine, rear: usize) -> [f64; 2] {
+    /// Contribution of the contact behind the rearmost element; none at the rear end of the line.
+    fn behind_rearmost(&self, line: &dyn RigidLine, rear: usize) -> SubgridForces {
         let position = self.elements.position(rear);
         let [slope, slope_behind] = [position, position.next_down()].map(|x| line.slope(x));
         let mean = self.rise(rear) / self.elements.spacing;
         if rear == 0 || !(slope.is_finite() && slope_behind.is_finite() && mean.is_finite()) {
-            return [0.0; 2];
+            return SubgridForces::default();
         }
-        let at_once = self.moduli.viscous + self.moduli.carried;
-        let load = (self.loads[rear] - at_once * (mean - slope_behind)).max(0.0);
+        let per_slope = self.moduli.viscous + self.moduli.carried;
+        let load = (self.loads[rear] - per_slope * (mean - slope_behind)).max(0.0);
         let spacing = self.elements.spacing;
-        // A load that fades is a convex function of the distance: its mean is at most half of what it begins with.
+        // A decaying load is a convex function of the distance, so that its mean is at most half of its first value.
         let fading = self.moduli.left * (slope - slope_behind).abs();
         let carried = 0.5 * load * spacing + fading.min(0.5 * self.loads[rear] * spacing);
-        [
-            carried * slope_behind.abs(),
-            carried + self.moduli.left * (mean - slope).abs(),
-        ]
+        SubgridForces {
+            tangential: carried * slope_behind.abs(),
+            normal: carried + self.moduli.left * (mean - slope).abs(),
+        }
     }
 
-    /// ∫ h̃'² dx beyond that of the mean slopes in the loaded elements around the lowest point, by ever shorter chords.
+    /// ∫ h̃'² dx beyond that of the mean slopes, in the loaded elements next to the lowest point, \[m].
+    ///
+    /// It is summed over chords that become shorter towards that point.
     fn tip_excess(&self, line: &dyn RigidLine) -> f64 {
         let ElementHeights {
             anchor_index,
@@ -135,8 +154,8 @@ impl LastStep<'_> {
             .sum()
     }
 
-    /// Of lines that rise by more than their neighbours do within one element.
-    fn at_steep_kinks(&self) -> [f64; 2] {
+    /// Contribution of elements whose rise differs from that in the step before.
+    fn at_steep_kinks(&self) -> SubgridForces {
         let (mut beyond, mut jumps, mut squares) = (0.0, 0.0, 0.0);
         let n_elements = self.elements.heights.len();
         let loaded = self.loads.iter().enumerate().take(n_elements - 1);
@@ -151,13 +170,13 @@ impl LastStep<'_> {
             squares += jump * jump;
             beyond = load * (self.elements.heights[element + 1] - self.depth).max(0.0);
         }
-        [
-            beyond + 0.5 * self.moduli.stored * squares,
-            2.0 * self.moduli.carried * jumps,
-        ]
+        SubgridForces {
+            tangential: beyond + 0.5 * self.moduli.stored * squares,
+            normal: 2.0 * self.moduli.carried * jumps,
+        }
     }
 
-    /// By how much an element rises, up to the depth.
+    /// Rise of the line over an element during the step, up to the depth, \[m].
     fn rise(&self, element: usize) -> f64 {
         let heights = &self.elements.heights;
         let next = heights
