@@ -17,8 +17,7 @@ use crate::steady::{LineProblem, SteadySliding};
 /// A contact without sliding; its friction coefficient is 0.
 pub type Pressed = SteadySliding;
 
-/// Presses a line into a material and waits until that has come to rest: an elastic one at once, any other solid on its
-/// equilibrium modulus.
+/// Presses a line into a material until it is at rest: on the equilibrium modulus of a solid.
 ///
 /// Force and depth are known to `relative_error`, above 0 and below 1.
 ///
@@ -43,18 +42,18 @@ pub fn press(
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
     check_spectra(material)?;
-    let modulus = material.relaxation().equilibrium_modulus();
-    if modulus == 0.0 {
+    let equilibrium_modulus = material.relaxation().equilibrium_modulus();
+    if equilibrium_modulus == 0.0 {
         return Err(MdrError::NoEquilibrium);
     }
-    let modulus = modulus / material.half_space_factor();
+    let modulus = equilibrium_modulus / material.half_space_factor();
     on_springs(line, modulus, control, relative_error)
 }
 
 /// Presses a line into an undeformed material under a constant force, or at a constant depth, for a time.
 ///
-/// Force and depth are known to `relative_error`, above 0 and below 1. At a depth a lone dashpot jumps in at once, and
-/// carries nothing from then on.
+/// Force and depth are known to `relative_error`, above 0 and below 1. A lone dashpot at a depth is pressed instantaneously
+/// and carries nothing afterwards.
 ///
 /// # Errors
 /// Like [`steady`](crate::steady()).
@@ -78,7 +77,7 @@ pub fn indent(
     Ok(pressed)
 }
 
-/// At rest the stress of the line is that of springs, whatever its speed was.
+/// The contact on springs of one modulus, \[Pa]: a contact at rest has their stress.
 fn on_springs(
     line: &dyn RigidLine,
     modulus: f64,
@@ -88,11 +87,11 @@ fn on_springs(
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let spring = Elastic::new(modulus)?;
     let problem = LineProblem::new(line, &spring, 1.0)?;
-    let sought: (_, fn(&SteadySliding) -> Estimate) = match control {
+    let (quantity, sought): (_, fn(&SteadySliding) -> Estimate) = match control {
         Control::NormalForce(_) => ("indentation depth [m]", |state| state.indentation_depth),
         Control::IndentationDepth(_) => ("normal force [N]", |state| state.normal_force),
     };
-    let state = problem.refine(control, relative_error, sought)?;
+    let state = problem.refine(control, relative_error, quantity, sought)?;
     Ok(Pressed {
         friction_coefficient: Estimate::exact(0.0),
         normal_force: match control {

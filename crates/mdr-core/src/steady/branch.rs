@@ -1,4 +1,5 @@
-//! The stress of one Maxwell branch under a piece of the line, in closed form.
+//! The stress of one Maxwell branch under a piece of the line, in closed form (docs/theory/line-viscoelastic.md, "No mesh in
+//! the material").
 //!
 //! ```text
 //! e' + a e = G u'(t),   e(−1) given,   a = H/(2 v τ) for a piece of length H on −1 ≤ t ≤ 1
@@ -32,14 +33,15 @@ pub(super) struct BranchStress {
 
 /// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
 pub(super) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
-    let solution = if ratio < MIN_LAYER_RATIO {
+    let solve = if ratio < MIN_LAYER_RATIO {
         expanded
     } else {
         with_layer
     };
-    solution(ratio, start, rates)
+    solve(ratio, start, rates)
 }
 
+/// The solution as one Legendre expansion, for a wide boundary layer.
 fn expanded(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let n_terms = rates.len() + exponential_terms(ratio);
     let slopes = slopes(ratio, start, rates, n_terms);
@@ -92,6 +94,7 @@ fn slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TE
     slopes
 }
 
+/// The solution as a polynomial and a boundary layer.
 fn with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let smooth = particular(ratio, rates);
     let layer = start - start_value(&smooth);

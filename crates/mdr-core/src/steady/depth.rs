@@ -41,8 +41,8 @@ pub(super) fn polished_depth(
 ) -> Result<f64, MdrError> {
     let (mut depth, at_depth) = within_reach(&load, start, target)?;
     let mut excess = (at_depth / target).ln();
-    // Force and depth are nearly a power law; one between fluid and solid for the first step, which teaches the exponent: on
-    // springs under a cusp x^p it is 1 + 1/p, and that step too long.
+    // Force and depth are nearly a power law, whose exponent the steps find. The first one assumes an exponent between fluid
+    // and solid; on springs under a cusp x^p it is 1 + 1/p, and this step is too long.
     let mut exponent = 1.5;
     for step_number in 0..MAX_SECANT_STEPS {
         if excess.abs() <= f64::EPSILON {
@@ -64,7 +64,7 @@ pub(super) fn polished_depth(
     Ok(depth)
 }
 
-/// Depths with less and with more load than the target.
+/// A depth with less load than the target and one with more, \[m].
 fn bracket(
     load: &impl Fn(f64) -> Result<f64, MdrError>,
     target: f64,
@@ -100,7 +100,7 @@ const fn not_found(quantity: &'static str, value: f64) -> MdrError {
     }
 }
 
-/// The load at a depth, or at the largest depth that the line has.
+/// A depth and the load there; the largest depth that the line has, if `depth` is beyond it.
 fn within_reach(
     load: &impl Fn(f64) -> Result<f64, MdrError>,
     depth: f64,

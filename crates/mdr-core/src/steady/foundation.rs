@@ -1,11 +1,14 @@
-//! A material as the elements of the foundation see it while the line passes over them.
+//! Law of an element of the Winkler foundation under a line that moves at constant speed.
 //!
 //! ```text
 //! w = G_∞ u + η₀ v du/dξ + Σ e_i,   l_i de_i/dξ + e_i = l_i G_i du/dξ,   l_i = v τ_i        under the line
 //! w = 0,   u = u₀ + Σ β_k (1 − e^(−ξ/L_k)),   L_k = v λ_k                                   behind it
 //! ```
-//! Displacements are in units of the depth and moduli in one of the material, and with them w. ξ is the distance by which the line has moved on. The stresses e_i decompose into the modes of free recovery like
-//! into eigenvectors: with the relaxation times as poles, both directions are sums over 1/(L_k − l_i).
+//! Displacements are in units of the depth, moduli and w in a unit of the material. ξ is the distance by which the line has
+//! moved on. The stresses e_i decompose into the modes of free surface as into eigenvectors: both directions are sums over
+//! 1/(L_k − l_i).
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "One law".
 
 use numerics::positive;
 use rheology::{Material, check_spectra};
@@ -19,39 +22,53 @@ use crate::MdrError;
 /// from the square.
 const DISSIPATION_SENSITIVITY: f64 = 8.0;
 
-/// The foundation at one speed; all times are distances.
+/// The foundation at one speed, with distances v τ and v λ in the place of times.
 pub(crate) struct Foundation {
-    /// Unit of all stresses, so that their squares stay numbers: the modulus at once, or η₀ v of a lone dashpot over 1 m,
-    /// \[Pa].
+    /// Unit of all stresses, \[Pa], so that their squares stay in range: the instantaneous modulus, or η₀ v over 1 m for a lone
+    /// dashpot.
     pub(crate) unit: f64,
-    /// G_∞.
+    /// G_∞ over the unit.
     pub(crate) spring: f64,
-    /// η₀ v, \[m].
+    /// η₀ v over the unit, \[m].
     pub(crate) dashpot: f64,
     pub(crate) branches: Vec<Branch>,
     pub(crate) modes: Vec<Mode>,
 }
 
+/// A Maxwell branch.
 pub(crate) struct Branch {
+    /// G_i over the unit.
     pub(crate) modulus: f64,
+    /// l_i = v τ_i, \[m].
     pub(crate) length: f64,
-    /// l/(L_k − l) of all modes.
+    /// l_i/(L_k − l_i) of all modes.
     ratios: Vec<f64>,
 }
 
+/// A mode of free surface.
 #[derive(Debug)]
 pub(crate) struct Mode {
+    /// J_k times the unit.
     pub(crate) compliance: f64,
+    /// L_k = v λ_k, \[m].
     pub(crate) length: f64,
-    /// l_i/(L − l_i) of all branches.
+    /// l_i/(L_k − l_i) of all branches.
     ratios: Vec<f64>,
 }
 
 impl Mode {
-    /// Part that recovers within a time, or over a distance.
+    /// Fraction that recovers within a time, or over a distance, in the unit of the length.
     pub(crate) fn recovered(&self, time: f64) -> f64 {
         -(-time / self.length).exp_m1()
     }
+}
+
+/// Bounds of changes of a contact by a jump δ of the displacement, relative to δ.
+pub(super) struct JumpSensitivity {
+    /// Change of ∫ w dξ, \[m].
+    pub(super) load: f64,
+    /// Change of the work.
+    pub(super) work: f64,
 }
 
 /// A boundary layer `amplitude · e^(−ratio (1 + t))`.
@@ -60,26 +77,28 @@ pub(super) struct Layer {
     pub(super) ratio: f64,
 }
 
-/// What the foundation does under one segment.
+/// Solution of the foundation under one segment of the line.
 pub(super) struct SegmentSolution {
+    /// Legendre coefficients of the smooth part of w.
     smooth: [f64; MAX_TERMS],
     n_terms: usize,
+    /// Boundary layers of w.
     pub(super) layers: Vec<Layer>,
     /// ∫ w dξ, \[m].
     pub(super) load: f64,
-    /// Work that the dashpots take, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ.
+    /// Energy that the dashpots dissipate, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ.
     pub(super) dissipation: f64,
-    /// How much that changes at most per change of the displacement.
+    /// Bound of its change per change of the displacement.
     pub(super) dissipation_change: f64,
-    /// Error of the work by rounding.
+    /// Its error by rounding.
     pub(super) dissipation_rounding: f64,
     /// Stresses of the branches at the end.
     pub(super) stresses: Vec<f64>,
 }
 
-/// A part of the surface that nothing touches, since it was last left.
+/// A free part of the surface, which recovers since the last separation.
 pub(super) struct FreeSurface {
-    /// Displacement when it was left, in depths.
+    /// Displacement at separation, in depths.
     pub(super) displacement: f64,
     /// β_k, in depths.
     amplitudes: Vec<f64>,
@@ -96,9 +115,13 @@ impl Foundation {
         let dashpot = relaxation.viscosity() * velocity / factor;
         let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
         let spring = relaxation.equilibrium_modulus() / factor;
-        let at_once = spring + moduli.sum::<f64>() / factor;
-        let unit = if at_once > 0.0 { at_once } else { dashpot };
-        let unit = positive("stiffness of the foundation", unit)?;
+        let instantaneous = spring + moduli.sum::<f64>() / factor;
+        let stiffness = if instantaneous > 0.0 {
+            instantaneous
+        } else {
+            dashpot
+        };
+        let unit = positive("stiffness of the foundation", stiffness)?;
         let lengths = |times: Vec<f64>, name| {
             let lengths = times
                 .into_iter()
@@ -110,8 +133,8 @@ impl Foundation {
         let times = creep.elements().iter().map(|e| e.retardation_time);
         let recovery_lengths = lengths(times.collect(), "distance of retardation")?;
         let ratio = |branch: f64, mode: f64| branch / (mode - branch);
-        let branches = relaxation.branches().iter().zip(&relaxing);
-        let branches = branches.map(|(branch, &length)| Branch {
+        let branch_lengths = relaxation.branches().iter().zip(&relaxing);
+        let branches = branch_lengths.map(|(branch, &length)| Branch {
             modulus: branch.modulus / factor / unit,
             length,
             ratios: recovery_lengths
@@ -119,8 +142,8 @@ impl Foundation {
                 .map(|&mode| ratio(length, mode))
                 .collect(),
         });
-        let modes = creep.elements().iter().zip(&recovery_lengths);
-        let modes = modes.map(|(element, &length)| Mode {
+        let mode_lengths = creep.elements().iter().zip(&recovery_lengths);
+        let modes = mode_lengths.map(|(element, &length)| Mode {
             compliance: element.compliance * factor * unit,
             length,
             ratios: relaxing
@@ -137,7 +160,7 @@ impl Foundation {
         })
     }
 
-    /// The shortest distance in which anything relaxes, \[m]; 0 with a lone dashpot, infinite without any.
+    /// The shortest distance of relaxation, \[m]; 0 with a lone dashpot, infinite for an elastic foundation.
     pub(super) fn shortest_length(&self) -> f64 {
         if self.dashpot > 0.0 {
             return 0.0;
@@ -154,14 +177,14 @@ impl Foundation {
         self.branches.is_empty() && !self.has_dashpot()
     }
 
-    /// How far a displacement δ on a segment of this length can change ∫ w dξ, relative to δ, \[m].
+    /// Bound of the change of ∫ w dξ by a displacement δ on a segment of this length, relative to δ, \[m].
     pub(super) fn stiffness(&self, length: f64) -> f64 {
         let branches = self.branches.iter();
         let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();
         self.spring * length + self.dashpot + relaxing
     }
 
-    /// The modulus in the mean over a time after a compression at once.
+    /// Mean modulus over a time after an instantaneous compression.
     pub(crate) fn mean_modulus(&self, time: f64) -> f64 {
         if time <= 0.0 {
             return 0.0;
@@ -172,28 +195,36 @@ impl Foundation {
         self.spring + self.dashpot / time + relaxing
     }
 
-    /// Compresses the branches at once.
+    /// Applies an instantaneous compression to the stresses of the branches.
     pub(crate) fn apply_strain_jump(&self, stresses: &mut [f64], compression: f64) {
         for (stress, branch) in stresses.iter_mut().zip(&self.branches) {
             *stress += branch.modulus * compression;
         }
     }
 
-    /// How much a jump δ at a place where the displacement changes by `rate` per metre can change ∫ w dξ and the work of the
-    /// lone dashpot, relative to δ.
-    pub(super) fn damping(&self, rate: f64) -> [f64; 2] {
-        [self.dashpot, self.dashpot * rate.abs()]
+    /// Bounds of the changes by a jump δ of the displacement that the branches account for: only the lone dashpot is left.
+    ///
+    /// The displacement changes by `rate` per metre at the jump.
+    pub(super) fn dashpot_sensitivity(&self, rate: f64) -> JumpSensitivity {
+        JumpSensitivity {
+            load: self.dashpot,
+            work: self.dashpot * rate.abs(),
+        }
     }
 
-    /// The same under a contact of this length \[m] where the branches do not see the jump either: what relaxes at once
-    /// works over its own distance, and what hardly relaxes gives back what it takes.
-    pub(super) fn resistance(&self, rate: f64, length: f64) -> [f64; 2] {
+    /// Bounds of the changes by a jump δ that is neglected altogether, under a contact of this length \[m].
+    ///
+    /// A fast branch works over its own distance of relaxation, and a slow one returns most of the energy that it takes up.
+    pub(super) fn sensitivity(&self, rate: f64, length: f64) -> JumpSensitivity {
         let part = |b: &Branch| {
             let own = b.length * rate.abs();
             own.min(4.0 * length / b.length).min(1.0)
         };
         let moduli: f64 = self.branches.iter().map(|b| b.modulus * part(b)).sum();
-        [self.stiffness(length), self.damping(rate)[1] + moduli]
+        JumpSensitivity {
+            load: self.stiffness(length),
+            work: self.dashpot_sensitivity(rate).work + moduli,
+        }
     }
 
     /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.
@@ -203,8 +234,8 @@ impl Foundation {
         0.5 * (self.spring * displacement * displacement + stored)
     }
 
-    /// Follows the foundation under a segment of the line.
-    pub(super) fn pass(&self, segment: &Segment, stresses: &[f64]) -> SegmentSolution {
+    /// Solves the foundation under a segment of the line, from the stresses of the branches at its front end.
+    pub(super) fn solve_segment(&self, segment: &Segment, stresses: &[f64]) -> SegmentSolution {
         let rates = derivative(&segment.displacements);
         let per_length = 2.0 / segment.length;
         let square_rate = square_integral(&rates);
@@ -237,7 +268,7 @@ impl Foundation {
         solution
     }
 
-    /// Lets go of a surface with this displacement and these stresses.
+    /// The free surface after a separation with this displacement and these stresses.
     pub(super) fn release(&self, displacement: f64, stresses: &[f64]) -> FreeSurface {
         let amplitude = |mode: &Mode| self.amplitude(mode, displacement, stresses);
         FreeSurface {
@@ -247,14 +278,14 @@ impl Foundation {
         }
     }
 
-    /// β of a mode of a surface that is let go with this displacement and these stresses.
+    /// Amplitude β of a mode after a separation with this displacement and these stresses.
     pub(crate) fn amplitude(&self, mode: &Mode, displacement: f64, stresses: &[f64]) -> f64 {
-        let pulls = mode.ratios.iter().zip(stresses).map(|(r, e)| r * e);
-        mode.compliance * (pulls.sum::<f64>() - self.spring * displacement)
+        let terms = mode.ratios.iter().zip(stresses).map(|(r, e)| r * e);
+        mode.compliance * (terms.sum::<f64>() - self.spring * displacement)
     }
 
-    /// A free surface that recovers to where it was before all loads, of which so much is left in each mode.
-    pub(super) fn surface_with_remainders(&self, left: &[f64]) -> FreeSurface {
+    /// A free surface that recovers to the undeformed state, with the amplitudes that are left in the modes.
+    pub(super) fn recovering_surface(&self, left: &[f64]) -> FreeSurface {
         FreeSurface {
             displacement: -left.iter().sum::<f64>(),
             amplitudes: left.to_vec(),
@@ -262,17 +293,17 @@ impl Foundation {
         }
     }
 
-    /// What is left in each mode of a free surface, a distance after where it is now.
-    pub(super) fn remaining_amplitudes(&self, recovery: &FreeSurface, distance: f64) -> Vec<f64> {
-        let xi = recovery.distance + distance;
-        let amplitude = |k: usize| recovery.amplitudes.get(k).copied().unwrap_or(0.0);
+    /// Amplitudes left in the modes of a free surface, at a distance behind its present position.
+    pub(super) fn remaining_amplitudes(&self, surface: &FreeSurface, distance: f64) -> Vec<f64> {
+        let xi = surface.distance + distance;
+        let amplitude = |k: usize| surface.amplitudes.get(k).copied().unwrap_or(0.0);
         let modes = self.modes.iter().enumerate();
         modes
             .map(|(k, mode)| amplitude(k) * (-xi / mode.length).exp())
             .collect()
     }
 
-    /// The longest distance of recovery, \[m]; 0 without any.
+    /// The longest distance of surface, \[m]; 0 for an elastic foundation.
     pub(super) fn longest_recovery(&self) -> f64 {
         self.modes
             .iter()
@@ -280,25 +311,25 @@ impl Foundation {
             .fold(0.0, f64::max)
     }
 
-    /// Displacement of a free surface, a distance after where it is now, in depths.
-    pub(super) fn free_displacement(&self, recovery: &FreeSurface, distance: f64) -> f64 {
-        let xi = recovery.distance + distance;
-        let modes = self.modes.iter().zip(&recovery.amplitudes);
+    /// Displacement of a free surface at a distance behind its present position, in depths.
+    pub(super) fn free_displacement(&self, surface: &FreeSurface, distance: f64) -> f64 {
+        let xi = surface.distance + distance;
+        let modes = self.modes.iter().zip(&surface.amplitudes);
         let recovered = modes.map(|(mode, beta)| -beta * (-xi / mode.length).exp_m1());
-        recovery.displacement + recovered.sum::<f64>()
+        surface.displacement + recovered.sum::<f64>()
     }
 
-    /// Stresses in the branches of a free surface, a distance after where it is now.
-    pub(super) fn free_stresses(&self, recovery: &FreeSurface, distance: f64) -> Vec<f64> {
-        let xi = recovery.distance + distance;
-        let modes = self.modes.iter().zip(&recovery.amplitudes);
+    /// Stresses in the branches of a free surface at a distance behind its present position.
+    pub(super) fn free_stresses(&self, surface: &FreeSurface, distance: f64) -> Vec<f64> {
+        let xi = surface.distance + distance;
+        let modes = self.modes.iter().zip(&surface.amplitudes);
         let left = modes.map(|(mode, beta)| beta * (-xi / mode.length).exp());
         let left: Vec<f64> = left.collect();
         let stress = |branch: &Branch| Self::free_stress(branch, &left);
         self.branches.iter().map(stress).collect()
     }
 
-    /// Stress in a branch of a free surface of which `left` β e^(−ξ/L) is left in each mode.
+    /// Stress in a branch of a free surface with the amplitudes `left` = β e^(−ξ/L) in the modes.
     pub(crate) fn free_stress(branch: &Branch, left: &[f64]) -> f64 {
         let modes = branch.ratios.iter().zip(left);
         branch.modulus * modes.map(|(r, beta)| r * beta).sum::<f64>()
@@ -320,7 +351,7 @@ impl SegmentSolution {
         }
     }
 
-    /// Load potential w at −1 ≤ t ≤ 1.
+    /// Load potential w at −1 ≤ t ≤ 1, in the unit of stress.
     pub(super) fn potential(&self, t: f64) -> f64 {
         let layers = self.layers.iter();
         let decaying = layers.map(|layer| layer.amplitude * (-layer.ratio * (1.0 + t)).exp());
@@ -329,7 +360,7 @@ impl SegmentSolution {
 }
 
 impl FreeSurface {
-    /// A surface that was never touched.
+    /// A surface that was never in contact.
     pub(super) fn untouched() -> Self {
         Self {
             displacement: 0.0,

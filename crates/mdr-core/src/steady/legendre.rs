@@ -37,7 +37,7 @@ impl Interpolation {
     }
 
     /// The polynomial with the values of `function` at the nodes, which include both ends.
-    pub(super) fn of(&self, function: impl Fn(f64) -> f64) -> Polynomial {
+    pub(super) fn interpolate(&self, function: impl Fn(f64) -> f64) -> Polynomial {
         let values = self.nodes.map(function);
         let coefficient = |row: Polynomial| row.iter().zip(&values).map(|(a, b)| a * b).sum();
         self.rows.map(coefficient)
@@ -56,7 +56,7 @@ pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
     next
 }
 
-/// Coefficients of p'(t), in a list as long, ending with a zero.
+/// Coefficients of p'(t), as many as those of p; the last one is 0.
 pub(super) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
     let mut slopes = [0.0; N];
     // c'_k/(2k + 1) = c'_(k+2)/(2k + 5) + c_(k+1).
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn a_polynomial_of_the_full_degree_is_reproduced_with_its_slope() {
         let power = DEGREE as f64;
-        let coefficients = Interpolation::new().of(|t| (t - 0.3).powf(power));
+        let coefficients = Interpolation::new().interpolate(|t| (t - 0.3).powf(power));
         let slopes = derivative(&coefficients);
         for t in [-1.0, -0.77, 0.1, 0.9, 1.0_f64] {
             assert_close(value(&coefficients, t), (t - 0.3).powf(power), 1e-13);

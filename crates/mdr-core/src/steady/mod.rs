@@ -1,16 +1,18 @@
 //! Stationary sliding on any linear viscoelastic foundation, solved directly: no time, no mesh in the material.
 //!
-//! In the frame of the line time runs along it from the front to the rear: an element is touched in front, compressed by
-//! u = d − h̃, let go where its load would turn to tension, and touched again where the line comes down on what has
-//! not recovered.
+//! In the frame of the line time runs along it from the front to the rear. An element comes into contact in front and is
+//! compressed by u = d − h̃. It is released where its load would become tensile, and comes into contact again where the line
+//! meets the recovering surface.
 //!
 //! ```text
 //! w = G_∞ u + η₀ du/dt + Σ e_i,   τ_i de_i/dt + e_i = τ_i G_i du/dt        in contact, d/dt = −v d/dx
 //! F_N = 4 ∫ w dx,   F_h = 4 ∫ w h̃' dx
 //! ```
-//! The line is a row of polynomials, and between two events everything is integrated in closed form: boundary layers of
-//! the width v τ_i need no mesh. F_h is summed as the energy that the dashpots take and that is lost at release; all
-//! its terms are positive, so that it keeps its digits where friction vanishes.
+//! The line is a sequence of polynomials, and between two events everything is integrated in closed form: boundary layers
+//! of the width v τ_i need no mesh. F_h is summed as the energy that the dashpots dissipate and that is lost at release.
+//! These terms do not cancel, so that small friction keeps its digits.
+//!
+//! Theory: docs/theory/line-viscoelastic.md.
 
 mod branch;
 mod depth;
@@ -47,18 +49,18 @@ pub struct SteadySliding {
     pub normal_force: Estimate,
     /// Rear and front end of the contact, \[m].
     pub ends: [Estimate; 2],
-    /// Contact intervals `[rear, front]` by increasing position on the line, \[m]; what is between them is open.
+    /// Contact intervals `[rear, front]` by increasing position on the line, \[m]; between them there is a gap.
     pub contacts: Vec<[f64; 2]>,
-    /// Number of polynomials that stand for the line.
+    /// Number of polynomials of the line.
     pub n_pieces: usize,
-    /// Positions \[m] from the rear to the front, and the load per length there \[N/m], straight between them.
+    /// Positions \[m] from the rear to the front, and the load per length there \[N/m], linear in between.
     pub load: Vec<[f64; 2]>,
 }
 
 /// Slides a line over a foundation, in the stationary state, until the error of the friction coefficient relative to its
 /// value is at most `relative_error`, above 0 and below 1.
 ///
-/// On a [track](SlidingLoad::on_track) the surface ahead of the line is what is left of the pass before.
+/// On a [track](SlidingLoad::on_track) the surface ahead of the line is that left by the pass before.
 ///
 /// ```
 /// use mdr_core::indenters::{EquivalentLine, SlidingLoad, Sphere};
@@ -107,9 +109,7 @@ pub fn steady(
     let mut problem = LineProblem::new(line, material, load.velocity())?;
     problem.track = load.track();
     problem.check_kinks(control)?;
-    problem.refine(
-        control,
-        relative_error,
-        ("friction coefficient", |state| state.friction_coefficient),
-    )
+    problem.refine(control, relative_error, "friction coefficient", |state| {
+        state.friction_coefficient
+    })
 }

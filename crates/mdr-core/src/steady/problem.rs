@@ -1,4 +1,6 @@
-//! A line on a foundation at one speed, and the depth at which it carries a force.
+//! A line on a foundation at one speed: the depth at which it carries a force, and the error of the state.
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "Error".
 
 use indenters::{Control, RigidLine};
 use numerics::{Estimate, ValueWithError, positive};
@@ -34,11 +36,11 @@ const END_TOLERANCE_FACTOR: f64 = 1e-4;
 /// level.
 const END_ROUNDING: f64 = 2.4e-7;
 
-/// A line that moves over a foundation.
+/// A line that moves over a foundation at one speed.
 pub(crate) struct LineProblem<'a> {
     line: &'a dyn RigidLine,
     pub(super) foundation: Foundation,
-    /// After which the line comes back to the same place, \[m]; none where it never does.
+    /// Length of the track after which the line returns to the same place, \[m]; `None` on fresh ground.
     pub(super) track: Option<f64>,
 }
 
@@ -56,12 +58,13 @@ impl<'a> LineProblem<'a> {
         })
     }
 
-    /// Solves with more and more polynomials until the quantity that is `sought` is known well enough.
+    /// Solves with ever smaller tolerances of the polynomials until the quantity `sought` has the relative error asked for.
     pub(crate) fn refine(
         &self,
         control: Control,
         relative_error: f64,
-        (quantity, sought): (&'static str, fn(&SteadySliding) -> Estimate),
+        quantity: &'static str,
+        sought: fn(&SteadySliding) -> Estimate,
     ) -> Result<SteadySliding, MdrError> {
         let mut tolerance = FIRST_TOLERANCE_FRACTION * relative_error;
         loop {
@@ -84,7 +87,7 @@ impl<'a> LineProblem<'a> {
         }
     }
 
-    /// Refuses a contact with a kink at which friction has no limit; few polynomials tell.
+    /// Refuses a contact with a kink at which friction diverges; a rough solution is enough.
     pub(crate) fn check_kinks(&self, control: Control) -> Result<(), MdrError> {
         if !self.foundation.has_dashpot() {
             return Ok(());
@@ -96,7 +99,7 @@ impl<'a> LineProblem<'a> {
         let depth = self.depth(control, SEARCH_TOLERANCE);
         let in_contact = match depth.and_then(|depth| self.solve(depth, SEARCH_TOLERANCE)) {
             Ok(sweep) => kinks.iter().find(|kink| kink.is_in(&sweep.contacts)),
-            // No depth is large enough: behind the kink the line rises by all of it within the rounding of positions.
+            // No depth is large enough: behind the kink the line rises by any depth within the rounding of positions.
             Err(MdrError::NonFinite {
                 value: f64::INFINITY,
                 ..
@@ -130,8 +133,8 @@ impl<'a> LineProblem<'a> {
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
         // Most of the search needs few polynomials.
-        let rough = tolerance.max(SEARCH_TOLERANCE);
-        let start = depth_of_load(|depth| self.quarter_force(depth, rough), target)?;
+        let search_tolerance = tolerance.max(SEARCH_TOLERANCE);
+        let start = depth_of_load(|depth| self.quarter_force(depth, search_tolerance), target)?;
         polished_depth(|depth| self.quarter_force(depth, tolerance), target, start)
     }
 
@@ -140,6 +143,7 @@ impl<'a> LineProblem<'a> {
         Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.load))
     }
 
+    /// The error for a contact that would reach a vertical edge.
     fn beyond(&self, edge: VerticalEdge, control: Control) -> Result<MdrError, MdrError> {
         let VerticalEdge { position, height } = edge;
         Ok(match control {
@@ -157,10 +161,12 @@ impl<'a> LineProblem<'a> {
         })
     }
 
+    /// The pass at a depth.
     fn solve(&self, depth: f64, tolerance: f64) -> Result<SweepSums, MdrError> {
         self.solve_with(depth, tolerance, None)
     }
 
+    /// The pass at a depth, which appends its loads to `loads` if that is given.
     fn solve_with(
         &self,
         depth: f64,
@@ -181,7 +187,7 @@ impl<'a> LineProblem<'a> {
         }
     }
 
-    /// The state in SI; the errors of its ends are not known yet.
+    /// The state in SI units; the errors of its ends are not known yet.
     fn state(&self, control: Control, tolerance: f64) -> Result<SteadySliding, MdrError> {
         let depth = self.depth(control, tolerance)?;
         if let Some(track) = self.track {
@@ -199,9 +205,9 @@ impl<'a> LineProblem<'a> {
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
         let errors = [sums.load_error, sums.work_error];
         let [load_error, work_error] = errors.map(|error| TAIL_SAFETY_FACTOR * error);
-        // A larger force at the same depth is a smaller depth at the same force, which moves the friction again.
-        let friction_error = depth * (work_error / load) + 2.0 * friction * (load_error / load);
-        let friction_error = friction_error.abs() + STATE_ROUNDING * friction.abs();
+        // A larger force at the same depth is a smaller depth at the same force, which changes the friction again.
+        let discretisation = depth * (work_error / load) + 2.0 * friction * (load_error / load);
+        let friction_error = discretisation.abs() + STATE_ROUNDING * friction.abs();
         // The force grows with the depth at least in proportion.
         let relative_error = load_error / load + STATE_ROUNDING;
         let [depth_error, force_error] = match control {
@@ -212,7 +218,7 @@ impl<'a> LineProblem<'a> {
             friction_coefficient: Estimate::new(friction, friction_error),
             indentation_depth: Estimate::new(depth, depth_error),
             normal_force: match control {
-                // The search ends where rounding on a track leaves it, which the bar of the depth holds.
+                // On a track the search ends at its rounding, which the error of the depth includes.
                 Control::NormalForce(given) if self.track.is_some() => Estimate::exact(given),
                 _ => Estimate::new(force, force_error),
             },
@@ -223,7 +229,7 @@ impl<'a> LineProblem<'a> {
         })
     }
 
-    /// The load, and the errors of both ends, from how far they move with more polynomials and another depth.
+    /// Adds the load and the errors of both ends, from their change with a smaller tolerance and another depth.
     fn with_ends(
         &self,
         mut state: SteadySliding,

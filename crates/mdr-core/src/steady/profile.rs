@@ -1,4 +1,5 @@
-//! A line as a row of polynomials, as many as its shape needs.
+//! A line as a sequence of polynomials, as many as its shape needs (docs/theory/line-viscoelastic.md, "No mesh in the
+//! material").
 //!
 //! Pieces end at the kinks and at the turning points of the line. A piece is halved until the last terms of its
 //! polynomial are negligible; towards a cusp this grades the pieces geometrically. Heights are in units of the depth, so
@@ -31,21 +32,21 @@ const TERM_ROUNDING_FACTOR: f64 = 8.0;
 /// Shortest piece, relative to its distance from zero; shorter ones have nodes at the rounding of positions.
 const MIN_PIECE_LENGTH: f64 = 1024.0 * f64::EPSILON;
 
-/// What counts as resolved.
+/// Criterion for a resolved polynomial.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Resolution {
     /// Indentation depth, \[m].
     pub(super) depth: f64,
     /// Shortest distance of relaxation, \[m].
     pub(super) shortest_length: f64,
-    /// Terms that are negligible, in depths.
+    /// Size of negligible terms, in depths.
     pub(super) tolerance: f64,
 }
 
-/// The part of a line that can touch, from the front to the rear.
+/// The part of a line that can come into contact, from the front to the rear.
 pub(super) struct Profile {
     pub(super) pieces: Vec<Piece>,
-    /// From its front to its rear, \[m].
+    /// Distance from its front to its rear, \[m].
     pub(super) length: f64,
     /// Height of the lowest point relative to the anchor, in depths.
     pub(super) lowest: f64,
@@ -54,12 +55,12 @@ pub(super) struct Profile {
 
 /// A stretch over which the line only rises or only falls.
 pub(super) struct Piece {
-    /// The compression it imposes when the lowest point of the line is one depth deep; while the pieces are made, relative to
-    /// that of the anchor.
+    /// Compression that it imposes when the lowest point of the line is one depth deep. While the pieces are made, it is
+    /// relative to that of the anchor.
     pub(super) segment: Segment,
     /// Size of the first terms that are left out, in depths.
     pub(super) tail: f64,
-    /// Whether it is as short as a piece can be and still not resolved.
+    /// Whether it is as short as a piece can be, and still not resolved.
     pub(super) singular: bool,
 }
 
@@ -113,9 +114,9 @@ impl Piece {
         self.terms()[1..].iter().map(|c| c.abs()).sum()
     }
 
-    /// Whether what is left out is what rounding does to heights and, where the line is steep, to positions.
+    /// Whether the tail is the rounding of heights and, where the line is steep, of positions.
     ///
-    /// Halving such a piece leaves out no less: next to a flat end pieces would be halved as often as there are numbers.
+    /// Halving such a piece does not reduce its tail: next to a flat end pieces would be halved as long as numbers allow.
     fn is_rounding(&self) -> bool {
         let Segment { ends, length, .. } = self.segment;
         let rise = self.rise();
@@ -123,7 +124,7 @@ impl Piece {
         self.tail <= TERM_ROUNDING_FACTOR * f64::EPSILON * (self.terms()[0].abs() + rise + moved)
     }
 
-    /// Where the line turns inside the piece.
+    /// Turning point of the line inside the piece, as t; `None` without one.
     fn turning_point(&self) -> Option<f64> {
         let (terms, degree) = (self.terms(), self.segment.degree);
         let bound = (2..=degree).map(|k| (k * (k + 1) / 2) as f64 * terms[k].abs());
@@ -162,6 +163,7 @@ impl Piece {
     }
 }
 
+/// Division of a line into pieces.
 struct Builder<D> {
     /// How far the line lies below the anchor, in depths.
     drop: D,
@@ -228,7 +230,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             singular: false,
         };
         let drop = |t: f64| (self.drop)(piece.position(t)).unwrap_or(f64::NAN);
-        piece.segment.displacements = self.interpolation.of(drop);
+        piece.segment.displacements = self.interpolation.interpolate(drop);
         if !piece.terms().iter().all(|c| c.is_finite()) {
             return Err(self.bad_height(&piece));
         }
@@ -237,7 +239,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         Ok(piece)
     }
 
-    /// The first node without a height.
+    /// The error of the first node without a finite height.
     fn bad_height(&self, piece: &Piece) -> MdrError {
         for k in 0..=2 * DEGREE {
             let position = piece.position(k as f64 / DEGREE as f64 - 1.0);
@@ -250,6 +252,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         invalid_height(piece.position(0.0), f64::INFINITY)
     }
 
+    /// Whether the tail is negligible, and the line agrees with the polynomial between the nodes.
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
         let tolerance = self.resolution.tolerance;
         let (rise, length) = (piece.rise(), piece.segment.length);
@@ -260,7 +263,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         Ok(piece.tail <= tolerance && !steep && self.agrees(piece)?)
     }
 
-    /// Whether the line is where the polynomial says it is, between the nodes as well.
+    /// Whether the line agrees with the polynomial at stations between the nodes.
     fn agrees(&self, piece: &Piece) -> Result<bool, MdrError> {
         let share = N_STATIONS * piece.segment.length / self.length;
         /// Stride of the stations, the golden ratio minus 1: an irrational number does not fall into step with a
@@ -280,9 +283,9 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
     }
 }
 
-/// Size of the terms that are left out, by a geometric series through the last two pairs; an even line has no odd terms.
+/// Size of the terms that are left out, by a geometric series through the last two pairs of terms.
 ///
-/// Towards a cusp the terms decay like a power, and all of those that are left out matter.
+/// Pairs, because an even line has no odd terms. Towards a cusp the terms decay like a power, and all of the tail matters.
 fn remainder(coefficients: &Polynomial) -> f64 {
     let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
     let (last, before) = (pair(DEGREE), pair(DEGREE - 2));

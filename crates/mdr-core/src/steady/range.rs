@@ -1,4 +1,4 @@
-//! The part of a line that can touch at a depth.
+//! The part of a line that can be in contact at a depth.
 
 use indenters::RigidLine;
 use numerics::bracketed_root;
@@ -34,7 +34,7 @@ pub(super) struct Range {
 impl Range {
     /// Everything at most `depth` above the lowest of the kinks, the ends, and x = 0.
     ///
-    /// Refuses a depth that is none, as of a search among numbers that overflow, below which no position ever lies.
+    /// Refuses a depth that is negative or not a number, as a search that overflows may give it.
     pub(super) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {
         if depth.is_nan() || depth < 0.0 {
             return Err(MdrError::NonFinite {
@@ -99,8 +99,10 @@ pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>
     Ok(Some(VerticalEdge { position, height }))
 }
 
-/// The outermost position between the anchor and the end, also of the pieces between kinks, of which the outermost comes
-/// first, at which the line lies below the ceiling.
+/// The outermost position between the anchor and the end at which the line lies below the ceiling.
+///
+/// `pieces` are the intervals between kinks, of which the outermost comes first; a piece beyond a gap is found by its inner
+/// end.
 fn outermost_of(
     excess: impl Fn(f64) -> Result<f64, MdrError> + Copy,
     [anchor, end]: [f64; 2],
@@ -114,7 +116,7 @@ fn outermost_of(
     piece.map_or(Ok(found), |[inner, outer]| outermost(excess, inner, outer))
 }
 
-/// The outermost position between `anchor` and `end` at which the line lies below the ceiling.
+/// The outermost position between `anchor` and `end` at which the line lies below the ceiling, by samples from outside.
 fn outermost(
     excess: impl Fn(f64) -> Result<f64, MdrError>,
     anchor: f64,

@@ -1,4 +1,4 @@
-//! A part of the line as a polynomial, from where it comes to where it goes.
+//! A segment of the line as a polynomial, from its front end to its rear end.
 
 use super::legendre::{Interpolation, Polynomial, derivative, end_value, value};
 
@@ -15,7 +15,7 @@ pub(super) struct Segment {
     /// Positions of the front and the rear end, \[m].
     pub(super) ends: [f64; 2],
     pub(super) length: f64,
-    /// Rounding of the displacements, in depths; none for a whole piece, whose heights are relative to the lowest point.
+    /// Rounding of the displacements, in depths; 0 for a whole piece, whose heights are relative to the lowest point.
     pub(super) rounding: f64,
 }
 
@@ -25,6 +25,7 @@ impl Segment {
         0.5 * (self.ends[0] * (1.0 - t) + self.ends[1] * (1.0 + t))
     }
 
+    /// Displacement u, in depths.
     pub(super) fn displacement(&self, t: f64) -> f64 {
         value(&self.displacements[..=self.degree], t)
     }
@@ -39,15 +40,15 @@ impl Segment {
         end_value(&self.displacements)
     }
 
-    /// The part between two values of t.
+    /// The part of the segment between two values of t.
     pub(super) fn part(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
         if from <= -1.0 && to >= 1.0 {
             return self.clone();
         }
         let half = 0.5 * (to - from);
         let inside = |s: f64| self.displacement(0.5 * (from + to) + half * s);
-        let mut displacements = interpolation.of(inside);
-        // Interpolation leaves rounding in the terms that are not there.
+        let mut displacements = interpolation.interpolate(inside);
+        // Interpolation leaves rounding in the terms above the degree.
         displacements[self.degree + 1..].fill(0.0);
         Self {
             displacements,

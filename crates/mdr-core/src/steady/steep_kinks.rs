@@ -1,7 +1,7 @@
-//! Kinks at which the friction of a lone dashpot has no limit.
+//! Kinks at which the friction of a lone dashpot diverges.
 //!
-//! Behind an upward jump of its slope the equivalent line of a body is as steep as the inverse root of the distance
-//! δ from the kink; ∫ h̃'² dx (16) then diverges like ln δ. A sum over pieces would not see it where the jump is small.
+//! Behind an upward jump of the slope of a body its equivalent line is as steep as the inverse root of the distance δ from
+//! the kink. ∫ h̃'² dx (16) then diverges like ln δ, which a sum over pieces would not show where the jump is small.
 
 use indenters::RigidLine;
 
@@ -15,20 +15,20 @@ const MIN_DIFFERENCE_RATIO: f64 = 1.99;
 /// Differences of slopes below this part of them are rounding.
 const SLOPE_ROUNDING: f64 = 1e-9;
 
-/// A side of a kink on which the slope has no limit.
+/// A side of a kink on which the slope is unbounded.
 pub(super) struct SteepKink {
     pub(super) position: f64,
     /// The part of the line that is steep, \[m].
     side: [f64; 2],
 }
 
-/// Whether a line has kinks at which it is steeper than any number.
+/// Whether a line has kinks at which its slope is unbounded.
 pub(crate) fn has_steep_kinks(line: &dyn RigidLine) -> bool {
     !SteepKink::all_of(line).is_empty()
 }
 
 impl SteepKink {
-    /// Those of a line, apart from x = 0, where a cusp is resolved as far as numbers reach.
+    /// All steep kinks of a line except at x = 0, where a cusp is resolved as far as numbers reach.
     pub(super) fn all_of(line: &dyn RigidLine) -> Vec<Self> {
         let kinks = line.kinks().into_iter().filter(|kink| *kink != 0.0);
         let sides = kinks.flat_map(|position| [-1.0, 1.0].map(|side| (position, side)));
@@ -41,16 +41,18 @@ impl SteepKink {
         steep.map(kink).collect()
     }
 
-    /// Whether the steep side is in one of the contacts `[rear, front]`, or begins where that ends: what reaches beyond a
-    /// kink by less than the rounding of its position reaches beyond it all the same.
+    /// Whether the steep side is in one of the contacts `[rear, front]`, or begins at its end.
+    ///
+    /// A contact that reaches beyond a kink by less than the rounding of its position counts as reaching beyond it.
     pub(super) fn is_in(&self, contacts: &[[f64; 2]]) -> bool {
         let [first, last] = self.side;
-        let mut contacts = contacts.iter();
-        contacts.any(|[rear, front]| *rear <= last && *front >= first)
+        contacts
+            .iter()
+            .any(|[rear, front]| *rear <= last && *front >= first)
     }
 }
 
-/// Whether the slope rises beyond all limits towards the kink, at least like the inverse root of the distance.
+/// Whether the slope grows towards the kink at least like the inverse root of the distance.
 fn is_steep(line: &dyn RigidLine, position: f64, side: f64) -> bool {
     let parts = [
         1.0,

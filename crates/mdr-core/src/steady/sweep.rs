@@ -1,4 +1,6 @@
-//! One pass along the line at a given depth: touch, load, release, recovery, touch again.
+//! One pass along the line at a given depth: contact, load, release, recovery, contact again.
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "One law" and "Friction as energy".
 //!
 //! All displacements are in units of the depth, all stresses in that of the foundation.
 
@@ -30,23 +32,24 @@ const MIN_CONTACT_PART: f64 = 1e-13;
 /// Contact intervals of one line at most.
 const MAX_CONTACTS: usize = 1 << 12;
 
-/// What a pass sums up to.
+/// Sums over one pass.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SweepSums {
     /// ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
     pub(super) load: f64,
     /// ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress.
     pub(super) work: f64,
-    /// Errors of both from what the polynomials of the line leave out.
+    /// Error of `load` by the polynomials of the line, \[m].
     pub(super) load_error: f64,
+    /// Error of `work` by the polynomials of the line.
     pub(super) work_error: f64,
-    /// Contacts [rear, front], from the front one to the last, \[m].
+    /// Contact intervals [rear, front], from front to rear, \[m].
     pub(super) contacts: Vec<[f64; 2]>,
-    /// Where the work of a lone dashpot has no limit, \[m].
+    /// Position at which the work of a lone dashpot diverges, \[m]; `None` if it converges.
     pub(super) too_steep: Option<f64>,
-    /// Polynomials that stand for the line.
+    /// Number of polynomials of the line.
     pub(super) n_pieces: usize,
-    /// Positions \[m] from the front to the rear, and w there, straight between them; where it is asked for.
+    /// Positions \[m] from front to rear and w there, linear in between; `None` if not asked for.
     pub(super) loads: Option<Vec<[f64; 2]>>,
 }
 
@@ -59,13 +62,17 @@ impl SweepSums {
     }
 }
 
+/// State of the surface at the present position.
 enum Surface {
     Free(FreeSurface),
-    Loaded { stresses: Vec<f64>, fresh: bool },
+    Loaded {
+        stresses: Vec<f64>,
+        /// Whether contact has begun at the present position.
+        fresh: bool,
+    },
 }
 
-/// Lets the line pass over a free surface, and with `loads` begins a list of what it carries; gives also the surface that it
-/// leaves.
+/// Passes the line over a free surface, and appends its loads to `loads` if that is given; returns also the surface behind.
 pub(super) fn sweep(
     foundation: &Foundation,
     profile: &Profile,
@@ -95,9 +102,10 @@ pub(super) fn sweep(
             };
         }
     }
-    Ok(march.end())
+    Ok(march.finish())
 }
 
+/// A pass along the line, from event to event.
 struct SurfaceMarch<'a> {
     foundation: &'a Foundation,
     profile: &'a Profile,
@@ -114,8 +122,8 @@ impl SurfaceMarch<'_> {
                 if piece.singular && self.foundation.has_dashpot() {
                     self.sums.too_steep.get_or_insert(piece.segment.ends[1]);
                 }
-                let solution = self.foundation.pass(segment, &stresses);
-                match release(&solution, self.foundation.has_dashpot() && !fresh) {
+                let solution = self.foundation.solve_segment(segment, &stresses);
+                match first_tension(&solution, self.foundation.has_dashpot() && !fresh) {
                     None => {
                         self.add(&solution, segment, piece.tail);
                         self.surface = Surface::Loaded {
@@ -125,7 +133,7 @@ impl SurfaceMarch<'_> {
                         Ok(1.0)
                     }
                     Some(t) => {
-                        self.leave(&stresses, segment, t, piece.tail);
+                        self.release_at(&stresses, segment, t, piece.tail);
                         Ok(t)
                     }
                 }
@@ -133,8 +141,9 @@ impl SurfaceMarch<'_> {
         }
     }
 
+    /// Recovers up to the next contact, or the end of the segment; returns where that is.
     fn recover(&mut self, mut recovery: FreeSurface, segment: &Segment) -> Result<f64, MdrError> {
-        let Some(t) = self.touch(&recovery, segment) else {
+        let Some(t) = self.next_contact(&recovery, segment) else {
             recovery.distance += segment.length;
             self.surface = Surface::Free(recovery);
             return Ok(1.0);
@@ -151,16 +160,16 @@ impl SurfaceMarch<'_> {
         let free = self.foundation.free_displacement(&recovery, distance);
         let mut stresses = self.foundation.free_stresses(&recovery, distance);
         let position = segment.position(t);
-        let displacement = self.nonelastic_displacement(free);
+        let displacement = self.storing_displacement(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         let compression = segment.displacement(t) - free;
         if compression > MAX_MISSED_COMPRESSION {
             self.foundation
                 .apply_strain_jump(&mut stresses, compression);
         }
-        self.miss(compression, segment, t);
+        self.add_late_contact(compression, segment, t);
         self.sums.contacts.push([position; 2]);
-        self.load_ends(position);
+        self.append_zero_load(position);
         self.surface = Surface::Loaded {
             stresses,
             fresh: true,
@@ -168,8 +177,8 @@ impl SurfaceMarch<'_> {
         Ok(t)
     }
 
-    /// Where the line touches a free surface.
-    fn touch(&self, recovery: &FreeSurface, segment: &Segment) -> Option<f64> {
+    /// Where the line comes into contact with a free surface; `None` if it does not in this segment.
+    fn next_contact(&self, recovery: &FreeSurface, segment: &Segment) -> Option<f64> {
         let gap = |t: f64| {
             let distance = 0.5 * (1.0 + t) * segment.length;
             self.foundation.free_displacement(recovery, distance) - segment.displacement(t)
@@ -177,7 +186,7 @@ impl SurfaceMarch<'_> {
         let mut before = -1.0;
         for t in samples() {
             if gap(t) < -GAP_ROUNDING {
-                // On the very start the gap may be closed by rounding; but no element is let go and touched at once.
+                // At the very start rounding may close the gap; but no element separates and comes into contact at one place.
                 let nearest = if recovery.distance <= 0.0 { t } else { before };
                 return Some(bracketed_root(gap, [before, t]).unwrap_or(nearest));
             }
@@ -186,38 +195,39 @@ impl SurfaceMarch<'_> {
         None
     }
 
-    /// A spring that is touched or let go is not strained; rounding must not count as friction.
-    fn nonelastic_displacement(&self, displacement: f64) -> f64 {
+    /// The displacement that stores energy at contact or release; 0 if the foundation is elastic, where it is rounding.
+    fn storing_displacement(&self, displacement: f64) -> f64 {
         let is_elastic = self.foundation.is_elastic();
         if is_elastic { 0.0 } else { displacement }
     }
 
-    /// Counts a touch that comes too late by a compression, because positions are rounded, as an error; a dashpot does not
-    /// jump at all.
-    fn miss(&mut self, compression: f64, segment: &Segment, t: f64) {
+    /// Adds the error of a contact that begins late by a compression, because positions are rounded.
+    fn add_late_contact(&mut self, compression: f64, segment: &Segment, t: f64) {
         let rate = segment.rate(t);
-        let [carried, resisted] = if compression > MAX_MISSED_COMPRESSION {
-            self.foundation.damping(rate)
+        let sensitivity = if compression > MAX_MISSED_COMPRESSION {
+            self.foundation.dashpot_sensitivity(rate)
         } else {
-            self.foundation.resistance(rate, self.profile.length)
+            self.foundation.sensitivity(rate, self.profile.length)
         };
-        self.sums.load_error += compression.abs() * carried;
-        self.sums.work_error += compression.abs() * resisted;
+        self.sums.load_error += compression.abs() * sensitivity.load;
+        self.sums.work_error += compression.abs() * sensitivity.work;
     }
 
-    fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
+    /// Releases the surface at t in the segment.
+    fn release_at(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = stresses.to_vec();
         if 1.0 + t > MIN_CONTACT_PART {
             let loaded = segment.part(&self.profile.interpolation, [-1.0, t]);
-            let solution = self.foundation.pass(&loaded, &stresses);
+            let solution = self.foundation.solve_segment(&loaded, &stresses);
             self.add(&solution, &loaded, tail);
             stresses = solution.stresses;
         }
-        let displacement = self.nonelastic_displacement(segment.displacement(t));
-        self.close(displacement, &stresses, segment.position(t));
+        let displacement = self.storing_displacement(segment.displacement(t));
+        self.end_contact(displacement, &stresses, segment.position(t));
         self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
     }
 
+    /// Adds the solution under a segment to the sums.
     fn add(&mut self, solution: &SegmentSolution, segment: &Segment, tail: f64) {
         self.sums.load += solution.load;
         self.sums.work += solution.dissipation;
@@ -232,32 +242,33 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    fn close(&mut self, displacement: f64, stresses: &[f64], position: f64) {
+    /// Ends a contact interval: the stored energy is lost.
+    fn end_contact(&mut self, displacement: f64, stresses: &[f64], position: f64) {
         self.sums.work += self.foundation.stored_energy(displacement, stresses);
-        self.load_ends(position);
+        self.append_zero_load(position);
         if let Some(contact) = self.sums.contacts.last_mut() {
             contact[0] = position;
         }
     }
 
-    /// Where nothing is loaded on one side.
-    fn load_ends(&mut self, position: f64) {
+    /// Adds a zero to the list of loads, at an end of a contact.
+    fn append_zero_load(&mut self, position: f64) {
         self.sums
             .loads
             .iter_mut()
             .for_each(|loads| loads.push([position, 0.0]));
     }
 
-    /// The line has passed: what is still loaded springs back.
-    fn end(mut self) -> (SweepSums, FreeSurface) {
+    /// Ends the pass; a surface that is still loaded is released.
+    fn finish(mut self) -> (SweepSums, FreeSurface) {
         let surface = std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched()));
         let behind = match (surface, self.profile.pieces.last()) {
             (Surface::Loaded { stresses, .. }, Some(piece)) => {
                 let mut end = piece.segment.end();
                 if end.abs() < ELASTIC_END_DISPLACEMENT {
-                    end = self.nonelastic_displacement(end);
+                    end = self.storing_displacement(end);
                 }
-                self.close(end, &stresses, piece.segment.ends[1]);
+                self.end_contact(end, &stresses, piece.segment.ends[1]);
                 self.foundation.release(end, &stresses)
             }
             (Surface::Free(recovery), _) => recovery,
@@ -267,17 +278,17 @@ impl SurfaceMarch<'_> {
     }
 }
 
-/// Positions from the front to the rear end, denser at both.
+/// Positions t of samples from the front to the rear end, denser at both.
 fn samples() -> impl Iterator<Item = f64> {
     let angle = std::f64::consts::PI / N_SEGMENT_SAMPLES as f64;
     (1..=N_SEGMENT_SAMPLES).map(move |k| -(angle * k as f64).cos())
 }
 
-/// Places between −1 and 1, and the values of a function there, which is straight between them.
+/// Positions in [−1, 1] and values of a function there, between which it is linear to [`CHORD_TOLERANCE`].
 fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> {
     let at = |t: f64| [t, value(t)];
     let mut parts = vec![at(-1.0)];
-    // The nearest one that is still to be reached comes last.
+    // The next position comes last.
     let mut ahead: Vec<[f64; 2]> = samples().map(at).collect();
     ahead.reverse();
     while let (Some(&from), Some(&to)) = (parts.last(), ahead.last()) {
@@ -294,8 +305,8 @@ fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> 
     parts.into_iter()
 }
 
-/// Where the load would turn to tension.
-fn release(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
+/// Where the load would become tensile; `None` if it stays compressive.
+fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     // With a lone dashpot the load jumps where the slope does.
     if may_jump && solution.potential(-1.0) < 0.0 {
         return Some(-1.0);
@@ -311,7 +322,7 @@ fn release(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     None
 }
 
-/// Positions inside the boundary layers that the other samples step over.
+/// Positions inside the boundary layers that are thinner than the distance of the other samples.
 fn layer_samples(solution: &SegmentSolution) -> Vec<f64> {
     let first = samples().next().unwrap_or(1.0);
     let thin = solution

@@ -1,12 +1,13 @@
-//! A line that comes back to the same place again and again, as a ball on a disc does.
+//! Periodic state of a line that returns to the same place again and again, as a ball on a disc does.
 //!
-//! Every element sees one pass like the other. What is left of the pass before, in the modes of recovery, is ahead of the line:
+//! All passes are equal. The surface ahead of the line has the amplitudes that are left in the modes of recovery from the pass
+//! before:
 //!
 //! ```text
 //! x = g(x),   g: one pass over a surface with x_k left in mode k, and then free over the rest of the track
 //! u(s) = u₁ e^(−(L − s)/(v λ)) / (1 − e^(−L/(v λ)))        at a distance s ahead of one load that alone gives u₁ behind itself
 //! ```
-//! A mode with v λ ≫ L carries the mean load of the whole track and hardly changes under the line, so that it dissipates
+//! A mode with v λ ≫ L follows the mean load of the whole track. It hardly changes under the line, so that it dissipates
 //! nothing.
 
 use numerics::{FixedPoint, anderson_fixed_point};
@@ -24,7 +25,7 @@ const PERIODICITY_TOLERANCE: f64 = 1e-11;
 /// Rounding of one pass, in depths, which bounds the tolerance from below where the modes recover slowly.
 const PERIODICITY_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
-/// Refuses a track that is not longer than the line is below the surface.
+/// Refuses a track that is not longer than the part of the line below the surface.
 pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
     let needed = range.ends[1] - range.ends[0];
     if track > needed {
@@ -33,14 +34,14 @@ pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
     Err(MdrError::TrackTooShort { track, needed })
 }
 
-/// The pass in which the surface ahead is what the pass before has left.
+/// The pass whose surface ahead is that left by the pass before.
 pub(super) fn sweep_until_periodic(
     foundation: &Foundation,
     profile: &Profile,
     track: f64,
     loads: Option<Vec<[f64; 2]>>,
 ) -> Result<SweepSums, MdrError> {
-    // Of depths that are too large for the track, on the way to one that is not, a monotone force is all that is needed.
+    // Depths that are too large for the track only occur during the search for a depth, which needs a monotone force.
     let free = (track - profile.length).max(0.0);
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
     let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
@@ -49,7 +50,7 @@ pub(super) fn sweep_until_periodic(
         let (_, behind) = sweep(
             foundation,
             profile,
-            foundation.surface_with_remainders(ahead),
+            foundation.recovering_surface(ahead),
             None,
         )?;
         let end = foundation.remaining_amplitudes(&behind, free);
@@ -77,12 +78,12 @@ pub(super) fn sweep_until_periodic(
     let (mut sums, _) = sweep(
         foundation,
         profile,
-        foundation.surface_with_remainders(&ahead),
+        foundation.recovering_surface(&ahead),
         loads,
     )?;
-    // The surface is that much higher or lower under the whole line.
-    let [carried, resisted] = foundation.resistance(profile.length.recip(), profile.length);
-    sums.load_error += left * carried;
-    sums.work_error += left * resisted;
+    // The surface may be this much higher or lower under the whole line.
+    let sensitivity = foundation.sensitivity(profile.length.recip(), profile.length);
+    sums.load_error += left * sensitivity.load;
+    sums.work_error += left * sensitivity.work;
     Ok(sums)
 }
