@@ -94,7 +94,7 @@ fn pressing_agrees_with_an_integral_equation() {
             ];
             for (name, body, asked) in bodies {
                 let (force, depth) = if name == "punch" {
-                    (2.0 * bonded.punch_radius(a).unwrap(), 1.0)
+                    (2.0 * bonded.equivalent_punch_radius(a).unwrap(), 1.0)
                 } else {
                     let contact = bonded.press(body, a).unwrap();
                     (contact.force_per_modulus, contact.indentation_depth)

@@ -5,9 +5,10 @@
 //! ```
 //!
 //! with the equivalent line g of the body on a half space; where the body is smooth at the edge, q(a) = 0. The kernel is
-//! analytic, and so is q + g, whatever g is: both integrals by Lobatto's rules converge exponentially.
+//! analytic, and so is q + g for every g: Gauss–Lobatto rules for both integrals converge exponentially.
 //!
 //! With q = d φ − ψ, φ = 1 + …, the force of a flat punch is that of a half space under one of the radius ∫₀^a φ dx.
+//! Comparisons with other solutions: docs/layers.md, "What it was compared with".
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -22,40 +23,73 @@ use rheology::layer_deficit;
 
 use crate::FrictionError;
 
-/// Where 1 − M is below 1e-12.
-const SHORTEST_WAVE: f64 = 17.0;
-/// Points of the integral over ξ, and more of them for each thickness of the radius; of q; and of a piece of the line. With
-/// these, twice as many change the depth and the force of a punch by less than 1e-9 up to a hundred thicknesses.
-const WAVES: [f64; 2] = [45.0, 11.5];
-const NODES: [f64; 2] = [16.0, 4.0];
-const HEIGHTS: [f64; 2] = [30.0, 6.0];
+/// Wave number, over the inverse thickness, at which the integral over ξ ends; 1 − M is below 1e-12 from there on.
+const MAX_WAVE_NUMBER: f64 = 17.0;
+/// Points of the rule over the wave number; the length is the contact radius.
+///
+/// With these three numbers of points, doubling them changes the depth and the force of a punch by less than 1e-9 up to a
+/// radius of a hundred thicknesses.
+const WAVE_POINTS: PointCount = PointCount {
+    fixed: 45.0,
+    per_thickness: 11.5,
+};
+/// Points of the rule for q; the length is the contact radius. Chosen as [`WAVE_POINTS`] are.
+const CONTACT_POINTS: PointCount = PointCount {
+    fixed: 16.0,
+    per_thickness: 4.0,
+};
+/// Points of the rule over one smooth piece of the equivalent line. Chosen as [`WAVE_POINTS`] are.
+const LINE_POINTS: PointCount = PointCount {
+    fixed: 30.0,
+    per_thickness: 6.0,
+};
+/// Every number of points is a multiple of this one, so that similar radii share a rule; chosen.
+const POINT_MULTIPLE: usize = 8;
 
-/// The number of points is a multiple of this one, so that radii next to each other have the same rule.
-const STEP: usize = 8;
+/// Number of points of a rule as a function of a length.
+#[derive(Clone, Copy)]
+struct PointCount {
+    fixed: f64,
+    per_thickness: f64,
+}
 
-/// Wave numbers ξ = L (1 ∓ t)/2 over the thickness, in pairs, and rules for integrals along the line.
-pub(super) struct Waves {
-    pairs: Vec<Pair>,
+impl PointCount {
+    /// Number of points for a length in thicknesses.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few hundred"
+    )]
+    fn on(self, length: f64) -> usize {
+        ((self.fixed + self.per_thickness * length) as usize).next_multiple_of(POINT_MULTIPLE)
+    }
+}
+
+/// Quadrature over the wave number ξ = L (1 ∓ t)/2 in inverse thicknesses, and rules for integrals along the line.
+pub(super) struct WaveQuadrature {
+    pairs: Vec<WavePair>,
+    /// Rules on [0, 1] by their numbers of points.
     rules: RefCell<BTreeMap<usize, Rc<[[f64; 2]]>>>,
 }
 
-/// t, and for both signs the roots of (2/π) (1 − M) times the weight.
-struct Pair {
+/// Two nodes that lie symmetrically about L/2.
+struct WavePair {
     t: f64,
-    roots: [f64; 2],
+    /// The root of (2/π) (1 − M) times the weight, at both nodes.
+    root_weights: [f64; 2],
 }
 
-impl Waves {
-    /// For contacts up to a radius.
-    pub(super) fn new(poisson_ratio: f64, widest: f64) -> Self {
-        let rule = rule(n_points(WAVES, widest));
-        let root = |part: f64, weight: f64| {
-            let kernel = FRAC_2_PI * layer_deficit(SHORTEST_WAVE * part, poisson_ratio);
-            (SHORTEST_WAVE * weight * kernel).sqrt()
+impl WaveQuadrature {
+    /// The quadrature for contacts up to a radius in thicknesses.
+    pub(super) fn new(poisson_ratio: f64, max_radius: f64) -> Self {
+        let rule = unit_rule(WAVE_POINTS.on(max_radius));
+        let root_weight = |part: f64, weight: f64| {
+            let kernel = FRAC_2_PI * layer_deficit(MAX_WAVE_NUMBER * part, poisson_ratio);
+            (MAX_WAVE_NUMBER * weight * kernel).sqrt()
         };
-        let pair = |&[part, weight]: &[f64; 2]| Pair {
+        let pair = |&[part, weight]: &[f64; 2]| WavePair {
             t: 1.0 - 2.0 * part,
-            roots: [part, 1.0 - part].map(|part| root(part, weight)),
+            root_weights: [part, 1.0 - part].map(|part| root_weight(part, weight)),
         };
         Self {
             pairs: rule[..rule.len() / 2].iter().map(pair).collect(),
@@ -63,182 +97,192 @@ impl Waves {
         }
     }
 
-    fn count(&self) -> usize {
+    fn n_waves(&self) -> usize {
         2 * self.pairs.len()
     }
 
-    /// √(2/π (1 − M)) cos ξx of all waves.
-    fn at(&self, x: f64) -> impl Iterator<Item = f64> {
-        let half = 0.5 * SHORTEST_WAVE * x;
+    /// √(weight (2/π) (1 − M)) cos ξx for all wave numbers, by the addition theorem from one sine and cosine per pair.
+    fn cosines_at(&self, x: f64) -> impl Iterator<Item = f64> {
+        let half = 0.5 * MAX_WAVE_NUMBER * x;
         let (sine, cosine) = half.sin_cos();
         self.pairs.iter().flat_map(move |pair| {
             let (s, c) = (half * pair.t).sin_cos();
             let [even, odd] = [cosine * c, sine * s];
-            [pair.roots[0] * (even + odd), pair.roots[1] * (even - odd)]
+            let [first, second] = pair.root_weights;
+            [first * (even + odd), second * (even - odd)]
         })
     }
 
-    /// A rule on [0, 1] for a length in thicknesses.
-    fn rule(&self, points: [f64; 2], length: f64) -> Rc<[[f64; 2]]> {
-        let n_points = n_points(points, length);
+    /// The rule on [0, 1] for a length in thicknesses, computed once for each number of points.
+    fn rule(&self, points: PointCount, length: f64) -> Rc<[[f64; 2]]> {
+        let n_points = points.on(length);
         let mut rules = self.rules.borrow_mut();
-        Rc::clone(rules.entry(n_points).or_insert_with(|| rule(n_points)))
+        Rc::clone(rules.entry(n_points).or_insert_with(|| unit_rule(n_points)))
     }
 }
 
-/// As many points as a length in thicknesses needs.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a few hundred"
-)]
-fn n_points([fewest, per_length]: [f64; 2], length: f64) -> usize {
-    ((fewest + per_length * length) as usize).next_multiple_of(STEP)
-}
-
-/// Lobatto's rule on [0, 1].
-fn rule(n_points: usize) -> Rc<[[f64; 2]]> {
+/// Gauss–Lobatto rule on [0, 1], as pairs of node and weight.
+fn unit_rule(n_points: usize) -> Rc<[[f64; 2]]> {
     let LobattoRule { nodes, weights } = lobatto_rule(n_points);
     let unit = |(t, weight): (f64, f64)| [0.5 * (1.0 + t), 0.5 * weight];
     nodes.into_iter().zip(weights).map(unit).collect()
 }
 
-/// The line of a body in a layer of a thickness, and its integrals up to its kinks.
-pub(super) struct Heights<'a> {
+/// The equivalent line of a body on a layer, with its integrals up to its kinks.
+pub(super) struct EquivalentLine<'a> {
     body: &'a dyn Axisymmetric,
     thickness: f64,
-    waves: &'a Waves,
-    /// Where the line rises from, and its kinks up to the widest contact; with the integrals up to there.
-    sums: Vec<Sums>,
+    waves: &'a WaveQuadrature,
+    /// Integrals up to the point from which the line rises, and up to its kinks inside the widest contact.
+    at_kinks: Vec<LineIntegrals>,
 }
 
-/// The line at x, and ∫₀^x g ds and ∫₀^x g(s) cos ξs ds.
+/// Integrals of the equivalent line from 0 to a radius.
 #[derive(Clone)]
-pub(super) struct Sums {
+pub(super) struct LineIntegrals {
+    /// The radius, \[m].
     radius: f64,
+    /// g at the radius, \[m].
     height: f64,
+    /// ∫₀^x g ds over the thickness, \[m].
     area: f64,
+    /// ∫₀^x g(s) cos ξs ds for all wave numbers, with the factors of [`WaveQuadrature::cosines_at`].
     waves: DVector<f64>,
 }
 
-impl<'a> Heights<'a> {
+impl<'a> EquivalentLine<'a> {
     pub(super) fn new(
         body: &'a dyn Axisymmetric,
         thickness: f64,
-        waves: &'a Waves,
-        widest: f64,
+        waves: &'a WaveQuadrature,
+        max_radius: f64,
     ) -> Self {
-        let nothing = Sums {
+        let at_zero = LineIntegrals {
             radius: 0.0,
             height: 0.0,
             area: 0.0,
-            waves: DVector::zeros(waves.count()),
+            waves: DVector::zeros(waves.n_waves()),
         };
-        let mut heights = Self {
+        let mut line = Self {
             body,
             thickness,
             waves,
-            sums: vec![nothing],
+            at_kinks: vec![at_zero],
         };
         let kinks = body.kinks().into_iter().map(|kink| kink.radius);
-        for kink in kinks.filter(|kink| *kink < widest) {
-            let sums = heights.up_to(kink);
-            // Up to the edge of a flat end there is nothing to be summed.
-            if sums.height == 0.0 {
-                heights.sums.clear();
+        for kink in kinks.filter(|kink| *kink < max_radius) {
+            let integrals = line.integrals_to(kink);
+            // A flat end contributes nothing: the line rises from its edge.
+            if integrals.height == 0.0 {
+                line.at_kinks.clear();
             }
-            heights.sums.push(sums);
+            line.at_kinks.push(integrals);
         }
-        heights
+        line
     }
 
-    /// Where the line begins to rise, and its kinks.
+    /// The radius from which the line rises, and those of its kinks, \[m].
     pub(super) fn kinks(&self) -> impl Iterator<Item = f64> {
-        self.sums.iter().map(|sums| sums.radius)
+        self.at_kinks.iter().map(|integrals| integrals.radius)
     }
 
-    /// Up to a radius, \[m].
-    pub(super) fn up_to(&self, radius: f64) -> Sums {
-        let before = self.sums.partition_point(|sums| sums.radius < radius);
-        let mut sums = self.sums[before.max(1) - 1].clone();
-        let start = sums.radius;
-        let rule = self.waves.rule(HEIGHTS, (radius - start) / self.thickness);
+    /// The integrals up to a radius, \[m], from the last kink before it on.
+    pub(super) fn integrals_to(&self, radius: f64) -> LineIntegrals {
+        let before = self
+            .at_kinks
+            .partition_point(|integrals| integrals.radius < radius);
+        let mut integrals = self.at_kinks[before.max(1) - 1].clone();
+        let start = integrals.radius;
+        let rule = self
+            .waves
+            .rule(LINE_POINTS, (radius - start) / self.thickness);
         for &[part, weight] in rule.iter() {
-            // Dense at both ends, where a line may be a root or a logarithm.
-            let place = part.powi(3) * (10.0 - 15.0 * part + 6.0 * part * part);
+            // The nodes are dense at both ends, where a line may behave like a root or a logarithm.
+            let position = part.powi(3) * (10.0 - 15.0 * part + 6.0 * part * part);
             let density = 30.0 * (part * (1.0 - part)).powi(2);
-            let x = start + (radius - start) * place;
+            let x = start + (radius - start) * position;
             let height = self.body.line_height(x);
-            let height = weight * density * (radius - start) / self.thickness * height;
-            sums.area += height;
-            let waves = self.waves.at(x / self.thickness);
-            let pairs = sums.waves.iter_mut().zip(waves);
-            pairs.for_each(|(sum, wave)| *sum += height * wave);
+            let weighted = weight * density * (radius - start) / self.thickness * height;
+            integrals.area += weighted;
+            let cosines = self.waves.cosines_at(x / self.thickness);
+            let pairs = integrals.waves.iter_mut().zip(cosines);
+            pairs.for_each(|(sum, cosine)| *sum += weighted * cosine);
         }
-        sums.radius = radius;
-        sums.height = self.body.line_height(radius);
-        sums
+        integrals.radius = radius;
+        integrals.height = self.body.line_height(radius);
+        integrals
     }
 }
 
-/// The equations on a disc; G with 1 − G Gᵀ their matrix, symmetric by the roots of the weights.
-pub(super) struct Disc {
-    waves: DMatrix<f64>,
-    factor: Cholesky<f64, Dyn>,
-    /// φ times the root of the weight, and that of the weight at the edge.
+/// The discretised equations of a contact disc, (1 − C Cᵀ) (√w q) = √w (d − g).
+///
+/// C has the entries √w_i √(weight (2/π) (1 − M)) cos ξ_j x_i. The roots of the weights make the matrix symmetric.
+pub(super) struct ContactDisc {
+    /// C.
+    cosines: DMatrix<f64>,
+    /// Factors of 1 − C Cᵀ.
+    factors: Cholesky<f64, Dyn>,
+    /// √w φ at the nodes.
     punch: DVector<f64>,
-    edge: f64,
+    /// √w at the edge.
+    root_weight_at_edge: f64,
     /// ∫ φ dx.
-    radius: f64,
+    equivalent_radius: f64,
 }
 
-impl Disc {
-    /// Of a radius in thicknesses.
-    pub(super) fn new(waves: &Waves, radius: f64) -> Result<Self, FrictionError> {
-        let nodes = waves.rule(NODES, radius);
-        let nodes = nodes.iter();
-        let nodes: Vec<[f64; 2]> = nodes
+impl ContactDisc {
+    /// The equations of a disc whose radius is given in thicknesses.
+    pub(super) fn new(waves: &WaveQuadrature, radius: f64) -> Result<Self, FrictionError> {
+        let nodes: Vec<[f64; 2]> = waves
+            .rule(CONTACT_POINTS, radius)
+            .iter()
             .map(|[part, weight]| [radius * part, (radius * weight).sqrt()])
             .collect();
-        let row = |[x, root]: &[f64; 2]| waves.at(*x).map(|wave| root * wave).collect::<Vec<_>>();
-        let rows: Vec<f64> = nodes.iter().flat_map(row).collect();
-        let waves = DMatrix::from_row_slice(nodes.len(), waves.count(), &rows);
-        let matrix = DMatrix::identity(nodes.len(), nodes.len()) - &waves * waves.transpose();
-        let factor = Cholesky::new(matrix).ok_or(FrictionError::NotConverged {
+        let row = |[x, root_weight]: &[f64; 2]| {
+            let cosines = waves.cosines_at(*x);
+            cosines
+                .map(|cosine| root_weight * cosine)
+                .collect::<Vec<_>>()
+        };
+        let entries: Vec<f64> = nodes.iter().flat_map(row).collect();
+        let cosines = DMatrix::from_row_slice(nodes.len(), waves.n_waves(), &entries);
+        let matrix = DMatrix::identity(nodes.len(), nodes.len()) - &cosines * cosines.transpose();
+        let factors = Cholesky::new(matrix).ok_or(FrictionError::NotConverged {
             quantity: "contact on the layer",
             value: radius,
             error: f64::INFINITY,
         })?;
-        let roots = DVector::from_iterator(nodes.len(), nodes.iter().map(|[_, root]| *root));
-        let punch = factor.solve(&roots);
+        let root_weights = DVector::from_iterator(nodes.len(), nodes.iter().map(|[_, root]| *root));
+        let punch = factors.solve(&root_weights);
         Ok(Self {
-            radius: roots.dot(&punch),
-            edge: roots[nodes.len() - 1],
-            waves,
-            factor,
+            equivalent_radius: root_weights.dot(&punch),
+            root_weight_at_edge: root_weights[nodes.len() - 1],
+            cosines,
+            factors,
             punch,
         })
     }
 
-    /// Radius of the punch that is as stiff on the half space, in thicknesses.
-    pub(super) const fn radius(&self) -> f64 {
-        self.radius
+    /// Radius of the punch that has the same stiffness on the half space, in thicknesses.
+    pub(super) const fn equivalent_radius(&self) -> f64 {
+        self.equivalent_radius
     }
 
     /// φ at the edge.
-    pub(super) fn at_edge(&self) -> f64 {
-        self.punch[self.punch.len() - 1] / self.edge
+    fn punch_at_edge(&self) -> f64 {
+        self.punch[self.punch.len() - 1] / self.root_weight_at_edge
     }
 
-    /// The depth at which q vanishes at the edge.
-    pub(super) fn depth(&self, sums: &Sums) -> f64 {
-        let rest = self.factor.solve(&(&self.waves * &sums.waves));
-        (sums.height + rest[rest.len() - 1] / self.edge) / self.at_edge()
+    /// The depth at which q vanishes at the edge, \[m].
+    pub(super) fn depth(&self, integrals: &LineIntegrals) -> f64 {
+        let correction = self.factors.solve(&(&self.cosines * &integrals.waves));
+        let at_edge = correction[correction.len() - 1] / self.root_weight_at_edge;
+        (integrals.height + at_edge) / self.punch_at_edge()
     }
 
-    /// ∫₀^a q dx at a depth: ∫ φ (d − g) dx.
-    pub(super) fn load(&self, sums: &Sums, depth: f64) -> f64 {
-        let rest = self.waves.tr_mul(&self.punch).dot(&sums.waves);
-        self.radius * depth - (sums.area + rest)
+    /// ∫₀^a q dx at a depth: ∫ φ (d − g) dx, over the thickness, \[m].
+    pub(super) fn load(&self, integrals: &LineIntegrals, depth: f64) -> f64 {
+        let correction = self.cosines.tr_mul(&self.punch).dot(&integrals.waves);
+        self.equivalent_radius * depth - (integrals.area + correction)
     }
 }

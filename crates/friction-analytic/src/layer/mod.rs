@@ -1,8 +1,10 @@
-//! Bodies of revolution that are pressed into a layer of any thickness, bonded to a rigid base and free of friction above.
+//! Elastic contact of bodies of revolution with a layer of any thickness, bonded to a rigid base and frictionless above.
+//!
+//! Theory and comparisons: docs/layers.md, "How it is computed".
 
+mod chebyshev;
 mod equation;
 mod profile;
-mod series;
 
 use indenters::Axisymmetric;
 use numerics::{InvalidParameter, in_range, positive};
@@ -11,11 +13,12 @@ pub use profile::LayerProfile;
 
 use crate::FrictionError;
 use crate::error::representable;
-use equation::{Disc, Heights, Waves};
+use equation::{ContactDisc, EquivalentLine, WaveQuadrature};
 
-/// Radius of a contact in thicknesses, beyond which the equations are not solved: a layer is a Winkler foundation or a film by
-/// then ([`ThinLayer`](crate::ThinLayer)).
-const WIDEST: f64 = 100.0;
+/// Largest contact radius over the thickness for which the equations are solved; chosen.
+///
+/// A wider contact is close to that on a Winkler foundation or a film ([`ThinLayer`](crate::ThinLayer)).
+const MAX_RADIUS_OVER_THICKNESS: f64 = 100.0;
 
 /// A layer bonded to a rigid base, of a material with a constant Poisson ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +27,7 @@ pub struct BondedLayer {
     poisson_ratio: f64,
 }
 
-/// A contact of a given radius.
+/// Depth and force of an elastic contact of given radius on a layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerContact {
     /// Indentation depth d, \[m].
@@ -34,7 +37,7 @@ pub struct LayerContact {
 }
 
 impl BondedLayer {
-    /// Of a thickness > 0 \[m] and a Poisson ratio above −1 and at most 1/2.
+    /// A layer of a thickness > 0 \[m] and a Poisson ratio above −1 and at most 1/2.
     ///
     /// # Errors
     /// [`InvalidParameter`] for other numbers.
@@ -52,12 +55,12 @@ impl BondedLayer {
         self.thickness
     }
 
-    /// Radius of the widest contact that is solved, \[m].
-    pub fn widest(&self) -> f64 {
-        WIDEST * self.thickness
+    /// Largest contact radius for which the equations are solved, a hundred thicknesses, \[m].
+    pub fn max_contact_radius(&self) -> f64 {
+        MAX_RADIUS_OVER_THICKNESS * self.thickness
     }
 
-    /// An elastic contact of a given radius, to about ten digits.
+    /// The elastic contact of a given radius, to about ten digits.
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for a radius that is not positive, that the body does not reach, or of more than
@@ -68,7 +71,7 @@ impl BondedLayer {
         body: &dyn Axisymmetric,
         contact_radius: f64,
     ) -> Result<LayerContact, FrictionError> {
-        let slenderness = self.slenderness(contact_radius)?;
+        let radius_over_thickness = self.radius_over_thickness(contact_radius)?;
         let is_inside = body.line_height(contact_radius).is_finite();
         in_range(
             "contact_radius",
@@ -76,37 +79,40 @@ impl BondedLayer {
             is_inside,
             "inside the body",
         )?;
-        let waves = Waves::new(self.poisson_ratio, slenderness);
-        let disc = Disc::new(&waves, slenderness)?;
-        let heights = Heights::new(body, self.thickness, &waves, contact_radius);
-        let sums = heights.up_to(contact_radius);
-        let depth = representable("indentation depth", disc.depth(&sums))?;
-        let force = 2.0 * self.thickness * disc.load(&sums, depth);
+        let waves = WaveQuadrature::new(self.poisson_ratio, radius_over_thickness);
+        let disc = ContactDisc::new(&waves, radius_over_thickness)?;
+        let line = EquivalentLine::new(body, self.thickness, &waves, contact_radius);
+        let integrals = line.integrals_to(contact_radius);
+        let depth = representable("indentation depth", disc.depth(&integrals))?;
+        let force = 2.0 * self.thickness * disc.load(&integrals, depth);
         Ok(LayerContact {
             indentation_depth: depth,
             force_per_modulus: representable("force over modulus", force)?,
         })
     }
 
-    /// Radius \[m] of the flat punch that is as stiff on the half space as one of the radius a is on the layer: F = 2 E* A d.
+    /// Radius A of the flat punch that has the stiffness on the half space which a punch of radius a has on the layer, \[m]:
+    /// F = 2 E* A d.
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for a radius that is not positive, or of more than a hundred thicknesses.
-    pub fn punch_radius(&self, contact_radius: f64) -> Result<f64, FrictionError> {
-        let slenderness = self.slenderness(contact_radius)?;
-        let waves = Waves::new(self.poisson_ratio, slenderness);
-        Ok(self.thickness * Disc::new(&waves, slenderness)?.radius())
+    pub fn equivalent_punch_radius(&self, contact_radius: f64) -> Result<f64, FrictionError> {
+        let radius_over_thickness = self.radius_over_thickness(contact_radius)?;
+        let waves = WaveQuadrature::new(self.poisson_ratio, radius_over_thickness);
+        let disc = ContactDisc::new(&waves, radius_over_thickness)?;
+        Ok(self.thickness * disc.equivalent_radius())
     }
 
-    fn slenderness(&self, contact_radius: f64) -> Result<f64, InvalidParameter> {
-        let slenderness = positive("contact_radius", contact_radius)? / self.thickness;
+    /// The contact radius in thicknesses, if the equations are solved for it.
+    fn radius_over_thickness(&self, contact_radius: f64) -> Result<f64, InvalidParameter> {
+        let radius_over_thickness = positive("contact_radius", contact_radius)? / self.thickness;
         let allowed = "at most 100 thicknesses of the layer";
         in_range(
             "contact_radius",
             contact_radius,
-            slenderness <= WIDEST,
+            radius_over_thickness <= MAX_RADIUS_OVER_THICKNESS,
             allowed,
         )?;
-        Ok(slenderness)
+        Ok(radius_over_thickness)
     }
 }

@@ -1,4 +1,4 @@
-//! The force of a body on a layer at any depth, as that of another profile on the half space.
+//! Equivalent profile: the body whose force on springs side by side is, at every depth, that of a body on a layer.
 //!
 //! An increment of the depth moves the contact like a flat punch of its radius a, so that on a layer
 //!
@@ -7,76 +7,96 @@
 //! ```
 //!
 //! and springs side by side have this force under the profile g(A(a)) = d(a). With a constant Poisson ratio the influence of
-//! a pressure factorises into time and place, on a layer as on a half space, and so Ting's argument and the force ∫ G df hold
-//! on both: as long as the contact grows once and shrinks once.
+//! a pressure factorises into time and place, on a layer as on a half space. So Ting's argument and the force ∫ G df hold on
+//! both, as long as the contact grows once and shrinks once. See docs/layers.md, "Pressed and pulled back".
+//!
+//! A profile is computed in three steps:
+//! 1. find a contact radius at which the depth is reached;
+//! 2. between kinks, expand ln(A/a) and the depth over the height of the line into Chebyshev series of a;
+//! 3. invert the depth, and expand A and a into Chebyshev series of d.
 
 use indenters::{Axisymmetric, EquivalentProfile, IndenterError, contact_radius};
 use numerics::{Estimate, bracketed_root, in_range, positive};
 
 use super::BondedLayer;
-use super::equation::{Disc, Heights, Waves};
-use super::series::Series;
+use super::chebyshev::ChebyshevPair;
+use super::equation::{ContactDisc, EquivalentLine, WaveQuadrature};
 use crate::FrictionError;
 
-/// Last terms of a series, and those with which it is still taken.
-const TOLERANCE: f64 = 1e-8;
-const WORST: f64 = 5e-8;
-/// The error of a radius is less than so many last terms of both series behind it, and what they leave out.
-const BAR: f64 = 20.0;
-const LEFT_OUT: f64 = 2e-8;
-/// A contact on a layer is less than three times as wide as on a half space at the same depth, on a film; how it is sought.
-const WIDER: f64 = 3.0;
-const STEP: f64 = 1.25;
-const ENOUGH: f64 = 1.02;
-/// A map with this σ is hardly bent.
-const STRAIGHT: f64 = 10.0;
-/// Powers by which a map is denser at its beginning; the second for bodies of several powers, as r + r^1.3.
-const GRADINGS: [f64; 2] = [1.0, 6.0];
-/// How close a contact may come to a vertical edge, such as the equator of a sphere.
-const EDGE: f64 = 0.99;
+/// Largest last coefficients of a Chebyshev series that end its refinement; chosen. Relative to the radius.
+const SERIES_TOLERANCE: f64 = 1e-8;
+/// Largest sum of the last coefficients of both series with which a profile is still accepted; chosen.
+const MAX_TAIL: f64 = 5e-8;
+/// Upper bound of the relative error of a radius, over the sum of the last coefficients of both series behind it.
+const ERROR_OVER_TAIL: f64 = 20.0;
+/// Upper bound of the relative error of a radius by the terms that the series leave out, in addition to that by the tail.
+const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
+/// Upper bound of the contact radius on a layer over that on the half space at the same depth; it is reached on a film.
+const MAX_RADIUS_RATIO: f64 = 3.0;
+/// Factor on the radius per step of the search for a depth; chosen.
+const SEARCH_GROWTH: f64 = 1.25;
+/// Depth that the radius found is to reach, over the depth sought; chosen.
+///
+/// The equations take longer by the cube of the radius, so that not much more than the depth sought is worth a step.
+const DEPTH_MARGIN: f64 = 1.02;
+/// Largest parameter σ of a [`GradedMap`], with which it is nearly linear in y; chosen.
+const MAX_SIGMA: f64 = 10.0;
+/// Grading exponents of the maps that are tried one after the other; chosen.
+///
+/// The second one is needed for bodies of several powers, such as r + r^1.3.
+const GRADING_EXPONENTS: [f64; 2] = [1.0, 6.0];
+/// Largest contact radius over that of a vertical edge of the body, such as the equator of a sphere; chosen.
+const MAX_RADIUS_OVER_EDGE: f64 = 0.99;
+/// Number of intervals between two kinks at whose ends the depth is checked to increase; chosen.
+const MONOTONICITY_INTERVALS: u8 = 64;
 
-/// The profile of a body on a layer, up to a depth.
+/// The equivalent profile of a body on a layer, up to a depth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerProfile {
+    /// Exponent of the body at its apex.
     exponent: f64,
+    /// Equivalent radius at the largest depth, \[m].
     end: f64,
-    /// By increasing depth, from kink to kink of the body.
+    /// Pieces by increasing depth, from kink to kink of the body.
     pieces: Vec<Piece>,
+    /// Upper bound of the relative error of all radii.
     relative_error: f64,
 }
 
-/// Equivalent radius and radius of the contact, over the depth.
+/// Equivalent radius A and contact radius a as functions of the depth.
 #[derive(Debug, Clone, PartialEq)]
 struct Piece {
-    along: Map,
-    /// Both are multiples of this power of y.
-    apex: f64,
-    radii: Series,
+    depths: GradedMap,
+    /// Exponent e of the factor y^e in both radii.
+    apex_exponent: f64,
+    /// A/y^e and a/y^e over x.
+    radii: ChebyshevPair,
 }
 
-/// x from −1 to 1 to a value between two others: start + length yᵐ, y = σ sinh(½ (1 + x) asinh(1/σ)).
+/// Map of x from −1 to 1 onto an interval: start + length yᵐ, y = σ sinh(½ (1 + x) asinh(1/σ)).
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Map {
+struct GradedMap {
+    /// Start and end of the interval.
     ends: [f64; 2],
+    /// m.
     power: f64,
     sigma: f64,
     /// asinh(1/σ).
-    reach: f64,
+    asinh: f64,
 }
 
-impl Map {
+impl GradedMap {
     fn new(ends: [f64; 2], power: f64, sigma: f64) -> Self {
-        let reach = sigma.recip().asinh();
         Self {
             ends,
             power,
             sigma,
-            reach,
+            asinh: sigma.recip().asinh(),
         }
     }
 
     fn y(&self, x: f64) -> f64 {
-        self.sigma * (0.5 * (1.0 + x) * self.reach).sinh()
+        self.sigma * (0.5 * (1.0 + x) * self.asinh).sinh()
     }
 
     fn value(&self, x: f64) -> f64 {
@@ -84,50 +104,55 @@ impl Map {
         start + (end - start) * self.y(x).powf(self.power)
     }
 
-    /// y and x of a value.
-    fn place(&self, value: f64) -> [f64; 2] {
+    /// y and x of a value in the interval.
+    fn inverse(&self, value: f64) -> [f64; 2] {
         let [start, end] = self.ends;
         let y = ((value - start) / (end - start)).powf(self.power.recip());
-        let x = 2.0 * (y / self.sigma).asinh() / self.reach - 1.0;
+        let x = 2.0 * (y / self.sigma).asinh() / self.asinh - 1.0;
         [y, x]
     }
 }
 
 impl LayerProfile {
-    /// Of a body up to a depth > 0, \[m].
+    /// The equivalent profile of a body up to a depth > 0, \[m].
     ///
     /// # Errors
-    /// [`FrictionError::InvalidParameter`] for a depth that is no positive number, and for a thickness of which the contact would
-    /// be more than a hundred wide; [`FrictionError::Indenter`] and [`FrictionError::BeyondEdge`] where the body ends before, or
-    /// its contact does not grow with the depth; [`FrictionError::NotConverged`].
+    /// [`FrictionError::InvalidParameter`] for a depth that is no positive number, or a contact radius above a hundred
+    /// thicknesses; [`FrictionError::Indenter`] and [`FrictionError::BeyondEdge`] if the body ends before, or its contact does
+    /// not grow with the depth; [`FrictionError::NotConverged`] if the series need too many terms.
     pub fn new(
         body: &dyn Axisymmetric,
         layer: &BondedLayer,
         depth: f64,
     ) -> Result<Self, FrictionError> {
-        Self::reaching(body, layer, [depth, depth])
+        Self::reaching(body, layer, depth, depth)
     }
 
-    /// The same at least up to a depth, and up to a larger one if all that lets it.
+    /// The equivalent profile of a body up to a `needed` depth \[m] at least, and up to the `wanted` one \[m] if body and layer
+    /// allow it.
     ///
     /// # Errors
-    /// Those of [`Self::new`] for the first depth.
+    /// Those of [`Self::new`] for the needed depth.
     pub fn reaching(
         body: &dyn Axisymmetric,
         layer: &BondedLayer,
-        [needed, wanted]: [f64; 2],
+        needed: f64,
+        wanted: f64,
     ) -> Result<Self, FrictionError> {
-        let (needed, depth) = (positive("depth", needed)?, positive("depth", wanted)?);
+        positive("depth", needed)?;
+        positive("depth", wanted)?;
         let end = body.max_radius();
         if end.is_finite() && body.line_height(end) == 0.0 {
             return Self::of_punch(layer, end);
         }
+
+        // Bound the contact radius by the body, the layer, and the contact on the half space.
         let edge = if body.line_height(end) == f64::INFINITY {
-            EDGE * end
+            MAX_RADIUS_OVER_EDGE * end
         } else {
             end
         };
-        let half_space = match contact_radius(body, depth) {
+        let half_space_radius = match contact_radius(body, wanted) {
             Ok(radius) => radius,
             Err(IndenterError::NonMonotoneLine {
                 limiting_radius, ..
@@ -135,19 +160,24 @@ impl LayerProfile {
             Err(IndenterError::NotHighEnough { .. }) => end,
             Err(other) => return Err(other.into()),
         };
-        let limit = edge.min(layer.widest());
-        let widest = limit.min(WIDER * half_space);
-        let waves = Waves::new(layer.poisson_ratio, widest / layer.thickness);
-        let on = OnLayer::new(body, layer, &waves, widest);
-        let radius = on.radius_at(depth, [half_space.min(widest), widest])?;
-        // Where the contact is narrower than it may be, fewer waves do.
-        let waves = Waves::new(layer.poisson_ratio, radius / layer.thickness);
-        let on = OnLayer::new(body, layer, &waves, radius);
-        let available = on.contact(radius)?[1];
+        let max_radius = edge
+            .min(layer.max_contact_radius())
+            .min(MAX_RADIUS_RATIO * half_space_radius);
+
+        // Find a radius that reaches the depth.
+        let waves = WaveQuadrature::new(layer.poisson_ratio, max_radius / layer.thickness);
+        let problem = LayerProblem::new(body, layer, &waves, max_radius);
+        let radius =
+            problem.radius_reaching(wanted, half_space_radius.min(max_radius), max_radius)?;
+
+        // Expand with the wave numbers that this radius needs, which may be fewer.
+        let waves = WaveQuadrature::new(layer.poisson_ratio, radius / layer.thickness);
+        let problem = LayerProblem::new(body, layer, &waves, radius);
+        let available = problem.contact(radius)?.depth;
         if available >= needed {
-            return on.profile(radius);
+            return problem.profile(radius);
         }
-        let is_thick = radius < layer.widest();
+        let is_thick = radius < layer.max_contact_radius();
         let allowed = "at least a hundredth of the radius of the contact";
         in_range("thickness", layer.thickness, is_thick, allowed)?;
         Err(if edge < end {
@@ -160,61 +190,64 @@ impl LayerProfile {
 
     /// A flat punch has the same contact at all depths.
     fn of_punch(layer: &BondedLayer, radius: f64) -> Result<Self, FrictionError> {
-        let stiff = layer.punch_radius(radius)?;
-        let constant = |_| Ok::<_, FrictionError>([stiff, radius]);
-        let radii = Series::of(constant, f64::INFINITY)?;
+        let equivalent_radius = layer.equivalent_punch_radius(radius)?;
+        let constant = |_| Ok::<_, FrictionError>([equivalent_radius, radius]);
+        let radii = ChebyshevPair::interpolate(constant, f64::INFINITY)?;
         Ok(Self {
             exponent: f64::INFINITY,
-            // To the last digit where all its contacts end.
-            end: radii.at(0.0)[0],
+            // From the series, so that it agrees with the radius at every depth to the last digit.
+            end: radii.evaluate(0.0)[0],
             pieces: vec![Piece {
-                along: Map::new([0.0, f64::INFINITY], 1.0, 1.0),
-                apex: 0.0,
+                depths: GradedMap::new([0.0, f64::INFINITY], 1.0, 1.0),
+                apex_exponent: 0.0,
                 radii,
             }],
-            relative_error: LEFT_OUT,
+            relative_error: LEFT_OUT_TERMS_ERROR,
         })
     }
 
-    /// The largest depth that is known, \[m].
+    /// The largest depth of the profile, \[m]; infinite for a flat punch.
     pub fn depth(&self) -> f64 {
-        self.pieces[self.pieces.len() - 1].along.ends[1]
+        self.pieces[self.pieces.len() - 1].depths.ends[1]
     }
 
-    /// Relative error of all radii at a depth; as large an error of the modulus has the same effect on a force.
+    /// Upper bound of the relative error of the radii at a depth. An equal relative error of the modulus changes a force as
+    /// much.
     pub const fn relative_error(&self) -> f64 {
         self.relative_error
     }
 
-    /// Radius of the contact, \[m], whose equivalent radius is given.
+    /// Contact radius for a given equivalent radius, \[m].
     pub fn contact_radius(&self, equivalent: Estimate) -> Estimate {
         if equivalent.value <= 0.0 {
             return equivalent;
         }
         let depth = self.height_at(equivalent.value).min(self.depth());
-        let [stiff, radius] = self.radii(depth);
-        // The equivalent radius grows faster than the radius.
-        let error = equivalent.error * (radius / stiff) + self.relative_error * radius;
+        let [equivalent_radius, radius] = self.radii(depth);
+        // The equivalent radius grows faster than the contact radius.
+        let error = equivalent.error * (radius / equivalent_radius) + self.relative_error * radius;
         Estimate::new(radius, error)
     }
 
+    /// Equivalent radius and contact radius at a depth, \[m].
     fn radii(&self, depth: f64) -> [f64; 2] {
-        let place = self
+        let index = self
             .pieces
-            .partition_point(|piece| piece.along.ends[1] < depth);
-        self.pieces[place.min(self.pieces.len() - 1)].radii(depth)
+            .partition_point(|piece| piece.depths.ends[1] < depth);
+        self.pieces[index.min(self.pieces.len() - 1)].radii(depth)
     }
 }
 
 impl Piece {
+    /// Equivalent radius and contact radius at a depth, \[m].
     fn radii(&self, depth: f64) -> [f64; 2] {
-        if self.along.ends[1].is_infinite() {
-            return self.radii.at(0.0);
+        if self.depths.ends[1].is_infinite() {
+            return self.radii.evaluate(0.0);
         }
-        let [y, x] = self.along.place(depth);
-        let factor = y.powf(self.apex);
+        let [y, x] = self.depths.inverse(depth);
+        let factor = y.powf(self.apex_exponent);
         self.radii
-            .at(x.clamp(-1.0, 1.0))
+            .evaluate(x.clamp(-1.0, 1.0))
             .map(|radius| factor * radius)
     }
 }
@@ -253,180 +286,237 @@ impl EquivalentProfile for LayerProfile {
         self.exponent
     }
 
-    /// The surface beside a load moves with it.
+    /// False, because the surface beside a load moves with it.
     fn is_exact_where_touched_again(&self) -> bool {
         false
     }
 }
 
-/// A body and a layer.
-struct OnLayer<'a> {
+/// The contact problem of a body and a layer.
+struct LayerProblem<'a> {
     body: &'a dyn Axisymmetric,
     thickness: f64,
-    waves: &'a Waves,
-    heights: Heights<'a>,
+    waves: &'a WaveQuadrature,
+    line: EquivalentLine<'a>,
 }
 
-/// What the contacts between two kinks of a body are: ln A/a, and the depth over the height of the line.
-struct Contacts {
-    along: Map,
-    ratios: Series,
+/// A contact of given radius.
+#[derive(Clone, Copy)]
+struct ContactOnLayer {
+    /// Contact radius a, \[m].
+    radius: f64,
+    /// Equivalent radius A, \[m].
+    equivalent_radius: f64,
+    /// Indentation depth d, \[m].
+    depth: f64,
 }
 
-impl<'a> OnLayer<'a> {
-    /// For contacts up to a radius.
-    fn new(body: &'a dyn Axisymmetric, layer: &BondedLayer, waves: &'a Waves, widest: f64) -> Self {
+/// The contacts between two kinks of a body.
+struct ContactSeries {
+    /// The contact radius.
+    contact_radii: GradedMap,
+    /// ln(A/a), and the depth over the height of the line.
+    ratios: ChebyshevPair,
+}
+
+impl<'a> LayerProblem<'a> {
+    /// The problem for contacts up to a radius, \[m].
+    fn new(
+        body: &'a dyn Axisymmetric,
+        layer: &BondedLayer,
+        waves: &'a WaveQuadrature,
+        max_radius: f64,
+    ) -> Self {
         let thickness = layer.thickness;
-        let heights = Heights::new(body, thickness, waves, widest);
         Self {
             body,
             thickness,
-            heights,
             waves,
+            line: EquivalentLine::new(body, thickness, waves, max_radius),
         }
     }
 
-    /// Equivalent radius and depth of a contact.
-    fn contact(&self, radius: f64) -> Result<[f64; 2], FrictionError> {
-        let disc = Disc::new(self.waves, radius / self.thickness)?;
-        let sums = self.heights.up_to(radius);
-        Ok([self.thickness * disc.radius(), disc.depth(&sums)])
+    /// The contact of a radius, \[m].
+    fn contact(&self, radius: f64) -> Result<ContactOnLayer, FrictionError> {
+        let disc = ContactDisc::new(self.waves, radius / self.thickness)?;
+        Ok(ContactOnLayer {
+            radius,
+            equivalent_radius: self.thickness * disc.equivalent_radius(),
+            depth: disc.depth(&self.line.integrals_to(radius)),
+        })
     }
 
-    /// A radius between two others at which a depth is reached; the second one where it is not.
-    fn radius_at(&self, depth: f64, [mut radius, widest]: [f64; 2]) -> Result<f64, FrictionError> {
-        let [mut before, mut here] = [[0.0; 2], [radius, self.contact(radius)?[1]]];
-        while here[0] < widest && here[1] < depth {
-            before = here;
-            radius = (STEP * radius).min(widest);
-            here = [radius, self.contact(radius)?[1]];
+    /// A radius between `start` and `max_radius` at which a depth is reached, \[m]; the largest one if none is.
+    fn radius_reaching(
+        &self,
+        depth: f64,
+        start: f64,
+        max_radius: f64,
+    ) -> Result<f64, FrictionError> {
+        // Enlarge the contact until it is deep enough.
+        let mut previous: Option<ContactOnLayer> = None;
+        let mut contact = self.contact(start)?;
+        while contact.radius < max_radius && contact.depth < depth {
+            previous = Some(contact);
+            contact = self.contact((SEARCH_GROWTH * contact.radius).min(max_radius))?;
         }
-        // The equations take longer by the cube of the radius, so that not much more than the depth is worth a step.
-        let part = (ENOUGH * depth / before[1]).ln() / (here[1] / before[1]).ln();
-        if before[1] > 0.0 && part < 1.0 {
-            radius = before[0] * (here[0] / before[0]).powf(part);
-            if self.contact(radius)?[1] < depth {
-                radius = here[0];
+
+        // Interpolate the radius as a power of the depth, and keep it if it is deep enough.
+        if let Some(previous) = previous.filter(|previous| previous.depth > 0.0) {
+            let part = (DEPTH_MARGIN * depth / previous.depth).ln()
+                / (contact.depth / previous.depth).ln();
+            if part < 1.0 {
+                let radius = previous.radius * (contact.radius / previous.radius).powf(part);
+                let is_short = self.contact(radius)?.depth < depth;
+                if !is_short {
+                    return Ok(radius);
+                }
             }
         }
-        Ok(radius)
+        Ok(contact.radius)
     }
 
-    /// Up to a radius of the contact.
+    /// The equivalent profile up to a contact radius, \[m].
     fn profile(&self, radius: f64) -> Result<LayerProfile, FrictionError> {
-        let kinks = self.heights.kinks().filter(|kink| *kink < radius);
+        let kinks = self.line.kinks().filter(|kink| *kink < radius);
         let ends: Vec<f64> = kinks.chain([radius]).collect();
         let mut profile = LayerProfile {
             exponent: self.body.profile_exponent(),
-            end: self.contact(radius)?[0],
+            end: self.contact(radius)?.equivalent_radius,
             pieces: Vec::with_capacity(ends.len()),
             relative_error: 0.0,
         };
-        let mut deep = 0.0;
+        let mut depth = 0.0;
         for pair in ends.windows(2) {
-            let (piece, error) = self.graded([pair[0], pair[1]], deep)?;
-            deep = piece.along.ends[1];
+            let (piece, error) = self.piece_between([pair[0], pair[1]], depth)?;
+            depth = piece.depths.ends[1];
             profile.relative_error = profile.relative_error.max(error);
             profile.pieces.push(piece);
         }
         Ok(profile)
     }
 
-    /// Between two kinks of the body, from a depth, with its relative error; dense at the beginning where other powers count there
-    /// than the first.
-    fn graded(&self, ends: [f64; 2], start: f64) -> Result<(Piece, f64), FrictionError> {
-        let mut least = f64::INFINITY;
-        for grading in GRADINGS {
-            let contacts = self.contacts(ends, grading)?;
-            let piece = self.piece(&contacts, start, grading)?;
-            let tail = contacts.ratios.tail + piece.radii.tail / piece.radii.at(1.0)[1];
-            if tail <= WORST {
-                return Ok((piece, BAR * tail + LEFT_OUT));
+    /// The piece between two contact radii from a depth on, and its relative error.
+    ///
+    /// The nodes are dense at the beginning if the first grading does not converge, because other powers of the body count
+    /// there than the leading one.
+    fn piece_between(
+        &self,
+        radii: [f64; 2],
+        start_depth: f64,
+    ) -> Result<(Piece, f64), FrictionError> {
+        let mut smallest_tail = f64::INFINITY;
+        for grading in GRADING_EXPONENTS {
+            let contacts = self.contact_series(radii, grading)?;
+            let piece = self.piece(&contacts, start_depth, grading)?;
+            let tail = contacts.ratios.tail + piece.radii.tail / piece.radii.evaluate(1.0)[1];
+            if tail <= MAX_TAIL {
+                return Ok((piece, ERROR_OVER_TAIL * tail + LEFT_OUT_TERMS_ERROR));
             }
-            least = least.min(tail);
+            smallest_tail = smallest_tail.min(tail);
         }
         Err(FrictionError::NotConverged {
             quantity: "radius of the contact over that on the half space",
             value: 1.0,
-            error: BAR * least,
+            error: ERROR_OVER_TAIL * smallest_tail,
         })
     }
 
-    /// In the radius contacts are smooth at an apex, and behind a kink of the body in the root of the distance.
-    fn contacts(&self, ends: [f64; 2], grading: f64) -> Result<Contacts, FrictionError> {
-        let power = grading * if ends[0] > 0.0 { 2.0 } else { 1.0 };
-        let sigma = (self.thickness + ends[0]) / (ends[1] - ends[0]);
-        let along = Map::new(ends, power, sigma.min(STRAIGHT));
+    /// Expands the contacts between two radii, \[m].
+    fn contact_series(
+        &self,
+        radii: [f64; 2],
+        grading: f64,
+    ) -> Result<ContactSeries, FrictionError> {
+        // Contacts are smooth in the radius at an apex, and in the root of the distance behind a kink of the body.
+        let power = grading * if radii[0] > 0.0 { 2.0 } else { 1.0 };
+        let sigma = (self.thickness + radii[0]) / (radii[1] - radii[0]);
+        let contact_radii = GradedMap::new(radii, power, sigma.min(MAX_SIGMA));
         let ratios = |x: f64| {
-            let radius = along.value(x);
-            let [stiff, depth] = self.contact(radius)?;
-            Ok::<_, FrictionError>([(stiff / radius).ln(), depth / self.body.line_height(radius)])
+            let contact = self.contact(contact_radii.value(x))?;
+            Ok::<_, FrictionError>([
+                (contact.equivalent_radius / contact.radius).ln(),
+                contact.depth / self.body.line_height(contact.radius),
+            ])
         };
-        Ok(Contacts {
-            along,
-            ratios: Series::of(ratios, TOLERANCE)?,
+        Ok(ContactSeries {
+            contact_radii,
+            ratios: ChebyshevPair::interpolate(ratios, SERIES_TOLERANCE)?,
         })
     }
 
-    /// The same over the depth, from where the piece before has ended.
-    fn piece(&self, contacts: &Contacts, start: f64, grading: f64) -> Result<Piece, FrictionError> {
-        let [inner, outer] = contacts.along.ends;
-        let ratios = |radius: f64| contacts.ratios.at(contacts.along.place(radius)[1]);
+    /// Inverts the depth of a series of contacts, and expands both radii over the depth.
+    fn piece(
+        &self,
+        contacts: &ContactSeries,
+        start_depth: f64,
+        grading: f64,
+    ) -> Result<Piece, FrictionError> {
+        let [inner, outer] = contacts.contact_radii.ends;
+        let ratios = |radius: f64| {
+            contacts
+                .ratios
+                .evaluate(contacts.contact_radii.inverse(radius)[1])
+        };
         let depth = |radius: f64| self.body.line_height(radius) * ratios(radius)[1];
-        self.check_rise(&contacts.along, &depth)?;
+        check_increasing(&contacts.contact_radii, depth)?;
+
+        // Choose the map of the depth: the leading power of the depth over the radius, and σ from the length on which the
+        // radii change to those of a thin layer, or far from a kink.
         let is_apex = inner == 0.0;
         let power = if is_apex {
             self.body.profile_exponent()
         } else {
             2.0
         };
-        let mut along = Map::new([start, depth(outer)], grading * power, STRAIGHT);
-        // Where radii are no longer as on a half space, or on the half space far from the kink.
+        let nearly_linear = GradedMap::new([start_depth, depth(outer)], grading * power, MAX_SIGMA);
         let scale = self
             .thickness
             .min(if is_apex { f64::INFINITY } else { inner });
-        if inner + scale < outer {
-            let sigma = along.place(depth(inner + scale))[0];
-            along = Map::new(along.ends, along.power, sigma);
-        }
+        let depths = if inner + scale < outer {
+            let sigma = nearly_linear.inverse(depth(inner + scale))[0];
+            GradedMap::new(nearly_linear.ends, nearly_linear.power, sigma)
+        } else {
+            nearly_linear
+        };
+
+        // Solve d(a) at each node.
         let radii = |x: f64| {
-            let target = along.value(x);
+            let target = depths.value(x);
             let excess = |radius: f64| depth(radius) - target;
-            let bracket = [inner, outer];
-            let nearer = if x < 0.0 { inner } else { outer };
-            let radius = bracketed_root(excess, bracket).unwrap_or(nearer);
+            let nearer_end = if x < 0.0 { inner } else { outer };
+            let radius = bracketed_root(excess, [inner, outer]).unwrap_or(nearer_end);
             let factor = if is_apex {
-                along.y(x).powf(-grading)
+                depths.y(x).powf(-grading)
             } else {
                 1.0
             };
             Ok::<_, FrictionError>([factor * radius * ratios(radius)[0].exp(), factor * radius])
         };
-        let tolerance = TOLERANCE * outer;
         Ok(Piece {
-            radii: Series::of(radii, tolerance)?,
-            along,
-            apex: if is_apex { grading } else { 0.0 },
-        })
-    }
-
-    /// Refuses a body that would have to be lifted for its contact to grow.
-    fn check_rise(&self, along: &Map, depth: &impl Fn(f64) -> f64) -> Result<(), FrictionError> {
-        let places =
-            (0..=N_PLACES).map(|k| along.value(2.0 * f64::from(k) / f64::from(N_PLACES) - 1.0));
-        let places: Vec<f64> = places.collect();
-        let turn = places
-            .windows(2)
-            .find(|pair| depth(pair[1]) < depth(pair[0]));
-        turn.map_or(Ok(()), |pair| {
-            Err(FrictionError::Indenter(IndenterError::NonMonotoneLine {
-                limiting_radius: pair[0],
-                limiting_depth: depth(pair[0]),
-                depth: depth(along.ends[1]),
-            }))
+            radii: ChebyshevPair::interpolate(radii, SERIES_TOLERANCE * outer)?,
+            depths,
+            apex_exponent: if is_apex { grading } else { 0.0 },
         })
     }
 }
 
-/// Places between two kinks at which it is looked whether the depth rises.
-const N_PLACES: u8 = 64;
+/// Refuses a body that would have to be lifted for its contact to grow.
+fn check_increasing(
+    contact_radii: &GradedMap,
+    depth: impl Fn(f64) -> f64,
+) -> Result<(), FrictionError> {
+    let radii: Vec<f64> = (0..=MONOTONICITY_INTERVALS)
+        .map(|k| contact_radii.value(2.0 * f64::from(k) / f64::from(MONOTONICITY_INTERVALS) - 1.0))
+        .collect();
+    let turn = radii
+        .windows(2)
+        .find(|pair| depth(pair[1]) < depth(pair[0]));
+    turn.map_or(Ok(()), |pair| {
+        Err(FrictionError::Indenter(IndenterError::NonMonotoneLine {
+            limiting_radius: pair[0],
+            limiting_depth: depth(pair[0]),
+            depth: depth(contact_radii.ends[1]),
+        }))
+    })
+}

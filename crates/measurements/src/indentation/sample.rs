@@ -51,7 +51,7 @@ impl<'a> Sample<'a> {
             Thickness::Infinite => Base::HalfSpace,
             Thickness::Known(thickness) => {
                 let layer = BondedLayer::new(thickness, options.poisson_ratio)?;
-                let profile = LayerProfile::reaching(body, &layer, [width, DEEPEST * width])?;
+                let profile = LayerProfile::reaching(body, &layer, width, DEEPEST * width)?;
                 Base::Known(Arc::new(profile), thickness)
             }
             Thickness::Fitted => Base::Sought(Arc::new(Steps::new(body, width, options)?)),
@@ -176,7 +176,7 @@ impl<'a> Steps<'a> {
     fn of_step(&self, step: usize) -> Result<LayerProfile, FrictionError> {
         let thickness = (self.first + STEP * step as f64).exp();
         let layer = BondedLayer::new(thickness, self.poisson_ratio)?;
-        LayerProfile::reaching(self.body, &layer, [self.depth / DEEPEST, self.depth])
+        LayerProfile::reaching(self.body, &layer, self.depth / DEEPEST, self.depth)
     }
 }
 

@@ -45,7 +45,7 @@ fn profile(problem: &Problem, body: &Revolution) -> Result<LayerProfile> {
 /// A depth that an impulse on the dashpot of unit viscosity does not exceed.
 fn depth_of(body: &dyn Axisymmetric, layer: &BondedLayer, impulse: f64) -> Result<f64> {
     let on_half_space = indentation_after_impulse(body, &Viscous::new(1.0)?, impulse)?;
-    let mut radius = on_half_space.contact_radius.min(layer.widest());
+    let mut radius = on_half_space.contact_radius.min(layer.max_contact_radius());
     // A flat punch has no depth of its own.
     let force = |radius| {
         layer
