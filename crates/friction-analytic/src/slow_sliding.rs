@@ -5,12 +5,16 @@
 //! m₁ = η_0/G_∞      n_k = Σ (G_i/G_∞) τ_i^k      Λ = m₁² + 2 n₂
 //! ```
 //!
-//! The load that an elastic half space would need for the same displacements, p* = Φ p with Φ = G_∞/G, looks ahead only:
-//! it ends at the front where p does, and inside the contact it is the elastic one. The first term is the friction of the
-//! pressure shifted by x_s = m₁ v. The second is what the rear edge loses, which moves by x_s while the front stays: near
-//! an edge p* = k √d, and by ln Φ = −m₁ s + Λ s²/2 + … the loss is (π/4) (Λ v²/E*) ∮ k² cos³θ ds over the front half. In
-//! plane strain the same term follows from Hunter's cylinder (1961). The third is that of the tip of a cone, from the
-//! spectrum of h = κ r.
+//! The load that an elastic half space would need for the same displacements, p* = Φ p with Φ = G_∞/G, depends on p at and
+//! ahead of a point only: it ends at the front where p does, and inside the contact it is the elastic one.
+//!
+//! - The first term is the friction of the pressure shifted by x_s = m₁ v.
+//! - The second is the loss at the rear edge, which moves by x_s while the front stays. Near an edge p* = k √d, and by
+//!   ln Φ = −m₁ s + Λ s²/2 + … the loss is (π/4) (Λ v²/E*) ∮ k² cos³θ ds over the front half. In plane strain the same
+//!   term follows from Hunter's cylinder (1961).
+//! - The third is that of the tip of a cone, from the spectrum of h = κ r.
+//!
+//! Derivation: docs/theory/stationary-half-space.md, "Any linear viscoelastic material".
 
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::mem;
@@ -20,7 +24,7 @@ use numerics::{Estimate, in_range, positive};
 use rheology::{Material, RelaxationBranch};
 
 use crate::FrictionError;
-use crate::elastic_limit::{ElasticContact, ElasticLimitFriction, low_speed_friction};
+use crate::elastic_limit::{ElasticContact, low_speed_friction};
 use crate::indentation::known_moment;
 
 /// A body of revolution that slides slowly over a solid half space.
@@ -28,141 +32,172 @@ use crate::indentation::known_moment;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct SlowSliding {
-    /// Coefficient of friction, with what terms of higher order may be.
+    /// Coefficient of friction, with a bound on the terms of higher order as its error.
     pub friction_coefficient: Estimate,
     /// Normal force \[N] of the elastic contact.
     pub normal_force: f64,
-    /// Relative difference that sliding makes at most to the force at a given depth, or to the depth under a given force.
+    /// Bound on the relative change by sliding of the force at a given depth, or of the depth under a given force.
     pub elastic_error: f64,
     /// Contact area, \[m²].
     pub contact_area: Estimate,
-    /// Rear end of the contact relative to the lowest point, \[m]; the front and the sides stay at a.
+    /// Rear end of the contact relative to the lowest point, \[m]; the front and the sides remain at a.
     pub rear: Estimate,
 }
 
-/// Terms of the third order relative to the first, over their scale Λ₃ v²/(m₁ a²) and over the square of the second order;
-/// and the next term of an apex between cone and paraboloid, over (Λ v/(m₁ a))^(2p − 1). Boundary elements find up to 0.19,
-/// 1.1 and 0.45 for 1 ≤ p ≤ 10. Behind the tip of a cone a part of the contact opens, by which the first grows with the
-/// logarithm of a/x_s, by up to 0.3 of itself for each factor of e.
-const THIRD: f64 = 0.3;
-const SQUARE: f64 = 1.5;
-const APEX: f64 = 0.6;
-const OPENED: f64 = 0.5;
-/// Steepest line a h̃'(a)/h̃(a) for which that was tried, and longest memory Λ v/m₁ over a.
-const STEEPEST: f64 = 10.0;
-const LONGEST: f64 = 1.0;
-/// The next terms of area and ends over Λ v² and Λ v²/a, and of the depth over Λ v² h̃'(a)/(a d). Boundary elements find
-/// up to 1.3, 1 and 0.13.
-const AREA: f64 = 2.5;
-const REAR: f64 = 2.0;
-const DEPTH: f64 = 0.25;
+/// Bound on the third-order terms relative to the first one, over Λ₃ v²/(m₁ a²).
+///
+/// Boundary elements find up to 0.19 for 1 ≤ p ≤ 10.
+const THIRD_ORDER_BOUND: f64 = 0.3;
+/// Bound on the third-order terms relative to the first one, over the square of the relative second order at the rear.
+///
+/// Boundary elements find up to 1.1 for 1 ≤ p ≤ 10.
+const SQUARED_SECOND_ORDER_BOUND: f64 = 1.5;
+/// Bound on the next term of an apex between cone and paraboloid relative to the first one, over (Λ v/(m₁ a))^(2p − 1).
+///
+/// Boundary elements find up to 0.45 for 1 ≤ p ≤ 10.
+const APEX_BOUND: f64 = 0.6;
+/// Bound on the relative growth of the third order per factor e of a/x_s.
+///
+/// Behind the tip of a cone a part of the contact opens, which makes the third order grow with the logarithm of a/x_s.
+/// Boundary elements find up to 0.3.
+const OPENING_BOUND: f64 = 0.5;
+/// Largest steepness a h̃'(a)/h̃(a) of a line for which the bounds were compared with boundary elements.
+const MAX_STEEPNESS: f64 = 10.0;
+/// Largest memory length Λ v/m₁ over a for which the bounds were compared with boundary elements.
+const MAX_MEMORY_OVER_RADIUS: f64 = 1.0;
+/// Bound on the next term of the contact area, over Λ v². Boundary elements find up to 1.3.
+const AREA_BOUND: f64 = 2.5;
+/// Bound on the next term of the position of the rear end, over Λ v²/a. Boundary elements find up to 1.
+const REAR_BOUND: f64 = 2.0;
+/// Bound on the relative change of the depth, over Λ v² h̃'(a)/(a d). Boundary elements find up to 0.13.
+const DEPTH_BOUND: f64 = 0.25;
+/// Upper bound of the relative error of the integrals of the first term.
+const QUADRATURE_ERROR: f64 = 1e-10;
+/// Distance from the apex, over a, beyond which changes of the slope are in the other terms; chosen.
+const APEX_REGION: f64 = 0.25;
 
-/// A body that slides slowly over a solid half space, from the elastic contact of the same radius.
+/// Slow sliding over a solid half space, from the elastic contact of the same radius.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for an apex sharper than that of a cone, a body with kinks, a line that is steeper at
-/// the edge than r^10, an elastic solid, and a speed at which the solid remembers more than a radius; and the errors of
-/// [`low_speed_friction`].
+/// the edge than r^10, an elastic solid, and a speed at which the memory length of the solid exceeds the radius; and the
+/// errors of [`low_speed_friction`].
 pub fn slow_sliding(
     body: &dyn Axisymmetric,
     solid: &dyn Material,
     contact: ElasticContact,
 ) -> Result<SlowSliding, FrictionError> {
+    // Check the body, the solid and the speed.
     let exponent = body.profile_exponent();
     in_range("apex exponent", exponent, exponent >= 1.0, "at least 1")?;
     let n_kinks = body.kinks().len();
     in_range("number of kinks", n_kinks as f64, n_kinks == 0, "0")?;
-    let first: ElasticLimitFriction = low_speed_friction(body, solid, contact)?;
+    let first_order = low_speed_friction(body, solid, contact)?;
     let radius = contact.contact_radius;
-    let Moments {
-        shift,
-        second,
-        third,
-        branches,
-    } = Moments::of(solid, contact.velocity)?;
-    // Over F_N = 2 E* ∫ x h̃' dx.
+    let memory = MemoryMoments::new(solid, contact.velocity)?;
+    let MemoryMoments { shift, second, .. } = memory;
     let small = second / (shift * radius);
-    in_range("memory over radius", small, small <= LONGEST, "at most 1")?;
+    let is_slow = small <= MAX_MEMORY_OVER_RADIUS;
+    in_range("memory over radius", small, is_slow, "at most 1")?;
     let slope = body.line_slope(radius);
     let steepness = slope * radius / body.line_height(radius);
-    let allowed = "at most 10";
-    in_range("steepness", steepness, steepness <= STEEPEST, allowed)?;
+    let is_moderate = steepness <= MAX_STEEPNESS;
+    in_range("steepness", steepness, is_moderate, "at most 10")?;
+
+    // The terms of first and second order, over F_N = 2 E* ∫ x h̃' dx.
     let moment = known_moment(body, radius)?;
     let per_square = FRAC_1_PI / (3.0 * moment);
-    let of_rear = per_square * second * slope * slope;
-    let mu = first.half_space;
-    let [tip, apex] = match exponent {
-        cone if cone <= 1.0 => [body.line_slope(0.0), 0.0],
-        sharp if sharp < 2.0 => [0.0, APEX * small.powf(2.0 * exponent - 1.0)],
-        _ => [0.0; 2],
+    let mu = first_order.half_space;
+    let rear_term = per_square * second * slope * slope;
+    let (tip_slope, apex_error) = if exponent <= 1.0 {
+        (body.line_slope(0.0), 0.0)
+    } else if exponent < 2.0 {
+        (0.0, APEX_BOUND * small.powf(2.0 * exponent - 1.0))
+    } else {
+        (0.0, 0.0)
     };
-    let of_tip = 4.0 * per_square * branches * tip * tip;
-    let square = (of_rear / mu).powi(2);
-    // (1/a) ∫₀^a h̃'² dx, which is h̃'(0)² of a cone.
-    let mean_square = 2.0 * mu * moment / (shift * radius);
-    let opened = body.line_slope(small * radius).powi(2) / mean_square;
-    let logarithm = 1.0 - OPENED * opened.min(1.0) * small.ln();
-    let third = THIRD * logarithm * third / (shift * radius * radius);
-    let inside = inside(body, solid, contact, tip) / (shift * radius * mean_square);
-    let error = QUADRATURE + third + SQUARE * square + apex + inside;
+    let tip_term = 4.0 * per_square * memory.branches * tip_slope * tip_slope;
+
+    // Bounds on the terms of higher order, relative to the first one.
+    let square = (rear_term / mu).powi(2);
+    // (1/a) ∫₀^a h̃'² dx, which is h̃'(0)² for a cone.
+    let mean_square_slope = 2.0 * mu * moment / (shift * radius);
+    let opened = body.line_slope(small * radius).powi(2) / mean_square_slope;
+    let logarithm = 1.0 - OPENING_BOUND * opened.min(1.0) * small.ln();
+    let third_error = THIRD_ORDER_BOUND * logarithm * memory.third / (shift * radius * radius);
+    let inner_error =
+        apex_loss(body, solid, contact, tip_slope) / (shift * radius * mean_square_slope);
+    let error = QUADRATURE_ERROR
+        + third_error
+        + SQUARED_SECOND_ORDER_BOUND * square
+        + apex_error
+        + inner_error;
     Ok(SlowSliding {
-        friction_coefficient: Estimate::new(mu - of_rear - of_tip, error * mu),
-        normal_force: first.normal_force,
-        elastic_error: DEPTH * steepness * second / (radius * radius),
-        // The disc, less where the disc does not reach that is shifted by x_s.
-        contact_area: Estimate::new(PI * radius * radius - 2.0 * radius * shift, AREA * second),
-        rear: Estimate::new(shift - radius, REAR * second / radius),
+        friction_coefficient: Estimate::new(mu - rear_term - tip_term, error * mu),
+        normal_force: first_order.normal_force,
+        elastic_error: DEPTH_BOUND * steepness * second / (radius * radius),
+        // The disc without the part that the disc shifted by x_s does not cover.
+        contact_area: Estimate::new(
+            PI * radius * radius - 2.0 * radius * shift,
+            AREA_BOUND * second,
+        ),
+        rear: Estimate::new(shift - radius, REAR_BOUND * second / radius),
     })
 }
 
-/// Relative error of the integrals of the first term, at most.
-const QUADRATURE: f64 = 1e-10;
-
-/// What branches lose, over E* = 1, where the slope changes around the apex within the distance l = v τ, beside a `tip`:
+/// Bound on the loss of the branches where the slope changes around the apex within the distance l = v τ, for E* = 1:
 ///
 /// ```text
 /// Σ (G_i/G_∞) (l/2π) ∮ cos²θ B(l |cos θ|) dθ      B(l) = ½ ∬ (h̃'(x) − h̃'(y))² e^(−|x − y|/l)/(2l) dx dy
 /// ```
 ///
 /// B grows with l, which bounds the mean over θ; it is 2 h̃'(0)² l at the tip of a cone and l² ∫ h̃''² dx where the line is
-/// smooth. A round tip that is smaller than l is thus a tip of its own. The outer part, a/4 < |x|, is in the other terms.
-fn inside(body: &dyn Axisymmetric, solid: &dyn Material, contact: ElasticContact, tip: f64) -> f64 {
-    let rest = |x: f64| body.line_slope(x) - tip;
-    let of_branch = |branch: &RelaxationBranch, modulus: f64| {
+/// smooth. A round tip that is smaller than l is thus a tip of its own. The slope `tip_slope` of the tip of a cone is not
+/// counted, but its product with the other changes is. The outer part, a/4 < |x|, is in the other terms.
+fn apex_loss(
+    body: &dyn Axisymmetric,
+    solid: &dyn Material,
+    contact: ElasticContact,
+    tip_slope: f64,
+) -> f64 {
+    let slope_change = |x: f64| body.line_slope(x) - tip_slope;
+    let loss = |branch: &RelaxationBranch, modulus: f64| {
+        // Sum of squared slope changes, over intervals of doubling length from l outwards.
         let length = contact.velocity * branch.relaxation_time;
-        let outermost = 0.25 * contact.contact_radius;
-        let mut x = length.clamp(QUADRATURE * outermost, outermost);
-        let mut slope = rest(x);
+        let outermost = APEX_REGION * contact.contact_radius;
+        let mut x = length.clamp(QUADRATURE_ERROR * outermost, outermost);
+        let mut slope = slope_change(x);
         let mut sum = x * slope.powi(2);
         while x < outermost {
             let width = x.min(outermost - x);
             x += width;
-            let before = mem::replace(&mut slope, rest(x));
+            let before = mem::replace(&mut slope, slope_change(x));
             sum += (slope - before).powi(2) * (length / width) * length;
         }
-        // With the product of both, where there is a tip.
-        let both = 2.0 * sum + 4.0 * (length * sum).sqrt() * tip.abs();
+        // The square of the changes, and their product with the slope of a tip.
+        let both = 2.0 * sum + 4.0 * (length * sum).sqrt() * tip_slope.abs();
         0.5 * (branch.modulus / modulus) * length * both
     };
     let relaxation = solid.relaxation();
     let modulus = relaxation.equilibrium_modulus();
     let branches = relaxation.branches().iter();
-    branches.map(|branch| of_branch(branch, modulus)).sum()
+    branches.map(|branch| loss(branch, modulus)).sum()
 }
 
-/// What the surface remembers, as lengths and their powers.
-struct Moments {
-    /// x_s = m₁ v.
+/// Moments of the memory of a solid over a sliding distance, as lengths and their powers.
+struct MemoryMoments {
+    /// x_s = m₁ v, \[m].
     shift: f64,
-    /// Λ v² and Λ₃ v³, the sums of λ² − τ² and λ³ − τ³ over retardation and relaxation times.
+    /// Λ v², the sum of λ² − τ² over retardation and relaxation times, times v², \[m²].
     second: f64,
+    /// Λ₃ v³, the sum of λ³ − τ³ over retardation and relaxation times, times v³, \[m³].
     third: f64,
-    /// n₂ v².
+    /// n₂ v², \[m²].
     branches: f64,
 }
 
-impl Moments {
-    fn of(solid: &dyn Material, velocity: f64) -> Result<Self, FrictionError> {
+impl MemoryMoments {
+    fn new(solid: &dyn Material, velocity: f64) -> Result<Self, FrictionError> {
         let relaxation = solid.relaxation();
         let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
         let moment = |power: i32| {
@@ -172,10 +207,11 @@ impl Moments {
             });
             lengths.sum::<f64>()
         };
-        // A spring remembers nothing, and there is no friction to expand.
-        let shift = relaxation.zero_shear_viscosity() / modulus * velocity;
-        let name = "zero_shear_viscosity × velocity / equilibrium_modulus";
-        let shift = positive(name, shift)?;
+        // An elastic solid has no friction to expand.
+        let shift = positive(
+            "zero_shear_viscosity × velocity / equilibrium_modulus",
+            relaxation.zero_shear_viscosity() / modulus * velocity,
+        )?;
         let branches = moment(2);
         Ok(Self {
             shift,

@@ -1,7 +1,7 @@
-//! At which frequencies a body strains a solid half space over which it slides slowly.
+//! Frequencies at which a slowly sliding body strains a solid half space, weighted by the squared pressure.
 //!
-//! The pressure is that of the elastic contact, whose transform is the cosine transform of the load on the equivalent line, and a
-//! wave of length 2π/q at an angle θ to the motion oscillates at q v cos θ:
+//! The pressure is that of the elastic contact. Its two-dimensional Fourier transform is the cosine transform of the load on
+//! the equivalent line. A wave of length 2π/q at an angle θ to the motion oscillates at q v cos θ:
 //!
 //! ```text
 //! p̂(q) ∝ ∫₀^a [h̃(a) − h̃(x)] cos(qx) dx,        F_h v ∝ ∫∫ |p̂(q)|² ω J''(ω) dq dθ
@@ -14,32 +14,40 @@ use rheology::StressBand;
 
 use crate::ElasticContact;
 
-/// Points of the load, and of the angles in a quarter turn.
-const POINTS: u32 = 400;
+/// Number of midpoints of the load on the equivalent line, in the cosine transform; chosen.
+const LINE_POINTS: u32 = 400;
+/// Number of angles θ in a quarter turn; chosen.
 const ANGLES: u32 = 32;
-/// Waves over the inverse of the radius, of which the others dissipate a hundredth at most, and how many of them are taken.
-const DECADES: [f64; 2] = [-2.0, 2.0];
-const WAVES: u32 = 100;
+/// Decadic logarithms of the smallest and the largest wave number times the contact radius.
+///
+/// Waves outside dissipate a hundredth of all at most.
+const WAVE_NUMBER_DECADES: [f64; 2] = [-2.0, 2.0];
+/// Number of wave numbers, equally spaced in their logarithm; chosen.
+const WAVE_NUMBERS: u32 = 100;
 
-/// The frequencies of the elastic contact, [rad/s].
-pub fn slow_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -> Vec<StressBand> {
+/// Frequencies \[rad/s] at which the elastic contact strains the half space, with weights proportional to |p̂|² dq dθ.
+pub fn slow_sliding_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -> Vec<StressBand> {
     let ElasticContact {
         contact_radius: radius,
         velocity,
     } = contact;
-    let steps = |count: u32| (0..count).map(move |k| (f64::from(k) + 0.5) / f64::from(count));
+    let midpoints = |count: u32| (0..count).map(move |k| (f64::from(k) + 0.5) / f64::from(count));
+    // The load over its maximum, at positions over the radius.
     let depth = body.line_height(radius);
-    let loads = steps(POINTS).map(|part| [part, 1.0 - body.line_height(part * radius) / depth]);
-    let loads: Vec<[f64; 2]> = loads.collect();
-    let wave = |part: f64| 10_f64.powf(DECADES[0] + part * (DECADES[1] - DECADES[0]));
+    let loads: Vec<[f64; 2]> = midpoints(LINE_POINTS)
+        .map(|x| [x, 1.0 - body.line_height(x * radius) / depth])
+        .collect();
+    let [first, last] = WAVE_NUMBER_DECADES;
+    let wave_number = |part: f64| 10_f64.powf(first + part * (last - first));
     let mut bands = Vec::new();
-    for wave in steps(WAVES).map(wave) {
-        let products = loads.iter().map(|[x, load]| load * (wave * x).cos());
-        let square = products.sum::<f64>().powi(2);
-        bands.extend(steps(ANGLES).map(|turn| StressBand {
-            band: [wave / radius * velocity * (turn * FRAC_PI_2).cos(); 2],
-            // The waves are equally spaced in the logarithm, so that dq is in proportion to q.
-            weight: square * wave,
+    // Wave numbers times the radius.
+    for q in midpoints(WAVE_NUMBERS).map(wave_number) {
+        let products = loads.iter().map(|[x, load]| load * (q * x).cos());
+        let power = products.sum::<f64>().powi(2);
+        bands.extend(midpoints(ANGLES).map(|turn| StressBand {
+            band: [q / radius * velocity * (turn * FRAC_PI_2).cos(); 2],
+            // Equal spacing in the logarithm makes dq proportional to q.
+            weight: power * q,
         }));
     }
     bands

@@ -1,7 +1,7 @@
 //! Where the power comes from that a stationary state dissipates.
 
 use bem_halfspace::line_spectrum;
-use friction_analytic::{ElasticContact, slow_spectrum};
+use friction_analytic::{ElasticContact, slow_sliding_spectrum};
 use rheology::{OutsideWindow, StressBand};
 use serde::ser::{Serialize, Serializer};
 
@@ -91,7 +91,7 @@ fn stress(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<Stres
                 contact_radius,
                 velocity,
             };
-            Some(slow_spectrum(&**body, contact))
+            Some(slow_sliding_spectrum(&**body, contact))
         }
         _ => None,
     }
