@@ -1,13 +1,13 @@
-//! Persson's theory of rough surfaces that slide: real area of contact and friction, from the spectrum alone.
+//! Persson's theory of sliding rough surfaces: real area of contact and friction from the roughness spectrum.
 //!
 //! ```text
 //! G(q) = (1/8) ∫ d²q' q'² C |E*(q'ₓ v)/σ₀|²  over |q'| < q,      P(q) = erf(1/(2 √G)),      A/A₀ = P(q₁)
 //! μ = (1/2) ∫ d²q |q| |qₓ| C S P Im E*(|qₓ| v)/σ₀,               E* = 2 G*/(1 − ν)
 //! ```
 //!
-//! with ⟨h²⟩ = ∫ C d²q. S, a polynomial in P², is how much energy a wave holds in contact, as a part of that which it holds in
-//! full contact, P = S = 1; there the friction is exact. Otherwise the theory is an approximation whose error the bars here do not
-//! contain.
+//! with ⟨h²⟩ = ∫ C d²q. S, a polynomial in P², is the energy of a wave in partial contact over that in full contact. In full
+//! contact P = S = 1, and the friction is exact. Otherwise the theory is an approximation, whose error is not part of the
+//! error estimates here. Comparison with boundary elements: docs/rough-theory.md.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -19,7 +19,7 @@ use rheology::{Material, RelaxationSpectrum, check_spectra};
 use crate::error::representable;
 use crate::{FrictionError, SurfaceWave};
 
-/// Pressing and motion of a rough surface.
+/// Mean pressure and sliding speed of a rough surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RoughLoad {
@@ -29,27 +29,28 @@ pub struct RoughLoad {
     pub velocity: f64,
 }
 
-/// An isotropic self-affine spectrum: constant from the longest wave to the roll-off, then C ∝ q^(−2 (1 + H)).
+/// An isotropic self-affine spectrum C(q): constant from the longest wave to the roll-off, then C ∝ q^(−2 (1 + H)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SelfAffineSpectrum {
     /// Hurst exponent H, between 0 and 1.
     pub hurst_exponent: f64,
-    /// Root mean square of |∇h| > 0.
+    /// Root mean square slope, that of |∇h|, > 0.
     pub rms_slope: f64,
-    /// Longest wave length, \[m].
+    /// Longest wavelength, \[m].
     pub longest_wavelength: f64,
-    /// Wave length of the roll-off, \[m]; the longest one for a spectrum without.
+    /// Roll-off wavelength, \[m]; the longest one for a spectrum without a plateau.
     pub roll_off_wavelength: f64,
-    /// Shortest wave length, \[m].
+    /// Shortest wavelength, \[m].
     pub shortest_wavelength: f64,
 }
 
-/// Part S = c₀ + c₁ P² + c₂ P⁴ of the energy in full contact that a wave holds in contact, where P is the area fraction with all
-/// longer waves. The coefficients add up to 1.
+/// Energy factor S = c₀ + c₁ P² + c₂ P⁴: the energy of a wave in partial contact over that in full contact.
+///
+/// P is the area fraction with all longer waves. The coefficients add up to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct EnergyFactor([f64; N_PARTS]);
+pub struct EnergyFactor([f64; N_TERMS]);
 
 impl EnergyFactor {
     /// S = 1, Persson (2001), J. Chem. Phys. 115, 3840.
@@ -69,36 +70,35 @@ impl EnergyFactor {
     }
 }
 
-/// What Persson's theory says about a rough surface. The errors are those of the quadrature, not of the theory.
+/// Area and friction of a rough surface by Persson's theory. The errors are those of the quadrature, not of the theory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct PerssonSliding {
-    /// Real area of contact as a part of the nominal one.
+    /// Real area of contact over the nominal one.
     pub area_fraction: Estimate,
-    /// Variance of the pressure in full contact, divided by the square of the mean pressure: 2 G of all waves.
+    /// Variance of the pressure in full contact over the square of the mean pressure: 2 G of all waves.
     pub pressure_variance: Estimate,
-    /// Frictions with S = 1, P² and P⁴.
-    parts: [Estimate; N_PARTS],
+    /// Friction coefficients with S = 1, P² and P⁴, the terms of an [`EnergyFactor`].
+    parts: [Estimate; N_TERMS],
 }
 
 impl PerssonSliding {
-    /// Friction coefficient.
+    /// Friction coefficient with an energy factor.
     pub fn friction_coefficient(&self, factor: EnergyFactor) -> Estimate {
-        let pairs = factor.0.into_iter().zip(self.parts);
-        let pairs = pairs.map(|(weight, part)| [weight * part.value, weight.abs() * part.error]);
-        let [value, error] =
-            pairs.fold([0.0; 2], |sums, pair| [0, 1].map(|at| sums[at] + pair[at]));
-        Estimate::new(value, error)
+        let terms = factor.0.into_iter().zip(self.parts);
+        terms.map(|(weight, term)| term * weight).sum()
     }
 
-    /// Area fraction A of Xu and others (2024), Int. J. Solids Struct. 290, 112684, where pressures differ less where less is in contact:
+    /// Area fraction A of Xu and others (2024), Int. J. Solids Struct. 290, 112684, in which the variance of the pressure falls
+    /// with the area in contact:
     ///
     /// ```text
     /// A = erf(1/√(2 V (γ + (1 − γ) A)))
     /// ```
     ///
-    /// V is the [variance](Self::pressure_variance). With γ = 1 it is that of Persson; of elastic surfaces they find γ = 0.42 to 0.45.
+    /// V is the [variance](Self::pressure_variance). With γ = 1 it is Persson's area; for elastic surfaces they find γ = 0.42
+    /// to 0.45.
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for a γ that is not above 0 and at most 1.
@@ -111,7 +111,7 @@ impl PerssonSliding {
         )?;
         let variance = self.pressure_variance.value;
         let next = |area: f64| area_fraction(variance * (gamma + (1.0 - gamma) * area));
-        // The right-hand side falls with A, so that it cuts the left-hand side once, between 0 and 1.
+        // Bisection: the right-hand side falls with A, so that it equals A once, between 0 and 1.
         let [mut below, mut above] = [0.0, 1.0];
         for _ in 0..f64::MANTISSA_DIGITS {
             let middle = 0.5 * (below + above);
@@ -121,24 +121,24 @@ impl PerssonSliding {
                 above = middle;
             }
         }
-        // A changes at most with the square root of V.
+        // Error: A changes at most with the square root of V.
         let area = next(above);
-        let change = if variance > 0.0 {
+        let relative_variance_error = if variance > 0.0 {
             self.pressure_variance.error / variance
         } else {
             0.0
         };
         Ok(Estimate::new(
             area,
-            0.5 * area * change + (area - above).abs(),
+            0.5 * area * relative_variance_error + (area - above).abs(),
         ))
     }
 }
 
-/// Persson's area and friction of a sum of waves, which may be anisotropic; waves of one length count with the area fraction
-/// after half of them.
+/// Persson's area and friction of a sum of waves, which may be anisotropic.
 ///
-/// The sums are exact up to rounding, so that their errors are 0.
+/// Waves of the same wavelength count with the area fraction after half of them. The sums are exact up to rounding, so that
+/// their errors are 0.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] without waves, for an amplitude that is not finite, a wave vector without length, and a
@@ -149,25 +149,27 @@ pub fn persson_of_waves(
     load: RoughLoad,
 ) -> Result<PerssonSliding, FrictionError> {
     positive("number of waves", waves.len() as f64)?;
-    let sliding = Sliding::new(material, load)?;
-    let mut parts = Vec::with_capacity(waves.len());
+    let material = LoadedMaterial::new(material, load)?;
+    // Contributions of the waves, by increasing wave number.
+    let mut contributions = Vec::with_capacity(waves.len());
     for wave in waves {
         let [along, across] = wave.wave_vector;
-        let length = positive("length of a wave vector", along.hypot(across))?;
+        let wave_number = positive("length of a wave vector", along.hypot(across))?;
         let amplitude = numerics::finite("amplitude", wave.amplitude)?;
-        let steepness = (0.5 * amplitude * length) * (amplitude * length);
-        let part = sliding.part(along.abs() / length, length);
-        parts.push((length, part.map(|rate| steepness * rate)));
+        let steepness = (0.5 * amplitude * wave_number) * (amplitude * wave_number);
+        let response = material.response(along.abs() / wave_number, wave_number);
+        contributions.push((wave_number, response.map(|rate| steepness * rate)));
     }
-    parts.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    let mut sums = Sums::default();
-    for shell in parts.chunk_by(|(one, _), (other, _)| other - one <= SAME_LENGTH * one) {
-        let total = |index: usize| shell.iter().map(|(_, part)| part[index]).sum::<f64>();
-        sums.spread += 0.5 * total(0);
-        sums.rub(total(1));
-        sums.spread += 0.5 * total(0);
+    contributions.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    // Sum over shells of equal wave numbers.
+    let mut integrals = SpectralIntegrals::default();
+    for shell in contributions.chunk_by(|(one, _), (other, _)| other - one <= EQUAL_LENGTHS * one) {
+        let total = |index: usize| shell.iter().map(|(_, both)| both[index]).sum::<f64>();
+        integrals.g += 0.5 * total(0);
+        integrals.add_friction(total(1));
+        integrals.g += 0.5 * total(0);
     }
-    finished(sums.results(), [0.0; N_RESULTS])
+    sliding_with_errors(integrals.results(), [0.0; N_RESULTS])
 }
 
 /// Persson's area and friction of a self-affine spectrum, to a relative error of the quadrature between 1e-11 and 1.
@@ -184,31 +186,37 @@ pub fn persson_of_spectrum(
     let holds = (1e-11..1.0).contains(&relative_error);
     let allowed = "at least 1e-11 and below 1";
     in_range("relative_error", relative_error, holds, allowed)?;
+    // Check the spectrum and the load.
     spectrum.validate()?;
-    let sliding = Sliding::new(material, load)?;
-    let mut steps = FEWEST_STEPS;
-    let mut coarse = sliding.integrate(spectrum, steps, &mut 0.0);
+    let material = LoadedMaterial::new(material, load)?;
+    let mut steps = MIN_STEPS;
+    let mut coarse = material.integrate(spectrum, steps, &mut 0.0);
     loop {
+        // Integrate with half the step; the change is the error, with that of the integrals over the angle.
         steps *= 2;
-        let mut worst = 0.0;
-        let fine = sliding.integrate(spectrum, steps, &mut worst);
+        let mut angular_error = 0.0;
+        let fine = material.integrate(spectrum, steps, &mut angular_error);
         // P⁵ changes at most with the power 5/2 of G.
-        let error =
-            |index: usize| (fine[index] - coarse[index]).abs() + 4.0 * worst * fine[index].abs();
-        let result = finished(fine, std::array::from_fn(error))?;
-        let bars = [
+        let error = |index: usize| {
+            (fine[index] - coarse[index]).abs() + 4.0 * angular_error * fine[index].abs()
+        };
+        let result = sliding_with_errors(fine, std::array::from_fn(error))?;
+
+        // Return when all results have the requested error.
+        let area_and_variance = [
             ("area fraction", result.area_fraction),
             ("variance of the pressure", result.pressure_variance),
         ];
-        let frictions = result.parts.map(|part| ("friction coefficient", part));
-        let is_missed = |(_, bar): &(_, Estimate)| !bar.is_within(relative_error);
-        match bars.into_iter().chain(frictions).find(is_missed) {
+        let frictions = result.parts.map(|term| ("friction coefficient", term));
+        let is_missed = |(_, estimate): &(_, Estimate)| !estimate.is_within(relative_error);
+        let mut estimates = area_and_variance.into_iter().chain(frictions);
+        match estimates.find(is_missed) {
             None => return Ok(result),
-            Some((quantity, known)) if steps >= MOST_STEPS => {
+            Some((quantity, missed)) if steps >= MAX_STEPS => {
                 return Err(FrictionError::NotConverged {
                     quantity,
-                    value: known.value,
-                    error: known.error,
+                    value: missed.value,
+                    error: missed.error,
                 });
             }
             Some(_) => coarse = fine,
@@ -216,16 +224,18 @@ pub fn persson_of_spectrum(
     }
 }
 
-/// Parts of the friction, and results of the theory.
-const N_PARTS: usize = 3;
-const N_RESULTS: usize = N_PARTS + 2;
-/// Wave vectors whose lengths differ by less, relatively, differ by rounding.
-const SAME_LENGTH: f64 = 1e-12;
-/// Steps of Simpson's rule between the longest wave and the roll-off, and from there to the shortest wave.
-const FEWEST_STEPS: usize = 16;
-const MOST_STEPS: usize = 1 << 14;
-/// Relative error of the integrals over the angle.
-const ANGULAR_ERROR: f64 = 1e-13;
+/// Number of terms of an energy factor, and of the friction.
+const N_TERMS: usize = 3;
+/// Number of results: the area fraction, the variance of the pressure, and the terms of the friction.
+const N_RESULTS: usize = N_TERMS + 2;
+/// Relative difference up to which the lengths of two wave vectors count as equal, for rounding; chosen.
+const EQUAL_LENGTHS: f64 = 1e-12;
+/// Steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid; chosen.
+const MIN_STEPS: usize = 16;
+/// Steps of Simpson's rule on each of the two ranges from which on they are not doubled; chosen.
+const MAX_STEPS: usize = 1 << 14;
+/// Requested relative error of the integrals over the angle; chosen.
+const ANGULAR_TOLERANCE: f64 = 1e-13;
 
 impl SelfAffineSpectrum {
     fn validate(&self) -> Result<(), FrictionError> {
@@ -242,11 +252,12 @@ impl SelfAffineSpectrum {
         Ok(())
     }
 
-    /// q⁴ C(q) at some q, from 2π ∫ q³ C dq = ⟨|∇h|²⟩.
+    /// q⁴ C(q), normalised by 2π ∫ q³ C dq = ⟨|∇h|²⟩.
     fn steepness(&self, q: f64) -> f64 {
         let waves = [self.longest_wavelength, self.shortest_wavelength];
         let [ratio_long, ratio_short] = waves.map(|wave| self.roll_off_wavelength / wave);
         let power = 2.0 - 2.0 * self.hurst_exponent;
+        // ∫ of the shape over ln q: the plateau below the roll-off, and the power law above it.
         let falling = (power * ratio_short.ln()).exp_m1() / power;
         let total = 0.25 * (1.0 - ratio_long.powi(4)) + falling;
         let x = q * self.roll_off_wavelength / TAU;
@@ -255,15 +266,15 @@ impl SelfAffineSpectrum {
     }
 }
 
-/// A material under a load.
-struct Sliding {
+/// A material, with the pressure and the speed at which it is loaded.
+struct LoadedMaterial {
     relaxation: RelaxationSpectrum,
     /// E*/(G* σ₀), \[1/Pa].
     factor: f64,
     velocity: f64,
 }
 
-impl Sliding {
+impl LoadedMaterial {
     fn new(material: &dyn Material, load: RoughLoad) -> Result<Self, FrictionError> {
         check_spectra(material)?;
         let mean_pressure = positive("mean_pressure", load.mean_pressure)?;
@@ -274,8 +285,8 @@ impl Sliding {
         })
     }
 
-    /// |E*/σ₀|²/8 and |cos φ| Im E*/(2 σ₀) of a wave; not a number where the frequency overflows.
-    fn part(&self, cosine: f64, q: f64) -> [f64; 2] {
+    /// |E*/σ₀|²/8 and |cos φ| Im E*/(2 σ₀) of a wave at an angle φ to the motion; NaN if the frequency overflows.
+    fn response(&self, cosine: f64, q: f64) -> [f64; 2] {
         let modulus = self.relaxation.complex_modulus(q * cosine * self.velocity);
         modulus.map_or([f64::NAN; 2], |modulus| {
             let [storage, loss] = [modulus.storage, modulus.loss].map(|part| part * self.factor);
@@ -284,95 +295,102 @@ impl Sliding {
         })
     }
 
-    /// The integrals of both over all angles; `worst` is raised to their relative error.
-    fn around(&self, q: f64, worst: &mut f64) -> [f64; 2] {
+    /// The integrals of both responses over all angles; `max_error` is raised to their relative error.
+    fn angular_integrals(&self, q: f64, max_error: &mut f64) -> [f64; 2] {
         [0, 1].map(|index| {
-            let quarter = |end: f64, distance: f64| {
-                // Where the cosine vanishes it is resolved below the rounding of the angle.
+            let integrand = |end: f64, distance: f64| {
+                // Near its zero the cosine is resolved below the rounding of the angle.
                 let cosine = if end > 0.0 {
                     (-distance).sin()
                 } else {
                     distance.cos()
                 };
-                self.part(cosine, q)[index]
+                self.response(cosine, q)[index]
             };
-            let quarter = integrate_from_ends(quarter, [0.0, FRAC_PI_2], ANGULAR_ERROR);
+            let quarter = integrate_from_ends(integrand, [0.0, FRAC_PI_2], ANGULAR_TOLERANCE);
             if quarter.value > 0.0 {
-                *worst = worst.max(quarter.error / quarter.value);
+                *max_error = max_error.max(quarter.error / quarter.value);
             }
             4.0 * quarter.value
         })
     }
 
-    /// By Simpson's rule, and at the odd points by that of the parabola through three points.
+    /// Area fraction, variance and terms of the friction, by Simpson's rule with a number of steps on each range.
     ///
-    /// Between the ends of a range ln q grows like t³, because P falls from 1 like 1/√(ln q − ln q₀).
+    /// At the odd points G is the integral of the parabola through three points. Within a range ln q grows like t³, because P
+    /// falls from 1 like 1/√(ln q − ln q₀). `max_error` is raised to the relative error of the integrals over the angle.
     fn integrate(
         &self,
         spectrum: &SelfAffineSpectrum,
         steps: usize,
-        worst: &mut f64,
+        max_error: &mut f64,
     ) -> [f64; N_RESULTS] {
-        let mut sums = Sums::default();
+        let mut integrals = SpectralIntegrals::default();
+        // Two ranges, because the spectrum has a kink at the roll-off.
         let roll_off = TAU / spectrum.roll_off_wavelength;
         let longest = TAU / spectrum.longest_wavelength;
         let shortest = TAU / spectrum.shortest_wavelength;
         for [first, last] in [[longest, roll_off], [roll_off, shortest]] {
             let (range, step) = ((last / first).ln(), 1.0 / steps as f64);
-            let mut at = |index: usize| {
+            let mut integrands = |index: usize| {
                 let t = step * index as f64;
                 let q = first * (range * t * t * t).exp();
                 let weight = 3.0 * range * t * t * spectrum.steepness(q);
-                self.around(q, worst).map(|rate| weight * rate)
+                self.angular_integrals(q, max_error)
+                    .map(|rate| weight * rate)
             };
             let mut start = [0.0; 2];
             for index in (0..steps).step_by(2).filter(|_| range > 0.0) {
-                let [middle, end] = [index + 1, index + 2].map(&mut at);
-                let before = sums.spread;
-                sums.rub(step / 3.0 * start[1]);
-                sums.spread = before + step / 12.0 * (5.0 * start[0] + 8.0 * middle[0] - end[0]);
-                sums.rub(step / 0.75 * middle[1]);
-                sums.spread = before + step / 3.0 * (start[0] + 4.0 * middle[0] + end[0]);
-                sums.rub(step / 3.0 * end[1]);
+                // Friction at the three points of a Simpson step, each with G up to there.
+                let [middle, end] = [index + 1, index + 2].map(&mut integrands);
+                let before = integrals.g;
+                integrals.add_friction(step / 3.0 * start[1]);
+                integrals.g = before + step / 12.0 * (5.0 * start[0] + 8.0 * middle[0] - end[0]);
+                integrals.add_friction(step / 0.75 * middle[1]);
+                integrals.g = before + step / 3.0 * (start[0] + 4.0 * middle[0] + end[0]);
+                integrals.add_friction(step / 3.0 * end[1]);
                 start = end;
             }
         }
-        sums.results()
+        integrals.results()
     }
 }
 
-/// G and the parts of the friction up to a wave number.
+/// The integrals up to a wave number.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    spread: f64,
-    parts: [f64; N_PARTS],
+struct SpectralIntegrals {
+    /// G, half the variance of the pressure over the square of the mean pressure.
+    g: f64,
+    /// Friction coefficients with S = 1, P² and P⁴.
+    friction_terms: [f64; N_TERMS],
 }
 
-impl Sums {
-    /// Adds what would be friction in full contact.
-    fn rub(&mut self, friction: f64) {
-        let area = area_fraction(2.0 * self.spread);
-        let mut added = area * friction;
-        for part in &mut self.parts {
-            *part += added;
+impl SpectralIntegrals {
+    /// Adds a contribution to the friction in full contact, times the present area fraction P and S = 1, P² and P⁴.
+    fn add_friction(&mut self, in_full_contact: f64) {
+        let area = area_fraction(2.0 * self.g);
+        let mut added = area * in_full_contact;
+        for term in &mut self.friction_terms {
+            *term += added;
             added *= area * area;
         }
     }
 
-    /// Area fraction, variance of the pressure and parts of the friction.
+    /// Area fraction, variance of the pressure and terms of the friction.
     fn results(&self) -> [f64; N_RESULTS] {
-        let variance = 2.0 * self.spread;
-        let [one, two, three] = self.parts;
+        let variance = 2.0 * self.g;
+        let [one, two, three] = self.friction_terms;
         [area_fraction(variance), variance, one, two, three]
     }
 }
 
-/// Area fraction of a variance of the pressure.
+/// Persson's area fraction for a variance of the pressure over the square of the mean pressure.
 fn area_fraction(variance: f64) -> f64 {
     libm::erf((0.5 / variance).sqrt())
 }
 
-fn finished(
+/// The results with their absolute errors, if they are numbers.
+fn sliding_with_errors(
     results: [f64; N_RESULTS],
     errors: [f64; N_RESULTS],
 ) -> Result<PerssonSliding, FrictionError> {
@@ -381,10 +399,10 @@ fn finished(
     if results[2].to_bits() != 0 {
         representable("friction coefficient", results[2])?;
     }
-    let known = |index: usize| Estimate::new(results[index], errors[index]);
+    let estimate = |index: usize| Estimate::new(results[index], errors[index]);
     Ok(PerssonSliding {
-        area_fraction: known(0),
-        pressure_variance: known(1),
-        parts: [2, 3, 4].map(known),
+        area_fraction: estimate(0),
+        pressure_variance: estimate(1),
+        parts: [2, 3, 4].map(estimate),
     })
 }

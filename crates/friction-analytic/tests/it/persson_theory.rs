@@ -36,8 +36,8 @@ fn load(mean_pressure: f64, velocity: f64) -> RoughLoad {
     }
 }
 
-/// Area, and friction as in 2001 and 2006.
-fn both(state: PerssonSliding) -> [Estimate; 3] {
+/// Area fraction, and friction with the energy factors of 2001 and 2006.
+fn area_and_frictions(state: PerssonSliding) -> [Estimate; 3] {
     [
         state.area_fraction,
         state.friction_coefficient(EnergyFactor::PERSSON_2001),
@@ -56,11 +56,14 @@ fn area_and_friction_are_those_of_the_casebook() {
         let v = row[0];
         for relative_error in [1e-3, 1e-9] {
             let state = theory(PRESSURE, v, relative_error);
-            for (bar, exact) in both(state).into_iter().zip(&row[1..]) {
-                let off = (bar.value - exact).abs();
-                let holds = off <= bar.error + 1.5e-10 * exact;
-                let is_kept = bar.error <= relative_error * exact;
-                assert!(holds && is_kept, "v = {v}: {bar:?} instead of {exact}");
+            for (estimate, exact) in area_and_frictions(state).into_iter().zip(&row[1..]) {
+                let off = (estimate.value - exact).abs();
+                let holds = off <= estimate.error + 1.5e-10 * exact;
+                let is_requested = estimate.error <= relative_error * exact;
+                assert!(
+                    holds && is_requested,
+                    "v = {v}: {estimate:?} instead of {exact}"
+                );
             }
         }
         // A million times the pressure closes all gaps.
@@ -100,10 +103,10 @@ fn waves(rings: u32, angles: u32) -> Vec<SurfaceWave> {
 
 #[test]
 fn many_waves_have_the_friction_of_the_spectrum() {
-    let exact = both(theory(PRESSURE, 0.004, 1e-10));
+    let exact = area_and_frictions(theory(PRESSURE, 0.004, 1e-10));
     let off = |rings: u32| {
         let state = persson_of_waves(&waves(rings, 64), &material(), load(PRESSURE, 0.004));
-        let state = both(state.expect("a friction"));
+        let state = area_and_frictions(state.expect("a friction"));
         [0, 1, 2].map(|index| state[index].value / exact[index].value - 1.0)
     };
     // The midpoint rule is of second order.
@@ -119,7 +122,7 @@ fn many_waves_have_the_friction_of_the_spectrum() {
 #[test]
 fn an_elastic_material_has_the_area_of_its_modulus_and_no_friction() {
     let elastic = Elastic::new(0.25).expect("a material");
-    for spectrum in [SPECTRUM, with(0.8, 0.1), with(0.3, 0.05)] {
+    for spectrum in [SPECTRUM, spectrum_with(0.8, 0.1), spectrum_with(0.3, 0.05)] {
         let state = persson_of_spectrum(&spectrum, &elastic, load(PRESSURE, 1.0), 1e-10);
         let state = state.expect("an area");
         let friction = state.friction_coefficient(EnergyFactor::PERSSON_2001);
@@ -130,8 +133,8 @@ fn an_elastic_material_has_the_area_of_its_modulus_and_no_friction() {
     }
 }
 
-/// Another exponent and another roll-off.
-fn with(hurst_exponent: f64, roll_off_wavelength: f64) -> SelfAffineSpectrum {
+/// The spectrum with another Hurst exponent and another roll-off.
+fn spectrum_with(hurst_exponent: f64, roll_off_wavelength: f64) -> SelfAffineSpectrum {
     SelfAffineSpectrum {
         hurst_exponent,
         roll_off_wavelength,
@@ -139,30 +142,30 @@ fn with(hurst_exponent: f64, roll_off_wavelength: f64) -> SelfAffineSpectrum {
     }
 }
 
-/// However many waves of a length there are, all of them meet the same area.
+/// All waves of one wavelength count with the same area fraction, however many they are.
 #[test]
-fn a_wave_is_the_sum_of_its_parts() {
+fn a_wave_equals_the_sum_of_its_parts() {
     let [whole, parts] = [(0.1, 1), (0.05, 4)].map(|(amplitude, n_waves)| {
         let wave = SurfaceWave {
             amplitude,
             wave_vector: [5.0, 3.0],
         };
         let state = persson_of_waves(&vec![wave; n_waves], &material(), load(PRESSURE, 0.1));
-        both(state.expect("a friction"))[1].value
+        area_and_frictions(state.expect("a friction"))[1].value
     });
     assert_close!(parts => whole, within 1e-14);
 }
 
-/// What a wave adds to the friction is what it adds with S = 1, times S after half of it.
+/// The friction of a wave is that with S = 1, times S after half of the wave.
 #[test]
-fn factors_weigh_what_each_wave_adds() {
+fn energy_factors_weight_the_friction_of_each_wave() {
     let waves = waves(6, 1);
     let state = |waves: &[SurfaceWave]| {
         persson_of_waves(waves, &material(), load(PRESSURE, 0.004)).expect("a friction")
     };
     let of_2001 = |waves: &[SurfaceWave]| match waves {
         [] => 0.0,
-        _ => both(state(waves))[1].value,
+        _ => area_and_frictions(state(waves))[1].value,
     };
     let mut expected = [0.0; 3];
     for last in 0..waves.len() {
@@ -191,9 +194,9 @@ fn factors_weigh_what_each_wave_adds() {
     }
 }
 
-/// It is Persson's area of a surface with so much smaller slopes.
+/// The area of Xu is Persson's area of a surface whose squared slopes are smaller by γ + (1 − γ) A.
 #[test]
-fn the_area_of_xu_has_less_pressure_where_less_is_in_contact() {
+fn the_area_of_xu_is_that_of_persson_with_smaller_slopes() {
     let elastic = Elastic::new(0.25).expect("a material");
     let state = |pressure: f64, part: f64| {
         let spectrum = SelfAffineSpectrum {
@@ -216,7 +219,7 @@ fn the_area_of_xu_has_less_pressure_where_less_is_in_contact() {
 }
 
 #[test]
-fn what_the_theory_cannot_take_is_refused() {
+fn invalid_spectra_and_loads_are_refused() {
     let good = load(PRESSURE, 1.0);
     let flat = SelfAffineSpectrum {
         rms_slope: 0.0,
@@ -229,9 +232,9 @@ fn what_the_theory_cannot_take_is_refused() {
     let rows = [
         (flat, good, "rms_slope"),
         (narrow, good, "longest_wavelength"),
-        (with(1.0, 0.25), good, "hurst_exponent"),
-        (with(0.8, 0.3), good, "roll_off_wavelength"),
-        (with(0.8, 0.01), good, "roll_off_wavelength"),
+        (spectrum_with(1.0, 0.25), good, "hurst_exponent"),
+        (spectrum_with(0.8, 0.3), good, "roll_off_wavelength"),
+        (spectrum_with(0.8, 0.01), good, "roll_off_wavelength"),
         (SPECTRUM, load(0.0, 1.0), "mean_pressure"),
         (SPECTRUM, load(1.0, -1.0), "velocity"),
     ];
