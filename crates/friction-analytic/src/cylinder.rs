@@ -1,7 +1,7 @@
-//! A rigid cylinder that slides on a solid with one relaxation time, in plane strain (Hunter 1961, J. Appl. Mech. 28, 611).
+//! Sliding of a rigid cylinder on a solid with one relaxation time, in plane strain (Hunter 1961, J. Appl. Mech. 28, 611).
 //!
-//! With T = v τ, the retardation length L = T G(0)/G_∞ and s = (x − x₀)/l in a contact of the length 2l around x₀, the
-//! combination q of the pressure removes the memory from the contact, where u = d − x²/(2R):
+//! Let T = v τ, L = T G(0)/G_∞ the retardation length, and s = (x − x₀)/l in a contact of length 2l around x₀. There
+//! u = d − x²/(2R), and the combination q of the pressure removes the history integral:
 //!
 //! ```text
 //! q = p − T p'         (1/π) ∫ q ds/(s₀ − s) = 2 G_∞ (x − L)/(f R),   f = 2 (1 − ν)                              (1)
@@ -30,20 +30,20 @@ use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
+use crate::pieces::MAX_EXPONENT;
 
-/// Terms e^(−x) with a larger x are below rounding and left out.
-const LARGEST_EXPONENT: f64 = 40.0;
-/// Intervals of a trapezoidal rule at least, and per unit of its length: with these all digits of Bessel functions.
-const INTERVALS: f64 = 64.0;
-const INTERVALS_PER_LENGTH: f64 = 8.0;
-/// Relative accuracy of a pressure.
-const ACCURACY: f64 = 1e-13;
+/// Intervals of a trapezoidal rule of length 0; with both numbers of intervals, Bessel functions have all digits.
+const MIN_INTERVALS: f64 = 64.0;
+/// Additional intervals of a trapezoidal rule per unit of its length.
+const INTERVALS_PER_UNIT_LENGTH: f64 = 8.0;
+/// Requested relative accuracy of a pressure; chosen.
+const PRESSURE_ACCURACY: f64 = 1e-13;
 
-/// A line contact of which the length and the speed are known.
+/// Length and speed of a sliding line contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LineContact {
-    /// Half the length of the contact l, \[m].
+    /// Half length l of the contact, \[m].
     pub half_length: f64,
     /// Sliding speed v, \[m/s].
     pub velocity: f64,
@@ -60,19 +60,19 @@ pub struct CylinderSliding {
     pub line_load: f64,
     /// Friction coefficient μ.
     pub friction_coefficient: f64,
-    /// 2 G_∞ l/(f R), \[Pa].
+    /// Stress scale 2 G_∞ l/(f R), \[Pa].
     stress: f64,
-    /// T/l.
+    /// Relaxation length T/l.
     relaxation: f64,
-    /// C/l.
+    /// Strength C/l of the singular part of q at the ends.
     singular: f64,
 }
 
 /// Sliding of a rigid cylinder on a three-element solid, Kelvin–Voigt or elastic half space, (3) and (4).
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for a contact that cannot be, a material that flows, or more than one relaxing
-/// element; [`FrictionError::OutOfRange`] when a result overflows or underflows. An elastic solid has μ = 0.
+/// [`FrictionError::InvalidParameter`] for a length or speed that is not positive, a material that flows, or more than one
+/// relaxing element; [`FrictionError::OutOfRange`] when a result overflows or underflows. An elastic solid has μ = 0.
 pub fn cylinder_sliding(
     cylinder: &Cylinder,
     material: &dyn Material,
@@ -87,27 +87,33 @@ pub fn cylinder_sliding(
     let relaxing = branches.len() + usize::from(dashpot > 0.0);
     let parameter = "number of relaxing elements";
     in_range(parameter, relaxing as f64, relaxing < 2, "0 or 1")?;
-    // In units of l; both are zero on an elastic solid.
-    let branch = branches.first();
-    let time = branch.map_or(0.0, |branch| branch.relaxation_time);
-    let relaxation = velocity * time / half_length;
+
+    // T/l and D/l; both are 0 on an elastic solid.
+    let relaxation_time = branches
+        .first()
+        .map_or(0.0, |branch| branch.relaxation_time);
+    let relaxation = velocity * relaxation_time / half_length;
     let difference = velocity * (spectrum.zero_shear_viscosity() / modulus) / half_length;
-    let [a, a2] = ratios_of_i(relaxation.recip());
-    let b = ratio_of_k((relaxation + difference).recip());
-    let rest = (1.0 + a * b).recip();
-    let [middle, singular] = [difference * a * b * rest, difference * a * rest];
-    let work = 2.0 * middle * a * rest + (a * b + a2) * rest;
-    let friction = difference * work / (1.0 + 2.0 * singular);
+
+    // x₀/l and C/l by (3), force and friction by (4).
+    let [a, a2] = bessel_i_ratios(relaxation.recip());
+    let b = bessel_k_ratio((relaxation + difference).recip());
+    let factor = (1.0 + a * b).recip();
+    let centre = difference * a * b * factor;
+    let singular = difference * a * factor;
+    let bracket = 2.0 * centre * a * factor + (a * b + a2) * factor;
+    let friction_over_slope = difference * bracket / (1.0 + 2.0 * singular);
     let slope = half_length / cylinder.radius();
     let stress = 2.0 * modulus / material.half_space_factor() * slope;
     let line_load = 0.5 * PI * stress * half_length * (1.0 + 2.0 * singular);
+    let friction_coefficient = friction_over_slope * slope;
     if relaxing > 0 {
-        representable("friction coefficient", friction * slope)?;
+        representable("friction coefficient", friction_coefficient)?;
     }
     Ok(CylinderSliding {
-        contact: [middle - 1.0, middle + 1.0].map(|end| end * half_length),
+        contact: [centre - 1.0, centre + 1.0].map(|end| end * half_length),
         line_load: representable("line load", line_load)?,
-        friction_coefficient: friction * slope,
+        friction_coefficient,
         stress,
         relaxation,
         singular,
@@ -126,8 +132,9 @@ impl CylinderSliding {
         // s = cos φ.
         let angle = 2.0 * ahead.sqrt().atan2(behind.sqrt());
         let z = self.relaxation.recip();
-        let [a, _] = ratios_of_i(z);
+        let [a, _] = bessel_i_ratios(z);
         // L − x₀ = T + C/a.
+        // q √(1 − s²), with s = cos φ, is the sum of an even and of an odd part in s.
         let odd = self.relaxation + self.singular / a;
         let even = |sine: f64| sine * sine + self.singular;
         if z.is_infinite() {
@@ -139,17 +146,19 @@ impl CylinderSliding {
             let (sine, cosine) = phi.sin_cos();
             z * (-z * distance).exp() * (even(sine) + odd * cosine)
         };
-        let first = (angle.cos() + LARGEST_EXPONENT / z).min(1.0).acos();
-        self.stress * integrate(integrand, [first, angle], ACCURACY).value
+        // The exponential is negligible far ahead of s.
+        let first = (angle.cos() + MAX_EXPONENT / z).min(1.0).acos();
+        self.stress * integrate(integrand, [first, angle], PRESSURE_ACCURACY).value
     }
 }
 
 /// I₁/I₀ and I₂/I₀ of z > 0, from ∫₀^π e^(z cos θ) sin^(2n) θ dθ (NIST DLMF 10.32.2).
-fn ratios_of_i(z: f64) -> [f64; 2] {
+fn bessel_i_ratios(z: f64) -> [f64; 2] {
     if z.is_infinite() {
         return [1.0; 2];
     }
-    let end = 2.0 * (0.5 * LARGEST_EXPONENT / z).sqrt().min(1.0).asin();
+    // The integrand e^(z (cos θ − 1)) is negligible beyond this angle.
+    let end = 2.0 * (0.5 * MAX_EXPONENT / z).sqrt().min(1.0).asin();
     let weight = |theta: f64| (-2.0 * z * (0.5 * theta).sin().powi(2)).exp();
     let integral = |power: i32| trapezoid(end, |theta| weight(theta) * theta.sin().powi(2 * power));
     let zeroth = integral(0);
@@ -160,18 +169,19 @@ fn ratios_of_i(z: f64) -> [f64; 2] {
 }
 
 /// K₀/K₁ of k > 0, from ∫₀^∞ e^(−k cosh t) cosh νt dt (NIST DLMF 10.32.9).
-fn ratio_of_k(k: f64) -> f64 {
+fn bessel_k_ratio(k: f64) -> f64 {
     if k.is_infinite() {
         return 1.0;
     }
-    let end = 2.0 * (0.5 * LARGEST_EXPONENT / k).sqrt().asinh();
+    // The integrand e^(−k (cosh t − 1)) is negligible beyond this t.
+    let end = 2.0 * (0.5 * MAX_EXPONENT / k).sqrt().asinh();
     let weight = |t: f64| (-2.0 * k * (0.5 * t).sinh().powi(2)).exp();
     trapezoid(end, weight) / trapezoid(end, |t| weight(t) * t.cosh())
 }
 
-/// ∫ from 0 to `end` of an even function that is even about `end` too, or has vanished there.
+/// Trapezoidal rule from 0 to `end` for an even function that is even about `end` too, or negligible there.
 fn trapezoid(end: f64, integrand: impl Fn(f64) -> f64) -> f64 {
-    let intervals = (INTERVALS + INTERVALS_PER_LENGTH * end).ceil();
+    let intervals = (MIN_INTERVALS + INTERVALS_PER_UNIT_LENGTH * end).ceil();
     let step = end / intervals;
     let inner = (1_u32..).map(f64::from).take_while(|k| *k < intervals);
     let inner: f64 = inner.map(|k| integrand(k * step)).sum();

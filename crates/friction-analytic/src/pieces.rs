@@ -1,15 +1,19 @@
-//! Integrals over several pieces, and the accuracy that is needed of them.
+//! Integrals over several smooth pieces, and the accuracy that they must have.
 
 use indenters::Axisymmetric;
 use numerics::{Estimate, integrate};
 
 use crate::FrictionError;
 
-/// Relative accuracy asked of an integral. Slopes that are integrals themselves are known to 1e-14, so that less could
-/// not be distinguished from noise.
+/// Requested relative accuracy of an integral; chosen.
+///
+/// Slopes that are integrals themselves are known to 1e-14, so that a smaller one could not be distinguished from noise.
 const REQUESTED_ACCURACY: f64 = 1e-12;
-/// Relative accuracy that an integral needs.
+/// Largest relative error of an integral that is accepted; chosen (docs/conventions.md, "Errors and tolerances").
 const ACCEPTED_ACCURACY: f64 = 1e-10;
+
+/// Exponent x beyond which e^(−x) is below rounding relative to 1, and left out: e^(−40) = 4e-18.
+pub(crate) const MAX_EXPONENT: f64 = 40.0;
 
 /// The integral over the pieces between successive `ends`.
 pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
@@ -17,14 +21,14 @@ pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estim
     ends.windows(2).map(piece).sum()
 }
 
-/// The kinks of a body inside the radius, and the radius.
+/// Radii of the kinks of a body inside a radius, and that radius, \[m]: ends of the smooth pieces without the apex.
 pub(crate) fn ends_outside_apex(body: &dyn Axisymmetric, radius: f64) -> Vec<f64> {
     let kinks = body.kinks().into_iter().map(|kink| kink.radius);
     let inside = kinks.take_while(|kink| *kink < radius);
     inside.chain([radius]).collect()
 }
 
-/// The integral, if its error is small enough.
+/// The integral if its error is at most [`ACCEPTED_ACCURACY`], otherwise [`FrictionError::NotConverged`].
 pub(crate) fn accepted(
     quantity: &'static str,
     integral: Estimate,

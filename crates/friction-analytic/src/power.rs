@@ -36,7 +36,7 @@ pub fn power_sliding(
     let shape_factor = 0.5 * p * (p / (p - 0.5));
     let friction = shape_factor * (depth / contact_length);
     let friction_coefficient = representable("friction coefficient", friction)?;
-    // The contact length is the exponential of a sum of logarithms, whose rounding becomes a relative error.
+    // The contact length is the exponential of a sum of logarithms, whose absolute rounding becomes a relative error.
     let logarithms = depth.ln().abs() + profile.coefficient().ln().abs() + profile.stretch().ln();
     let rounding = f64::EPSILON * (4.0 + logarithms / p);
     Ok(StationarySliding {
@@ -47,15 +47,18 @@ pub fn power_sliding(
     })
 }
 
-/// The two profiles for which more than the stationary state of a dashpot has a closed form.
+/// The power profiles with further closed forms: transients on a dashpot, stationary states on other materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Shape {
+pub(crate) enum PowerShape {
+    /// Exponent 1.
     Cone,
+    /// Exponent 2.
     Paraboloid,
 }
 
-impl Shape {
-    pub(crate) fn of(profile: &PowerProfile) -> Result<Self, FrictionError> {
+impl PowerShape {
+    /// The shape of a profile, whose exponent must be exactly 1 or 2.
+    pub(crate) fn new(profile: &PowerProfile) -> Result<Self, FrictionError> {
         match profile.exponent() {
             1.0 => Ok(Self::Cone),
             2.0 => Ok(Self::Paraboloid),

@@ -1,6 +1,6 @@
 //! A power profile pressed into a viscoelastic half space at a constant rate (Lee & Radok 1960, J. Appl. Mech. 27, 438).
 //!
-//! While a contact grows the force is that of the elastic body with a memory. At the depth d = V t and with q = 1 + 1/p,
+//! While a contact grows, the force is the elastic one with a history integral. At the depth d = V t and with q = 1 + 1/p,
 //!
 //! ```text
 //! F(t) = 8/(2 (1 − ν)) p/(p + 1) d a [G_∞ + q η/t + Σ G_i M(t/τ_i)],    a = (d/(κ c))^(1/p)
@@ -13,22 +13,19 @@ use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
-use crate::pieces::{accepted, over_pieces};
+use crate::pieces::{MAX_EXPONENT, accepted, over_pieces};
 
-/// Terms e^(−x) with a larger x are below rounding and left out.
-const LARGEST_EXPONENT: f64 = 40.0;
-
-/// A depth that has grown at a constant rate from first touch.
+/// End of a ramp: a depth that has grown at a constant rate since first touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DepthRamp {
-    /// Indentation depth d that is reached, \[m].
+    /// Indentation depth d at the end, \[m].
     pub indentation_depth: f64,
     /// Time t since first touch, \[s].
     pub time: f64,
 }
 
-/// Normal force of a power profile at the end of a ramp of the depth, \[N]; that of the one-dimensional model too.
+/// Normal force of a power profile at the end of a ramp of the depth, \[N], on half space and one-dimensional model alike.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for a depth or time that is not positive; [`FrictionError::OutOfRange`] when the
@@ -44,15 +41,16 @@ pub fn ramp_force(
     let p = profile.exponent();
     let relaxation = material.relaxation();
     let power = 1.0 + p.recip();
+    // The bracket of F(t): spring, dashpot and branches.
     let mut modulus = relaxation.equilibrium_modulus() + power * relaxation.viscosity() / time;
     for branch in relaxation.branches() {
         let rate = time / branch.relaxation_time;
-        // From the end of the ramp back.
-        let memory = |before: f64| (-rate * before).exp() * (1.0 - before).powf(power - 1.0);
-        let integral = over_pieces(memory, &[0.0, (LARGEST_EXPONENT / rate).min(1.0)]);
+        // M as an integral over 1 − u, from the end of the ramp backwards.
+        let integrand = |before: f64| (-rate * before).exp() * (1.0 - before).powf(power - 1.0);
+        let integral = over_pieces(integrand, &[0.0, (MAX_EXPONENT / rate).min(1.0)]);
         modulus += branch.modulus * power * accepted("memory of a ramp", integral)?.value;
     }
-    let area = depth * profile.line_position(depth);
-    let force = 8.0 / material.half_space_factor() * modulus * (area / power);
+    let depth_times_radius = depth * profile.line_position(depth);
+    let force = 8.0 / material.half_space_factor() * modulus * (depth_times_radius / power);
     representable("normal force", force)
 }

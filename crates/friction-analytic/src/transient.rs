@@ -1,6 +1,6 @@
-//! Sinking in while sliding, from the first touch to the stationary state, exact for cone and paraboloid.
+//! Transient of sliding, from first touch to the stationary state, exact for cone and paraboloid.
 //!
-//! At first both flanks carry load; the one behind lifts off at the time t*. With `h̃ = s |x|` or `h̃ = k x²`, the
+//! At first both flanks carry load; the trailing one lifts off at the time t*. With `h̃ = s |x|` or `h̃ = k x²`, the
 //! stationary depth D, the stationary contact length x_d, and `y e^(−y) = ½ e^(−1/2 − T)`, `T = v (t − t*)/x_d`:
 //!
 //! ```text
@@ -10,38 +10,38 @@
 //!             t > t*:             d = D (1 − y)²,  μ = ⁴⁄₃ √(k D) (1 − 3y/2),  contact from −y x_d to (1 − y) x_d
 //! ```
 //!
-//! This is the solution of the balance behind (15) with the load of the trailing flank, which (15) leaves out.
+//! This solves the balance of forces behind (15), with the load of the trailing flank that (15) leaves out.
 
-use numerics::{bracketed_root, in_range, not_negative};
 use std::f64::consts::LN_2;
 
 use indenters::{PowerProfile, SlidingLoad};
+use numerics::{bracketed_root, in_range, not_negative};
 use rheology::Viscous;
 
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
-use crate::power::Shape;
+use crate::power::PowerShape;
 use crate::stationary::depth_under_force;
 
-/// A moment of sliding before the stationary state is reached.
+/// State at one time of the transient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct TransientSliding {
-    /// Present indentation depth, \[m].
+    /// Indentation depth at that time, \[m].
     pub indentation_depth: f64,
     /// Rear and front end of the contact, measured from the apex, \[m].
     pub contact_line: [f64; 2],
-    /// Present coefficient of friction.
+    /// Coefficient of friction at that time.
     pub friction_coefficient: f64,
 }
 
-/// What the transient depends on.
-struct Scales {
-    shape: Shape,
-    /// D, (12).
+/// Shape and stationary state, which scale the transient.
+struct TransientScales {
+    shape: PowerShape,
+    /// Stationary depth D, (12), \[m].
     depth: f64,
-    /// x_d.
+    /// Stationary contact length x_d, \[m].
     length: f64,
 }
 
@@ -57,11 +57,11 @@ pub fn transient_sliding(
     load: &SlidingLoad,
     time: f64,
 ) -> Result<TransientSliding, FrictionError> {
-    let scales = Scales::new(profile, material, load)?;
-    let slid = load.velocity() * not_negative("time", time)? / scales.length;
+    let scales = TransientScales::new(profile, material, load)?;
+    let distance = load.velocity() * not_negative("time", time)? / scales.length;
     Ok(match scales.shape {
-        Shape::Cone => scales.cone_at(slid),
-        Shape::Paraboloid => scales.paraboloid_at(slid),
+        PowerShape::Cone => scales.cone_at(distance),
+        PowerShape::Paraboloid => scales.paraboloid_at(distance),
     })
 }
 
@@ -75,17 +75,21 @@ pub fn sliding_distance_to_depth(
     load: &SlidingLoad,
     fraction: f64,
 ) -> Result<f64, FrictionError> {
-    let scales = Scales::new(profile, material, load)?;
+    let scales = TransientScales::new(profile, material, load)?;
     let holds = (0.0..1.0).contains(&fraction);
     in_range("fraction", fraction, holds, "at least 0 and less than 1")?;
     Ok(scales.length
         * match scales.shape {
-            Shape::Cone if fraction <= 0.5 => fraction * fraction,
-            Shape::Cone => Shape::Cone.lift_off() + distance_since_lift_off(1.0 - fraction),
-            Shape::Paraboloid if fraction <= 0.25 => 4.0 / 3.0 * fraction * fraction.sqrt(),
-            Shape::Paraboloid => {
-                let missing_root = (1.0 - fraction) / (1.0 + fraction.sqrt());
-                Shape::Paraboloid.lift_off() + distance_since_lift_off(missing_root)
+            // Before and after the trailing flank lifts off, which a cone does at D/2 and a paraboloid at D/4.
+            PowerShape::Cone if fraction <= 0.5 => fraction * fraction,
+            PowerShape::Cone => {
+                PowerShape::Cone.lift_off() + distance_since_lift_off(1.0 - fraction)
+            }
+            PowerShape::Paraboloid if fraction <= 0.25 => 4.0 / 3.0 * fraction * fraction.sqrt(),
+            PowerShape::Paraboloid => {
+                // y = 1 − √(d/D) without cancellation.
+                let y = (1.0 - fraction) / (1.0 + fraction.sqrt());
+                PowerShape::Paraboloid.lift_off() + distance_since_lift_off(y)
             }
         })
 }
@@ -104,20 +108,20 @@ pub fn cone_depth_by_equation_15(
     load: &SlidingLoad,
     time: f64,
 ) -> Result<f64, FrictionError> {
-    let scales = Scales::new(profile, material, load)?;
-    if scales.shape != Shape::Cone {
+    let scales = TransientScales::new(profile, material, load)?;
+    if scales.shape != PowerShape::Cone {
         return Err(FrictionError::UnsupportedExponent {
             exponent: profile.exponent(),
             supported: "1",
         });
     }
-    let slid = load.velocity() * not_negative("time", time)? / scales.length;
-    let fraction = bracketed_root(|q| missing_logarithm(q) - slid, [0.0, 1.0]);
-    let failed = out_of_range("sliding distance", slid);
+    let distance = load.velocity() * not_negative("time", time)? / scales.length;
+    let fraction = bracketed_root(|q| distance_by_equation_15(q) - distance, [0.0, 1.0]);
+    let failed = out_of_range("sliding distance", distance);
     Ok(scales.depth * fraction.ok_or(failed)?)
 }
 
-impl Scales {
+impl TransientScales {
     fn new(
         profile: &PowerProfile,
         material: &Viscous,
@@ -125,46 +129,44 @@ impl Scales {
     ) -> Result<Self, FrictionError> {
         let depth = depth_under_force(material, load)?;
         Ok(Self {
-            shape: Shape::of(profile)?,
+            shape: PowerShape::new(profile)?,
             depth,
             length: representable("contact length", profile.line_position(depth))?,
         })
     }
 
-    /// `slid` is the sliding distance over x_d.
-    fn cone_at(&self, slid: f64) -> TransientSliding {
+    /// State of a cone at a sliding distance over x_d.
+    fn cone_at(&self, distance: f64) -> TransientSliding {
         let slope = self.depth / self.length;
         // d/D, which is also the front end over x_d; while both flanks touch, its square is v t/x_d.
-        let (fraction, rear, times) = if is_two_sided(Shape::Cone, slid) {
-            let fraction = slid.sqrt();
+        let (fraction, rear, friction_over_slope) = if is_two_sided(PowerShape::Cone, distance) {
+            let fraction = distance.sqrt();
             (fraction, -fraction, 2.0 * fraction)
         } else {
-            (
-                1.0 - missing_fraction(slid - Shape::Cone.lift_off()),
-                0.0,
-                1.0,
-            )
+            let y = missing_fraction(distance - PowerShape::Cone.lift_off());
+            (1.0 - y, 0.0, 1.0)
         };
         TransientSliding {
             indentation_depth: self.depth * fraction,
             contact_line: [rear, fraction].map(|end| end * self.length),
-            friction_coefficient: times * slope,
+            friction_coefficient: friction_over_slope * slope,
         }
     }
 
-    fn paraboloid_at(&self, slid: f64) -> TransientSliding {
+    /// State of a paraboloid at a sliding distance over x_d.
+    fn paraboloid_at(&self, distance: f64) -> TransientSliding {
         // k = D/x_d², so that √(k D) = k x_d = D/x_d.
         let slope = self.depth / self.length;
-        if is_two_sided(Shape::Paraboloid, slid) {
+        if is_two_sided(PowerShape::Paraboloid, distance) {
             // d/D = (¾ v t/x_d)^(2/3); its root is the half width over x_d.
-            let half_width = (0.75 * slid).cbrt();
+            let half_width = (0.75 * distance).cbrt();
             return TransientSliding {
                 indentation_depth: self.depth * half_width * half_width,
                 contact_line: [-half_width * self.length, half_width * self.length],
-                friction_coefficient: 2.0 * slope * slid,
+                friction_coefficient: 2.0 * slope * distance,
             };
         }
-        let y = missing_fraction(slid - Shape::Paraboloid.lift_off());
+        let y = missing_fraction(distance - PowerShape::Paraboloid.lift_off());
         TransientSliding {
             indentation_depth: self.depth * (1.0 - y) * (1.0 - y),
             contact_line: [-y * self.length, (1.0 - y) * self.length],
@@ -173,8 +175,8 @@ impl Scales {
     }
 }
 
-impl Shape {
-    /// v t*/x_d.
+impl PowerShape {
+    /// Sliding distance at which the trailing flank lifts off, over x_d: v t*/x_d.
     const fn lift_off(self) -> f64 {
         match self {
             Self::Cone => 0.25,
@@ -183,9 +185,11 @@ impl Shape {
     }
 }
 
-/// The instant t* itself belongs to the two-sided state, also when rounding puts it a few units later.
-fn is_two_sided(shape: Shape, slid: f64) -> bool {
-    slid <= shape.lift_off() * (1.0 + 16.0 * f64::EPSILON)
+/// Whether both flanks touch at a sliding distance over x_d.
+///
+/// The time t* itself belongs to the two-sided state, also if rounding makes it later by a few units in the last place.
+fn is_two_sided(shape: PowerShape, distance: f64) -> bool {
+    distance <= shape.lift_off() * (1.0 + 16.0 * f64::EPSILON)
 }
 
 /// T(y) = y − ln y − ½ − ln 2, the sliding distance after t* over x_d.
@@ -193,33 +197,38 @@ fn distance_since_lift_off(y: f64) -> f64 {
     y - y.ln() - 0.5 - LN_2
 }
 
-/// −ln of less than the smallest positive number.
-const SMALLEST_LOGARITHM: f64 = 746.0;
+/// Exponent c from which on e^(−c) is 0: the smallest positive number is e^(−744.4).
+const UNDERFLOW_EXPONENT: f64 = 746.0;
+/// Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
+const NEWTON_STEPS: usize = 8;
 
-/// y ≤ ½ with y e^(−y) = ½ e^(−1/2 − T), T ≥ 0, the lower branch of −W₀(−½ e^(−1/2 − T)).
+/// Relative distance y from the stationary state, y ≤ ½ with y e^(−y) = ½ e^(−1/2 − T), T ≥ 0, the lower branch of −W₀(−½ e^(−1/2 − T)).
 ///
 /// Newton's method for z = ln y in e^z − z = c, c = ½ + ln 2 + T: the function is convex and falls where y < 1, so from
 /// z = −c, which is left of the root, the steps approach it from one side, and neither late nor early times lose digits.
 fn missing_fraction(since_lift_off: f64) -> f64 {
     let c = 0.5 + LN_2 + since_lift_off;
-    if c > SMALLEST_LOGARITHM {
+    if c > UNDERFLOW_EXPONENT {
         return 0.0;
     }
+    // Newton's method from the left of the root.
     let mut z = -c;
-    // Quadratic convergence from a start that is within e^z < ½ of the root: 6 steps reach rounding.
-    for _ in 0..8 {
+    for _ in 0..NEWTON_STEPS {
         let y = z.exp();
         z -= (y - z - c) / (y - 1.0);
     }
     z.exp()
 }
 
-/// −q − ln(1 − q) for 0 ≤ q ≤ 1, without cancellation at small q.
-fn missing_logarithm(q: f64) -> f64 {
-    if q > 0.1 {
+/// Largest q for which −q − ln(1 − q) is summed as a series; chosen.
+const MAX_LOG_SERIES_Q: f64 = 0.1;
+
+/// Sliding distance of a cone to d/D = q by Eq. (15), over x_d: −q − ln(1 − q) for 0 ≤ q ≤ 1, without cancellation.
+fn distance_by_equation_15(q: f64) -> f64 {
+    if q > MAX_LOG_SERIES_Q {
         return -q - (-q).ln_1p();
     }
-    // q²/2 + q³/3 + …; at q = 0.1 the first term left out is below 1e-17 of the first.
+    // q²/2 + q³/3 + … + q¹⁸/18; at the largest q the first term left out is below 1e-17 of the first.
     let terms = (2..=18_u32).rev().map(|k| f64::from(k).recip());
     terms.fold(0.0, |sum, term| sum * q + term) * q * q
 }

@@ -1,6 +1,7 @@
 //! Cone and paraboloid on a Kelvin–Voigt and on a Maxwell foundation, in closed form.
 //!
-//! With h̃ = s |x| or k x², l = v τ and the leading edge x_r, the foundation carries `4 w` per length, and the contact ends at x_l:
+//! With h̃ = s |x| or k x², l = v τ and the leading edge x_r, the foundation carries `4 w` per length, and the contact ends
+//! at x_l:
 //!
 //! ```text
 //! Kelvin–Voigt   w = G u + η v h̃'           paraboloid: x_l = −x_r²/(l + √(l² + x_r²))     cone: x_l = −(x_r − l)⁺
@@ -16,10 +17,10 @@ use rheology::{KelvinVoigt, Maxwell};
 
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
-use crate::pieces::{accepted, over_pieces};
-use crate::power::Shape;
+use crate::pieces::{MAX_EXPONENT, accepted, over_pieces};
+use crate::power::PowerShape;
 
-/// A contact of which the front and the speed are known.
+/// Front and speed of a sliding contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlidingContact {
@@ -47,8 +48,8 @@ pub struct ViscoelasticSliding {
 /// Sliding of a cone or paraboloid on a Kelvin–Voigt foundation.
 ///
 /// # Errors
-/// [`FrictionError::UnsupportedExponent`] for other profiles, [`FrictionError::InvalidParameter`] for a contact that
-/// cannot be, [`FrictionError::OutOfRange`] when a result overflows or underflows.
+/// [`FrictionError::UnsupportedExponent`] for other profiles; [`FrictionError::InvalidParameter`] for a front or a speed that
+/// is not positive; [`FrictionError::OutOfRange`] when a result overflows or underflows.
 pub fn kelvin_voigt_sliding(
     profile: &PowerProfile,
     material: &KelvinVoigt,
@@ -56,27 +57,36 @@ pub fn kelvin_voigt_sliding(
 ) -> Result<ViscoelasticSliding, FrictionError> {
     let problem = SlidingProfile::new(profile, contact)?;
     let modulus = material.shear_modulus();
+    // l = v τ.
     let shift = material.viscosity() / modulus * contact.velocity;
     let length = positive("distance of retardation", shift)?;
-    let SlidingProfile { front, shape, .. } = problem;
-    let ratio = length / front;
-    let [rear, load, friction] = match shape {
-        Shape::Cone => {
-            let closing = (1.0 - ratio).max(0.0);
-            let load = 0.5 * (1.0 + 2.0 * ratio + closing * closing);
-            let share = (4.0 * ratio - ratio * ratio) / (2.0 + ratio * ratio);
-            [-closing, load, if ratio < 1.0 { share } else { 1.0 }]
+    // l/x_r.
+    let ratio = length / problem.front;
+    let relative = match problem.shape {
+        // The cone lifts off at −(x_r − l)⁺; both flanks touch while l < x_r.
+        PowerShape::Cone => {
+            let rear_extent = (1.0 - ratio).max(0.0);
+            let two_sided = (4.0 * ratio - ratio * ratio) / (2.0 + ratio * ratio);
+            RelativeSliding {
+                rear: -rear_extent,
+                load: 0.5 * (1.0 + 2.0 * ratio + rear_extent * rear_extent),
+                friction: if ratio < 1.0 { two_sided } else { 1.0 },
+            }
         }
-        Shape::Paraboloid => {
+        PowerShape::Paraboloid => {
             let rear = -(ratio + ratio.hypot(1.0)).recip();
             // x_r² − x_l² = −2 l x_l.
             let elastic = (1.0 - rear) - (1.0 - rear.powi(3)) / 3.0;
             let load = elastic - 2.0 * ratio * ratio * rear;
             let work = 2.0 * (ratio * rear).powi(2) + 4.0 / 3.0 * ratio * (1.0 - rear.powi(3));
-            [rear, load, work / load]
+            RelativeSliding {
+                rear,
+                load,
+                friction: work / load,
+            }
         }
     };
-    problem.result(rear, modulus * load, friction)
+    problem.result(modulus, relative)
 }
 
 /// Sliding of a cone or paraboloid on a Maxwell foundation.
@@ -93,83 +103,129 @@ pub fn maxwell_sliding(
     let modulus = material.shear_modulus();
     let length = material.viscosity() / modulus * contact.velocity;
     let ratio = positive("ratio of front and distance", problem.front / length)?;
-    let [rear, load, friction] = match problem.shape {
-        Shape::Cone => maxwell_cone(ratio),
-        Shape::Paraboloid => maxwell_paraboloid(ratio)?,
+    let relative = match problem.shape {
+        PowerShape::Cone => maxwell_cone(ratio),
+        PowerShape::Paraboloid => maxwell_paraboloid(ratio)?,
     };
-    problem.result(rear, modulus * load, friction)
+    problem.result(modulus, relative)
 }
 
-/// x_l/x_r, ∫ w dx/(G s x_r²) and μ/s for Y = x_r/l: `∫ w dx = −G s l² ln(1 − q²)`, `∫ w h̃' dx = 2 G s² l² (artanh q − q)`.
-fn maxwell_cone(ratio: f64) -> [f64; 3] {
+/// Rear, load and friction of a contact in units of its front and depth.
+struct RelativeSliding {
+    /// x_l/x_r.
+    rear: f64,
+    /// ∫ w dx/(G d x_r).
+    load: f64,
+    /// μ x_r/d.
+    friction: f64,
+}
+
+/// The cone for Y = x_r/l: `∫ w dx = −G s l² ln(1 − q²)`, `∫ w h̃' dx = 2 G s² l² (artanh q − q)`.
+fn maxwell_cone(ratio: f64) -> RelativeSliding {
     let q = -(-ratio).exp_m1();
-    let rear = q.ln_1p() / ratio;
-    let sum = if q < 0.5 {
+    // −ln(1 − q²) = Y − ln(1 + q).
+    let load = if q < 0.5 {
         -(-q * q).ln_1p()
     } else {
         ratio - q.ln_1p()
     };
-    let work = if q < SMALL {
+    // 2 (artanh q − q) = Y + ln(1 + q) − 2 q.
+    let work = if q < MAX_ARTANH_SERIES_Q {
         // 2 (q³/3 + q⁵/5 + …)
         let terms = (1..20).rev().map(|k| f64::from(2 * k + 1).recip());
-        2.0 * q.powi(3) * terms.fold(0.0, |s, term| s * q * q + term)
+        2.0 * q.powi(3) * terms.fold(0.0, |sum, term| sum * q * q + term)
     } else {
         ratio + q.ln_1p() - 2.0 * q
     };
-    [-rear, sum / (ratio * ratio), work / sum]
+    RelativeSliding {
+        rear: -(q.ln_1p() / ratio),
+        load: load / (ratio * ratio),
+        friction: work / load,
+    }
 }
 
-/// x_l/x_r, ∫ w dx/(G k x_r³) and μ/(k x_r) of the paraboloid, with `φ_1 = (1 − e^(−z))/z`, `φ_(k+1) = (1/k! − φ_k)/z`.
-fn maxwell_paraboloid(ratio: f64) -> Result<[f64; 3], FrictionError> {
+/// The paraboloid for Y = x_r/l, with the functions φ_k of [`Phi`].
+fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
+    // Solve Y = z φ₂/φ₁, where x_r < x_r − x_l < 2 x_r.
     let excess = |z: f64| {
-        let [one, two, _] = phi(z);
+        let Phi { one, two, .. } = Phi::new(z);
         z * two / one - ratio
     };
+    let bracket = [ratio, 2.0 * ratio * (1.0 + BRACKET_MARGIN)];
     let failed = out_of_range("contact length", ratio);
-    // x_r < x_r − x_l < 2 x_r.
-    let z = bracketed_root(excess, [ratio, 2.0 * ratio * (1.0 + SMALL)]).ok_or(failed)?;
-    let [one, two, rest] = phi(z);
+    let z = bracketed_root(excess, bracket).ok_or(failed)?;
+    let Phi { one, two, rest } = Phi::new(z);
     let load = z.powi(3) * rest / one;
-    // φ_1(ζ) − φ_1(z); near z = 0 both are one.
-    let difference = |zeta: f64| match phi(zeta) {
-        [_, part, _] if z < 1.0 => z * two - zeta * part,
-        [part, ..] => part - one,
+
+    // Integrate the work. φ₁(ζ) − φ₁(z) is a difference of numbers near 1 where z is small.
+    let difference = |zeta: f64| {
+        let at_zeta = Phi::new(zeta);
+        if z < 1.0 {
+            z * two - zeta * at_zeta.two
+        } else {
+            at_zeta.one - one
+        }
     };
     let square = |zeta: f64| (zeta * difference(zeta) / one).powi(2);
-    let mut ends = vec![0.0, LAYER.min(z), z];
+    let mut ends = vec![0.0, MAX_EXPONENT.min(z), z];
     ends.dedup();
     let work = accepted("friction work", over_pieces(square, &ends))?;
     // In units of x_r: l = 1/Y, w = 2 G k l² …, so that the friction of slope 2 k x_r is 2 ∫ / (Y load).
     let friction = 4.0 * work.value / (load * ratio);
-    Ok([1.0 - z / ratio, load / ratio.powi(3), friction])
+    Ok(RelativeSliding {
+        rear: 1.0 - z / ratio,
+        load: load / ratio.powi(3),
+        friction,
+    })
 }
 
-/// Below this a difference is summed as a series.
-const SMALL: f64 = 0.1;
-/// Beyond this e^(−ζ) is rounded away.
-const LAYER: f64 = 40.0;
+/// Largest q for which artanh q − q is summed as a series; chosen.
+const MAX_ARTANH_SERIES_Q: f64 = 0.1;
+/// Margin of the bracket of the contact length above its upper bound, for rounding; chosen.
+const BRACKET_MARGIN: f64 = 0.1;
 
-/// φ_1, φ_2 and φ_2 − 2 φ_3 of z > 0.
-fn phi(z: f64) -> [f64; 3] {
-    if z < 1.0 {
-        // φ_3 = 1/3! − z/4! + z²/5! − …, then upwards without cancellation.
-        let mut term = 1.0 / 6.0;
-        let mut three = term;
-        for k in 4..25 {
-            term *= -z / f64::from(k);
-            three += term;
+/// The functions φ₁ = (1 − e^(−z))/z and φ_(k+1) = (1/k! − φ_k)/z of z > 0, without cancellation.
+struct Phi {
+    /// φ₁.
+    one: f64,
+    /// φ₂.
+    two: f64,
+    /// φ₂ − 2 φ₃.
+    rest: f64,
+}
+
+impl Phi {
+    fn new(z: f64) -> Self {
+        if z < 1.0 {
+            // φ₃ = 1/3! − z/4! + z²/5! − …, and from it the lower orders.
+            let mut term = 1.0 / 6.0;
+            let mut three = term;
+            for k in 4..25 {
+                term *= -z / f64::from(k);
+                three += term;
+            }
+            let two = 0.5 - z * three;
+            return Self {
+                one: 1.0 - z * two,
+                two,
+                rest: two - 2.0 * three,
+            };
         }
-        let two = 0.5 - z * three;
-        return [1.0 - z * two, two, two - 2.0 * three];
+        let one = -(-z).exp_m1() / z;
+        Self {
+            one,
+            two: (1.0 - one) / z,
+            rest: (1.0 + (-z).exp() - 2.0 * one) / z / z,
+        }
     }
-    let one = -(-z).exp_m1() / z;
-    let rest = (1.0 + (-z).exp() - 2.0 * one) / z / z;
-    [one, (1.0 - one) / z, rest]
 }
 
+/// A cone or paraboloid with a given front of the contact.
 struct SlidingProfile {
-    shape: Shape,
+    shape: PowerShape,
+    /// x_r, \[m].
     front: f64,
+    /// d = h̃(x_r), \[m].
     depth: f64,
 }
 
@@ -177,7 +233,7 @@ impl SlidingProfile {
     fn new(profile: &PowerProfile, contact: SlidingContact) -> Result<Self, FrictionError> {
         let front = positive("front", contact.front)?;
         positive("velocity", contact.velocity)?;
-        let shape = Shape::of(profile)?;
+        let shape = PowerShape::new(profile)?;
         // κ c x_r^p.
         let depth = profile.stretch() * profile.coefficient() * front.powf(profile.exponent());
         Ok(Self {
@@ -187,19 +243,19 @@ impl SlidingProfile {
         })
     }
 
-    /// `rear` in units of x_r, `load` ∫ w dx in units of d x_r, `friction` in units of d/x_r.
+    /// The result in SI units, from a shear modulus \[Pa] and the relative one.
     fn result(
         &self,
-        rear: f64,
-        load: f64,
-        friction: f64,
+        modulus: f64,
+        relative: RelativeSliding,
     ) -> Result<ViscoelasticSliding, FrictionError> {
         let slope = self.depth / self.front;
+        let force = 4.0 * (modulus * relative.load) * self.depth * self.front;
         Ok(ViscoelasticSliding {
             indentation_depth: self.depth,
-            contact: [rear * self.front, self.front],
-            normal_force: representable("normal force", 4.0 * load * self.depth * self.front)?,
-            friction_coefficient: representable("friction coefficient", friction * slope)?,
+            contact: [relative.rear * self.front, self.front],
+            normal_force: representable("normal force", force)?,
+            friction_coefficient: representable("friction coefficient", relative.friction * slope)?,
         })
     }
 }
