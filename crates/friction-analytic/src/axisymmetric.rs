@@ -1,4 +1,4 @@
-//! Stationary sliding of any body of revolution, by quadrature.
+//! Stationary sliding of any body of revolution in the one-dimensional model, by quadrature.
 //!
 //! ```text
 //! h̃(x_d) = d        μ = (1/d) ∫₀^x_d h̃'(x)² dx        (16)
@@ -12,9 +12,11 @@ use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::checked_depth;
 use crate::{DivergenceCause, FrictionError, StationarySliding};
 
-/// Part of the first stretch in which the line is taken as its leading power. Any other power of the profile whose
-/// exponent is larger by 0.11 or more has fallen to rounding there.
-const APEX_REACH: f64 = 1e-150;
+/// Length of the interval at the apex on which the line is replaced by its leading power, over the position of the first
+/// kink or of the front.
+///
+/// There any other power of the profile whose exponent is larger by 0.11 or more is below rounding: 1e-150^0.11 = 3e-17.
+const LEADING_POWER_REACH: f64 = 1e-150;
 
 /// Stationary depth, contact line and coefficient of friction of a body of revolution, from (12) and (16).
 ///
@@ -30,23 +32,23 @@ pub fn axisymmetric_sliding(
     let depth = checked_depth(material, load)?;
     let radius = radius_with_friction(body, depth)?;
     let energy = slope_energy(body, radius)?;
-    // The contact radius is rounded too, and moves the end of the integral.
+    // The rounding of the contact radius moves the end of the integral.
     let end = body.line_slope(radius).powi(2) * radius;
     let contact = vec![[0.0, radius]];
-    Ok(StationarySliding::of_energy(depth, contact, energy, end))
+    Ok(StationarySliding::from_energy(depth, contact, energy, end))
 }
 
-/// The front of the stationary contact at a depth, unless its friction is infinite.
+/// The front of the stationary contact at a depth, \[m], unless its friction is infinite.
 pub(crate) fn radius_with_friction(
     body: &dyn Axisymmetric,
     depth: f64,
 ) -> Result<f64, FrictionError> {
     let radius = contact_radius(body, depth).map_err(no_stationary_state)?;
-    refuse_divergence(body, [0.0, radius], depth)?;
+    refuse_divergence(body, 0.0, radius, depth)?;
     Ok(radius)
 }
 
-/// Remark 4: a line that ends below the stationary depth has no stationary state.
+/// Translates a body that is not high enough into the absence of a stationary state, Remark 4.
 pub(crate) fn no_stationary_state(error: IndenterError) -> FrictionError {
     match error {
         IndenterError::NotHighEnough { available, depth } => FrictionError::NoStationaryState {
@@ -57,12 +59,14 @@ pub(crate) fn no_stationary_state(error: IndenterError) -> FrictionError {
     }
 }
 
-/// Refuses a contact over which ∫ h̃'² dx is infinite.
+/// Refuses a contact from `rear` to `front` over which ∫ h̃'² dx is infinite.
 pub(crate) fn refuse_divergence(
     body: &dyn Axisymmetric,
-    [rear, front]: [f64; 2],
+    rear: f64,
+    front: f64,
     depth: f64,
 ) -> Result<(), FrictionError> {
+    // The causes, in the order from the apex to the front.
     let exponent = body.profile_exponent();
     let kinks = body.kinks().into_iter();
     let mut jumps = kinks.filter(|kink| kink.radius < front && kink.slope_jump > 0.0);
@@ -85,32 +89,33 @@ pub(crate) fn refuse_divergence(
     })
 }
 
-/// ∫₀^a h̃'(x)² dx, \[m], for a line without a reason to diverge.
+/// ∫₀^a h̃'(x)² dx, \[m], for a line over which it does not diverge.
 pub(crate) fn slope_energy(
     body: &dyn Axisymmetric,
     radius: f64,
 ) -> Result<Estimate, FrictionError> {
+    // The slope may be singular at the apex only; between kinks the line is smooth.
     let ends = ends_outside_apex(body, radius);
-    let inner = from_apex(body, ends[0]);
+    let inner = slope_energy_at_apex(body, ends[0]);
     let outer = over_pieces(|x| body.line_slope(x).powi(2), &ends);
     accepted("integral of the squared slope", inner + outer)
 }
 
-/// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`.
-fn from_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
+/// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`, \[m].
+fn slope_energy_at_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
     let square = |x: f64| body.line_slope(x).powi(2);
     let exponent = body.profile_exponent();
     if exponent >= 1.0 {
         return over_pieces(square, &[0.0, end]);
     }
-    // As p approaches 1/2 most of the integral lies below the smallest number. So the innermost part is that of the
-    // leading power, and in the rest x = end s^(1/(2p − 1)) makes the integrand of that power a constant.
+    // As p approaches 1/2, most of the integral lies below the smallest number. The innermost part is therefore that of the
+    // leading power, and elsewhere x = end s^(1/(2p − 1)) makes the integrand of that power a constant.
     let rate = 2.0 * exponent - 1.0;
-    let apex = APEX_REACH * end;
-    let innermost = apex * square(apex) / rate;
+    let reach = LEADING_POWER_REACH * end;
+    let innermost = reach * square(reach) / rate;
     let integrand = |s: f64| {
         let x = end * s.powf(rate.recip());
         square(x) * x / (rate * s)
     };
-    over_pieces(integrand, &[APEX_REACH.powf(rate), 1.0]) + Estimate::exact(innermost)
+    over_pieces(integrand, &[LEADING_POWER_REACH.powf(rate), 1.0]) + Estimate::exact(innermost)
 }

@@ -1,4 +1,4 @@
-//! Friction of a solid at very low and very high speed, where the contact is elastic.
+//! Friction of a solid at very low and very high speed, where the contact is nearly elastic.
 //!
 //! ```text
 //! F_N = 8 G ∫₀^a x h̃' dx,   G = G_∞ (slow) or G(0+) (fast)
@@ -20,7 +20,7 @@ use crate::error::representable;
 use crate::indentation::known_moment;
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 
-/// A contact of given size that slides over a solid.
+/// Size and speed of a contact that slides over a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ElasticContact {
@@ -30,7 +30,7 @@ pub struct ElasticContact {
     pub velocity: f64,
 }
 
-/// Leading term of the friction in an elastic limit.
+/// Leading term of the friction in the limit of low or of high speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -46,7 +46,8 @@ pub struct ElasticLimitFriction {
 /// Friction at low speed, v τ ≪ a: proportional to the speed, and on the half space exactly half of that on the line.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be, or a fluid;
+/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a speed or a radius that is not positive, a radius
+/// that the body does not reach, or a fluid;
 /// [`FrictionError::FrictionDiverges`] where ∫ h̃'² dx does; [`FrictionError::NotConverged`] when an integral is known to
 /// less than ten digits.
 pub fn low_speed_friction(
@@ -57,24 +58,26 @@ pub fn low_speed_friction(
     check_spectra(solid)?;
     let depth = checked_depth(body, contact)?;
     let radius = contact.contact_radius;
-    refuse_divergence(body, [-radius, radius], depth)?;
+    refuse_divergence(body, -radius, radius, depth)?;
+    // The force is 8 G times this moment.
     let moment = known_moment(body, radius)?;
     let relaxation = solid.relaxation();
     // A fluid has no elastic limit at low speed.
     let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
-    // η_0 of the slow limit holds the lone dashpot and all branches.
+    // x_s; η_0 contains the lone dashpot and all branches.
     let shift = relaxation.zero_shear_viscosity() * contact.velocity / modulus;
     let line = shift * (slope_energy(body, radius)?.value / moment);
     let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
-    limit(force, [line, 0.5 * line])
+    checked_limit(force, line, 0.5 * line)
 }
 
 /// Friction at high speed, v τ ≫ a: inversely proportional to the speed, and the same on half space and line.
 ///
-/// It exists for every profile, also where the viscous friction diverges.
+/// It is finite for all profiles, including those whose viscous friction diverges.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be, or a lone dashpot;
+/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a speed or a radius that is not positive, a radius
+/// that the body does not reach, or a lone dashpot;
 /// [`FrictionError::NotConverged`] when an integral is known to less than ten digits.
 pub fn high_speed_friction(
     body: &dyn Axisymmetric,
@@ -96,15 +99,17 @@ pub fn high_speed_friction(
     ends.insert(0, 0.0);
     let energy = over_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
     let energy = accepted("squared compression", energy)?.value;
+    // μ = (8 α/v) ∫ (d − h̃)² dx/F_N.
     let friction = rate / contact.velocity * (energy / moment);
     let force = 8.0 * (glass / solid.half_space_factor()) * moment;
-    limit(force, [friction; 2])
+    checked_limit(force, friction, friction)
 }
 
-/// Force and coefficients of friction on line and half space, if they are numbers.
-fn limit(
+/// Normal force and coefficients of friction on line and half space, if they are positive and finite.
+fn checked_limit(
     normal_force: f64,
-    [line, half_space]: [f64; 2],
+    line: f64,
+    half_space: f64,
 ) -> Result<ElasticLimitFriction, FrictionError> {
     Ok(ElasticLimitFriction {
         line: representable("friction coefficient", line)?,
@@ -113,11 +118,12 @@ fn limit(
     })
 }
 
+/// Depth of the elastic contact, \[m], if body and contact are valid.
 fn checked_depth(body: &dyn Axisymmetric, contact: ElasticContact) -> Result<f64, FrictionError> {
     positive("velocity", contact.velocity)?;
     let radius = positive("contact_radius", contact.contact_radius)?;
     let depth = representable("indentation depth", body.checked_line_height(radius)?)?;
-    // Refuses a line that turns down before.
+    // Refuses a line that turns downwards inside the contact.
     contact_radius(body, depth)?;
     Ok(depth)
 }

@@ -1,10 +1,10 @@
-//! Why friction, depth or a contact cannot be given.
+//! Errors of the closed forms and quadratures.
 
 use indenters::IndenterError;
 use numerics::{Estimate, InWords, InvalidParameter, Rounded};
 use thiserror::Error;
 
-/// Why the friction integral has no finite value.
+/// Reason why the friction integral diverges.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -17,16 +17,18 @@ pub enum DivergenceCause {
         /// The exponent.
         exponent: f64,
     },
-    /// The slope of the profile jumps upwards inside the contact; the line behind it is as steep as the inverse root
-    /// of the distance, and the integral diverges like a logarithm.
+    /// The slope of the profile jumps upwards inside the contact.
+    ///
+    /// The slope of the line behind the jump grows like the inverse root of the distance, and the integral diverges like a
+    /// logarithm.
     #[error(
         "the slope of the profile jumps upwards by {} at radius {} m, inside the contact",
         Rounded(*jump), Rounded(*radius)
     )]
     SlopeJump {
-        /// Where it jumps, \[m].
+        /// Radius of the jump, \[m].
         radius: f64,
-        /// By how much.
+        /// Increase of the slope.
         jump: f64,
     },
     /// The contact reaches a vertical edge.
@@ -37,11 +39,11 @@ pub enum DivergenceCause {
     },
 }
 
-/// Why friction, depth or sinking velocity cannot be given.
+/// Reason why friction, depth, contact or sinking velocity cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FrictionError {
-    /// The geometry refuses.
+    /// The body does not admit the contact.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
     /// A parameter is not a number, or outside the range it may take.
@@ -54,7 +56,7 @@ pub enum FrictionError {
         Rounded(*indentation_depth), Rounded(*contact_length)
     )]
     FrictionDiverges {
-        /// What makes it diverge.
+        /// Reason of the divergence.
         cause: DivergenceCause,
         /// Indentation depth, \[m].
         indentation_depth: f64,
@@ -69,7 +71,7 @@ pub enum FrictionError {
     NoStationaryState {
         /// The depth F/(4 η v), (12), \[m].
         needed_depth: f64,
-        /// What the leading edge offers, \[m].
+        /// Rise of the leading edge, \[m].
         available_depth: f64,
     },
     /// The contact would reach the vertical edge with which the body ends, where the line is infinitely high.
@@ -82,12 +84,12 @@ pub enum FrictionError {
         /// Radius at which the body ends, \[m].
         radius: f64,
     },
-    /// A numerical integral or root did not reach the accuracy needed.
+    /// A numerical integral, root or series did not reach the required accuracy.
     #[error("{quantity} is {}, and this error is too large", Estimate::new(*value, *error))]
     NotConverged {
-        /// What was computed.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// The value reached.
+        /// Value that was reached.
         value: f64,
         /// Its estimated absolute error.
         error: f64,
@@ -95,9 +97,9 @@ pub enum FrictionError {
     /// A result is too large or too small for a floating-point number.
     #[error("{quantity} leaves the range of floating-point numbers: it is {}", InWords(*value))]
     OutOfRange {
-        /// What was computed.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// What came out: zero, infinite, or not a number.
+        /// Computed value: zero, negative, infinite, or not a number.
         value: f64,
     },
     /// The exact solution exists only for other exponents.
@@ -105,24 +107,24 @@ pub enum FrictionError {
     UnsupportedExponent {
         /// Exponent of the profile.
         exponent: f64,
-        /// The exponents for which there is a closed form.
+        /// Exponents for which there is a closed form.
         supported: &'static str,
     },
-    /// A contact interval is empty, reversed, or not in front of the one before it.
+    /// A contact interval is empty, reversed, or not ahead of the previous one.
     #[error(
         "contact interval {index} must lie in front of {lower}, but reaches from {start} to {end}"
     )]
     InvalidContact {
         /// Index of the interval, counted from 0.
         index: usize,
-        /// End of the interval before it, \[m].
+        /// End of the previous interval, \[m].
         lower: f64,
-        /// Where it starts, \[m].
+        /// Start of the interval, \[m].
         start: f64,
-        /// Where it ends, \[m].
+        /// End of the interval, \[m].
         end: f64,
     },
-    /// The contact is not the part of the leading edge that Eq. (15) presumes.
+    /// The contact is not the part of the leading edge that Eq. (15) assumes.
     #[error(
         "Eq. (15) needs a contact that starts at the lowest point and rises by the whole depth {depth}, \
          but this contact rises by {rise}"
@@ -145,7 +147,8 @@ pub enum FrictionError {
     },
 }
 
-/// Checks that a result which is positive on paper is so in floating-point numbers.
+/// The value if it is finite and positive, otherwise [`FrictionError::OutOfRange`]: a positive result has overflowed or
+/// underflowed.
 pub(crate) fn representable(quantity: &'static str, value: f64) -> Result<f64, FrictionError> {
     if value.is_finite() && value > 0.0 {
         return Ok(value);
@@ -153,7 +156,7 @@ pub(crate) fn representable(quantity: &'static str, value: f64) -> Result<f64, F
     Err(out_of_range(quantity, value))
 }
 
-/// A result, or what leads to it, is beyond floating-point numbers.
+/// The error that a result, or an intermediate result, is out of the range of floating-point numbers.
 pub(crate) const fn out_of_range(quantity: &'static str, value: f64) -> FrictionError {
     FrictionError::OutOfRange { quantity, value }
 }

@@ -1,11 +1,12 @@
-//! Normal indentation of a viscous half space without sliding; exact in three dimensions too.
+//! Normal indentation of a viscous half space without sliding, exact in three dimensions as well.
 //!
 //! ```text
 //! ∫ F_N dt = 8 η ∫₀^a x h̃'(x) dx = 8 η ∫₀^a h'(r) r² / √(a² − r²) dr,     d = h̃(a)
 //! ```
 //!
-//! So force enters only through its impulse, and any force F(t) ≥ 0 is allowed (Kürschner & Filippov 2012, Phys. Mesomech.
-//! 15, 270, for power profiles; Radok 1957 for the principle). Where the force vanishes, the body rests.
+//! The force enters only through its impulse, and every force F(t) ≥ 0 is allowed (Kürschner & Filippov 2012, Phys. Mesomech.
+//! 15, 270, for power profiles; Radok 1957 for the principle). While the force vanishes, the body rests. The solvers are
+//! compared with it in docs/theory/transient-half-space.md, "Pressing without sliding".
 
 use std::f64::consts::PI;
 
@@ -18,7 +19,7 @@ use crate::error::{out_of_range, representable};
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 
-/// The contact of a body pressed into a half space without sliding.
+/// Contact radius and depth of a body pressed into a half space without sliding.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -46,11 +47,13 @@ pub fn power_indentation_after_impulse(
     let p = profile.exponent();
     let eta = material.viscosity();
     // In logarithms, because for large p the power a^(p+1) overflows long before a does.
-    let stiffness =
+    let log_stiffness =
         (8.0 * p / (p + 1.0)).ln() + eta.ln() + profile.stretch().ln() + profile.coefficient().ln();
-    let radius = ((impulse.ln() - stiffness) / (p + 1.0)).exp();
-    let radius = representable("contact radius", radius)?;
-    let depth = 0.125 * (1.0 + p.recip()) * quotient(impulse, [eta, radius]);
+    let radius = representable(
+        "contact radius",
+        ((impulse.ln() - log_stiffness) / (p + 1.0)).exp(),
+    )?;
+    let depth = 0.125 * (1.0 + p.recip()) * quotient(impulse, eta, radius);
     Ok(Indentation {
         contact_radius: radius,
         indentation_depth: representable("indentation depth", depth)?,
@@ -59,13 +62,13 @@ pub fn power_indentation_after_impulse(
 
 /// Contact of any body of revolution after an `impulse` ∫ F_N dt ≥ 0 \[N s]; for a constant force, force times time.
 ///
-/// No impulse, no contact: both results are zero then, also for a flat end.
+/// Without an impulse there is no contact: both results are 0, also for a flat end.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::Indenter`] when
 /// the line of the body turns downwards or ends inside the contact; [`FrictionError::BeyondEdge`] when the contact would
-/// reach a vertical edge, as the equator of a sphere; [`FrictionError::OutOfRange`] when no contact takes as much, because
-/// the line falls without limit; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
+/// reach a vertical edge, as the equator of a sphere; [`FrictionError::OutOfRange`] when no contact carries the impulse,
+/// because the line falls without limit; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
 pub fn indentation_after_impulse(
     body: &dyn Axisymmetric,
     material: &Viscous,
@@ -74,9 +77,10 @@ pub fn indentation_after_impulse(
     if not_negative("impulse", impulse)? == 0.0 {
         return Ok(Indentation::default());
     }
+    // Solve moment(a) = I/(8 η) for the contact radius.
     let target = representable("impulse over 8 η", 0.125 * impulse / material.viscosity())?;
     let Some(radius) = radius_of_moment(body, target)? else {
-        // Beyond the moment of the whole body only a flat punch goes on; any other one is not high enough.
+        // Beyond the moment of the whole body only a flat punch sinks further; any other body is not high enough.
         let end = body.max_radius();
         let depth = body.line_height(end) + (target - moment(body, end).value) / end;
         return Ok(Indentation {
@@ -84,9 +88,10 @@ pub fn indentation_after_impulse(
             indentation_depth: depth,
         });
     };
+    // Refuse a moment whose error is too large.
     known_moment(body, radius)?;
     let depth = representable("indentation depth", body.line_height(radius))?;
-    // Refuses a line that turns down before.
+    // Refuses a line that turns downwards inside the contact.
     contact_radius(body, depth)?;
     Ok(Indentation {
         contact_radius: radius,
@@ -107,15 +112,18 @@ pub fn impulse_to_depth(
     let radius = contact_radius(body, depth)?;
     let moment = known_moment(body, radius)?;
     // Zero up to rounding except for a flat punch, which sinks with a constant contact.
-    let beyond = radius * (depth - body.line_height(radius));
-    representable("impulse", 8.0 * material.viscosity() * (moment + beyond))
+    let punch_moment = radius * (depth - body.line_height(radius));
+    representable(
+        "impulse",
+        8.0 * material.viscosity() * (moment + punch_moment),
+    )
 }
 
 /// Half the width b of the contact of a cylinder \[m] in plane strain after an impulse per length ∫ F' dt ≥ 0 \[N s/m]:
 /// `π η b²/R = ∫ F' dt`.
 ///
 /// This is the elastic contact `π G b²/R = F'` (Hertz 1881) with the viscosity in the place of the modulus, as long as the
-/// contact grows (Lee & Radok 1960). A depth does not exist: it grows with the logarithm of the length of the cylinder.
+/// contact grows (Lee & Radok 1960). There is no depth: it grows with the logarithm of the length of the cylinder.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::OutOfRange`] when
@@ -135,8 +143,8 @@ pub fn cylinder_half_width_after_impulse(
     representable("half width", half_width)
 }
 
-/// Pressure at a `radius` r below that of the contact, under a body that is pressed without sliding to an indentation
-/// `depth` > 0 \[m], over the modulus G/(2 (1 − ν)) of an elastic half space (Sneddon 1965, Int. J. Eng. Sci. 3, 47):
+/// Pressure over the modulus G/(2 (1 − ν)) of an elastic half space, at a `radius` r inside the contact \[m], under a body
+/// that is pressed without sliding to an indentation `depth` > 0 \[m] (Sneddon 1965, Int. J. Eng. Sci. 3, 47):
 /// `(4/π) [∫_r^a h̃'(x)/√(x² − r²) dx + (d − h̃(a))/√(a² − r²)]`.
 ///
 /// On a viscous half space it is the impulse per area ∫ p dt since first touch, over the viscosity.
@@ -151,35 +159,38 @@ pub fn indentation_pressure(
     radius: f64,
 ) -> Result<f64, FrictionError> {
     let contact = contact_radius(body, depth)?;
-    let blunt = radius > 0.0 || body.profile_exponent() > 1.0;
-    let inside = (0.0..contact).contains(&radius) && blunt;
+    // Check that the pressure is finite at this radius.
+    let is_finite = radius > 0.0 || body.profile_exponent() > 1.0;
+    let holds = (0.0..contact).contains(&radius) && is_finite;
     let allowed = "inside the contact, and not at a tip";
-    in_range("radius", radius, inside, allowed)?;
-    let leg = |x: f64| ((x - radius) * (x + radius)).sqrt();
-    let ends = ends_outside_apex(body, contact).into_iter();
-    let ends = [radius].into_iter().chain(ends.filter(|end| *end > radius));
-    // x = r cosh t removes the root, and there is none at r = 0.
-    let angle = |x: f64| (leg(x) / radius).asinh();
+    in_range("radius", radius, holds, allowed)?;
+    let root = |x: f64| ((x - radius) * (x + radius)).sqrt();
+    let kinks_and_contact = ends_outside_apex(body, contact).into_iter();
+    let ends = [radius]
+        .into_iter()
+        .chain(kinks_and_contact.filter(|end| *end > radius));
+    // x = r cosh t removes the root in the denominator; at r = 0 there is none.
+    let angle = |x: f64| (root(x) / radius).asinh();
     let over_angle = |t: f64| body.line_slope((radius * t.cosh()).min(contact));
     let integral = if radius > 0.0 {
         over_pieces(over_angle, &ends.map(angle).collect::<Vec<f64>>())
     } else {
         over_pieces(|x| body.line_slope(x) / x, &ends.collect::<Vec<f64>>())
     };
-    let smooth = accepted("pressure", integral)?.value;
-    let punch = (depth - body.line_height(contact)) / leg(contact);
-    Ok(4.0 / PI * (smooth + punch))
+    let smooth_part = accepted("pressure", integral)?.value;
+    let punch_part = (depth - body.line_height(contact)) / root(contact);
+    Ok(4.0 / PI * (smooth_part + punch_part))
 }
 
-/// Largest pressure under a power profile with p > 1 that touches up to a `contact_radius` a, in the unit of
-/// [`indentation_pressure`]: `(4/π) p h̃(a)/a` times the largest of
+/// Largest pressure under a power profile with p > 1 and a `contact_radius` a \[m], over the modulus G/(2 (1 − ν)) as in
+/// [`indentation_pressure`]: `(4/π) p h̃(a)/a` times the maximum of
 ///
 /// ```text
 /// f(ρ) = ∫_ρ^1 x^(p−1)/√(x² − ρ²) dx = l ∫₀^1 (1 − l² (1 − s²))^(p/2 − 1) ds,   l² = 1 − ρ²
 /// ```
 ///
-/// which is f(0) = 1/(p − 1) for p ≤ 2. Above it lies off the axis: `ρ f' = (p − 1) f − 1/l` makes `f'' = −1/l³` wherever
-/// f' = 0, so that f has one maximum.
+/// which is f(0) = 1/(p − 1) for p ≤ 2. For p > 2 the maximum lies off the axis: `ρ f' = (p − 1) f − 1/l` makes
+/// `f'' = −1/l³` wherever f' = 0, so that there is only one.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for p ≤ 1, whose pressure is infinite at the tip, and a radius that is no positive
@@ -191,22 +202,24 @@ pub fn power_peak_pressure(
     let p = profile.exponent();
     in_range("exponent", p, p > 1.0, "above 1")?;
     let radius = positive("contact_radius", contact_radius)?;
-    let off_axis = |l: f64| {
-        let power = |s: f64| (0.5 * p - 1.0) * (-l * l * (1.0 - s) * (1.0 + s)).ln_1p();
-        l * over_pieces(|s| power(s).exp(), &[0.0, 1.0]).value
+    // f as a function of l = √(1 − ρ²).
+    let f = |l: f64| {
+        let log_integrand = |s: f64| (0.5 * p - 1.0) * (-l * l * (1.0 - s) * (1.0 + s)).ln_1p();
+        l * over_pieces(|s| log_integrand(s).exp(), &[0.0, 1.0]).value
     };
-    let mut largest = (p - 1.0).recip();
+    // On the axis, and for p > 2 off it.
+    let mut maximum = (p - 1.0).recip();
     if p > 2.0 {
-        let place = golden_section(|l| -off_axis(l), [0.0, 1.0]);
-        largest = largest.max(off_axis(place));
+        let l = golden_section(|l| -f(l), [0.0, 1.0]);
+        maximum = maximum.max(f(l));
     }
     let slope = profile.line_height(radius) / radius;
-    representable("peak pressure", 4.0 / PI * (p * largest) * slope)
+    representable("peak pressure", 4.0 / PI * (p * maximum) * slope)
 }
 
-/// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.
+/// Contact moment ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, \[m²], from the profile without the line.
 ///
-/// With r = a cos ψ it is a² ∫ h'(a cos ψ) cos²ψ dψ, which needs neither the line nor a difference of heights.
+/// With r = a cos ψ it is a² ∫ h'(a cos ψ) cos²ψ dψ, which needs no difference of heights.
 fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
     let integrand = |psi: f64| {
         let cosine = psi.cos();
@@ -221,7 +234,7 @@ fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
     angular * radius * radius
 }
 
-/// The moment, if it is known well enough.
+/// The contact moment, \[m²], if its error is small enough.
 pub(crate) fn known_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64, FrictionError> {
     let end = body.max_radius();
     match accepted("contact moment", moment(body, radius)) {
@@ -232,13 +245,14 @@ pub(crate) fn known_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64, 
     }
 }
 
-/// The contact radius whose moment is `target`, or `None` when the whole body does not have as much.
+/// The contact radius whose moment is `target` \[m²], or `None` if that of the whole body is smaller.
 fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>, FrictionError> {
     let end = body.max_radius();
-    // A body that never ends in height (the sphere) has an infinite moment at its end, whatever a sum gives there.
-    let endless = end.is_finite() && body.line_height(end).is_infinite();
+    // A body that ends with a vertical edge, such as a sphere, has an infinite moment there, whatever the quadrature gives.
+    let has_vertical_edge = end.is_finite() && body.line_height(end).is_infinite();
+    // The moment grows with the radius: bracket its target, and solve.
     let excess = |radius: f64| {
-        if endless && radius >= end {
+        if has_vertical_edge && radius >= end {
             return f64::INFINITY;
         }
         moment(body, radius).value - target
@@ -254,17 +268,21 @@ fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>,
     bracketed_root(excess, bracket).ok_or(failed).map(Some)
 }
 
-/// Two radii between which the moment passes its target. The search starts at 1 m, which stands for "anywhere".
+/// Factor between two radii of the search for a bracket; chosen.
+const BRACKET_FACTOR: f64 = 64.0;
+
+/// Two radii \[m] between which the excess of the moment changes its sign.
+///
+/// The search starts at 1 m for lack of a scale, and reaches every representable radius.
 fn bracket(excess: &impl Fn(f64) -> f64) -> [f64; 2] {
-    const STEP: f64 = 64.0;
     let mut upper = 1.0;
-    while excess(upper) < 0.0 && upper < f64::MAX / STEP {
-        upper *= STEP;
+    while excess(upper) < 0.0 && upper < f64::MAX / BRACKET_FACTOR {
+        upper *= BRACKET_FACTOR;
     }
-    let mut lower = upper / STEP;
+    let mut lower = upper / BRACKET_FACTOR;
     while excess(lower) > 0.0 && lower > f64::MIN_POSITIVE {
         upper = lower;
-        lower /= STEP;
+        lower /= BRACKET_FACTOR;
     }
     [lower, upper]
 }

@@ -1,5 +1,5 @@
-//! Friction of rigid bodies that slide over a viscous foundation: the theorems of Kürschner (2014, ZAMM) and the exact
-//! solutions around them.
+//! Friction of rigid bodies that slide over a viscous foundation: the theorems of Kürschner (2014, ZAMM) and related exact
+//! solutions.
 //!
 //! - Stationary sliding: depth (12), contact line and coefficient of friction (16), for [power profiles](power_sliding),
 //!   their [sums](superposition_sliding), any [body of revolution](axisymmetric_sliding) and any [line](line_sliding).
@@ -16,13 +16,13 @@
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
 //!   on any material.
 //! - On a [layer](BondedLayer) of any thickness that is bonded to a rigid base: the elastic contact of any body of revolution,
-//!   and the [profile](LayerProfile) with which springs side by side have its force at all depths, on any material.
-//! - On [thin layers](ThinLayer): the Winkler foundation, in plane strain [for sliding too](winkler_line_force), and the film
-//!   of an incompressible one.
+//!   and the equivalent [profile](LayerProfile) of a Winkler foundation with the same force at all depths, on any material.
+//! - On [thin layers](ThinLayer): the Winkler foundation, in plane strain [also for sliding](winkler_line_force), and the
+//!   incompressible film.
 //! - Rough surfaces in partial contact: Persson's theory, from a [spectrum](persson_of_spectrum) or from
 //!   [waves](persson_of_waves).
 //!
-//! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the result is
+//! All friction is that of the one-dimensional model unless a result says otherwise. If it is infinite, the result is
 //! [`FrictionError::FrictionDiverges`] with its cause.
 //!
 //! ```
@@ -67,12 +67,12 @@ mod transient;
 mod viscoelastic;
 mod wavy;
 
-/// The program of that page compiles.
+/// Compiles the program of README.md as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;
 
-/// The crates whose types are arguments and results, so that no other dependency is needed.
+/// Crates whose types are arguments and results, re-exported so that callers need no other dependency.
 pub use ::{indenters, numerics, rheology};
 pub use axisymmetric::axisymmetric_sliding;
 pub use cylinder::{CylinderSliding, LineContact, cylinder_sliding};

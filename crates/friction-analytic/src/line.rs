@@ -1,4 +1,4 @@
-//! Stationary sliding of an arbitrary rigid line, Theorems 3 and 6.
+//! Stationary sliding of an arbitrary rigid line on a viscous foundation, Theorems 3 and 6.
 //!
 //! ```text
 //! d = F_N/(4 η v)        (12)        μ = (1/d) Σ_i ∫_{A_i} h̃'(x)² dx,   A_d = ∪ A_i        (11), (16)
@@ -27,20 +27,23 @@ pub fn line_sliding(
     load: &SlidingLoad,
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
+    // The part of the leading edge below the stationary depth.
     let contact = contact_line(line, depth).map_err(no_stationary_state)?;
     let energy = slope_energy(line, &contact.intervals)?;
     let intervals = contact.intervals;
     let ends = intervals.iter().map(|[_, end]| end_term(line, *end)).sum();
-    Ok(StationarySliding::of_energy(depth, intervals, energy, ends))
+    Ok(StationarySliding::from_energy(
+        depth, intervals, energy, ends,
+    ))
 }
 
-/// What the rounding of a contact end, which is that of its position and of its height, is multiplied with.
+/// Change of ∫ h̃'² dx per relative change of the position and of the height of a contact end, which are both rounded, \[m].
 fn end_term(line: &dyn RigidLine, end: f64) -> f64 {
     let slope = line.slope(end).abs();
     slope * (slope * end.abs() + line.height(end).abs())
 }
 
-/// ∫ h̃'² dx over the intervals, (11), between the kinks of the line.
+/// ∫ h̃'² dx over the contact intervals, (11), \[m], with separate integrals between the kinks of the line.
 fn slope_energy(line: &dyn RigidLine, intervals: &[[f64; 2]]) -> Result<Estimate, FrictionError> {
     let kinks = line.kinks();
     let square = |x: f64| line.slope(x).powi(2);

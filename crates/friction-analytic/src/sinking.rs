@@ -16,13 +16,14 @@ use crate::FrictionError;
 use crate::error::{out_of_range, representable};
 use crate::stationary::depth_under_force;
 
-/// How far the rise of the contact may differ from the depth, relative to the depth, and be taken as equal: the contact is
-/// known from a root search or from the caller's table.
-const SAME_HEIGHT: f64 = 1e-9;
-
-/// Velocity v_z \[m/s] at which a sliding line sinks while it touches over the `contact` intervals \[m] of its own frame.
+/// Largest difference between the rise of the contact and the depth, relative to the depth, with which they count as equal.
 ///
-/// Negative where the load cannot hold the line at its depth.
+/// Chosen, because the contact comes from a root search or from a table of the caller.
+const HEIGHT_TOLERANCE: f64 = 1e-9;
+
+/// Velocity v_z at which a sliding line sinks while it touches over the `contact` intervals \[m] of its own frame, \[m/s].
+///
+/// It is negative if the load cannot hold the line at its depth.
 ///
 /// # Errors
 /// [`FrictionError::InvalidContact`] unless the intervals are in order, without overlap, not empty and at least one;
@@ -34,12 +35,12 @@ pub fn sinking_velocity(
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
     let depth = depth_under_force(material, load)?;
-    let Contact { length, rise } = Contact::of(line, contact)?;
+    let ContactSums { length, rise } = ContactSums::new(line, contact)?;
     // F/(4 η) = D v.
     Ok(load.velocity() * ((depth - rise) / length))
 }
 
-/// The sinking velocity (15) as the paper gives it \[m/s], for a `contact` it holds for.
+/// Sinking velocity (15) as printed in the paper, for a `contact` for which it holds, \[m/s].
 ///
 /// # Errors
 /// [`FrictionError::NotOneSided`] when the contact does not start at the lowest point, or leaves out a part of the rise
@@ -52,13 +53,14 @@ pub fn one_sided_sinking_velocity(
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
     let stationary_depth = depth_under_force(material, load)?;
-    let Contact { length, rise } = Contact::of(line, contact)?;
+    let ContactSums { length, rise } = ContactSums::new(line, contact)?;
+    // The depth by the front of the contact must be that by its rise.
     let front = contact.last().map_or(f64::NAN, |ends| line.height(ends[1]));
     let depth = representable("indentation depth", front - leading_edge(line)?.lowest)?;
-    if (rise - depth).abs() > SAME_HEIGHT * depth {
+    if (rise - depth).abs() > HEIGHT_TOLERANCE * depth {
         return Err(FrictionError::NotOneSided { depth, rise });
     }
-    if depth > stationary_depth * (1.0 + SAME_HEIGHT) {
+    if depth > stationary_depth * (1.0 + HEIGHT_TOLERANCE) {
         return Err(FrictionError::BeyondStationaryDepth {
             depth,
             stationary_depth,
@@ -67,17 +69,18 @@ pub fn one_sided_sinking_velocity(
     Ok(load.velocity() * ((stationary_depth - depth) / length))
 }
 
-/// What a contact contributes to the balance of forces.
-struct Contact {
-    /// Sum of the lengths of its intervals.
+/// Sums over the intervals of a contact in the balance of forces.
+struct ContactSums {
+    /// a = Σ (β − α), \[m].
     length: f64,
-    /// Σ [h̃(β) − h̃(α)].
+    /// Σ [h̃(β) − h̃(α)], \[m].
     rise: f64,
 }
 
-impl Contact {
-    /// Of intervals that follow one another.
-    fn of(line: &dyn RigidLine, contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
+impl ContactSums {
+    /// The sums over intervals that must be in order and not empty.
+    fn new(line: &dyn RigidLine, contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
+        // Check that the intervals follow one another and are not empty.
         let mut lower = f64::NEG_INFINITY;
         for (index, [start, end]) in contact.iter().copied().enumerate() {
             let in_order = start >= lower && end > start && start.is_finite() && end.is_finite();
@@ -91,12 +94,15 @@ impl Contact {
             }
             lower = end;
         }
-        let sum = |of: &dyn Fn([f64; 2]) -> f64| contact.iter().map(|ends| of(*ends)).sum();
-        let rise = sum(&|[start, end]| line.height(end) - line.height(start));
-        if !f64::is_finite(rise) {
+        // Sum their rises and lengths.
+        let rise: f64 = contact
+            .iter()
+            .map(|[start, end]| line.height(*end) - line.height(*start))
+            .sum();
+        if !rise.is_finite() {
             return Err(out_of_range("rise of the contact", rise));
         }
-        let length = sum(&|[start, end]| end - start);
+        let length = contact.iter().map(|[start, end]| end - start).sum();
         Ok(Self {
             length: representable("contact length", length)?,
             rise,

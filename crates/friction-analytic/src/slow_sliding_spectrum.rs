@@ -15,7 +15,7 @@ use rheology::StressBand;
 use crate::ElasticContact;
 
 /// Number of midpoints of the load on the equivalent line, in the cosine transform; chosen.
-const LINE_POINTS: u32 = 400;
+const LOAD_POINTS: u32 = 400;
 /// Number of angles θ in a quarter turn; chosen.
 const ANGLES: u32 = 32;
 /// Decadic logarithms of the smallest and the largest wave number times the contact radius.
@@ -34,7 +34,7 @@ pub fn slow_sliding_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -
     let midpoints = |count: u32| (0..count).map(move |k| (f64::from(k) + 0.5) / f64::from(count));
     // The load over its maximum, at positions over the radius.
     let depth = body.line_height(radius);
-    let loads: Vec<[f64; 2]> = midpoints(LINE_POINTS)
+    let loads: Vec<[f64; 2]> = midpoints(LOAD_POINTS)
         .map(|x| [x, 1.0 - body.line_height(x * radius) / depth])
         .collect();
     let [first, last] = WAVE_NUMBER_DECADES;
@@ -42,6 +42,7 @@ pub fn slow_sliding_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -
     let mut bands = Vec::new();
     // Wave numbers times the radius.
     for q in midpoints(WAVE_NUMBERS).map(wave_number) {
+        // The cosine transform of the load, squared.
         let products = loads.iter().map(|[x, load]| load * (q * x).cos());
         let power = products.sum::<f64>().powi(2);
         bands.extend(midpoints(ANGLES).map(|turn| StressBand {

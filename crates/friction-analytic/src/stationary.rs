@@ -1,4 +1,4 @@
-//! The stationary state of sliding on a viscous line.
+//! Stationary sliding on a viscous foundation, the one-dimensional model.
 //!
 //! ```text
 //! d = F_N / (4 η v)        (12)
@@ -22,24 +22,25 @@ pub struct StationarySliding {
     pub contact_line: Vec<[f64; 2]>,
     /// Coefficient of friction μ = F_h/F_N, (16).
     pub friction_coefficient: f64,
-    /// Estimated absolute error of the coefficient of friction; for a closed form, of its rounding.
+    /// Estimated absolute error of the coefficient of friction; for a closed form, its rounding error.
     pub error: f64,
 }
 
 impl StationarySliding {
-    /// From ∫ h̃'² dx over the contact, (16); `ends` is what the rounding of its ends is multiplied with, whose integrand is
-    /// cut there.
-    pub(crate) fn of_energy(
+    /// The stationary state from ∫ h̃'² dx over the contact, (16), \[m].
+    ///
+    /// `end_sensitivity` \[m] is the change of the integral per relative change of the positions of its ends, which are rounded.
+    pub(crate) fn from_energy(
         depth: f64,
         contact_line: Vec<[f64; 2]>,
         energy: Estimate,
-        ends: f64,
+        end_sensitivity: f64,
     ) -> Self {
         Self {
             indentation_depth: depth,
             contact_line,
             friction_coefficient: energy.value / depth,
-            error: (energy.error + 4.0 * f64::EPSILON * (energy.value + ends)) / depth,
+            error: (energy.error + 4.0 * f64::EPSILON * (energy.value + end_sensitivity)) / depth,
         }
     }
 
@@ -50,24 +51,24 @@ impl StationarySliding {
     }
 }
 
-/// Stationary indentation depth, \[m]: the one of the load, or F_N/(4 η v), (12), which does not depend on the shape.
+/// Stationary indentation depth, \[m]: the prescribed one, or F_N/(4 η v), (12), which does not depend on the shape.
 pub fn stationary_depth(material: &Viscous, load: &SlidingLoad) -> f64 {
     match load.control() {
         Control::IndentationDepth(depth) => depth,
         Control::NormalForce(force) => {
-            quotient(0.25 * force, [material.viscosity(), load.velocity()])
+            quotient(0.25 * force, material.viscosity(), load.velocity())
         }
     }
 }
 
-/// The stationary depth, or the reason why it is not a number.
+/// The stationary depth, \[m], or the reason why it does not exist or is not representable.
 pub(crate) fn checked_depth(material: &Viscous, load: &SlidingLoad) -> Result<f64, FrictionError> {
     load.require_stationary()?;
     load.require_fresh_ground()?;
     representable("indentation depth", stationary_depth(material, load))
 }
 
-/// The stationary depth of a load that sinks on its own.
+/// The stationary depth under a prescribed force, \[m].
 pub(crate) fn depth_under_force(
     material: &Viscous,
     load: &SlidingLoad,
@@ -76,13 +77,13 @@ pub(crate) fn depth_under_force(
     checked_depth(material, load)
 }
 
-/// The numerator over both divisors, all positive, without an intermediate result outside the range of numbers unless
-/// the quotient itself lies there.
-pub(crate) fn quotient(numerator: f64, [one, other]: [f64; 2]) -> f64 {
-    // A numerator below one must not shrink first, one above must not grow first.
-    if (numerator < 1.0) == (one < other) {
-        numerator / one / other
+/// numerator/(a b) of positive numbers, without overflow or underflow of an intermediate result unless the quotient itself
+/// is out of range.
+pub(crate) fn quotient(numerator: f64, a: f64, b: f64) -> f64 {
+    // A numerator below 1 is divided by the smaller number first, so that it grows; one above by the larger one.
+    if (numerator < 1.0) == (a < b) {
+        numerator / a / b
     } else {
-        numerator / other / one
+        numerator / b / a
     }
 }

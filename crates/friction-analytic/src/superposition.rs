@@ -24,12 +24,14 @@ pub fn superposition_sliding(
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
     let radius = radius_with_friction(profile, depth)?;
+    // Heights of the terms at the front of the contact.
     let heights = line_heights(profile.terms(), radius)?;
+    // The double sum, and that of the moduli of its terms, which scales the rounding error.
     let mut sum = 0.0;
     let mut modulus = 0.0;
     for (p, height) in &heights {
         for (q, other) in &heights {
-            // p + q − 1 from two differences that are exact near the divergence at p = q = 1/2.
+            // p + q − 1 as the sum of two differences, which are exact near the divergence at p = q = 1/2.
             let term = p * q / ((p - 0.5) + (q - 0.5)) * (height / depth) * (other / radius);
             sum += term;
             modulus += term.abs();
@@ -37,17 +39,19 @@ pub fn superposition_sliding(
     }
     let friction_coefficient = representable("friction coefficient", sum)?;
     // Powers are rounded in proportion to their exponent; the end of the contact moves with its own rounding.
-    let largest = heights.iter().fold(1.0, |most: f64, (p, _)| most.max(*p));
-    let end = profile.line_slope(radius).powi(2) * (radius / depth);
+    let largest_exponent = heights
+        .iter()
+        .fold(1.0, |largest: f64, (p, _)| largest.max(*p));
+    let end_sensitivity = profile.line_slope(radius).powi(2) * (radius / depth);
     Ok(StationarySliding {
         indentation_depth: depth,
         contact_line: vec![[0.0, radius]],
         friction_coefficient,
-        error: 4.0 * f64::EPSILON * (largest * modulus + end),
+        error: 4.0 * f64::EPSILON * (largest_exponent * modulus + end_sensitivity),
     })
 }
 
-/// Exponent and line height at the position x of each term; negative where the coefficient is.
+/// Exponent and line height \[m] of each term at the position x; the height has the sign of the coefficient.
 fn line_heights(terms: &[PowerTerm], x: f64) -> Result<Vec<(f64, f64)>, FrictionError> {
     let height = |term: &PowerTerm| {
         let magnitude = PowerProfile::new(term.coefficient.abs(), term.exponent)?.line_height(x);

@@ -1,4 +1,6 @@
-//! What a layer on a rigid base becomes where it is thin compared with the contact.
+//! Limits of a layer on a rigid base that is thin compared with the contact: Winkler foundation and incompressible film.
+//!
+//! Comparison with layers of finite thickness: docs/layers.md, "Where a Winkler foundation holds".
 
 use std::f64::consts::PI;
 
@@ -9,7 +11,7 @@ use rheology::Material;
 use crate::FrictionError;
 use crate::error::representable;
 
-/// An elastic layer of the thickness t, bonded to a rigid base and free of friction above.
+/// An elastic layer of thickness t, bonded to a rigid base and frictionless above.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThinLayer {
     shear_modulus: f64,
@@ -17,7 +19,7 @@ pub struct ThinLayer {
     thickness: f64,
 }
 
-/// A body that is pressed into a thin layer.
+/// Force and contact radius of a body that is pressed into a thin layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThinContact {
     /// Normal force F_N, \[N].
@@ -27,7 +29,7 @@ pub struct ThinContact {
 }
 
 impl ThinLayer {
-    /// Of a shear modulus > 0 \[Pa], a Poisson ratio above −1 and at most 1/2, and a thickness > 0 \[m].
+    /// A layer of a shear modulus > 0 \[Pa], a Poisson ratio above −1 and at most 1/2, and a thickness > 0 \[m].
     ///
     /// # Errors
     /// [`InvalidParameter`] for other numbers.
@@ -45,20 +47,22 @@ impl ThinLayer {
         })
     }
 
-    /// Pressure over depth of the Winkler foundation, 2G (1 − ν)/((1 − 2ν) t), \[Pa/m]: every point of a thin compressible
-    /// layer gives way to the pressure on it alone (Johnson 1985, eq. 5.69). Relative to the layer the force at a depth is
-    /// off like (t/a)², and the radius like t/a.
+    /// Pressure over depth of the Winkler foundation, 2G (1 − ν)/((1 − 2ν) t), \[Pa/m].
+    ///
+    /// A thin compressible layer is displaced at every point by the pressure there only (Johnson 1985, eq. 5.69). The error
+    /// relative to the layer is of the order (t/a)² in the force at a depth, and t/a in the contact radius.
     ///
     /// # Errors
-    /// [`InvalidParameter`] for an incompressible layer, which does not give way so.
+    /// [`InvalidParameter`] for an incompressible layer, which is no Winkler foundation.
     pub fn winkler_modulus(&self) -> Result<f64, InvalidParameter> {
         let nu = self.poisson_ratio;
         in_range("poisson_ratio", nu, nu < 0.5, "below 0.5")?;
         Ok(2.0 * self.shear_modulus * (1.0 - nu) / ((1.0 - 2.0 * nu) * self.thickness))
     }
 
-    /// A profile h = c r^p that is pressed into the Winkler foundation to an `indentation_depth` d > 0, \[m]: it touches
-    /// where h < d, and `F = π a² K d p/(p + 2)`.
+    /// Contact of a profile h = c r^p with the Winkler foundation at an `indentation_depth` d > 0 \[m].
+    ///
+    /// It touches where h < d, and `F = π a² K d p/(p + 2)` with the foundation modulus K.
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for other numbers and an incompressible layer; [`FrictionError::OutOfRange`].
@@ -76,9 +80,10 @@ impl ThinLayer {
         })
     }
 
-    /// The same where the layer is incompressible, and is squeezed from under the body like a film: `u = −t³/(3G) ∇²p` with
-    /// p = ∂p/∂r = 0 at r = a (Johnson 1985, § 5.8). The rim rises, h(a) = (1 + p/2) d, and
-    /// `F = 3π G d a⁴ p/(8 (p + 4) t³)`.
+    /// Contact of a profile h = c r^p with an incompressible layer, a film, at an `indentation_depth` d > 0 \[m].
+    ///
+    /// The layer is squeezed aside: `u = −t³/(3G) ∇²p` with p = ∂p/∂r = 0 at r = a (Johnson 1985, § 5.8). The surface rises at
+    /// the contact boundary, h(a) = (1 + p/2) d with the exponent p, and `F = 3π G d a⁴ p/(8 (p + 4) t³)`.
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for other numbers and a compressible layer; [`FrictionError::OutOfRange`].
@@ -91,9 +96,13 @@ impl ThinLayer {
         let nu = self.poisson_ratio;
         in_range("poisson_ratio", nu, nu >= 0.5, "0.5")?;
         let p = profile.exponent();
+        // The contact boundary is where the profile has the height h(a).
         let a = profile_radius(profile, (1.0 + 0.5 * p) * depth);
-        let slenderness = a / self.thickness;
-        let pressure = self.shear_modulus * (depth / self.thickness) * slenderness * slenderness;
+        let radius_over_thickness = a / self.thickness;
+        let pressure = self.shear_modulus
+            * (depth / self.thickness)
+            * radius_over_thickness
+            * radius_over_thickness;
         let force = 3.0 / 8.0 * PI * pressure * a * a * p / (p + 4.0);
         Ok(ThinContact {
             normal_force: representable("normal force", force)?,
@@ -102,9 +111,10 @@ impl ThinLayer {
     }
 }
 
-/// The force per length on the one-dimensional model of a `material`, \[N/m], that does to a profile h(x) what the force per
-/// length F' does to it in plane strain on the Winkler foundation of a thin layer of that material: `F' (1 − 2ν) t/(1 − ν)²`.
-/// Contact, depth and friction of both are the same, because both are springs side by side.
+/// Line load on the one-dimensional model of a `material` that is equivalent to the line load F' on a thin layer of it, in
+/// plane strain: `F' (1 − 2ν) t/(1 − ν)²`, \[N/m].
+///
+/// A profile h(x) has the same contact, depth and friction on both, because both are Winkler foundations.
 ///
 /// # Errors
 /// [`InvalidParameter`] for numbers that are not positive and an incompressible material.
@@ -119,6 +129,7 @@ pub fn winkler_line_force(
     Ok(positive("force_per_length", force_per_length)? * modulus / layer.winkler_modulus()?)
 }
 
+/// Radius at which a profile has a height, \[m].
 fn profile_radius(profile: &PowerProfile, height: f64) -> f64 {
     (height / profile.coefficient()).powf(profile.exponent().recip())
 }

@@ -1,17 +1,17 @@
-//! Wavy lines and surfaces pressed fully into a foundation or a half space, over which they slide.
+//! Sliding of wavy lines and surfaces in full contact with a foundation or a half space.
 //!
 //! ```text
 //! h̃ = g cos(k x)       q = 4 [G_∞ d + Re(G*(k v) g e^(i k x))]
 //! F_h per length = 2 k g² G''(k v),    full contact while G_∞ d ≥ |G*(k v)| g,    μ = (k g/2) sin δ at that limit
 //! ```
-//! d is the mean depth. On the half space, for ν = 1/2, with the same friction coefficient of one wave at its own limit,
+//! with the mean depth d. On the half space, for ν = 1/2, and with the same friction coefficient of one wave at its limit:
 //!
 //! ```text
 //! h = Σ hᵢ cos(qᵢ · x + φᵢ)      pᵢ = 2 |G*(qᵢₓ v)| |qᵢ| hᵢ      τ_f = Σ G''(qᵢₓ v) qᵢₓ |qᵢ| hᵢ²
 //! ```
 //!
-//! The pressure leads every wave by the loss angle at its own frequency, and waves of different wave vector do not
-//! disturb each other; see Persson (2001), J. Chem. Phys. 115, 3840.
+//! The pressure leads every wave by the loss angle at its own frequency, and waves of different wave vectors superpose; see
+//! Persson (2001), J. Chem. Phys. 115, 3840.
 
 use numerics::{in_range, positive};
 use rheology::{ComplexModulus, Material, check_spectra};
@@ -19,7 +19,7 @@ use rheology::{ComplexModulus, Material, check_spectra};
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
 
-/// A sinusoidal line in motion.
+/// A sliding sinusoidal line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WavyLine {
@@ -31,7 +31,7 @@ pub struct WavyLine {
     pub velocity: f64,
 }
 
-/// Sliding of a wavy line in full contact.
+/// Friction and limit of full contact of a sliding wavy line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -55,6 +55,7 @@ pub fn wavy_sliding(line: WavyLine, material: &dyn Material) -> Result<FullConta
     let wave_number = std::f64::consts::TAU / positive("wavelength", line.wavelength)?;
     let frequency = positive("angular frequency", wave_number * line.velocity)?;
     let modulus = complex_modulus(material, frequency)?;
+    // |G*|, which scales the amplitude of the load.
     let size = modulus.storage.hypot(modulus.loss);
     let steepness = wave_number * amplitude;
     let loss = modulus.loss / material.half_space_factor();
@@ -65,6 +66,7 @@ pub fn wavy_sliding(line: WavyLine, material: &dyn Material) -> Result<FullConta
     })
 }
 
+/// Complex modulus at an angular frequency \[rad/s], or the error that the frequency is out of range.
 fn complex_modulus(
     material: &dyn Material,
     frequency: f64,
@@ -73,7 +75,7 @@ fn complex_modulus(
     modulus.map_err(|_| out_of_range("angular frequency", frequency))
 }
 
-/// One wave hᵢ cos(qᵢ · x + φᵢ) of a surface; its phase plays no role for the friction.
+/// One wave hᵢ cos(qᵢ · x + φᵢ) of a surface; the friction does not depend on its phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SurfaceWave {
@@ -83,15 +85,15 @@ pub struct SurfaceWave {
     pub wave_vector: [f64; 2],
 }
 
-/// Sliding of a wavy surface in full contact.
+/// Friction of a wavy surface in full contact, and the pressure at which contact is full.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct WavySliding {
     /// Friction force per area, \[Pa]; it does not depend on the pressure.
     pub friction_stress: f64,
-    /// Mean pressure from which contact is full whatever the phases, \[Pa]: the sum of all amplitudes of the pressure, and
-    /// for a single wave the least pressure of full contact.
+    /// Mean pressure from which on contact is full for all phases, \[Pa]: the sum of the pressure amplitudes of all waves. For
+    /// a single wave it is the smallest pressure of full contact.
     pub full_contact_pressure: f64,
     /// Friction coefficient under that pressure.
     pub friction_coefficient: f64,
@@ -109,10 +111,12 @@ pub fn wavy_surface_sliding(
     material: &dyn Material,
     velocity: f64,
 ) -> Result<WavySliding, FrictionError> {
+    // Check the waves and the speed.
     positive("number of waves", waves.len() as f64)?;
     positive("velocity", velocity)?;
     check_spectra(material)?;
     refuse_repeated(waves)?;
+    // Sum the friction and the pressure amplitudes of all waves.
     let [mut stress, mut pressure] = [0.0; 2];
     for wave in waves {
         let amplitude = positive("amplitude", wave.amplitude)?;
@@ -132,19 +136,20 @@ pub fn wavy_surface_sliding(
     })
 }
 
-/// Waves with the same or opposite vectors interfere.
+/// Refuses two waves with the same or opposite vectors, which interfere.
 fn refuse_repeated(waves: &[SurfaceWave]) -> Result<(), FrictionError> {
-    let direction = |wave: &SurfaceWave| {
+    // The wave vector reversed into one half plane, as bits that can be compared.
+    let canonical = |wave: &SurfaceWave| {
         let [along, across] = wave.wave_vector;
         let is_reversed = along < 0.0 || along == 0.0 && across < 0.0;
         let sign = if is_reversed { -1.0 } else { 1.0 };
-        // Adding 0 makes −0 the same as 0.
+        // Adding 0 turns −0 into 0.
         [along, across].map(|part| (sign * part + 0.0).to_bits())
     };
     let mut seen = std::collections::BTreeSet::new();
     for wave in waves {
         let allowed = "different from that of every other wave, and not its opposite: such waves add up to one";
-        let (along_x, is_new) = (wave.wave_vector[0], seen.insert(direction(wave)));
+        let (along_x, is_new) = (wave.wave_vector[0], seen.insert(canonical(wave)));
         in_range("wave vector", along_x, is_new, allowed)?;
     }
     Ok(())

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with the equivalent line g of the body on a half space; where the body is smooth at the edge, q(a) = 0. The kernel is
-//! analytic, and so is q + g for every g: Gauss–Lobatto rules for both integrals converge exponentially.
+//! analytic, and so is q + g for any g: Gauss–Lobatto rules for both integrals converge exponentially.
 //!
 //! With q = d φ − ψ, φ = 1 + …, the force of a flat punch is that of a half space under one of the radius ∫₀^a φ dx.
 //! Comparisons with other solutions: docs/layers.md, "What it was compared with".
@@ -29,38 +29,38 @@ const MAX_WAVE_NUMBER: f64 = 17.0;
 ///
 /// With these three numbers of points, doubling them changes the depth and the force of a punch by less than 1e-9 up to a
 /// radius of a hundred thicknesses.
-const WAVE_POINTS: PointCount = PointCount {
-    fixed: 45.0,
-    per_thickness: 11.5,
-};
+const WAVE_POINTS: PointCount = PointCount::new(45.0, 11.5);
 /// Points of the rule for q; the length is the contact radius. Chosen as [`WAVE_POINTS`] are.
-const CONTACT_POINTS: PointCount = PointCount {
-    fixed: 16.0,
-    per_thickness: 4.0,
-};
+const CONTACT_POINTS: PointCount = PointCount::new(16.0, 4.0);
 /// Points of the rule over one smooth piece of the equivalent line. Chosen as [`WAVE_POINTS`] are.
-const LINE_POINTS: PointCount = PointCount {
-    fixed: 30.0,
-    per_thickness: 6.0,
-};
+const LINE_POINTS: PointCount = PointCount::new(30.0, 6.0);
 /// Every number of points is a multiple of this one, so that similar radii share a rule; chosen.
 const POINT_MULTIPLE: usize = 8;
 
 /// Number of points of a rule as a function of a length.
 #[derive(Clone, Copy)]
 struct PointCount {
+    /// Points for a length of 0.
     fixed: f64,
+    /// Further points for each thickness of the length.
     per_thickness: f64,
 }
 
 impl PointCount {
+    const fn new(fixed: f64, per_thickness: f64) -> Self {
+        Self {
+            fixed,
+            per_thickness,
+        }
+    }
+
     /// Number of points for a length in thicknesses.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a few hundred"
     )]
-    fn on(self, length: f64) -> usize {
+    fn for_length(self, length: f64) -> usize {
         ((self.fixed + self.per_thickness * length) as usize).next_multiple_of(POINT_MULTIPLE)
     }
 }
@@ -82,7 +82,7 @@ struct WavePair {
 impl WaveQuadrature {
     /// The quadrature for contacts up to a radius in thicknesses.
     pub(super) fn new(poisson_ratio: f64, max_radius: f64) -> Self {
-        let rule = unit_rule(WAVE_POINTS.on(max_radius));
+        let rule = unit_rule(WAVE_POINTS.for_length(max_radius));
         let root_weight = |part: f64, weight: f64| {
             let kernel = FRAC_2_PI * layer_deficit(MAX_WAVE_NUMBER * part, poisson_ratio);
             (MAX_WAVE_NUMBER * weight * kernel).sqrt()
@@ -115,7 +115,7 @@ impl WaveQuadrature {
 
     /// The rule on [0, 1] for a length in thicknesses, computed once for each number of points.
     fn rule(&self, points: PointCount, length: f64) -> Rc<[[f64; 2]]> {
-        let n_points = points.on(length);
+        let n_points = points.for_length(length);
         let mut rules = self.rules.borrow_mut();
         Rc::clone(rules.entry(n_points).or_insert_with(|| unit_rule(n_points)))
     }
@@ -233,17 +233,14 @@ pub(super) struct ContactDisc {
 impl ContactDisc {
     /// The equations of a disc whose radius is given in thicknesses.
     pub(super) fn new(waves: &WaveQuadrature, radius: f64) -> Result<Self, FrictionError> {
+        // Nodes x_i with the roots √w_i of their weights.
         let nodes: Vec<[f64; 2]> = waves
             .rule(CONTACT_POINTS, radius)
             .iter()
             .map(|[part, weight]| [radius * part, (radius * weight).sqrt()])
             .collect();
-        let row = |[x, root_weight]: &[f64; 2]| {
-            let cosines = waves.cosines_at(*x);
-            cosines
-                .map(|cosine| root_weight * cosine)
-                .collect::<Vec<_>>()
-        };
+        // The matrix C, and the factors of 1 − C Cᵀ.
+        let row = |&[x, root]: &[f64; 2]| waves.cosines_at(x).map(move |cosine| root * cosine);
         let entries: Vec<f64> = nodes.iter().flat_map(row).collect();
         let cosines = DMatrix::from_row_slice(nodes.len(), waves.n_waves(), &entries);
         let matrix = DMatrix::identity(nodes.len(), nodes.len()) - &cosines * cosines.transpose();
@@ -252,6 +249,7 @@ impl ContactDisc {
             value: radius,
             error: f64::INFINITY,
         })?;
+        // The flat punch: the solution φ for d − g = 1.
         let root_weights = DVector::from_iterator(nodes.len(), nodes.iter().map(|[_, root]| *root));
         let punch = factors.solve(&root_weights);
         Ok(Self {

@@ -79,6 +79,7 @@ impl BondedLayer {
             is_inside,
             "inside the body",
         )?;
+        // Discretise and factorise the equations, then solve them for the line of the body.
         let waves = WaveQuadrature::new(self.poisson_ratio, radius_over_thickness);
         let disc = ContactDisc::new(&waves, radius_over_thickness)?;
         let line = EquivalentLine::new(body, self.thickness, &waves, contact_radius);

@@ -141,6 +141,7 @@ impl LayerProfile {
     ) -> Result<Self, FrictionError> {
         positive("depth", needed)?;
         positive("depth", wanted)?;
+        // A flat punch has the same contact at all depths.
         let end = body.max_radius();
         if end.is_finite() && body.line_height(end) == 0.0 {
             return Self::of_punch(layer, end);
@@ -167,8 +168,8 @@ impl LayerProfile {
         // Find a radius that reaches the depth.
         let waves = WaveQuadrature::new(layer.poisson_ratio, max_radius / layer.thickness);
         let problem = LayerProblem::new(body, layer, &waves, max_radius);
-        let radius =
-            problem.radius_reaching(wanted, half_space_radius.min(max_radius), max_radius)?;
+        let start = half_space_radius.min(max_radius);
+        let radius = problem.radius_reaching(wanted, [start, max_radius])?;
 
         // Expand with the wave numbers that this radius needs, which may be fewer.
         let waves = WaveQuadrature::new(layer.poisson_ratio, radius / layer.thickness);
@@ -177,6 +178,7 @@ impl LayerProfile {
         if available >= needed {
             return problem.profile(radius);
         }
+        // Name the reason why the needed depth is not reached.
         let is_thick = radius < layer.max_contact_radius();
         let allowed = "at least a hundredth of the radius of the contact";
         in_range("thickness", layer.thickness, is_thick, allowed)?;
@@ -346,19 +348,14 @@ impl<'a> LayerProblem<'a> {
         })
     }
 
-    /// A radius between `start` and `max_radius` at which a depth is reached, \[m]; the largest one if none is.
-    fn radius_reaching(
-        &self,
-        depth: f64,
-        start: f64,
-        max_radius: f64,
-    ) -> Result<f64, FrictionError> {
+    /// A radius of an interval at which a depth is reached, \[m]; the end of the interval if none is.
+    fn radius_reaching(&self, depth: f64, [start, end]: [f64; 2]) -> Result<f64, FrictionError> {
         // Enlarge the contact until it is deep enough.
         let mut previous: Option<ContactOnLayer> = None;
         let mut contact = self.contact(start)?;
-        while contact.radius < max_radius && contact.depth < depth {
+        while contact.radius < end && contact.depth < depth {
             previous = Some(contact);
-            contact = self.contact((SEARCH_GROWTH * contact.radius).min(max_radius))?;
+            contact = self.contact((SEARCH_GROWTH * contact.radius).min(end))?;
         }
 
         // Interpolate the radius as a power of the depth, and keep it if it is deep enough.
@@ -378,6 +375,7 @@ impl<'a> LayerProblem<'a> {
 
     /// The equivalent profile up to a contact radius, \[m].
     fn profile(&self, radius: f64) -> Result<LayerProfile, FrictionError> {
+        // One piece between any two kinks; the depth at its end is where the next one starts.
         let kinks = self.line.kinks().filter(|kink| *kink < radius);
         let ends: Vec<f64> = kinks.chain([radius]).collect();
         let mut profile = LayerProfile {
@@ -408,7 +406,8 @@ impl<'a> LayerProblem<'a> {
         let mut smallest_tail = f64::INFINITY;
         for grading in GRADING_EXPONENTS {
             let contacts = self.contact_series(radii, grading)?;
-            let piece = self.piece(&contacts, start_depth, grading)?;
+            let piece = self.invert_depth(&contacts, start_depth, grading)?;
+            // The errors of both expansions add up.
             let tail = contacts.ratios.tail + piece.radii.tail / piece.radii.evaluate(1.0)[1];
             if tail <= MAX_TAIL {
                 return Ok((piece, ERROR_OVER_TAIL * tail + LEFT_OUT_TERMS_ERROR));
@@ -446,7 +445,7 @@ impl<'a> LayerProblem<'a> {
     }
 
     /// Inverts the depth of a series of contacts, and expands both radii over the depth.
-    fn piece(
+    fn invert_depth(
         &self,
         contacts: &ContactSeries,
         start_depth: f64,
@@ -464,11 +463,8 @@ impl<'a> LayerProblem<'a> {
         // Choose the map of the depth: the leading power of the depth over the radius, and σ from the length on which the
         // radii change to those of a thin layer, or far from a kink.
         let is_apex = inner == 0.0;
-        let power = if is_apex {
-            self.body.profile_exponent()
-        } else {
-            2.0
-        };
+        let exponent = self.body.profile_exponent();
+        let power = if is_apex { exponent } else { 2.0 };
         let nearly_linear = GradedMap::new([start_depth, depth(outer)], grading * power, MAX_SIGMA);
         let scale = self
             .thickness
