@@ -98,7 +98,7 @@ fn loads_of_another_kind_are_refused() {
 }
 
 #[test]
-fn results_beyond_the_numbers_are_refused() {
+fn overflow_and_underflow_are_refused() {
     let [deep, flat] = [[1e300, 1e-300, 1.0], [1e-300, 1e300, 1.0]].map(|numbers| {
         let (material, load) = material_and_load(numbers);
         power_sliding(&power(1.0, 1.0), &material, &load).map(drop)

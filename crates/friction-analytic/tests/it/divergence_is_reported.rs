@@ -103,7 +103,7 @@ fn the_same_line_without_its_body_is_not_converged() {
 }
 
 #[test]
-fn the_message_says_why() {
+fn the_message_names_the_cause() {
     let (material, load) = with_depth(0.1);
     let error = power_sliding(&power(0.4, 0.5), &material, &load).unwrap_err();
     let message = error.to_string();

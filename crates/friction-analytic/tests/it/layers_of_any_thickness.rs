@@ -37,16 +37,16 @@ fn the_stiffness_of_a_punch_is_that_of_hayes() {
     }
 }
 
-/// Force of a paraboloid over that on the half space, with χ = √(R d)/t and c = (2/π) ∫ (1 − M) dξ: F = 4/3 E* √R d^(3/2) [1 + c χ + (7/6) c² χ² + …], from the
-/// Neumann series of the equations.
-fn stiffened(chi: f64, poisson_ratio: f64) -> f64 {
+/// Force of a paraboloid over that on the half space, from the Neumann series of the equations:
+/// F = 4/3 E* √R d^(3/2) [1 + c χ + (7/6) c² χ² + …] with χ = √(R d)/t and c = (2/π) ∫ (1 − M) dξ.
+fn force_ratio_by_series(chi: f64, poisson_ratio: f64) -> f64 {
     let deficit = |xi: f64| layer_deficit(xi, poisson_ratio);
     let c = FRAC_2_PI * integrate(deficit, [0.0, 24.0], 1e-13).value;
     1.0 + c * chi * (1.0 + 7.0 / 6.0 * c * chi)
 }
 
-/// χ and the force over that on the half space.
-fn of_paraboloid(radius: f64, poisson_ratio: f64) -> [f64; 2] {
+/// χ and the force of a paraboloid over that on the half space.
+fn press_paraboloid(radius: f64, poisson_ratio: f64) -> [f64; 2] {
     let contact = layer(1.0, poisson_ratio).press(&power(0.5, 2.0), radius);
     let contact = contact.expect("a contact");
     let depth = contact.indentation_depth;
@@ -57,11 +57,11 @@ fn of_paraboloid(radius: f64, poisson_ratio: f64) -> [f64; 2] {
 }
 
 #[test]
-fn a_thick_sample_is_that_of_its_series() {
+fn thick_layers_follow_their_series() {
     for nu in [-0.5, 0.0, 0.3, 0.45, 0.5] {
         for radius in [1e-6, 1e-3, 0.01, 0.05] {
-            let [chi, ratio] = of_paraboloid(radius, nu);
-            let off = ratio / stiffened(chi, nu) - 1.0;
+            let [chi, ratio] = press_paraboloid(radius, nu);
+            let off = ratio / force_ratio_by_series(chi, nu) - 1.0;
             let allowed = 1e-12 + 2.0 * chi.powi(3);
             assert!(
                 off.abs() < allowed,
@@ -75,15 +75,15 @@ fn a_thick_sample_is_that_of_its_series() {
 /// ν = 0.3 on; the second is c² there, and should be (7/6) c², so that their series is too low. Garcia & Garcia (2018, Biophys. J.
 /// 114, 2923) have that, for ν = 1/2.
 #[test]
-fn a_thick_sample_is_what_others_found() {
+fn thick_layers_match_published_corrections() {
     for nu in [0.3, 0.45, 0.5] {
         let alpha = (1.2876 - 1.4678 * nu + 1.3442 * nu * nu) / (1.0 - nu);
         let chi = 1e-6;
-        let ratio = FRAC_2_PI * alpha * chi / (stiffened(chi, nu) - 1.0);
+        let ratio = FRAC_2_PI * alpha * chi / (force_ratio_by_series(chi, nu) - 1.0);
         assert!((1.0..1.006).contains(&ratio), "{ratio} at ν = {nu}");
     }
     for radius in [0.05, 0.1, 0.2, 0.3] {
-        let [chi, ratio] = of_paraboloid(radius, 0.5);
+        let [chi, ratio] = press_paraboloid(radius, 0.5);
         let series = |terms: [f64; 4]| {
             let sum = terms.iter().rev();
             1.0 + sum.fold(0.0, |sum, term| (sum + term) * chi)
@@ -98,10 +98,11 @@ fn a_thick_sample_is_what_others_found() {
     }
 }
 
-/// The force of a Winkler foundation, and of a film where the layer is incompressible, at the same depth; what is missing falls
-/// like (t/a)² or faster, and that of the radius like t/a.
+/// The force tends to that of a Winkler foundation at the same depth, or of a film if the layer is incompressible.
+///
+/// The difference falls like (t/a)² or faster, and that of the contact radius like t/a.
 #[test]
-fn a_thin_sample_is_a_foundation_or_a_film() {
+fn thin_layers_are_foundations_or_films() {
     for (nu, exponent) in [
         (0.0, 2.0),
         (0.3, 1.0),
@@ -152,15 +153,15 @@ fn bodies() -> Vec<Box<dyn Axisymmetric>> {
     ]
 }
 
-/// The table over the depth, at contacts that the equations find one by one; widest 10 m.
+/// Profiles agree with contacts that the equations give one by one, up to a radius of 10 m.
 #[test]
 fn the_profile_is_known_within_its_error() {
     for (body, nu) in bodies()
         .iter()
         .flat_map(|body| [0.3, 0.5].map(|nu| (body, nu)))
     {
-        for slenderness in [0.1, 1.0, 10.0] {
-            let layer = layer(10.0 / slenderness, nu);
+        for max_radius_over_thickness in [0.1, 1.0, 10.0] {
+            let layer = layer(10.0 / max_radius_over_thickness, nu);
             let widest = layer.press(body, 10.0).expect("a contact");
             let profile = LayerProfile::new(body, &layer, widest.indentation_depth);
             let profile = profile.expect("a profile");
@@ -229,7 +230,7 @@ fn a_profile_reaches_the_wanted_depth_or_its_limit() {
 }
 
 #[test]
-fn numbers_that_are_none_are_refused() {
+fn invalid_numbers_are_refused() {
     refuses("thickness", &[0.0, -1.0, f64::NAN, f64::INFINITY], |t| {
         BondedLayer::new(t, 0.5)
     });
@@ -251,7 +252,7 @@ fn numbers_that_are_none_are_refused() {
     );
 }
 
-/// Rounding must not place what a punch covers beyond its edge, or take its flat end for a wall.
+/// Rounding must not place contacts of a punch beyond its edge, or treat its flat end as the edge of the body.
 #[test]
 fn all_contacts_of_a_punch_are_within_its_edge() {
     let radius = 5e-6;

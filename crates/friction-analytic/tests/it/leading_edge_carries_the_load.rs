@@ -116,7 +116,7 @@ fn equation_15_is_refused_where_it_does_not_hold() {
 }
 
 #[test]
-fn contacts_that_are_no_contacts_are_refused() {
+fn invalid_contact_intervals_are_refused() {
     let line = casebook::group("FRI-03")[0].cubic(1.0);
     let sink = |contact: &[[f64; 2]]| sink(&line, contact, 0.05)[0].clone();
     // Of no length, and beyond the end of the line.
