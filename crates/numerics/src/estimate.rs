@@ -1,15 +1,15 @@
-//! A value with its error.
+//! A value with its estimated error.
 
 use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, Deref, Mul};
 
-use crate::invalid_parameter::{PLAIN, Rounded, power_of_ten};
+use crate::invalid_parameter::{POSITIONAL_RANGE, Rounded, power_of_ten};
 
-/// A computed number and what it may be off by; read as `.value` and `.error`.
+/// A computed number with its estimated absolute error, read as `.value` and `.error`.
 ///
 /// The error is never negative and never NaN, so that no comparison with it passes by accident.
-/// What is no number is kept as 0 ± ∞: nothing is known.
+/// A value that is NaN is stored as 0 ± ∞: nothing is known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(transparent))]
 pub struct Estimate(ValueWithError);
@@ -20,11 +20,11 @@ pub struct Estimate(ValueWithError);
 pub struct ValueWithError {
     /// The computed number, never NaN.
     pub value: f64,
-    /// Estimated absolute error ≥ 0, in the unit of the value; infinite where nothing is known.
+    /// Estimated absolute error ≥ 0, in the unit of the value; infinite if nothing is known.
     pub error: f64,
 }
 
-/// Both numbers can be read, and neither changed alone.
+/// Read access to both numbers; neither can be changed alone.
 impl Deref for Estimate {
     type Target = ValueWithError;
 
@@ -33,7 +33,7 @@ impl Deref for Estimate {
     }
 }
 
-/// As in messages, without digits beyond the second of the error: 0.038465 ± 2.0e-6.
+/// The format of messages, without digits beyond the second of the error: 0.0384647 ± 2.0e-6.
 impl fmt::Display for Estimate {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ValueWithError { value, error } = self.0;
@@ -41,13 +41,13 @@ impl fmt::Display for Estimate {
         if !has_digits {
             return write!(formatter, "{} ± {}", Rounded(value), Rounded(error));
         }
+        // Powers of ten of the last digit shown, the second of the error, and of the first digit of the value.
         let last = power_of_ten(error) - 1;
-        let largest = value.abs().max(error);
-        if PLAIN.contains(&largest) {
+        let first = power_of_ten(value);
+        if POSITIONAL_RANGE.contains(&value.abs().max(error)) {
             let digits = usize::try_from(-last).unwrap_or(0);
             return write!(formatter, "{value:.digits$} ± {error:.1e}");
         }
-        let first = power_of_ten(value);
         let digits = usize::try_from(first - last).unwrap_or(0);
         write!(formatter, "{value:.digits$e} ± {error:.1e}")
     }
@@ -70,19 +70,19 @@ impl Estimate {
         Self::new(value, 0.0)
     }
 
-    /// The same number with an error that is larger by `more`, in the unit of the value.
+    /// The number with an error that is larger by `additional_error`, in the unit of the value.
     #[must_use]
-    pub const fn widened(self, more: f64) -> Self {
-        Self::new(self.0.value, self.0.error + more)
+    pub const fn widened(self, additional_error: f64) -> Self {
+        Self::new(self.0.value, self.0.error + additional_error)
     }
 
-    /// Whether the value is finite and its error at most the relative one.
+    /// Whether the value is finite and its error at most `relative_error` times its modulus.
     pub fn is_within(&self, relative_error: f64) -> bool {
         self.value.is_finite() && self.error <= relative_error * self.value.abs()
     }
 }
 
-/// Errors add up: they need not be independent.
+/// Sum whose error is the sum of the errors, because they need not be independent.
 impl Add for Estimate {
     type Output = Self;
 

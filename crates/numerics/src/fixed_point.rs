@@ -100,6 +100,7 @@ struct Evaluation {
 
 /// Replaces the last value, which is the state, by the combination with the smallest residual.
 fn combine(evaluated: &[Evaluation], state: &mut [f64]) {
+    // The residuals f_k, and their differences f_n − f_k to the last one.
     let residuals: Vec<Vec<f64>> = evaluated
         .iter()
         .map(|Evaluation { start, value }| minus(value, start))
@@ -113,6 +114,7 @@ fn combine(evaluated: &[Evaluation], state: &mut [f64]) {
         .iter()
         .map(|earlier| minus(residual, earlier))
         .collect();
+    // Subtract Σ γ_k (g_n − g_k) from the last value g_n.
     let last = state.to_vec();
     let weights = least_squares_weights(&differences, residual);
     for (weight, Evaluation { value, .. }) in weights.iter().zip(earlier) {
@@ -149,12 +151,14 @@ fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
         let mut vector = given.clone();
         let mut coefficients = vec![0.0; vectors.len()];
         coefficients[index] = 1.0;
+        // Remove the components along the basis.
         let norm_before = dot(&vector, &vector);
         for [other, other_coefficients] in &basis {
             let component = dot(other, &vector);
             subtract(&mut vector, component, other);
             subtract(&mut coefficients, component, other_coefficients);
         }
+        // Normalise the remainder, unless it is rounding.
         let norm = dot(&vector, &vector);
         if norm > MIN_INDEPENDENT_PART * norm_before && norm > 0.0 {
             let scale = norm.sqrt().recip();
@@ -165,6 +169,7 @@ fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
             basis.push([vector, coefficients]);
         }
     }
+    // Project the target on the basis.
     for [vector, coefficients] in &basis {
         subtract(&mut weights, -dot(vector, target), coefficients);
     }

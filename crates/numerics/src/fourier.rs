@@ -13,6 +13,7 @@ const MAX_SERIES_ANGLE: f64 = 1e-2;
 /// ```
 pub fn fourier_power(points: &[[f64; 2]], wave_number: f64) -> f64 {
     let [mut real, mut imaginary] = [0.0; 2];
+    // Sum the transforms of the linear pieces, about their midpoints.
     for pair in points.windows(2) {
         let [[start, from], [end, to]] = [pair[0], pair[1]];
         let half = 0.5 * (end - start);

@@ -1,11 +1,11 @@
-//! Checks of numbers against the ranges that their parameters may take.
+//! Checks of parameters against their allowed ranges, and the format of numbers in messages.
 
 use std::fmt::{self, Display, Formatter, LowerExp};
 use std::ops::Range;
 
 use thiserror::Error;
 
-/// A parameter that is not a number, or outside the range it may take.
+/// A parameter that is not a number, or out of its allowed range.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error("{parameter} must be {allowed}, but is {}", InWords(*value))]
 pub struct InvalidParameter {
@@ -13,17 +13,19 @@ pub struct InvalidParameter {
     pub parameter: &'static str,
     /// The refused value.
     pub value: f64,
-    /// The values it may take.
+    /// Description of the allowed values.
     pub allowed: &'static str,
 }
 
-/// A number as it stands in messages: what is none in words, very large and very small ones with a power of ten, and zero
-/// without a sign or a power.
+/// A number in the format of messages.
+///
+/// Infinity and NaN are written in words, very large and very small numbers with a power of ten, and zero without sign and
+/// power. Rounding errors of decimal numbers of few digits are not shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InWords(pub f64);
 
 impl InWords {
-    /// Words for a value that is infinite or not a number.
+    /// Words for a value that is infinite or not a number; `None` for a finite one.
     const fn words(self) -> Option<&'static str> {
         match self.0 {
             f64::INFINITY => Some("larger than any number"),
@@ -39,37 +41,41 @@ impl Display for InWords {
         match self.words() {
             Some(words) => formatter.write_str(words),
             None if self.0 == 0.0 => formatter.write_str("0"),
-            // Debug takes a power of ten for these, and a point for all others.
-            None if let Some(short) = without_noise(self.0) => {
+            None if let Some(short) = without_rounding_error(self.0) => {
                 Display::fmt(&Self(short), formatter)
             }
-            None if !PLAIN.contains(&self.0.abs()) => fmt::Debug::fmt(&self.0, formatter),
+            // Debug writes these with a power of ten.
+            None if !POSITIONAL_RANGE.contains(&self.0.abs()) => {
+                fmt::Debug::fmt(&self.0, formatter)
+            }
             None => Display::fmt(&self.0, formatter),
         }
     }
 }
 
-/// Numbers without a power of ten.
-pub(crate) const PLAIN: Range<f64> = 1e-5..1e16;
-/// Significant digits that rounding of a decimal number leaves as they are.
-const CERTAIN_DIGITS: usize = 14;
-/// Fewer digits than a number that is a sum or a product of numbers of few digits has by its rounding errors.
-const FEW_DIGITS: usize = 11;
+/// Moduli of numbers that are written without a power of ten, as `Debug` does.
+pub(crate) const POSITIONAL_RANGE: Range<f64> = 1e-5..1e16;
+/// Number of significant digits that rounding errors of short decimal numbers do not change; chosen.
+const RELIABLE_DIGITS: usize = 14;
+/// Largest number of characters of the mantissa, with its point, of a number that counts as a short decimal one; chosen.
+const MAX_SHORT_MANTISSA: usize = 10;
 
-/// The number of few digits of which this one differs by rounding errors only, as 0.3 of 0.1 + 0.2; `None` if there is none, and of
-/// whole numbers, whose neighbours may be out of range.
-fn without_noise(number: f64) -> Option<f64> {
-    let short = format!("{number:.*e}", CERTAIN_DIGITS - 1)
+/// The short decimal number from which this one differs by rounding errors only, such as 0.3 for 0.1 + 0.2.
+///
+/// `None` if there is none, or if it is an integer, whose neighbours may be out of range.
+fn without_rounding_error(number: f64) -> Option<f64> {
+    let short = format!("{number:.*e}", RELIABLE_DIGITS - 1)
         .parse::<f64>()
         .ok()?;
-    let digits = format!("{:e}", short.abs());
-    let n_digits = digits.split('e').next()?.len();
-    let is_noise =
-        short.to_bits() != number.to_bits() && n_digits < FEW_DIGITS && short.fract() != 0.0;
-    is_noise.then_some(short)
+    let scientific = format!("{:e}", short.abs());
+    let mantissa_length = scientific.split('e').next()?.len();
+    let is_rounding_error = short.to_bits() != number.to_bits()
+        && mantissa_length <= MAX_SHORT_MANTISSA
+        && short.fract() != 0.0;
+    is_rounding_error.then_some(short)
 }
 
-/// A computed number as it stands in messages, with five significant digits.
+/// A computed number in the format of messages, rounded to five significant digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounded(pub f64);
 
@@ -97,7 +103,7 @@ impl LowerExp for InWords {
     }
 }
 
-/// The value of a parameter when it is one of those `allowed`, which `holds` says.
+/// The value of a parameter if `holds`, the condition that the text `allowed` describes.
 ///
 /// # Errors
 /// [`InvalidParameter`] otherwise.

@@ -69,6 +69,7 @@ pub fn lobatto_rule(n_points: usize) -> LobattoRule {
         .step_by(NODES_PER_BATCH)
         .flat_map(batch)
         .collect();
+    // The middle node of an odd number is exactly 0.
     let nodes = (0..=degree).map(|index| match (2 * index).cmp(&degree) {
         Ordering::Less => half[index][0],
         Ordering::Equal => 0.0,

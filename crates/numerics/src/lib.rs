@@ -1,5 +1,5 @@
-//! Mathematics without physics: integrals, waves, roots, Legendre polynomials, refinement to a stated error,
-//! checks of numbers.
+//! Numerical methods without physics: quadrature, Fourier transforms, roots, Legendre polynomials, fixed points, least
+//! squares, refinement to a requested error, and checks of numbers.
 //!
 //! ```
 //! use numerics::{FIRST_ELEMENTS, Goal, NotReached, Quantity, refine};
@@ -42,7 +42,7 @@ mod root;
 pub mod transforms;
 mod whole_part;
 
-/// The program of that page compiles.
+/// Compiles the program of README.md as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;

@@ -54,7 +54,7 @@ impl Progress for CappedProgress<'_> {
     }
 }
 
-/// Progress of one part of the work, reported as a fraction of all work; from [`WorkProgress::part`].
+/// Progress of one part of the work, reported as a fraction of all work; from [`WorkProgress::partial`].
 #[derive(Debug)]
 pub struct PartialProgress<'a> {
     watch: &'a dyn Progress,
@@ -110,7 +110,7 @@ impl<'a> WorkProgress<'a> {
 
     /// Progress for a part of the given work, which begins here and is added by the caller when it is completed. A part of no
     /// work reports a constant fraction.
-    pub fn part(&self, work: f64) -> PartialProgress<'a> {
+    pub fn partial(&self, work: f64) -> PartialProgress<'a> {
         PartialProgress {
             watch: self.watch,
             start: self.completed / self.expected,
@@ -149,9 +149,9 @@ mod tests {
         let recorder = Recorder::default();
         let mut progress = WorkProgress::new(&recorder, 4.0);
         progress.add(1.0);
-        let part = progress.part(2.0);
+        let part = progress.partial(2.0);
         part.report(0.5);
-        progress.part(0.0).report(1.0);
+        progress.partial(0.0).report(1.0);
         assert!(part.may_refine(7) && !part.may_refine(8));
         let reported = recorder.0.into_inner().expect("a list");
         assert_eq!(reported, [0.25, 0.5, 0.25]);

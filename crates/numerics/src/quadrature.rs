@@ -31,6 +31,7 @@ pub fn integrate_from_ends(
 ) -> Estimate {
     let half_width = 0.5 * (interval[1] - interval[0]);
     let mut step = COARSEST_STEP;
+    // The coarsest trapezoidal sum.
     let mut sums = node_sums(&integrand, interval, 0.0, step);
     let mut previous = half_width * step * sums.signed;
     let mut error = f64::INFINITY;
@@ -93,9 +94,11 @@ fn node_sums(
         let complement = 2.0 / (1.0 + (2.0 * u).exp());
         let weight = FRAC_PI_2 * t.cosh() / u.cosh().powi(2);
         let distance = half_width * complement;
+        // Stop where a node reaches the end, or its weight leaves the range of numbers.
         if distance == 0.0 || weight == 0.0 || !weight.is_finite() {
             return sums;
         }
+        // Both nodes ±t have the same weight; t = 0 is a single node.
         let mut add = |end: f64, offset: f64| {
             let term = weight * integrand(end, offset);
             sums.signed += term;
@@ -130,7 +133,7 @@ mod tests {
         assert_relative_eq!(integral.value, exact, max_relative = 1e-10);
     }
 
-    /// The nodes lie at t = ±k/32 up to 6.1, or at ±k/64 for more digits, for every scale of the integrand.
+    /// The nodes lie at t = ±k/32 up to 6.1, or at ±k/64 for more digits, at any scale of the integrand.
     #[test]
     fn no_more_nodes_are_taken_than_the_tolerance_needs() {
         for (tolerance, expected) in [(1e-3, 391), (1e-9, 781)] {

@@ -278,7 +278,9 @@ impl Goal<'_> {
     fn work_after(&self, missed: &NotReached) -> f64 {
         let ratio = missed.error / (missed.relative_error * missed.scale);
         let mut elements = missed.elements as f64;
+        // Elements for which C/n^q is the requested error.
         let needed = (elements * ratio.powf(self.order.recip())).min(self.max_elements as f64);
+        // Each doubling solves on all and on three quarters of the new elements.
         let mut work = 0.0;
         loop {
             elements *= 2.0;
@@ -331,12 +333,12 @@ fn errors(fine: &[Quantity], parts: &[ErrorParts]) -> Vec<f64> {
 ///
 /// `None` if there is no such quantity, or no relative error is requested.
 fn not_reached(
-    relative_error: Option<f64>,
+    requested: Option<f64>,
     fine: &[Quantity],
     parts: &[ErrorParts],
     elements: usize,
 ) -> Option<NotReached> {
-    let relative_error = relative_error?;
+    let relative_error = requested?;
     let errors = errors(fine, parts);
     let allowed = |fine: &Quantity| (relative_error * fine.scale).max(2.0 * fine.rounding_error);
     let missed = |quantity: &usize| errors[*quantity] > allowed(&fine[*quantity]);

@@ -47,14 +47,10 @@ pub fn profile_end(
     let bound = range.bounds[usize::from(side > 0.0)];
     let max_step = side * (bound - best.parameters[parameter]);
     // Bracket of the end: the last trial inside the interval, and the last one outside.
-    let mut inner = Trial {
-        step: 0.0,
-        root_rise: 0.0,
-    };
-    let mut outer = Trial {
-        step: f64::INFINITY,
-        root_rise: f64::INFINITY,
-    };
+    let [mut inner, mut outer] = [0.0, f64::INFINITY].map(|step| Trial {
+        step,
+        root_rise: step,
+    });
     // If no end is expected within the range, its bound is tried first.
     let mut step = if end.initial_step < max_step {
         end.initial_step.min(range.largest_step)
@@ -119,11 +115,8 @@ impl Trial {
     /// The distance at which the line through this trial and the closest outer one reaches 1, or through this one and the
     /// last inner one if the outer one is not finite.
     fn extrapolate(self, inner: Self, outer: Self) -> f64 {
-        let other = if outer.root_rise.is_finite() {
-            outer
-        } else {
-            inner
-        };
+        let is_bracketed = outer.root_rise.is_finite();
+        let other = if is_bracketed { outer } else { inner };
         self.step
             + (1.0 - self.root_rise) * (other.step - self.step) / (other.root_rise - self.root_rise)
     }
@@ -144,8 +137,8 @@ fn root_rise(
     let mut held_ranges = ranges.to_vec();
     held_ranges[end.parameter].bounds = [best.parameters[end.parameter] + end.side * step; 2];
     // Every trial starts from the minimum: the last trial may have led to another minimum.
-    let start = best.parameters.iter().zip(tangent).zip(&held_ranges);
-    let start = start.map(|((value, slope), range)| {
+    let values = best.parameters.iter().zip(tangent).zip(&held_ranges);
+    let start = values.map(|((value, slope), range)| {
         let [lowest, highest] = range.bounds;
         (value + end.side * step * slope).clamp(lowest, highest)
     });

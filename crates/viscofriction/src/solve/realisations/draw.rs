@@ -58,7 +58,7 @@ impl<'a> Drawn<'a> {
             coarse: Vec::new(),
             missed: None,
         };
-        let first = first(&drawn.progress.part(1.0));
+        let first = first(&drawn.progress.partial(1.0));
         drawn.take([first])?;
         drawn.progress.add(1.0);
         drawn.at_once = at_once(problem, &drawn.answers[0]);

@@ -42,7 +42,7 @@ pub(super) fn solve_each(
     let within = |surface, parts| {
         let share = {
             let known = known.lock().unwrap_or_else(PoisonError::into_inner);
-            known.0.part(if is_alone { 1.0 } else { 0.0 })
+            known.0.partial(if is_alone { 1.0 } else { 0.0 })
         };
         solve_one(problem, surface, parts, &share)
     };
