@@ -12,9 +12,9 @@ use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::checked_depth;
 use crate::{DivergenceCause, FrictionError, StationarySliding};
 
-/// Length of the interval at the apex on which the line is replaced by its leading power, over the position of the first
-/// kink or of the front.
+/// Length of the interval at the apex on which the line is replaced by its leading power, over that to the first kink.
 ///
+/// Without a kink it is over the length to the front.
 /// There any other power of the profile whose exponent is larger by 0.11 or more is below rounding: 1e-150^0.11 = 3e-17.
 const LEADING_POWER_REACH: f64 = 1e-150;
 

@@ -143,8 +143,9 @@ pub fn cylinder_half_width_after_impulse(
     representable("half width", half_width)
 }
 
-/// Pressure over the modulus G/(2 (1 − ν)) of an elastic half space, at a `radius` r inside the contact \[m], under a body
-/// that is pressed without sliding to an indentation `depth` > 0 \[m] (Sneddon 1965, Int. J. Eng. Sci. 3, 47):
+/// Pressure under a body that is pressed without sliding, over the modulus G/(2 (1 − ν)) of an elastic half space.
+///
+/// At a `radius` r inside the contact \[m] and an indentation `depth` d > 0 \[m] it is (Sneddon 1965, Int. J. Eng. Sci. 3, 47)
 /// `(4/π) [∫_r^a h̃'(x)/√(x² − r²) dx + (d − h̃(a))/√(a² − r²)]`.
 ///
 /// On a viscous half space it is the impulse per area ∫ p dt since first touch, over the viscosity.

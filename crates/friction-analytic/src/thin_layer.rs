@@ -111,10 +111,10 @@ impl ThinLayer {
     }
 }
 
-/// Line load on the one-dimensional model of a `material` that is equivalent to the line load F' on a thin layer of it, in
-/// plane strain: `F' (1 − 2ν) t/(1 − ν)²`, \[N/m].
+/// Line load on the one-dimensional model that is equivalent to the line load F' on a thin layer: `F' (1 − 2ν) t/(1 − ν)²`,
+/// \[N/m].
 ///
-/// A profile h(x) has the same contact, depth and friction on both, because both are Winkler foundations.
+/// Both are of the same `material`, and the layer is in plane strain. A profile h(x) has the same contact, depth and friction on both, because both are Winkler foundations.
 ///
 /// # Errors
 /// [`InvalidParameter`] for numbers that are not positive and an incompressible material.

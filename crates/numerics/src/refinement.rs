@@ -67,7 +67,7 @@ pub struct Goal<'a> {
     pub request: Request<'a>,
     /// Number of elements on which a relative error is first sought; [`FIRST_ELEMENTS`] unless something needs more.
     pub initial_elements: usize,
-    /// Number of elements from which on there is no further refinement towards a relative error.
+    /// Number of elements from which on the refinement stops.
     pub max_elements: usize,
     /// Convergence order q > 0: the error falls at least like the elements to the power −q.
     pub order: f64,
@@ -87,7 +87,7 @@ pub struct Goal<'a> {
 pub struct Quantity {
     /// Value on one resolution.
     pub value: f64,
-    /// Positive scale that the requested relative error refers to: the modulus of the value, unless the value may vanish.
+    /// Scale that the requested relative error refers to: the modulus of the value, unless the value may vanish.
     pub scale: f64,
     /// Absolute rounding error, which no refinement reduces.
     pub rounding_error: f64,
@@ -98,7 +98,7 @@ pub struct Quantity {
 }
 
 impl From<f64> for Quantity {
-    /// A number whose only rounding error is that of sums, [`SUMMATION_ERROR`].
+    /// A number whose only rounding error is that of sums, 1e-12 of its value.
     fn from(value: f64) -> Self {
         Self {
             value,
@@ -176,8 +176,8 @@ const SUMMATION_ERROR: f64 = 1e-12;
 ///
 /// - `solve` computes the result on a number of elements.
 /// - `quantities` extracts the numbers that are refined, equally many on every resolution.
-/// - `others` returns the error parts that are the same on all resolutions and hence invisible in their differences, for the
-///   first of the quantities or for all. It is called once the discretisation error is small enough, and on the last
+/// - `others` returns the error parts that are equal on all resolutions and hence invisible in their differences. It may
+///   return those of the first quantities only. It is called once the discretisation error is small enough, and on the last
 ///   resolution.
 ///
 /// `solve` and `others` receive a function that reports their completed fraction, from 0 to 1.

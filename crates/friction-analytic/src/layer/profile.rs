@@ -128,8 +128,9 @@ impl LayerProfile {
         Self::reaching(body, layer, depth, depth)
     }
 
-    /// The equivalent profile of a body up to a `needed` depth \[m] at least, and up to the `wanted` one \[m] if body and layer
-    /// allow it.
+    /// The equivalent profile of a body up to the `wanted` depth \[m], or to the largest one that body and layer allow.
+    ///
+    /// It is an error if that is less than the `needed` depth \[m].
     ///
     /// # Errors
     /// Those of [`Self::new`] for the needed depth.

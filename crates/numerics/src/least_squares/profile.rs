@@ -112,8 +112,9 @@ impl Trial {
         self.step + fraction.clamp(lowest, highest) * (outer.step - self.step)
     }
 
-    /// The distance at which the line through this trial and the closest outer one reaches 1, or through this one and the
-    /// last inner one if the outer one is not finite.
+    /// The distance at which the line through this trial and the closest outer one reaches 1.
+    ///
+    /// If the outer one is not finite, the last inner one takes its place.
     fn extrapolate(self, inner: Self, outer: Self) -> f64 {
         let is_bracketed = outer.root_rise.is_finite();
         let other = if is_bracketed { outer } else { inner };

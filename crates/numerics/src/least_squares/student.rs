@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use crate::root::bracketed_root;
 
-/// The t for which the fraction `coverage` of all deviations lies between −t and t standard errors, if these are estimated
-/// with the given degrees of freedom ≥ 1.
+/// The t for which the fraction `coverage` of all deviations lies between −t and t standard errors.
 ///
+/// The standard error is one that was estimated with the given degrees of freedom ≥ 1.
 /// Returns `None` unless the coverage is between 0 and 1 and there is a degree of freedom.
 ///
 /// ```
