@@ -1,25 +1,26 @@
-//! The area of a contact, from the elements that are in contact.
+//! Contact area from the active elements, with the perimeter correction of Yastrebov, Anciaux & Molinari (2017).
 
 use std::f64::consts::{LN_2, PI};
 
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::Mirror;
 
-/// Part of an element by which counted areas are too large for each edge between an element in contact and one that is not,
-/// in the mean over the directions of the outline (Yastrebov, Anciaux & Molinari 2017).
+/// Perimeter correction: mean excess of a counted area, in elements, per edge between an element in contact and one outside.
+///
+/// It is the mean over all directions of the contact boundary (Yastrebov, Anciaux & Molinari 2017).
 pub(crate) const EXCESS_PER_EDGE: f64 = (PI - 1.0 + LN_2) / 24.0;
 
-/// So many elements in contact with so many edges to others, less the excess at these edges, in elements; above half of
-/// their number.
-pub(crate) fn less_excess(count: usize, edges: usize) -> f64 {
+/// Area of `count` elements with `edges` edges to elements outside, after the perimeter correction, in elements; more than half
+/// of `count`.
+pub(crate) fn corrected_area(count: usize, edges: usize) -> f64 {
     count as f64 - EXCESS_PER_EDGE * edges as f64
 }
 
-/// The area of a contact that repeats itself.
-pub(crate) struct OfPeriod {
-    /// As a part of the period.
+/// Contact area of a periodic surface.
+pub(crate) struct AreaFraction {
+    /// Corrected area as a fraction of the period.
     pub(crate) area: f64,
-    /// What was taken from that of the elements in contact, likewise.
+    /// Perimeter correction that was subtracted, as a fraction of the period.
     #[cfg_attr(
         not(feature = "rough"),
         expect(dead_code, reason = "it is for the bars of rough surfaces")
@@ -27,8 +28,8 @@ pub(crate) struct OfPeriod {
     pub(crate) excess: f64,
 }
 
-/// Of pressures in rows of so many elements.
-pub(crate) fn of_period(columns: usize, pressure: &[f64]) -> OfPeriod {
+/// Contact area of a periodic pressure field with a number of columns.
+pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
     let n = pressure.len();
     let inside = |element: usize| pressure[element] > 0.0;
     let [mut count, mut edges] = [0; 2];
@@ -39,14 +40,14 @@ pub(crate) fn of_period(columns: usize, pressure: &[f64]) -> OfPeriod {
         let differs = |other: &usize| inside(*other) != inside(element);
         edges += neighbours.into_iter().filter(differs).count();
     }
-    let area = less_excess(count, edges) / n as f64;
-    OfPeriod {
+    let area = corrected_area(count, edges) / n as f64;
+    AreaFraction {
         area,
         excess: count as f64 / n as f64 - area,
     }
 }
 
-/// The area of the elements with load in a box, and of their images, in elements; the field begins at its mirrors.
+/// Corrected area of the loaded elements in a box and of their images, in elements; the field begins at its mirrors.
 pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let has_load = |row: usize, column: usize| {
@@ -63,7 +64,7 @@ pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) 
             other => pairs(other),
         });
         count += images[0] * images[1];
-        // Before the first element in front of a mirror lies its image or itself.
+        // Behind the first element in front of a mirror lies its image or itself.
         let before = [
             has_load(row.wrapping_sub(1), column),
             has_load(row, column.wrapping_sub(1)),
@@ -75,10 +76,10 @@ pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) 
             edges += ends * pairs(mirrors[axis]) * images[1 - axis];
         }
     }
-    less_excess(count, edges)
+    corrected_area(count, edges)
 }
 
-/// How often an edge between two elements in front of a mirror is there.
+/// Multiplicity of an edge between two elements in front of a mirror.
 const fn pairs(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }
@@ -96,7 +97,7 @@ mod tests {
             loads[hole] = 0.0;
             (loads, [rows, columns])
         };
-        let expected = less_excess(34, 28);
+        let expected = corrected_area(34, 28);
         let cases = [
             (field([5, 7], 17), NO_MIRRORS),
             (field([3, 7], 3), [Mirror::Centre, Mirror::None]),
@@ -117,6 +118,6 @@ mod tests {
             upper: [4, 3],
         };
         let area = in_elements(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
-        assert!((area - less_excess(32, 40)).abs() < 1e-12, "{area}");
+        assert!((area - corrected_area(32, 40)).abs() < 1e-12, "{area}");
     }
 }

@@ -1,4 +1,4 @@
-//! Boxes of elements.
+//! Boxes of elements: half-open ranges of rows and columns.
 
 use std::ops::Range;
 
@@ -14,12 +14,13 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// Of no element.
+    /// The box without elements.
     pub(crate) const EMPTY: Self = Self {
         lower: [0; 2],
         upper: [0; 2],
     };
 
+    /// The box of one element.
     pub(crate) const fn single(element: [usize; 2]) -> Self {
         Self {
             lower: element,
@@ -27,21 +28,22 @@ impl Bounds {
         }
     }
 
-    /// The smallest box that holds all elements; none without any.
+    /// The smallest box that holds all elements, [row, column] each; `None` without any.
     pub(crate) fn enclosing(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
         let boxes = elements.map(Self::single);
         boxes.reduce(|bounds, element| bounds.union(&element))
     }
 
-    /// The smallest box that holds the elements of a field, as [row, column], for which `is` is true.
+    /// The smallest box that holds the elements [row, column] of a field for which `is` is true; `None` without any.
     pub(crate) fn enclosing_where(
         shape: [usize; 2],
         is: impl Fn([usize; 2]) -> bool + Sync,
     ) -> Option<Self> {
         let bands = RowBlocks::new(shape);
         let in_band = |band| {
-            let elements = bands.elements(band);
-            let elements = elements.map(|index| [index / shape[1], index % shape[1]]);
+            let elements = bands
+                .elements(band)
+                .map(|index| [index / shape[1], index % shape[1]]);
             Self::enclosing(elements.filter(|element| is(*element)))
         };
         let both = |left: Option<Self>, right: Option<Self>| match (left, right) {
@@ -79,12 +81,12 @@ impl Bounds {
         self.shape()[0] * self.shape()[1]
     }
 
-    /// Position of an element of the field in the box, row-major.
+    /// Index in the box, row-major, of an element [row, column] of the field.
     pub(crate) const fn index_of(&self, [row, column]: [usize; 2]) -> usize {
         (row - self.lower[0]) * self.shape()[1] + column - self.lower[1]
     }
 
-    /// Copies what lies inside the box from a field with `columns` columns.
+    /// Copies the part inside the box from a field with `columns` columns.
     pub(crate) fn extract(&self, field: &[f64], columns: usize, part: &mut [f64]) {
         for_each_row(part, self.shape()[1], |row, part| {
             let start = (self.lower[0] + row) * columns;
@@ -92,8 +94,10 @@ impl Bounds {
         });
     }
 
-    /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast; from the rear
-    /// of the field on along the axes with mirrors there.
+    /// The box with a margin for a growing contact, inside a field of the given shape, with lengths that transform fast.
+    ///
+    /// The margin is an eighth of the length, at least four elements, in total. Along an axis with a mirror the box begins at
+    /// the rear of the field, where the mirror is.
     pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {

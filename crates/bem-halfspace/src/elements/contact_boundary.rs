@@ -1,57 +1,61 @@
-//! Where a contact ends between the elements of a grid, and how that changes with their loads and gaps.
+//! Sub-element position of the contact boundary, and its derivatives by loads and gaps.
 //!
-//! While a contact grows past the elements of a row, the load x of the last one inside rises from 0, and the gap g of the first one
-//! beside it falls to 0, both linearly as long as all other elements stay where they are. The part
+//! While a contact grows past the elements of a row, the load x of the last one inside rises from 0, and the gap g of the first
+//! one outside falls to 0. Both change linearly as long as the active set does not. The fraction
 //!
 //! ```text
 //! s = x/(x + κ g)
 //! ```
 //!
-//! of an element rises from 0 to 1 meanwhile, then the next element is the last one inside, with s = 0. Elements and parts of
-//! elements together thus are an area that does not jump when elements change sides, whatever κ is, so that its derivative with the
-//! elements where they are is that of the area up to what is different from place to place. With κ the ratio of the range of x to
-//! that of g it is so at each place. This ratio belongs to the kernel k of the grid: in the unit 1/b, with the bend b = k₀ − (k₁ + k₋₁)/2
-//! along the row, it lies between 0.3, where the pressure is singular, and 0.6, where it vanishes like a root.
+//! of an element rises from 0 to 1 meanwhile; then the next element is the last one inside, with s = 0. The number of elements
+//! plus these fractions is an area that is continuous when elements are exchanged, for any κ. Its derivative at a fixed active
+//! set is therefore that of the area, up to local variations, and exactly so at each pair if κ is the ratio of the range of x to
+//! that of g. This ratio is a property of the kernel k of the grid. In units of 1/b, with the second difference
+//! b = k₀ − (k₁ + k₋₁)/2 along the row, it lies between 0.3, for a singular pressure, and 0.6, for one that vanishes like a root.
 //!
-//! Rows know the whole area, and columns know it, too: each place counts with n_x² as one of a row, and with n_y² as one of a column,
-//! where n is the normal.
+//! Rows alone give the whole area, and so do columns. With the normal n, a pair along x therefore has the weight n_x², and one
+//! along y the weight n_y².
 //!
-//! With the same parts, weighted with the square of the load (x + κ g) with which an element leaves the rim, the *growth* is the measure
-//! of what elements leave undone: it is the product of a load and an adjoint load that both rise like this one.
+//! The *boundary weight* is the same sum, weighted with the square of the load x + κ g at which an element leaves the boundary.
+//! It measures the error that the elements leave at the boundary, a product of a load and an adjoint load that both rise like x.
+//!
+//! Theory: docs/sensitivity.md.
 
-/// The ratio κ times the bend of the kernel where many elements are at the rim, on which errors of it average out.
+/// κ times the second difference of the kernel, for boundaries of many elements, on which errors of κ average out; chosen
+/// between 0.3 and 0.6, see above.
 pub(crate) const LOAD_GAP_RATIO: f64 = 0.4;
 
-/// Loads of the elements in contact and gaps of those beside it, on a box of elements.
+/// Loads of the elements in contact and gaps of their neighbours, on a box of elements.
 pub(crate) struct BoundaryField {
     pub(crate) shape: [usize; 2],
-    /// Whether an end of the box is the other one, too.
+    /// True if the box is a whole period, so that its opposite ends are neighbours.
     pub(crate) is_periodic: bool,
     /// Δy/Δx.
     pub(crate) aspect: f64,
     pub(crate) inside: Vec<bool>,
-    /// The load of an element in contact, and the gap of one beside it; not finite where it is not known.
+    /// Load of an element in contact, gap of an element outside; not finite if unknown.
     pub(crate) values: Vec<f64>,
 }
 
-/// The derivatives of one measure, per element, by the loads and gaps.
+/// The derivatives of one quantity of the boundary.
 #[derive(Debug, Clone)]
 pub(crate) struct BoundaryDerivatives {
+    /// By the load or gap of each element of the box.
     pub(crate) by_values: Vec<f64>,
-    /// By the logarithm of the bend of the kernel along each axis.
+    /// By the logarithm of the second difference of the kernel along each axis.
     pub(crate) by_second_difference: [f64; 2],
 }
 
-/// How the contact changes at its rim.
+/// How the contact changes at its boundary.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactBoundary {
-    /// Of the number of elements in contact.
+    /// Derivatives of the area, in elements.
     pub(crate) area: BoundaryDerivatives,
-    /// Of the growth, in a unit of its own.
+    /// Derivatives of the boundary weight, in the unit of a squared load.
     pub(crate) boundary_weight: BoundaryDerivatives,
 }
 
-/// An element in contact and the one beside it.
+/// An element in contact and its neighbour outside along an axis.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BoundaryPair {
     pub(crate) inside: usize,
@@ -60,55 +64,55 @@ pub(crate) struct BoundaryPair {
 }
 
 impl BoundaryDerivatives {
-    fn none(n: usize) -> Self {
+    fn zero(n: usize) -> Self {
         Self {
             by_values: vec![0.0; n],
             by_second_difference: [0.0; 2],
         }
     }
 
-    /// Adds the derivatives of x/(x + κ g) at a side, times (x + κ g)²/κ and a weight.
-    fn add(&mut self, side: BoundaryPair, weight: f64, [load, gap]: [f64; 2]) {
-        self.by_values[side.inside] += weight * gap;
-        self.by_values[side.outside] -= weight * load;
-        self.by_second_difference[side.axis] += weight * load * gap;
+    /// Adds the derivatives of x/(x + κ g) at a pair, times (x + κ g)²/κ and a weight.
+    fn add(&mut self, pair: BoundaryPair, weight: f64, load: f64, gap: f64) {
+        self.by_values[pair.inside] += weight * gap;
+        self.by_values[pair.outside] -= weight * load;
+        self.by_second_difference[pair.axis] += weight * load * gap;
     }
 }
 
 impl ContactBoundary {
-    /// With the ratio κ at each side.
+    /// The boundary of a contact, with the ratio κ of each pair.
     pub(crate) fn new(field: &BoundaryField, ratio: impl Fn(BoundaryPair) -> f64) -> Self {
-        let mut rim = Self {
-            area: BoundaryDerivatives::none(field.values.len()),
-            boundary_weight: BoundaryDerivatives::none(field.values.len()),
+        let mut boundary = Self {
+            area: BoundaryDerivatives::zero(field.values.len()),
+            boundary_weight: BoundaryDerivatives::zero(field.values.len()),
         };
-        for side in field.pairs() {
-            let ratio = ratio(side);
-            let [load, gap] = [side.inside, side.outside].map(|place| field.values[place]);
-            let leaves = load + ratio * gap;
-            // Gaps below 0 are errors of the solution.
-            if leaves <= 0.0 {
+        for pair in field.pairs() {
+            let ratio = ratio(pair);
+            let (load, gap) = (field.values[pair.inside], field.values[pair.outside]);
+            // Load with which the element inside leaves the boundary; negative gaps are errors of the solution.
+            let leaving_load = load + ratio * gap;
+            if leaving_load <= 0.0 {
                 continue;
             }
-            let part = field.part(side, ratio, leaves);
-            rim.area
-                .add(side, part * ratio / leaves.powi(2), [load, gap]);
-            rim.boundary_weight.add(side, part * ratio, [load, gap]);
+            let weight = field.squared_normal(pair, ratio, leaving_load) * ratio;
+            let area_weight = weight / leaving_load.powi(2);
+            boundary.area.add(pair, area_weight, load, gap);
+            boundary.boundary_weight.add(pair, weight, load, gap);
         }
-        rim
+        boundary
     }
 }
 
 impl BoundaryField {
-    /// All sides with a gap that is known.
+    /// All pairs whose gap is known.
     fn pairs(&self) -> impl Iterator<Item = BoundaryPair> {
         let inside = (0..self.values.len()).filter(|place| self.inside[*place]);
         inside.flat_map(move |inside| {
             let ways = [(0, true), (0, false), (1, true), (1, false)];
             ways.into_iter().filter_map(move |(axis, ahead)| {
                 let outside = self.next(inside, axis, ahead)?;
-                let is_rim = !self.inside[outside] && self.values[outside].is_finite();
-                is_rim.then_some(BoundaryPair {
+                let is_boundary = !self.inside[outside] && self.values[outside].is_finite();
+                is_boundary.then_some(BoundaryPair {
                     inside,
                     outside,
                     axis,
@@ -117,6 +121,7 @@ impl BoundaryField {
         })
     }
 
+    /// The neighbour of an element along an axis, ahead or behind; `None` beyond the end of the box.
     fn next(&self, place: usize, axis: usize, ahead: bool) -> Option<usize> {
         let [rows, columns] = self.shape;
         let mut at = [place / columns, place % columns];
@@ -130,30 +135,30 @@ impl BoundaryField {
         Some(at[0] * columns + at[1])
     }
 
-    /// The square of the part of the normal along the axis of a side, of the field that is x inside and −κ g beside.
-    fn part(&self, side: BoundaryPair, ratio: f64, leaves: f64) -> f64 {
+    /// Squared component of the boundary normal along the axis of a pair, from the field x inside and −κ g outside.
+    fn squared_normal(&self, pair: BoundaryPair, ratio: f64, leaving_load: f64) -> f64 {
         let along = |place: usize| {
             let value = |place: usize| match self.values[place] {
                 value if self.inside[place] => value,
                 value => -ratio * value,
             };
-            let beside = |ahead| {
-                let next = self.next(place, 1 - side.axis, ahead).map(value);
+            let neighbour = |ahead| {
+                let next = self.next(place, 1 - pair.axis, ahead).map(value);
                 next.filter(|value| value.is_finite())
             };
-            match (beside(true), beside(false)) {
+            match (neighbour(true), neighbour(false)) {
                 (Some(next), Some(before)) => 0.5 * (next - before),
                 (Some(next), None) => next - value(place),
                 (None, Some(before)) => value(place) - before,
                 (None, None) => 0.0,
             }
         };
-        let tangent = 0.5 * (along(side.inside) + along(side.outside));
-        // Per length: steps along x are 1 long, and those along y as the aspect has it.
-        let steps = [1.0, self.aspect];
+        let tangent = 0.5 * (along(pair.inside) + along(pair.outside));
+        // Derivatives per length, in units of Δx.
+        let spacing = [1.0, self.aspect];
         let squares = [
-            (leaves / steps[side.axis]).powi(2),
-            (tangent / steps[1 - side.axis]).powi(2),
+            (leaving_load / spacing[pair.axis]).powi(2),
+            (tangent / spacing[1 - pair.axis]).powi(2),
         ];
         squares[0] / (squares[0] + squares[1])
     }
@@ -165,7 +170,7 @@ mod tests {
 
     use super::*;
 
-    /// A disc of so many elements as its radius, on elements of this aspect, whose loads fall by 1 from one row to the next at the rim.
+    /// A disc with its radius in elements, on elements of an aspect, whose loads fall by 1 from row to row at its boundary.
     fn disc(radius: f64, centre: f64, aspect: f64) -> BoundaryField {
         let shape = [40, 60];
         let height = |place: usize| {

@@ -1,4 +1,4 @@
-//! Where contact may occur, seen from the indenter.
+//! The footprint: the rectangle in which contact may occur, in the frame of the indenter.
 
 use std::f64::consts::LN_2;
 
@@ -9,12 +9,12 @@ use crate::elements::grid::elements_along;
 use crate::stationary::steady::depth_scale_of_surface;
 use crate::{BemError, Elastomer};
 
-/// Heights up to this many depth scales may touch, as under a cusp.
-pub(crate) const HIGHEST: f64 = 2.0;
+/// Largest height that may touch, in depth scales. It is reached under a cusp, see [`Footprint::sliding`].
+pub(crate) const MAX_HEIGHT_IN_DEPTH_SCALES: f64 = 2.0;
 
-/// Ratio of the footprints that are tried one after the other where the contact reaches the boundary: chosen; with another one the same
-/// contact is found.
-const GROWTH: f64 = 1.5;
+/// Factor from a footprint to the next one, which is tried if the contact reaches its boundary; chosen, since any factor leads to
+/// the same contact.
+const GROWTH_FACTOR: f64 = 1.5;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,10 +37,11 @@ impl Footprint {
 
     /// The rectangle that holds the contact of a surface that slides.
     ///
-    /// At a depth that is all of the surface below it, because a half space nowhere rises to meet the body. Under a force
-    /// it reaches up to 1.5 of the depth D = F_N / (4 η v), or 2 of it for a cusp sharper than r^(3/4) and for other
-    /// surfaces than bodies of revolution: the front of the contact reaches 1.6 of that depth for h ∼ r^0.51, 1.1 for the
-    /// cone and 0.8 for the paraboloid. On other materials than the dashpot D = h(a) = 2 (1 − ν) F_N J(a/v) / (4 a).
+    /// At a given depth it holds all of the surface below that depth, because a half space nowhere rises to meet the body. Under
+    /// a given force it holds all of the surface below 1.5 D, with the depth scale D = F_N / (4 η v) of a dashpot. For a cusp
+    /// sharper than r^(3/4), and for surfaces other than bodies of revolution, that is 2 D. The front of the contact lies at
+    /// 1.6 D for h ∼ r^0.51, at 1.1 D for the cone and at 0.8 D for the paraboloid. On other materials D = h(a) =
+    /// 2 (1 − ν) F_N J(a/v) / (4 a).
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a surface that is low everywhere.
@@ -55,10 +56,14 @@ impl Footprint {
             Control::NormalForce(_) => depth_scale_of_surface(surface, elastomer, load)?,
         };
         let Some(body) = surface.as_axisymmetric() else {
-            return reached(HIGHEST * depth);
+            return reached(MAX_HEIGHT_IN_DEPTH_SCALES * depth);
         };
-        let sharp = body.profile_exponent() < 0.75;
-        let height = if sharp { HIGHEST } else { 1.5 } * depth;
+        let is_cusp = body.profile_exponent() < 0.75;
+        let height = if is_cusp {
+            MAX_HEIGHT_IN_DEPTH_SCALES
+        } else {
+            1.5
+        } * depth;
         let footprint = reached(height)?;
         let [_, radius] = footprint.x;
         if radius < body.max_radius() || body.profile_height(radius) >= height {
@@ -67,7 +72,8 @@ impl Footprint {
         Err(nowhere_as_high(height).into())
     }
 
-    /// The rectangle that holds every point of a surface that is met where a half space meets those below a height.
+    /// The rectangle that holds the contact if that of a half space holds the points below a `height` \[m]; on a layer, which
+    /// piles up, it is larger.
     pub(crate) fn reached(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -76,7 +82,7 @@ impl Footprint {
         Self::below(surface, Self::risen(surface, elastomer, height)?)
     }
 
-    /// The height up to which a surface is met where a half space meets it up to a `height`.
+    /// The height up to which an elastomer touches a surface, if a half space touches it up to a `height`, \[m].
     pub(crate) fn risen(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -91,13 +97,13 @@ impl Footprint {
             Ok(sides.concat().into_iter().fold(0.0, f64::max))
         };
         let length = half_length(height)?;
-        // In front of a wall no length is left for the rim.
+        // In front of a vertical wall no length is left for the pile-up; hence the upper bound of the exponent.
         let exponent = (LN_2 / (half_length(2.0 * height)? / length).ln()).min(8.0);
         Ok(base.pile_up_factor(length, exponent) * height)
     }
 
-    /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends
-    /// lower, as a flat punch, has its end for a boundary.
+    /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]. For a body that ends
+    /// lower, such as a flat punch, it is bounded by the end of the body.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere.
@@ -110,7 +116,7 @@ impl Footprint {
         Err(nowhere_as_high(height).into())
     }
 
-    /// With room for two elements at the boundary, where a steep body leaves none.
+    /// The rectangle widened by two elements of edge `spacing` on all sides, for steep bodies that leave no margin.
     #[must_use]
     pub fn widened(&self, spacing: f64) -> Self {
         let widened = |[first, last]: [f64; 2]| [first - 2.0 * spacing, last + 2.0 * spacing];
@@ -120,9 +126,9 @@ impl Footprint {
         }
     }
 
-    /// The rectangle whose edges are [`GROWTH`] times as far from the lowest point.
+    /// The rectangle whose edges are [`GROWTH_FACTOR`] times as far from the lowest point.
     pub(crate) fn grown(&self) -> Self {
-        let grown = |ends: [f64; 2]| ends.map(|end| GROWTH * end);
+        let grown = |ends: [f64; 2]| ends.map(|end| GROWTH_FACTOR * end);
         Self {
             x: grown(self.x),
             y: grown(self.y),
@@ -136,7 +142,7 @@ impl Footprint {
         }
     }
 
-    /// Distances of the edges behind and ahead of, right and left of the lowest point, \[m]; refuses those that are not
+    /// Distances of the edges from the lowest point, \[m]: behind and ahead of it, right and left of it. Fails unless all are
     /// finite and greater than 0.
     pub(crate) fn sides(&self) -> Result<[[f64; 2]; 2], BemError> {
         let mut sides = [self.x, self.y];
@@ -147,7 +153,8 @@ impl Footprint {
         Ok(sides)
     }
 
-    /// Number of elements behind and ahead of, right and left of the element under the lowest point, of edges \[m].
+    /// Numbers of elements behind and ahead of the element under the lowest point, and right and left of it, for elements with
+    /// the edges `spacing` \[m].
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for ends on the wrong side of the lowest point; [`BemError::GridTooLarge`].
@@ -161,7 +168,8 @@ impl Footprint {
         Ok(counts)
     }
 
-    /// The same all together, however many.
+    /// Approximate number of all elements with the edges [Δx, Δy] \[m]: area of the footprint over area of an element, without
+    /// an upper limit.
     pub(crate) fn n_elements(&self, [dx, dy]: [f64; 2]) -> f64 {
         let Self { x, y } = self;
         (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)

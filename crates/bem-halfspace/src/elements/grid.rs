@@ -1,10 +1,10 @@
-//! Rectangular elements in a regular grid.
+//! Regular grids of rectangular elements.
 
 use crate::BemError;
 use crate::elements::mirror::Mirror;
 use numerics::{positive, whole_part};
 
-/// More elements than this would not fit into the memory of a large machine.
+/// Largest number of elements of a grid; chosen, since more would not fit into the memory of a large machine.
 const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
 
 /// A regular grid of rectangular elements, stored row-major with y fastest.
@@ -44,18 +44,18 @@ impl Grid {
         }
     }
 
-    /// The part in front of mirrors through the middle of the grid.
+    /// The symmetry-reduced domain in front of mirrors through the middle of the grid.
     pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
-            shape: [0, 1].map(|axis| mirrors[axis].part_of(self.shape[axis])),
+            shape: [0, 1].map(|axis| mirrors[axis].folded_len(self.shape[axis])),
             ..*self
         }
     }
 
-    /// The grid of which this is the part in front of mirrors.
+    /// The whole grid, of which this is the symmetry-reduced domain.
     pub(crate) fn unfolded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
-            shape: [0, 1].map(|axis| mirrors[axis].whole_of(self.shape[axis])),
+            shape: [0, 1].map(|axis| mirrors[axis].unfolded_len(self.shape[axis])),
             ..*self
         }
     }
@@ -81,13 +81,13 @@ impl Grid {
     }
 }
 
-/// Number of elements that covers a length; infinite and huge ratios are left to [`Grid::new`] to refuse.
+/// Number of elements that cover a length. Fails with [`BemError::GridTooLarge`] for more than a grid may have.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
-    // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
+    // An integer ratio must not gain an element by rounding, or results would depend on the unit of length.
     whole_elements((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
 }
 
-/// A whole number of elements as an integer, 0 for negative ones; refuses one that is beyond any grid, and what is none.
+/// An integral number of elements as an integer, 0 if it is negative. Fails for more than a grid may have, and for NaN.
 pub(crate) fn whole_elements(elements: f64) -> Result<usize, BemError> {
     if elements > MAX_ELEMENTS || elements.is_nan() {
         return Err(BemError::GridTooLarge {

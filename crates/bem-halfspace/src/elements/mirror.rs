@@ -1,23 +1,25 @@
-//! Planes about which the fields on a grid are their own mirror images.
+//! Mirror planes of symmetric fields, for the symmetry-reduced domain in front of them.
+//!
+//! Theory: docs/theory/contact.md, "Mirrors".
 
-/// A mirror across one axis of a grid, of which only the part in front of it is kept.
+/// Mirror across one axis of a grid; only the part in front of it is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mirror {
-    /// No symmetry, or none that the grid shares.
+    /// No symmetry, or none that the grid has.
     None,
-    /// About the centre of a row or column, the first of the part.
+    /// Symmetry about the centres of a row or column, the first one of the part.
     Centre,
-    /// About the edge between two rows or columns.
+    /// Symmetry about the edge between two rows or columns.
     Edge,
 }
 
-/// Along neither axis.
+/// No mirror along either axis.
 pub(crate) const NO_MIRRORS: [Mirror; 2] = [Mirror::None; 2];
 
 impl Mirror {
-    /// Number of rows or columns in front of a mirror in the middle of so many: an odd number with one about a centre, an
-    /// even one with one about an edge.
-    pub(crate) const fn part_of(self, whole: usize) -> usize {
+    /// Number of rows or columns in front of a mirror in the middle of `whole`, which is odd for a mirror about a centre and
+    /// even for one about an edge.
+    pub(crate) const fn folded_len(self, whole: usize) -> usize {
         match self {
             Self::None => whole,
             Self::Centre => whole / 2 + 1,
@@ -25,8 +27,8 @@ impl Mirror {
         }
     }
 
-    /// Number of rows or columns of which so many are in front of the mirror.
-    pub(crate) const fn whole_of(self, part: usize) -> usize {
+    /// Number of rows or columns of the whole, of which `part` are in front of the mirror.
+    pub(crate) const fn unfolded_len(self, part: usize) -> usize {
         match self {
             Self::None => part,
             Self::Centre => 2 * part - 1,
@@ -38,7 +40,7 @@ impl Mirror {
         matches!(self, Self::None)
     }
 
-    /// The mirror of a coarser grid over the same part: elements of twice the edges have no centre there.
+    /// The mirror of a coarser grid over the same part; an element of twice the edges has no centre at the mirror.
     pub(crate) const fn of_blocks(self) -> Self {
         match self {
             Self::None => Self::None,
@@ -47,7 +49,7 @@ impl Mirror {
     }
 }
 
-/// How often the loads in front of mirrors count.
+/// Factor from the loads in front of the mirrors to those of the whole.
 pub(crate) fn n_images(mirrors: [Mirror; 2]) -> f64 {
     let count = |mirror: Mirror| if mirror.is_none() { 1.0 } else { 2.0 };
     mirrors.into_iter().map(count).product()

@@ -1,4 +1,4 @@
-//! The elements: where they are, boxes of them, their mirrors, their area and the pressure on them.
+//! Elements of the surface: grids, boxes of elements, mirror planes, contact area and boundary, pressure fields.
 
 pub(crate) mod area;
 pub(crate) mod bounds;

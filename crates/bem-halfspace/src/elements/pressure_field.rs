@@ -7,7 +7,7 @@ use crate::elements::bounds::Bounds;
 use crate::elements::mirror::NO_MIRRORS;
 use crate::{BemError, Grid};
 
-/// Pressure over the contact at the end of a simulation.
+/// Pressure in the contact, on a grid of elements.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PressureField {
@@ -15,13 +15,13 @@ pub struct PressureField {
     pub grid: Grid,
     /// Centre of the first element relative to the lowest point of the indenter, \[m].
     pub origin: [f64; 2],
-    /// Pressure P ≥ 0, \[Pa], row-major with y fastest. Along the front edge it is singular: its maximum grows without
+    /// Pressure P ≥ 0, \[Pa], row-major with y fastest. At the front edge it may be singular; its maximum then grows without
     /// limit on refinement.
     pub pressure: Vec<f64>,
 }
 
 impl PressureField {
-    /// The sum of the pressures of elements in a box, of which the first has its centre at `origin`.
+    /// The field on a box whose first element has its centre at `origin`, with the sum of the pressures given for each element.
     pub(crate) fn from_elements(
         bounds: &Bounds,
         spacing: [f64; 2],
@@ -40,8 +40,8 @@ impl PressureField {
         })
     }
 
-    /// Area of the contact: that of the elements with pressure, less their mean excess at its outline (Yastrebov, Anciaux &
-    /// Molinari 2017), \[m²].
+    /// Contact area, \[m²]: that of the elements with pressure, with the perimeter correction of Yastrebov, Anciaux & Molinari
+    /// (2017).
     pub fn contact_area(&self) -> f64 {
         let bounds = Bounds {
             lower: [0; 2],
@@ -56,7 +56,7 @@ impl PressureField {
         self.pressure.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
+    /// Pressure of the element at a `position` \[m] relative to the lowest point, \[Pa]; zero outside the field.
     pub fn pressure_at(&self, position: [f64; 2]) -> f64 {
         let [rows, columns] = self.grid.shape();
         let index =

@@ -1,19 +1,19 @@
-//! Elements, where they are, and how exactly the contact on them is solved.
+//! Grid options of transient simulations, and the layout of the elements under the indenter.
 
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::Mirror;
 use crate::{BemError, ContactOptions, Footprint};
 use numerics::positive;
 
-/// One grid for pressing and sliding in time.
+/// Grid and contact tolerance of a simulation of pressing or sliding in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GridOptions {
     /// Edges of an element [Δx, Δy], \[m].
     pub spacing: [f64; 2],
-    /// Where contact may occur, seen from the indenter.
+    /// Rectangle in which contact may occur, in the frame of the indenter.
     pub footprint: Footprint,
-    /// How exactly each step is solved.
+    /// Stopping criteria of the contact of each step.
     pub contact: ContactOptions,
 }
 
@@ -22,9 +22,9 @@ pub struct GridOptions {
 pub(crate) struct Layout {
     /// Number of elements of the footprint.
     pub(crate) shape: [usize; 2],
-    /// The element under the lowest point.
+    /// The element [row, column] under the lowest point.
     pub(crate) apex: [usize; 2],
-    /// About the centre of that element; the elements behind them are not followed.
+    /// Mirrors about the centre of that element; only the elements in front of them are computed.
     pub(crate) mirrors: [Mirror; 2],
 }
 
@@ -38,7 +38,7 @@ impl GridOptions {
         }
     }
 
-    /// The elements under an indenter which is its own mirror image along the axes where `even` says so.
+    /// The layout under an indenter that is symmetric along the axes for which `even` is true.
     pub(crate) fn layout(&self, even: [bool; 2]) -> Result<Layout, BemError> {
         positive("spacing along x", self.spacing[0])?;
         positive("spacing along y", self.spacing[1])?;
@@ -60,9 +60,9 @@ impl GridOptions {
 }
 
 impl Layout {
-    /// Number of elements in front of the mirrors.
+    /// Number of elements [n_x, n_y] in front of the mirrors.
     pub(crate) fn folded_shape(&self) -> [usize; 2] {
-        [0, 1].map(|axis| self.mirrors[axis].part_of(self.shape[axis]))
+        [0, 1].map(|axis| self.mirrors[axis].folded_len(self.shape[axis]))
     }
 
     /// The first element in front of the mirrors.
@@ -71,7 +71,7 @@ impl Layout {
         [0, 1].map(|axis| self.shape[axis] - folded[axis])
     }
 
-    /// An element of the footprint and its images; one through which a mirror passes appears once for either half.
+    /// An element of the footprint and its images; an element on a mirror appears once for each half.
     pub(crate) fn images_of(&self, element: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
         let [rows, columns] = [0, 1].map(|axis| {
             let index = element[axis];
@@ -81,7 +81,7 @@ impl Layout {
         rows.flat_map(move |row| columns.clone().map(move |column| [row, column]))
     }
 
-    /// Number of elements of the footprint that an element in front of the mirrors stands for.
+    /// Number of different elements of the footprint that are images of an element in front of the mirrors, itself included.
     pub(crate) fn n_images_of(&self, element: [usize; 2]) -> usize {
         let along = |axis: usize| {
             let has_image = !self.mirrors[axis].is_none() && element[axis] != self.apex[axis];
@@ -90,7 +90,7 @@ impl Layout {
         along(0) * along(1)
     }
 
-    /// The box of the footprint around the elements of a box in front of the mirrors and their images.
+    /// The smallest box of the footprint that holds a box of elements in front of the mirrors and their images.
     pub(crate) fn unfolded(&self, front: &Bounds) -> Bounds {
         let first = self.first();
         let upper = [0, 1].map(|axis| first[axis] + front.upper[axis]);

@@ -2,7 +2,7 @@
 
 use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
 
-use crate::elements::footprint::{Footprint, HIGHEST};
+use crate::elements::footprint::{Footprint, MAX_HEIGHT_IN_DEPTH_SCALES};
 use crate::elements::grid::whole_elements;
 use crate::stationary::steady::depth_scale_of_surface;
 use crate::{BemError, Elastomer};
@@ -74,7 +74,7 @@ impl GridPlan {
             Control::NormalForce(force) => {
                 let load = SlidingLoad::new(force, 1.0)?;
                 let depth = depth_scale_of_surface(surface, elastomer, &load)?;
-                [depth, HIGHEST * depth]
+                [depth, MAX_HEIGHT_IN_DEPTH_SCALES * depth]
             }
             Control::IndentationDepth(depth) => [depth; 2],
         };

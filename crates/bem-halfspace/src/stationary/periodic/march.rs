@@ -266,7 +266,7 @@ impl<'a> PeriodicMarch<'a> {
             sliding_distance: 0.0,
             time: 0.0,
             friction_coefficient: dot(pressure, &self.slopes) / pressure.iter().sum::<f64>(),
-            area_fraction: area::of_period(columns, pressure).area,
+            area_fraction: area::area_fraction(columns, pressure).area,
             mean_depth: contact.indentation_depth - self.mean_height,
         })
     }

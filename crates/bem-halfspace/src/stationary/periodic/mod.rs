@@ -165,7 +165,7 @@ fn solve_here(
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,
         friction_from_dissipation: from_dissipation,
-        area_fraction: area::of_period(problem.grid.shape()[1], &pressure).area,
+        area_fraction: area::area_fraction(problem.grid.shape()[1], &pressure).area,
         mean_depth: solved.depth - mean_height + squeezed,
         products: solved.products,
         residual: solved.residual,

@@ -19,7 +19,7 @@ const STRAIGHT: f64 = 0.5;
 
 /// The part of the period in contact, and what the outline leaves unknown of it.
 pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) -> Estimate {
-    let found = area::of_period(field.grid.shape()[1], &field.pressure);
+    let found = area::area_fraction(field.grid.shape()[1], &field.pressure);
     let part = match grooves(surface, &field.grid) {
         Some([along_x, along_y]) => 0.5 / (EXCESS_PER_EDGE * (along_x + along_y) as f64),
         None => 0.0,

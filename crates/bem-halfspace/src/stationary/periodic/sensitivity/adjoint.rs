@@ -122,7 +122,7 @@ impl Adjoint<'_> {
         let mut measure =
             ContactBoundary::new(&field, |side| LOAD_GAP_RATIO / bend[side.axis]).area;
         let area =
-            area::of_period(field.shape[1], &self.pressure).area * self.pressure.len() as f64;
+            area::area_fraction(field.shape[1], &self.pressure).area * self.pressure.len() as f64;
         measure
             .by_values
             .iter_mut()
