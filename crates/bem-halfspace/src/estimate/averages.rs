@@ -1,16 +1,19 @@
 //! Quantities averaged over shifted grids of one spacing.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar".
 
-/// A quantity over shifted grids.
+/// Mean and scatter of a quantity over shifted grids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Average {
     /// Mean.
     pub value: f64,
-    /// Standard deviation; of friction half the difference between the means over two halves of the shifts.
+    /// Standard deviation; for friction half the difference between the means over two interleaved halves of the shifts.
     pub scatter: f64,
 }
 
 impl Average {
+    /// Mean and standard deviation over at least two shifts.
     pub(crate) fn over_shifts<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
         let count = states.len() as f64;
         let value = states.iter().map(&quantity).sum::<f64>() / count;
@@ -21,7 +24,10 @@ impl Average {
         }
     }
 
-    /// Of shifts of which the second half lies between the first half: each half alone leaves twice as long waves.
+    /// Mean over all shifts, with half the difference between two interleaved halves as scatter.
+    ///
+    /// The second half of the shifts must lie between those of the first half. Each half alone leaves errors of twice the
+    /// wavelength.
     pub(crate) fn over_interleaved_shifts<State>(
         states: &[State],
         quantity: impl Fn(&State) -> f64,
@@ -34,6 +40,7 @@ impl Average {
         }
     }
 
+    /// Both multiplied by a factor.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
@@ -42,20 +49,20 @@ impl Average {
     }
 }
 
-/// One refinement: averages over shifted grids; in plane strain forces and areas are per length along y.
+/// Averages over the shifted grids of one spacing; in plane strain forces and areas are per length along y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Refinement {
-    /// Δx, \[m], the mean over the shifts: where a contact does not settle, its elements are 1 or 2 % finer.
+    /// Δx, \[m], the mean over the shifts. A shift whose contact does not converge is solved on elements that are 1 or 2 % finer.
     pub spacing: f64,
     /// Friction coefficient.
     pub friction_coefficient: Average,
     /// Friction coefficient [from dissipation](crate::stationary::steady::SteadySliding::friction_from_dissipation).
     pub friction_from_dissipation: Average,
-    /// Part of the friction that elements may miss because the surface forgets within them.
+    /// Fraction of the friction that may be lost because the surface relaxes within one element.
     pub unresolved: f64,
-    /// Whether the contact ends within a few elements of an edge of the body, so that the elements do not see which of the two
-    /// it ends at.
+    /// True if the contact ends within a few elements of an edge of the body, so that the elements do not resolve whether it
+    /// ends at that edge.
     pub hides_edge: bool,
     /// Normal force, \[N].
     pub normal_force: Average,

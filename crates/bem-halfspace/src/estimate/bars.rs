@@ -1,4 +1,4 @@
-//! Error bars that the methods have in common: of the quantities of a contact, from several resolutions.
+//! Error bars of the quantities of a contact from several resolutions, shared by all methods.
 
 use indenters::{Control, Surface};
 use numerics::{ErrorParts, Estimate, Goal, NotReached, Quantity};
@@ -9,15 +9,17 @@ use rheology::Material as _;
 use crate::estimate::averages::Refinement;
 use crate::estimate::quantities::{Name, Quantities};
 
-/// The place of the friction from the dissipated power in lists of quantities, after those that have names.
+/// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
 const DISSIPATED: usize = Name::ALL.len();
-/// Slowest order in which friction is assumed to converge, below which nothing does.
-const SLOWEST: f64 = 0.1;
-/// Error of the ends of a contact in elements. Its outline follows the elements, and in the outermost of them the pressure
-/// decides whether all of it or nothing counts; `the_bars_of_an_elastic_contact_hold` has the ends of known contacts.
-const ELEMENTS_AT_END: f64 = 1.5;
+/// Lower bound of the assumed convergence order of the friction; chosen, since no scene converges more slowly.
+const MIN_FRICTION_ORDER: f64 = 0.1;
+/// Error of each end of a contact, in elements.
+///
+/// The contact boundary follows the elements, and each outermost element counts as a whole or not at all. The test
+/// `the_bars_of_an_elastic_contact_hold` compares with known contacts.
+const END_ERROR_IN_ELEMENTS: f64 = 1.5;
 
-/// A contact with the error bar of every quantity; an error of 0 says that the quantity is given.
+/// A contact with an error bar for every quantity; an error of 0 means that the quantity is prescribed.
 ///
 /// In plane strain the force and the area are per length along y, \[N/m] and \[m].
 #[derive(Debug, Clone, PartialEq)]
@@ -25,26 +27,27 @@ const ELEMENTS_AT_END: f64 = 1.5;
 #[must_use]
 #[non_exhaustive]
 pub struct ContactEstimate<S, O> {
-    /// Friction coefficient μ = F_h/F_N; 0 where nothing slides.
+    /// Friction coefficient μ = F_h/F_N; 0 without sliding.
     pub friction_coefficient: Estimate,
-    /// What the error of the friction coefficient consists of; where nothing slides that of the depth, or of the force where
-    /// the depth is given.
+    /// Parts of the error of the friction coefficient; without sliding those of the depth, or of the force at a given depth.
     pub error_parts: ErrorParts,
     /// Normal force F_N, \[N].
     pub normal_force: Estimate,
-    /// Depth of the lowest point below the undeformed surface, \[m]; none on a half space in plane strain, and where it flows
-    /// and the load has no sliding distance, because the body sinks without limit.
+    /// Depth of the lowest point below the undeformed surface, \[m].
+    ///
+    /// `None` on a half space in plane strain, and for a load without sliding distance on a half space that flows: there the
+    /// body sinks without limit.
     pub indentation_depth: Option<Estimate>,
     /// Contact area, \[m²].
     pub contact_area: Estimate,
-    /// Largest pressure \[Pa], of smooth bodies of revolution, and cylinders, on materials that react at once; everywhere else
-    /// it grows without limit on refinement, or is not known to have one. None too where the pressure depends on how the
-    /// contact has grown.
+    /// Largest pressure, \[Pa], of smooth bodies of revolution and cylinders on materials with an instantaneous modulus.
+    ///
+    /// `None` elsewhere, where it grows without limit on refinement or is not known to be bounded, and if the pressure depends
+    /// on the history of the contact.
     pub peak_pressure: Option<Estimate>,
     /// Error of the ends of the contact along x and y in [`finest`](Self::finest), \[m].
     pub contact_box_error: f64,
-    /// The averages over shifted grids that led to a stationary state of a relative error, from coarse to fine; none
-    /// elsewhere.
+    /// Averages over shifted grids that led to a stationary state with a given relative error, from coarse to fine; else empty.
     pub refinements: Vec<Refinement>,
     /// The contact on the finest grid.
     pub finest: S,
@@ -55,11 +58,11 @@ pub struct ContactEstimate<S, O> {
 /// A contact on one grid.
 pub(crate) struct OnGrid<S, O> {
     pub(crate) quantities: Quantities<f64>,
-    /// Friction coefficient from the dissipated power, of stationary states.
+    /// Friction coefficient from the dissipated power; `None` unless the state is stationary.
     pub(crate) dissipated: Option<f64>,
-    /// Parts of the error of the target that all grids have in common, and hence do not show.
+    /// Parts of the error of the target that all grids have in common, so that refinement does not reveal them.
     pub(crate) common_error: ErrorParts,
-    /// Least error of the elements for the target, relative, which some grids have in common by chance.
+    /// Floor of the relative discretisation error of the target, because some grids agree by chance.
     pub(crate) min_relative_error: f64,
     /// Edge of an element, the longer one of two, \[m].
     pub(crate) spacing: f64,
@@ -68,8 +71,8 @@ pub(crate) struct OnGrid<S, O> {
 }
 
 impl<S, O> OnGrid<S, O> {
-    /// Its quantities, of which normal force and the one with the name drive the refinement.
-    fn driven_by(&self, driven: Name) -> Vec<Quantity> {
+    /// The quantities of the grid; those of normal force and `driven` are refined to the error asked for.
+    fn quantities_driven_by(&self, driven: Name) -> Vec<Quantity> {
         let quantity = |(name, value): (Name, f64)| Quantity {
             controls_refinement: name == driven || name == Name::Force,
             error_floor: if name == driven {
@@ -84,34 +87,34 @@ impl<S, O> OnGrid<S, O> {
             ..Quantity::from(value)
         });
         self.quantities
-            .list()
+            .iter()
             .map(quantity)
             .chain(dissipated)
             .collect()
     }
 }
 
-/// The quantity that a refinement drives to the error asked for, beside the normal force.
+/// The quantity that is refined to the error asked for, in addition to the normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Target {
     Friction,
-    /// Where nothing slides, or nothing is dissipated.
+    /// The target without sliding or without dissipation; at a given depth it is the force.
     Depth,
 }
 
-/// How a contact is resolved.
+/// What a refinement aims at.
 pub(crate) struct Resolution<'w> {
     pub(crate) goal: Goal<'w>,
     pub(crate) control: Control,
     pub(crate) target: Target,
-    /// Whether the largest pressure is known to have a limit.
+    /// True if the largest pressure is known to be bounded.
     pub(crate) has_peak: bool,
-    /// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken.
+    /// The friction from dissipation is taken if its error is below this multiple of the error of that from slopes.
     pub(crate) max_dissipation_error_ratio: f64,
 }
 
 impl Resolution<'_> {
-    /// The quantity that is driven.
+    /// Name of the target, given what is prescribed.
     const fn driven(&self) -> Name {
         match (self.target, self.control) {
             (Target::Friction, _) => Name::Friction,
@@ -121,23 +124,24 @@ impl Resolution<'_> {
     }
 }
 
-/// The order 2p − 1 of the friction under an apex h ∼ r^p, or that of a smooth body where it is slower.
+/// Convergence order of the friction under an apex h ∼ r^p: 2p − 1, at most `smooth`, the order of a smooth body.
 pub(crate) fn order_of_friction(apex_exponent: f64, smooth: f64) -> f64 {
-    (2.0 * apex_exponent - 1.0).clamp(SLOWEST, smooth)
+    (2.0 * apex_exponent - 1.0).clamp(MIN_FRICTION_ORDER, smooth)
 }
 
 /// Error of the ends of a contact on elements whose longer edge is `spacing`, \[m].
 pub(crate) fn contact_box_error(spacing: f64) -> f64 {
-    ELEMENTS_AT_END * spacing
+    END_ERROR_IN_ELEMENTS * spacing
 }
 
-/// Whether a material has an instantaneous modulus. Without one the pressure is singular at the front.
+/// True if a material has an instantaneous compliance, and so a finite instantaneous modulus. Without it the pressure is singular
+/// at the front.
 pub(crate) fn has_instantaneous_compliance(elastomer: &dyn Elastomer) -> bool {
     elastomer.material().creep().instantaneous_compliance() > 0.0
 }
 
-/// Whether the largest pressure is known to have a limit: under a smooth body of revolution on a material that reacts at
-/// once.
+/// True if the largest pressure is known to be bounded: under a smooth body of revolution on a material with an instantaneous
+/// modulus.
 pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &dyn Elastomer) -> bool {
     let smooth = surface.as_axisymmetric().is_some_and(|body| {
         let exponent = body.profile_exponent();
@@ -146,27 +150,31 @@ pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &dyn Elastomer) -
     smooth && has_instantaneous_compliance(elastomer)
 }
 
-/// Solves with the number of elements asked for, or with more and more until normal force and target have the error asked
-/// for; `finish` makes of it what is returned, also where that error was not reached.
+/// Solves with the number of elements asked for, or on finer and finer grids until normal force and target have the error asked
+/// for.
+///
+/// `finish` turns the estimate into the result, also if that error was not reached.
 pub(crate) fn resolve<S, O, E: Into<Reached>>(
     resolution: &Resolution,
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<OnGrid<S, O>, BemError>,
     finish: impl FnOnce(ContactEstimate<S, O>) -> Result<E, BemError>,
 ) -> Result<E, BemError> {
     let (control, driven) = (resolution.control, resolution.driven());
-    let quantities = |contact: &OnGrid<S, O>| contact.driven_by(driven);
+    let quantities = |contact: &OnGrid<S, O>| contact.quantities_driven_by(driven);
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
         let mut others = vec![ErrorParts::NONE; DISSIPATED + 1];
-        others[driven.place()] = contact.common_error;
+        others[driven.index()] = contact.common_error;
         others[DISSIPATED] = contact.common_error;
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
     let errors = &refined.error;
-    let known = |name: Name, value| Estimate::new(value, errors[name.place()]);
-    let known = refined.value.quantities.map(known);
+    let known = refined
+        .value
+        .quantities
+        .map(|name, value| Estimate::new(value, errors[name.index()]));
     let mut friction = known.friction_coefficient;
-    let mut error_parts = refined.parts[driven.place()];
+    let mut error_parts = refined.parts[driven.index()];
     if let Some(dissipated) = refined.value.dissipated {
         let error = errors[DISSIPATED];
         if error < resolution.max_dissipation_error_ratio * friction.error {
@@ -190,7 +198,7 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     reached_or_error(refined.missed, estimate)
 }
 
-/// What was found, or the error that holds it where something was missed.
+/// The result, or [`BemError::NotReached`] with the result inside if a quantity missed the error asked for.
 pub(crate) fn reached_or_error<E: Into<Reached>>(
     missed: Option<NotReached>,
     found: E,
@@ -199,7 +207,7 @@ pub(crate) fn reached_or_error<E: Into<Reached>>(
         return Ok(found);
     };
     Err(BemError::NotReached {
-        // Of a history the quantities of each row come one after the other.
+        // For a history the quantities of all rows follow each other.
         quantity: Name::ALL[missed.quantity % Name::ALL.len()].in_words(),
         value: missed.value,
         error: missed.error,
@@ -208,7 +216,7 @@ pub(crate) fn reached_or_error<E: Into<Reached>>(
     })
 }
 
-/// Force and depth, exactly, as far as they are given.
+/// Exact estimates of [force, depth]; `None` for the one that is not prescribed.
 pub(crate) fn given(control: Control) -> [Option<Estimate>; 2] {
     match control {
         Control::NormalForce(force) => [Some(Estimate::exact(force)), None],

@@ -1,4 +1,6 @@
-//! What the motions and the stationary states have in common: the grids to start from, and error bars from several of them.
+//! Error estimates from several grids, and the grids to start from; shared by transient and stationary simulations.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar", and docs/theory/transient-half-space.md, "Grid".
 
 pub(crate) mod averages;
 pub(crate) mod bars;

@@ -1,6 +1,6 @@
-//! What is known of a contact, by name.
+//! The quantities of a contact, by name.
 
-/// Which quantity of a contact.
+/// Name of a quantity of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Name {
     Friction,
@@ -11,6 +11,7 @@ pub(crate) enum Name {
 }
 
 impl Name {
+    /// All names, in the order of their indices.
     pub(crate) const ALL: [Self; 5] = [
         Self::Friction,
         Self::Force,
@@ -19,12 +20,12 @@ impl Name {
         Self::Peak,
     ];
 
-    /// Its place in a list with one entry for each name.
-    pub(crate) const fn place(self) -> usize {
+    /// Index in a vector with one entry for each name.
+    pub(crate) const fn index(self) -> usize {
         self as usize
     }
 
-    /// As errors call it, with its unit.
+    /// The quantity in error messages, with its unit.
     pub(crate) const fn in_words(self) -> &'static str {
         match self {
             Self::Friction => "friction coefficient",
@@ -36,7 +37,7 @@ impl Name {
     }
 }
 
-/// The same of every quantity of a contact: its value, its error.
+/// One value for each quantity of a contact, such as its result or its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Quantities<T> {
     pub(crate) friction_coefficient: T,
@@ -47,7 +48,7 @@ pub(crate) struct Quantities<T> {
 }
 
 impl<T: Copy> Quantities<T> {
-    pub(crate) const fn of(&self, name: Name) -> T {
+    pub(crate) const fn get(&self, name: Name) -> T {
         match name {
             Name::Friction => self.friction_coefficient,
             Name::Force => self.normal_force,
@@ -57,9 +58,9 @@ impl<T: Copy> Quantities<T> {
         }
     }
 
-    /// Of each of them something else.
-    pub(crate) fn map<U>(&self, mut of: impl FnMut(Name, T) -> U) -> Quantities<U> {
-        let mut one = |name| of(name, self.of(name));
+    /// Applies a function of name and value to each quantity.
+    pub(crate) fn map<U>(&self, mut function: impl FnMut(Name, T) -> U) -> Quantities<U> {
+        let mut one = |name| function(name, self.get(name));
         Quantities {
             friction_coefficient: one(Name::Friction),
             normal_force: one(Name::Force),
@@ -69,8 +70,8 @@ impl<T: Copy> Quantities<T> {
         }
     }
 
-    /// A list in the order of [`Name::ALL`].
-    pub(crate) fn list(&self) -> impl Iterator<Item = (Name, T)> {
-        Name::ALL.into_iter().map(|name| (name, self.of(name)))
+    /// Names and values in the order of [`Name::ALL`].
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (Name, T)> {
+        Name::ALL.into_iter().map(|name| (name, self.get(name)))
     }
 }

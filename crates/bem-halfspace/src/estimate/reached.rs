@@ -1,4 +1,4 @@
-//! What was found where the error asked for was not reached.
+//! Results of refinements that missed the error asked for.
 
 use indenters::Moved;
 
@@ -8,26 +8,26 @@ use crate::stationary::steady::{LineEstimate, SteadyEstimate};
 #[cfg(feature = "rough")]
 use crate::{PeriodicEstimate, PeriodicSliding, PeriodicTransient};
 
-/// The result that [`BemError::NotReached`](crate::BemError::NotReached) holds, with its bars, by the function that found it.
+/// The result in [`BemError::NotReached`](crate::BemError::NotReached), with its error bars, by the function that found it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reached {
-    /// Of [`steady`](crate::steady()).
+    /// Result of [`steady`](crate::steady()).
     Steady(SteadyEstimate),
-    /// Of [`steady_line`](crate::steady_line).
+    /// Result of [`steady_line`](crate::steady_line).
     Line(LineEstimate),
-    /// Of [`slide`](crate::slide()).
+    /// Result of [`slide`](crate::slide()).
     Slide(SlideEstimate),
-    /// Of [`press`](crate::press) and [`indent`](crate::indent()).
+    /// Result of [`press`](crate::press) and [`indent`](crate::indent()).
     Press(PressEstimate),
-    /// Of [`indent_along`](crate::indent_along).
+    /// Result of [`indent_along`](crate::indent_along).
     Curve(IndentCurve),
-    /// Of [`move_along`](crate::move_along).
+    /// Result of [`move_along`](crate::move_along).
     Moved(Moved),
     #[cfg(feature = "rough")]
-    /// Of [`periodic::steady`](crate::periodic::steady) and [`periodic::indent`](crate::periodic::indent).
+    /// Result of [`periodic::steady`](crate::periodic::steady) and [`periodic::indent`](crate::periodic::indent).
     Periodic(PeriodicEstimate<PeriodicSliding>),
     #[cfg(feature = "rough")]
-    /// Of [`periodic::slide`](crate::periodic::slide).
+    /// Result of [`periodic::slide`](crate::periodic::slide).
     PeriodicTransient(PeriodicEstimate<PeriodicTransient>),
 }
 

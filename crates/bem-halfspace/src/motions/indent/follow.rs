@@ -123,7 +123,7 @@ pub fn indent_along<'w>(
         others,
     )?;
     let worst = |name: Name| {
-        let rows = fine.parts.iter().skip(name.place());
+        let rows = fine.parts.iter().skip(name.index());
         let rows = rows.step_by(Name::ALL.len());
         let worst = rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
         worst.copied().unwrap_or(ErrorParts::NONE)
@@ -257,17 +257,17 @@ impl Path {
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
         let rows: Vec<_> = found.rows.iter().map(of_row).collect();
         let largest = |name| {
-            let values = rows.iter().map(|row| row.of(name).abs());
+            let values = rows.iter().map(|row| row.get(name).abs());
             values.fold(0.0, f64::max)
         };
         let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
         let quantity = |(name, value): (Name, f64)| Quantity {
-            scale: sizes[name.place()],
+            scale: sizes[name.index()],
             controls_refinement: name == sought,
             ..Quantity::from(value)
         };
         rows.iter()
-            .flat_map(|row| row.list().map(quantity))
+            .flat_map(|row| row.iter().map(quantity))
             .collect()
     }
 
@@ -282,7 +282,7 @@ impl Path {
         let error = |name: Name| if name == given { 0.0 } else { error(name) };
         let errors = Name::ALL.map(error);
         let point = |(step, values): (&HistoryPoint, Quantities<f64>)| {
-            let known = values.map(|name, value| Estimate::new(value, errors[name.place()]));
+            let known = values.map(|name, value| Estimate::new(value, errors[name.index()]));
             IndentPoint {
                 time: step.time,
                 normal_force: known.normal_force,
