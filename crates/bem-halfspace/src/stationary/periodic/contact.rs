@@ -26,7 +26,7 @@ pub(super) struct PeriodicContact<'a> {
 }
 
 /// A solved contact; the pressure is a field of its own.
-pub(super) struct Solved {
+pub(super) struct PeriodicSolution {
     /// Mean of h + u over the contact, \[m].
     pub(super) depth: f64,
     pub(super) products: usize,
@@ -40,7 +40,7 @@ pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
-) -> Result<Solved, BemError> {
+) -> Result<PeriodicSolution, BemError> {
     let n = problem.grid.n_elements() as f64;
     let mut heights = vec![0.0; problem.grid.n_elements()];
     equations.kernel.shifted(problem.heights, &mut heights);
@@ -50,8 +50,8 @@ pub(super) fn solve(
     if guess.iter().all(|pressure| *pressure <= 0.0) {
         guess = heights.iter().map(|h| f64::from(*h <= mean)).collect();
     }
-    let own = equations.own_displacement;
-    let mut contact = OnGrid { problem, equations };
+    let own = equations.self_influence;
+    let mut contact = PeriodicFixedSetSolver { problem, equations };
     let inner_tolerance = ROUGH * variance.sqrt();
     let mut search = Search::new(
         &mut contact,
@@ -70,19 +70,19 @@ pub(super) fn solve(
             -gap.max(0.0) / own
         };
     }
-    found.map(|()| Solved {
+    found.map(|()| PeriodicSolution {
         depth,
         products: equations.products,
         residual,
     })
 }
 
-struct OnGrid<'a> {
+struct PeriodicFixedSetSolver<'a> {
     problem: PeriodicContact<'a>,
     equations: &'a mut Equations,
 }
 
-impl FixedSetSolver for OnGrid<'_> {
+impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     const PERIODIC_ALONG_X: bool = true;
     /// With 0.1 as a rule there are up to a quarter more products in light contact. With a tenth of the area of 4096² elements in
     /// contact and moduli that differ by 1000 there are 156 products where they do not differ and 115 as they are; where the second
@@ -102,7 +102,7 @@ impl FixedSetSolver for OnGrid<'_> {
     }
 
     fn self_influence(&self) -> f64 {
-        self.equations.own_displacement
+        self.equations.self_influence
     }
 
     /// Displacements without mean, and the largest one.
@@ -120,24 +120,24 @@ impl FixedSetSolver for OnGrid<'_> {
     }
 
     fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
-        self.equations.take(contact, pressure, gap);
+        self.equations.set_active_set(contact, pressure, gap);
     }
 
     fn residual_rms(&self) -> f64 {
-        self.equations.size()
+        self.equations.residual_rms()
     }
 
     fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError> {
-        self.equations.iterate(mean, largest);
+        self.equations.solve(mean, largest);
         Ok(())
     }
 
     fn copy_pressure_to(&self, pressure: &mut [f64]) {
-        self.equations.give(pressure);
+        self.equations.copy_pressure_to(pressure);
     }
 
     fn is_next_to_active_set(&self, element: usize) -> bool {
-        self.equations.near.contains(element)
+        self.equations.neighbourhood.contains(element)
     }
 
     fn scale_to_force(&self, pressure: &mut [f64]) {

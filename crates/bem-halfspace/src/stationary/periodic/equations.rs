@@ -23,8 +23,8 @@ use crate::contact::active_set::ActiveSet;
 use crate::parallel::reductions::{add_scaled, larger, sum};
 use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr};
-use crate::stationary::periodic::far_loads::FarLoads;
-use crate::stationary::periodic::kernel::{Kernel, Sliding};
+use crate::stationary::periodic::block_correction::BlockCorrection;
+use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
 /// Steps tried with one contact whose directions do not all fit into memory, and with one whose do. A dense contact of moduli that
@@ -49,9 +49,9 @@ const ELIMINATIONS: f64 = 4.0;
 
 /// Lists of one contact and its neighbours.
 pub(super) struct Equations {
-    pub(super) kernel: Kernel,
-    far: Option<FarLoads>,
-    pub(super) near: ActiveSet,
+    pub(super) kernel: PeriodicKernel,
+    correction: Option<BlockCorrection>,
+    pub(super) neighbourhood: ActiveSet,
     /// 1 in contact, 0 beside it.
     inside: Arc<[f32]>,
     n_contact: f64,
@@ -63,15 +63,15 @@ pub(super) struct Equations {
     gap: Vec<f32>,
     /// What S, and what the preconditioner, makes of the gap one.
     weights: Vec<f32>,
-    lowered: Vec<f32>,
-    total_lowered: f64,
+    unit_depth_response: Vec<f32>,
+    total_unit_depth_response: f64,
     /// K and its inverse on the whole grid.
     symbols: [Vec<Complex<f32>>; 2],
     /// Fields that carry lists through transforms; the first vanishes outside them.
-    spread: Vec<f32>,
+    scattered: Vec<f32>,
     image: Vec<f32>,
     /// Displacement of an element under its own unit pressure, [m/Pa].
-    pub(super) own_displacement: f64,
+    pub(super) self_influence: f64,
     /// The longest elimination so far, in steps: contacts that take no longer are eliminated at once.
     longest_elimination: f64,
     /// Products with the kernel on this grid.
@@ -80,25 +80,25 @@ pub(super) struct Equations {
 
 impl Equations {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
-        let mut kernel = Kernel::new(sliding, grid)?;
-        let own_displacement = of_first(&mut kernel, Kernel::displace, grid.n_elements())[0];
+        let mut kernel = PeriodicKernel::new(sliding, grid)?;
+        let self_influence = of_first(&mut kernel, PeriodicKernel::displace, grid.n_elements())[0];
         let field = || copies(0.0, grid.n_elements());
         Ok(Self {
-            symbols: kernel.symbols(own_displacement),
-            far: FarLoads::new(sliding, grid, own_displacement)?,
+            symbols: kernel.symbols(self_influence),
+            correction: BlockCorrection::new(sliding, grid, self_influence)?,
             kernel,
-            near: ActiveSet::new(grid.shape()),
+            neighbourhood: ActiveSet::new(grid.shape()),
             inside: Arc::new([]),
             n_contact: 0.0,
             pressure: Vec::new(),
             unit: 1.0,
             gap: Vec::new(),
             weights: Vec::new(),
-            lowered: Vec::new(),
-            total_lowered: 0.0,
-            spread: field(),
+            unit_depth_response: Vec::new(),
+            total_unit_depth_response: 0.0,
+            scattered: field(),
             image: field(),
-            own_displacement,
+            self_influence,
             longest_elimination: 0.0,
             products: 0,
         })
@@ -111,30 +111,35 @@ impl Equations {
     }
 
     /// Takes another contact, with the fields of pressure and gap.
-    pub(super) fn take(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
-        let columns = self.near.columns;
-        self.near
+    pub(super) fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
+        let columns = self.neighbourhood.columns;
+        self.neighbourhood
             .assign(|element| has_neighbour(contact, columns, element));
-        self.near.find_runs();
-        self.spread.fill(0.0);
-        let runs = (0..self.near.bands.n_blocks()).flat_map(|band| self.near.runs(band));
+        self.neighbourhood.find_runs();
+        self.scattered.fill(0.0);
+        let runs =
+            (0..self.neighbourhood.bands.n_bands()).flat_map(|band| self.neighbourhood.runs(band));
         let inside = runs.flat_map(|run| &contact[run.elements()]);
         self.inside = inside.map(|inside| f32::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);
-        self.pressure = self.listed(pressure);
-        self.take_gap(self.listed(gap));
+        self.pressure = self.gather(pressure);
+        self.set_gap(self.gather(gap));
         let mut weights = self.inside.to_vec();
         self.invert(&mut weights);
         self.weights = weights;
-        self.lowered = self.weights.clone();
-        if let Some(far) = &mut self.far {
-            far.weigh(&self.near, &self.weights, &mut self.lowered);
+        self.unit_depth_response = self.weights.clone();
+        if let Some(correction) = &mut self.correction {
+            correction.weigh(
+                &self.neighbourhood,
+                &self.weights,
+                &mut self.unit_depth_response,
+            );
         }
-        self.total_lowered = self.total(&self.lowered);
+        self.total_unit_depth_response = self.total(&self.unit_depth_response);
     }
 
     /// Lists a gap less its mean in the contact, which takes the more digits the smaller the residual is.
-    fn take_gap(&mut self, mut gap: Vec<f64>) {
+    fn set_gap(&mut self, mut gap: Vec<f64>) {
         let inside = gap.iter().zip(&*self.inside);
         let sum: f64 = inside.map(|(gap, inside)| gap * f64::from(*inside)).sum();
         gap.iter_mut().for_each(|gap| *gap -= sum / self.n_contact);
@@ -147,23 +152,23 @@ impl Equations {
     }
 
     /// Writes the pressure into a field, as far as the list reaches.
-    pub(super) fn give(&self, pressure: &mut [f64]) {
-        self.near.scatter(&self.pressure, pressure);
+    pub(super) fn copy_pressure_to(&self, pressure: &mut [f64]) {
+        self.neighbourhood.scatter(&self.pressure, pressure);
     }
 
     /// Root mean square of the gap in the contact, \[m].
-    pub(super) fn size(&self) -> f64 {
+    pub(super) fn residual_rms(&self) -> f64 {
         self.residual(&self.gap) * self.unit
     }
 
     /// Solves until the largest residual, or the root mean square, is small enough.
-    pub(super) fn iterate(&mut self, mean: f64, largest: f64) {
+    pub(super) fn solve(&mut self, mean: f64, largest: f64) {
         let [mean, largest] = [mean, largest].map(|length| length / self.unit);
         let is_small = |equations: &Self, size: f64, gap: &[f32]| {
             size <= mean || size <= largest && equations.largest(gap) <= largest
         };
         let are_few = self.n_unknowns() <= FEW;
-        let elimination = ELIMINATION * self.n_unknowns().powi(3) / self.spread.len() as f64;
+        let elimination = ELIMINATION * self.n_unknowns().powi(3) / self.scattered.len() as f64;
         let worthwhile = (self.products as f64 / ELIMINATIONS).max(self.longest_elimination);
         if !(are_few && elimination < worthwhile) {
             self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
@@ -178,7 +183,7 @@ impl Equations {
         let mut gap = std::mem::take(&mut self.gap);
         let mut added = copies(0.0, gap.len());
         let inside = Arc::clone(&self.inside);
-        let n = self.spread.len();
+        let n = self.scattered.len();
         let of_few = NUMBERS_OF_FEW.min(NUMBERS_PER_ELEMENT_OF_FEW * n);
         let numbers = of_few.max(NUMBERS_PER_ELEMENT * n);
         let fitting = (numbers / (2 * inside.len())).clamp(1, MOST_STEPS);
@@ -199,10 +204,10 @@ impl Equations {
                 let now = (state.residual_square / self.n_contact).sqrt();
                 let goes_on = !is_small(self, now, state.residual);
                 if goes_on {
-                    if let Some(far) = &mut self.far
+                    if let Some(correction) = &mut self.correction
                         && now > LITTLE * before
                     {
-                        far.refine();
+                        correction.refine();
                     }
                     before = now;
                     self.find_direction(state.source, [direction, image]);
@@ -211,7 +216,7 @@ impl Equations {
             },
         );
         self.gap = gap;
-        let unit = self.unit / self.own_displacement;
+        let unit = self.unit / self.self_influence;
         for (pressure, added) in self.pressure.iter_mut().zip(added) {
             *pressure += unit * f64::from(added);
         }
@@ -219,17 +224,17 @@ impl Equations {
 
     /// The gaps that a list of pressures causes.
     fn displaced(&mut self, pressures: &[f32], gaps: &mut [f32]) {
-        self.near.scatter(pressures, &mut self.spread);
+        self.neighbourhood.scatter(pressures, &mut self.scattered);
         self.products += 1;
         self.kernel
-            .apply_roughly(&self.symbols[0], &self.spread, &mut self.image);
-        self.near.gather(&self.image, gaps);
+            .apply_single_precision(&self.symbols[0], &self.scattered, &mut self.image);
+        self.neighbourhood.gather(&self.image, gaps);
         self.subtract_mean(gaps);
     }
 
     /// Root mean square of a gap in the contact, in its unit.
     fn residual(&self, gap: &[f32]) -> f64 {
-        let square = self.near.sum(|range| {
+        let square = self.neighbourhood.sum(|range| {
             let lists = [&self.inside[range.clone()], &gap[range]];
             sum(lists, |[inside, gap]| inside * gap * gap).into()
         });
@@ -239,63 +244,67 @@ impl Equations {
     /// Largest |gap| in the contact.
     fn largest(&self, gap: &[f32]) -> f64 {
         let largest = |band: usize| {
-            let range = self.near.packed_range(band);
+            let range = self.neighbourhood.packed_range(band);
             let pairs = self.inside[range.clone()].iter().zip(&gap[range]);
             pairs.fold(0.0, |top, (inside, gap)| {
                 larger(top, f64::from(inside * gap.abs()))
             })
         };
-        self.near.bands.gather(largest, larger)
+        self.neighbourhood.bands.gather(largest, larger)
     }
 
     /// Pressures without mean that about close the gaps, and the gaps that they cause.
     fn find_direction(&mut self, gap: &[f32], [direction, image]: [&mut [f32]; 2]) {
         let closing = |band, [direction]: [&mut [f32]; 1]| {
-            let range = self.near.packed_range(band);
+            let range = self.neighbourhood.packed_range(band);
             let pairs = gap[range.clone()].iter().zip(&self.inside[range]);
             for (place, (gap, inside)) in direction.iter_mut().zip(pairs) {
                 *place = -inside * gap;
             }
         };
-        let bands = self.near.bands;
-        bands.for_each_part([self.near.packed(direction)], closing);
+        let bands = self.neighbourhood.bands;
+        bands.for_each_part([self.neighbourhood.packed(direction)], closing);
         self.invert(direction);
-        if let Some(far) = &mut self.far {
-            far.correct(&self.near, &self.weights, direction);
+        if let Some(correction) = &mut self.correction {
+            correction.correct(&self.neighbourhood, &self.weights, direction);
         }
         let total = self.total(direction);
         add_scaled(
             direction,
-            f32::rounded(-total / self.total_lowered),
-            &self.lowered,
+            f32::rounded(-total / self.total_unit_depth_response),
+            &self.unit_depth_response,
         );
         self.displaced(direction, image);
     }
 
     /// S of a list, on the contact.
     fn invert(&mut self, list: &mut [f32]) {
-        self.near.scatter(list, &mut self.spread);
+        self.neighbourhood.scatter(list, &mut self.scattered);
         self.kernel
-            .apply_roughly(&self.symbols[1], &self.spread, &mut self.image);
-        let (near, image, inside) = (&self.near, &self.image, &self.inside);
-        near.bands
-            .for_each_part([near.packed(list)], |band, [list]| {
-                near.gather_in(band, image, list);
-                for (value, inside) in list.iter_mut().zip(&inside[near.packed_range(band)]) {
+            .apply_single_precision(&self.symbols[1], &self.scattered, &mut self.image);
+        let (neighbourhood, image, inside) = (&self.neighbourhood, &self.image, &self.inside);
+        neighbourhood
+            .bands
+            .for_each_part([neighbourhood.packed(list)], |band, [list]| {
+                neighbourhood.gather_in(band, image, list);
+                for (value, inside) in list
+                    .iter_mut()
+                    .zip(&inside[neighbourhood.packed_range(band)])
+                {
                     *value *= inside;
                 }
             });
     }
 
-    fn listed(&self, field: &[f64]) -> Vec<f64> {
-        let mut list = copies(0.0, self.near.len());
-        self.near.gather(field, &mut list);
+    fn gather(&self, field: &[f64]) -> Vec<f64> {
+        let mut list = copies(0.0, self.neighbourhood.len());
+        self.neighbourhood.gather(field, &mut list);
         list
     }
 
     /// Subtracts the mean over the contact.
     fn subtract_mean(&self, list: &mut [f32]) {
-        let sum = self.near.sum(|range| {
+        let sum = self.neighbourhood.sum(|range| {
             let lists = [&list[range.clone()], &self.inside[range]];
             sum(lists, |[value, inside]| inside * value).into()
         });
@@ -304,15 +313,15 @@ impl Equations {
     }
 
     fn total(&self, list: &[f32]) -> f64 {
-        self.near
+        self.neighbourhood
             .sum(|range| sum([&list[range]], |[value]| value).into())
     }
 }
 
 /// What a map makes of 1 on the first element of so many.
 fn of_first(
-    kernel: &mut Kernel,
-    map: fn(&mut Kernel, &[f64], &mut [f64]),
+    kernel: &mut PeriodicKernel,
+    map: fn(&mut PeriodicKernel, &[f64], &mut [f64]),
     n_elements: usize,
 ) -> Vec<f64> {
     let [mut first, mut image] = [(); 2].map(|()| copies(0.0, n_elements));

@@ -9,11 +9,12 @@ use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::march::{Steps, slide_along};
-use crate::stationary::periodic::outline::area_fraction;
+use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::stationary::periodic::refinement::{
-    AREA, FRICTION, Found, Goal, OTHERS, OnGrid, TOLERANCE, first_shape, refine,
+    AREA_RATE, FIRST_ORDER_RATE, FIRST_TOLERANCE, FRICTION_RATE, GridResult, RefinementGoal,
+    SampledSurface, first_shape, refine,
 };
-use crate::stationary::periodic::unseen::Unseen;
+use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{
     PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, solve_from,
 };
@@ -142,13 +143,14 @@ fn on_coarse_grid(
     finer: usize,
 ) -> Result<PeriodicSliding, BemError> {
     let first = first_shape(surface, &Request::from(FIRST_GRID))?;
-    let OnGrid { grid, heights, .. } = OnGrid::of(surface, first.map(|edge| finer * edge))?;
+    let SampledSurface { grid, heights, .. } =
+        SampledSurface::of(surface, first.map(|edge| finer * edge))?;
     let on_grid = Surface {
         sliding,
         grid: &grid,
         heights: &heights,
         options: PeriodicOptions {
-            tolerance: TOLERANCE,
+            tolerance: FIRST_TOLERANCE,
             ..PeriodicOptions::default()
         },
     };
@@ -178,11 +180,11 @@ pub fn slide<'w>(
     let edge = period / first_shape(surface, &request)?[0] as f64;
     // The steps are halved with the elements, so that the bars see their errors too.
     let per_element = (FEWEST_STEPS * edge / distance).ceil();
-    let goal = Goal {
+    let goal = RefinementGoal {
         request,
         control: load.control(),
-        friction: OTHERS,
-        area: OTHERS,
+        friction: FIRST_ORDER_RATE,
+        area: FIRST_ORDER_RATE,
         steps_per_row: Some(distance / period * per_element),
     };
     refine(surface, &goal, |grid, heights, tolerance, tell| {
@@ -197,13 +199,13 @@ pub fn slide<'w>(
         };
         let state = slide_along(grid, heights, elastomer, load, &steps)?;
         let last = state.rows[state.rows.len() - 1];
-        let found = Found {
+        let found = GridResult {
             friction: last.friction_coefficient,
             from_dissipation: None,
             area_fraction: area_fraction(&state.pressure, surface),
             in_contact: in_contact(&state.pressure),
             has_all_waves: true,
-            unseen: Unseen::of(&state.pressure, surface),
+            subgrid_gaps: SubgridGapBound::of(&state.pressure, surface),
             mean_pressure,
             mean_depth: last.mean_depth,
             residual: tolerance,
@@ -218,11 +220,11 @@ fn solve(
     control: PeriodicControl,
     request: Request,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let goal = Goal {
+    let goal = RefinementGoal {
         request,
         control,
-        friction: FRICTION,
-        area: AREA,
+        friction: FRICTION_RATE,
+        area: AREA_RATE,
         steps_per_row: None,
     };
     let guess = RefCell::new(Vec::new());
@@ -242,13 +244,13 @@ fn solve(
         })?;
         pressure_before = Some(held.mean_pressure);
         let state = held.state;
-        let found = Found {
+        let found = GridResult {
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
             area_fraction: area_fraction(&state.pressure, surface),
             in_contact: in_contact(&state.pressure),
             has_all_waves: true,
-            unseen: Unseen::of(&state.pressure, surface),
+            subgrid_gaps: SubgridGapBound::of(&state.pressure, surface),
             mean_pressure: held.mean_pressure,
             mean_depth: state.mean_depth,
             residual: state.residual.max(held.missed),

@@ -14,7 +14,7 @@ use numerics::positive;
 use rheology::{CreepSpectrum, Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
-use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::{Base, BemError, Elastomer, Grid};
 
 /// A material under a surface that slides.
@@ -102,8 +102,8 @@ impl Sliding {
 }
 
 /// Products with the waves of one grid and symbols by row of the transform.
-pub(super) struct Kernel {
-    waves: Waves,
+pub(super) struct PeriodicKernel {
+    waves: FourierMultiplier,
     /// |q| û/p̂ at the centre of an element.
     at_centre: Vec<Complex<f64>>,
     /// The shift to the point at which the gap is evaluated.
@@ -112,10 +112,10 @@ pub(super) struct Kernel {
     factors: Vec<Complex<f64>>,
 }
 
-impl Kernel {
+impl PeriodicKernel {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
         let dx = grid.spacing()[0];
-        let waves = Waves::new(grid, &sliding.base);
+        let waves = FourierMultiplier::new(grid, &sliding.base);
         let along_x = &waves.along_x;
         let mut at_centre = sliding.compliances(along_x)?;
         let shortest = sliding.compliances(&[PI / dx])?[0];
@@ -154,9 +154,9 @@ impl Kernel {
     }
 
     /// The symbols of displacements in units of that of an element under its own unit pressure, and of the inverse on the whole
-    /// grid, for [`apply_roughly`](Self::apply_roughly).
-    pub(super) fn symbols(&self, own_displacement: f64) -> [Vec<Complex<f32>>; 2] {
-        let factor = |row: usize, q: f64| self.factors[row] / (q * own_displacement);
+    /// grid, for [`apply_single_precision`](Self::apply_single_precision).
+    pub(super) fn symbols(&self, self_influence: f64) -> [Vec<Complex<f32>>; 2] {
+        let factor = |row: usize, q: f64| self.factors[row] / (q * self_influence);
         [
             self.waves.symbols(factor),
             self.waves.symbols(|row, q| factor(row, q).inv()),
@@ -179,21 +179,21 @@ impl Kernel {
 
     /// The symbols that make of r the displacements K z of the centres for (1 + w K) z = r with one weight w for all elements, in
     /// the same unit.
-    pub(super) fn relaxation(&self, weight: f64, own_displacement: f64) -> Vec<Complex<f32>> {
+    pub(super) fn relaxation(&self, weight: f64, self_influence: f64) -> Vec<Complex<f32>> {
         self.waves.symbols(|row, q| {
-            let kernel = self.at_centre[row] / own_displacement;
+            let kernel = self.at_centre[row] / self_influence;
             kernel / (kernel * weight + q)
         })
     }
 
     /// Multiplies every wave by a symbol of its own, with seven digits.
-    pub(super) fn apply_roughly(
+    pub(super) fn apply_single_precision(
         &mut self,
         symbols: &[Complex<f32>],
         field: &[f32],
         result: &mut [f32],
     ) {
-        self.waves.apply_roughly(field, result, symbols);
+        self.waves.apply_single_precision(field, result, symbols);
     }
 
     /// Heights at the points where the gaps are evaluated, by trigonometric interpolation.

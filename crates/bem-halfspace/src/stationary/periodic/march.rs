@@ -19,9 +19,9 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::area;
 use crate::elements::grid::elements_along;
-use crate::parallel::reductions::{add_scaled, dot};
+use crate::parallel::reductions::{add, dot};
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::periodic::waves::Waves;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
 use crate::transform::plane_transform::ZERO;
 use crate::{
@@ -139,7 +139,7 @@ pub(super) fn slide_along(
 pub(super) struct PeriodicMarch<'a> {
     given: &'a [f64],
     creep: CreepSpectrum,
-    waves: Waves,
+    waves: FourierMultiplier,
     /// Of the surface with the symbols of [`place`](Self::place), \[m].
     heights: Vec<f64>,
     mean_height: f64,
@@ -175,7 +175,7 @@ impl<'a> PeriodicMarch<'a> {
         Ok(Self {
             given: heights,
             creep,
-            waves: Waves::new(grid, &Base::default()),
+            waves: FourierMultiplier::new(grid, &Base::default()),
             heights: vec![0.0; n],
             mean_height: heights.iter().sum::<f64>() / n as f64,
             slopes: vec![0.0; n],

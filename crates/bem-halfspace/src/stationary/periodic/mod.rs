@@ -17,12 +17,12 @@
 //! The search of the active set, which bodies share, is in `stationary/search.rs`, the equations of a given contact in
 //! `equations.rs`.
 
+mod block_correction;
 mod contact;
 mod depth;
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
-mod far_loads;
 mod kernel;
 mod load;
 mod march;
@@ -30,15 +30,15 @@ mod march;
 mod moving;
 mod nested;
 #[cfg(feature = "rough")]
-mod outline;
+mod perimeter_error;
 #[cfg(feature = "rough")]
 mod refinement;
 
+mod fourier_multiplier;
 #[cfg(feature = "rough")]
 pub mod sensitivity;
 #[cfg(feature = "rough")]
-mod unseen;
-mod waves;
+mod subgrid_gaps;
 
 use std::cell::RefCell;
 

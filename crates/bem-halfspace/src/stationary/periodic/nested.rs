@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::stationary::periodic::contact::{self, PeriodicContact, Solved};
+use crate::stationary::periodic::contact::{self, PeriodicContact, PeriodicSolution};
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
@@ -26,7 +26,7 @@ pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
     guess: &mut Vec<f64>,
-) -> Result<Solved, BemError> {
+) -> Result<PeriodicSolution, BemError> {
     if let Some(solved) = full_contact(&problem, equations, guess) {
         return Ok(solved);
     }
@@ -71,7 +71,7 @@ fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
     let cut = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
     let mut field = vec![0.0; heights.len()];
-    Waves::new(grid, &Base::default()).apply(heights, &mut field, |row, [q_x, q]| {
+    FourierMultiplier::new(grid, &Base::default()).apply(heights, &mut field, |row, [q_x, q]| {
         // For the mean this is another mean, which changes nothing but the depth of a guess.
         let q_y = if row == 0 {
             q
@@ -142,7 +142,7 @@ fn full_contact(
     problem: &PeriodicContact,
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
-) -> Option<Solved> {
+) -> Option<PeriodicSolution> {
     let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
     let mut full = vec![0.0; displacement.len()];
@@ -154,7 +154,7 @@ fn full_contact(
         return None;
     }
     *pressure = full;
-    Some(Solved {
+    Some(PeriodicSolution {
         depth: mean,
         products: 1,
         residual: 0.0,

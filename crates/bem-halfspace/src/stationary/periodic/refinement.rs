@@ -6,7 +6,7 @@ use indenters::rough::PeriodicSurface;
 use numerics::{Accuracy, Estimate, Request, WorkProgress, between_zero_and_one};
 
 use crate::stationary::periodic::equations::{NUMBERS_OF_FEW, NUMBERS_PER_ELEMENT_OF_FEW};
-use crate::stationary::periodic::unseen::Unseen;
+use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
 use crate::transform::fast_length::fast_length;
 use crate::{BemError, Grid, Reached};
@@ -21,19 +21,19 @@ const MULTIPLE: usize = 8;
 /// The error of each stationary friction, and of the area, is at most what the last refinement changed, or a part of what the one
 /// before did, which counts where the last one changed little by chance; that of all others twice as much, at the first order. The
 /// factor is for which elements touch, which jumps from grid to grid: docs/rough-surfaces.md says how often bars hold.
-pub(super) const FRICTION: Fall = Fall {
+pub(super) const FRICTION_RATE: ConvergenceRate = ConvergenceRate {
     safety: 1.0,
-    left: 0.15,
-    as_a_rule: 0.25,
+    min_reduction: 0.15,
+    expected_reduction: 0.25,
 };
-pub(super) const AREA: Fall = Fall {
-    left: 0.3,
-    ..FRICTION
+pub(super) const AREA_RATE: ConvergenceRate = ConvergenceRate {
+    min_reduction: 0.3,
+    ..FRICTION_RATE
 };
-pub(super) const OTHERS: Fall = Fall {
+pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
     safety: 2.0,
-    left: 0.5,
-    as_a_rule: 0.5,
+    min_reduction: 0.5,
+    expected_reduction: 0.5,
 };
 /// The least error of a friction that is mostly that from slopes, as a part of what both are apart: of 1135 results the worst
 /// erred by 4.2 bars without it, and by 2.6 with it.
@@ -43,7 +43,7 @@ const PART_OF_DIFFERENCE: f64 = 0.25;
 const FEWEST_IN_CONTACT: usize = 30;
 /// Tolerance of the contact on the first grid, which is halved on each of the next, whatever error is asked for; ten residuals are
 /// added to the bars.
-pub(super) const TOLERANCE: f64 = 1e-5;
+pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
 const RESIDUALS: f64 = 10.0;
 /// Rounding of what is known in closed form.
 const ROUNDING: f64 = 1e-12;
@@ -62,26 +62,26 @@ const THREE_GRIDS: usize = 4;
 
 /// How an error falls from grid to grid.
 #[derive(Clone, Copy)]
-pub(super) struct Fall {
+pub(super) struct ConvergenceRate {
     safety: f64,
     /// Part of a change that the next one is at least.
-    left: f64,
+    min_reduction: f64,
     /// Part of an error that the next grid leaves as a rule.
-    as_a_rule: f64,
+    expected_reduction: f64,
 }
 
 /// What is asked, and how errors fall.
-pub(super) struct Goal<'w> {
+pub(super) struct RefinementGoal<'w> {
     pub(super) request: Request<'w>,
     pub(super) control: PeriodicControl,
-    pub(super) friction: Fall,
-    pub(super) area: Fall,
+    pub(super) friction: ConvergenceRate,
+    pub(super) area: ConvergenceRate,
     /// Steps of a march for each row of the grid.
     pub(super) steps_per_row: Option<f64>,
 }
 
 /// What is known from one grid.
-pub(super) struct Found {
+pub(super) struct GridResult {
     pub(super) friction: f64,
     pub(super) from_dissipation: Option<f64>,
     /// With what its outline leaves unknown.
@@ -91,7 +91,7 @@ pub(super) struct Found {
     /// Whether the grid tells all waves of the surface.
     pub(super) has_all_waves: bool,
     /// What is between elements that are all in contact.
-    pub(super) unseen: Unseen,
+    pub(super) subgrid_gaps: SubgridGapBound,
     pub(super) mean_pressure: f64,
     pub(super) mean_depth: f64,
     /// Of the contact.
@@ -186,14 +186,14 @@ pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemErro
 }
 
 /// A surface on one of the grids.
-pub(super) struct OnGrid {
+pub(super) struct SampledSurface {
     pub(super) grid: Grid,
     /// Of the waves that the grid tells, at the centres of its elements, \[m].
     pub(super) heights: Vec<f64>,
     has_all_waves: bool,
 }
 
-impl OnGrid {
+impl SampledSurface {
     pub(super) fn of(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let grid = Grid::new(shape, spacing)?;
@@ -213,8 +213,8 @@ impl OnGrid {
 /// that a smaller one is answered by what follows on the answer to a larger one.
 pub(super) fn refine<S>(
     surface: &PeriodicSurface,
-    goal: &Goal,
-    mut solve: impl FnMut(&Grid, &[f64], f64, &dyn Fn(f64)) -> Result<(Found, S), BemError>,
+    goal: &RefinementGoal,
+    mut solve: impl FnMut(&Grid, &[f64], f64, &dyn Fn(f64)) -> Result<(GridResult, S), BemError>,
 ) -> Result<PeriodicEstimate<S>, BemError>
 where
     PeriodicEstimate<S>: Into<Reached>,
@@ -228,14 +228,14 @@ where
     let first = goal.work_on(shape);
     let all = first + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
     let mut progress = WorkProgress::new(goal.request.watch, all);
-    let (mut grids, mut tolerance) = (Vec::new(), TOLERANCE);
-    let mut best: Option<(Known, PeriodicEstimate<S>)> = None;
+    let (mut grids, mut tolerance) = (Vec::new(), FIRST_TOLERANCE);
+    let mut best: Option<(TargetEstimate, PeriodicEstimate<S>)> = None;
     loop {
-        let OnGrid {
+        let SampledSurface {
             grid,
             heights,
             has_all_waves,
-        } = OnGrid::of(surface, shape)?;
+        } = SampledSurface::of(surface, shape)?;
         let solved = progress.run(goal.work_on(shape), |tell| {
             solve(&grid, &heights, tolerance, tell)
         });
@@ -244,7 +244,7 @@ where
             return Err(known.missed(asked, bars.into()));
         }
         let (found, state) = solved?;
-        grids.push(Found {
+        grids.push(GridResult {
             has_all_waves,
             ..found
         });
@@ -254,7 +254,8 @@ where
             let Some(missed) = asked.filter(|asked| !known.estimate.is_within(*asked)) else {
                 return Ok(bars);
             };
-            let better = |(best, _): &(Known, _)| best.relative_error() <= known.relative_error();
+            let better =
+                |(best, _): &(TargetEstimate, _)| best.relative_error() <= known.relative_error();
             if !best.as_ref().is_some_and(better) {
                 best = Some((known, bars));
             }
@@ -272,12 +273,12 @@ where
 
 /// What the relative error is of.
 #[derive(Clone, Copy)]
-struct Known {
+struct TargetEstimate {
     quantity: &'static str,
     estimate: Estimate,
 }
 
-impl Known {
+impl TargetEstimate {
     fn relative_error(&self) -> f64 {
         self.estimate.error / self.estimate.value.abs()
     }
@@ -293,7 +294,7 @@ impl Known {
     }
 }
 
-impl Goal<'_> {
+impl RefinementGoal<'_> {
     /// Elements, or elements times steps.
     fn work_on(&self, shape: [usize; 2]) -> f64 {
         let [rows, columns] = shape.map(|n| n as f64);
@@ -302,7 +303,7 @@ impl Goal<'_> {
 
     /// Of the grids from this one on that are needed if the error is too large by a factor and falls as it is assumed to.
     fn work_after(&self, excess: f64, shape: [usize; 2]) -> f64 {
-        let grids = (excess.log2() / -self.friction.as_a_rule.log2())
+        let grids = (excess.log2() / -self.friction.expected_reduction.log2())
             .ceil()
             .max(1.0);
         let growth: f64 = if self.steps_per_row.is_some() {
@@ -331,7 +332,7 @@ impl Goal<'_> {
     /// that and the next may be fine enough.
     fn may_go_on(&self, shape: [usize; 2], excess: f64) -> bool {
         let is_usual = (shape[0] * shape[1]) as f64 <= USUAL_GRID;
-        let may_reach = is_usual || excess <= self.friction.as_a_rule.powi(-2);
+        let may_reach = is_usual || excess <= self.friction.expected_reduction.powi(-2);
         may_reach
             && self.check_size(shape, 1.0).is_ok()
             && self.request.watch.may_refine(shape[0].max(shape[1]))
@@ -347,18 +348,25 @@ impl Goal<'_> {
     }
 
     /// From three grids or more.
-    fn bars<S>(&self, grids: &[Found], finest: S) -> Option<PeriodicEstimate<S>> {
+    fn bars<S>(&self, grids: &[GridResult], finest: S) -> Option<PeriodicEstimate<S>> {
         let [.., coarse, middle, fine] = grids else {
             return None;
         };
-        let of = |quantity: &dyn Fn(&Found) -> f64, Fall { safety, left, .. }: Fall| {
+        let of = |quantity: &dyn Fn(&GridResult) -> f64,
+                  ConvergenceRate {
+                      safety,
+                      min_reduction,
+                      ..
+                  }: ConvergenceRate| {
             let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
-            let change = (value - middle).abs().max(left * (middle - coarse).abs());
+            let change = (value - middle)
+                .abs()
+                .max(min_reduction * (middle - coarse).abs());
             let solved = RESIDUALS * fine.residual + ROUNDING;
             Estimate::new(value, safety * change + solved * value.abs())
         };
         let mut slopes = of(&|found| found.friction, self.friction);
-        let dissipated = |found: &Found| found.from_dissipation.unwrap_or(f64::NAN);
+        let dissipated = |found: &GridResult| found.from_dissipation.unwrap_or(f64::NAN);
         let mut dissipation = fine
             .from_dissipation
             .map(|_| of(&dissipated, self.friction));
@@ -372,14 +380,17 @@ impl Goal<'_> {
             *dissipation = dissipation.widened(missing);
         }
         // Shorter waves make a contact smaller by more than finer elements do.
-        let left = if coarse.has_all_waves {
-            self.area.left
+        let min_reduction = if coarse.has_all_waves {
+            self.area.min_reduction
         } else {
             0.0
         };
         let area = of(
             &|found| found.area_fraction.value,
-            Fall { left, ..self.area },
+            ConvergenceRate {
+                min_reduction,
+                ..self.area
+            },
         );
         let bars = PeriodicEstimate {
             friction_coefficient: dissipation.map_or(slopes, |other| mean_of(slopes, other)),
@@ -387,15 +398,15 @@ impl Goal<'_> {
             area_fraction: area.widened(fine.area_fraction.error),
             mean_pressure: match self.control {
                 PeriodicControl::MeanPressure(pressure) => Estimate::exact(pressure),
-                PeriodicControl::MeanDepth(_) => of(&|found| found.mean_pressure, OTHERS),
+                PeriodicControl::MeanDepth(_) => of(&|found| found.mean_pressure, FIRST_ORDER_RATE),
             },
             mean_depth: match self.control {
-                PeriodicControl::MeanPressure(_) => of(&|found| found.mean_depth, OTHERS),
+                PeriodicControl::MeanPressure(_) => of(&|found| found.mean_depth, FIRST_ORDER_RATE),
                 PeriodicControl::MeanDepth(depth) => Estimate::exact(depth),
             },
             finest,
         };
-        let bars = bars.with_gaps(fine.unseen, self.control);
+        let bars = bars.with_gaps(fine.subgrid_gaps, self.control);
         let is_resolved = coarse.in_contact >= FEWEST_IN_CONTACT;
         Some(if is_resolved { bars } else { bars.unresolved() })
     }
@@ -433,22 +444,22 @@ impl<S> PeriodicEstimate<S> {
     }
 
     /// With bars that reach to what gaps between elements may change; what is given keeps none.
-    fn with_gaps(mut self, unseen: Unseen, control: PeriodicControl) -> Self {
+    fn with_gaps(mut self, subgrid_gaps: SubgridGapBound, control: PeriodicControl) -> Self {
         let (found, change) = match control {
-            PeriodicControl::MeanPressure(_) => (&mut self.mean_depth, unseen.mean_depth),
-            PeriodicControl::MeanDepth(_) => (&mut self.mean_pressure, unseen.mean_pressure),
+            PeriodicControl::MeanPressure(_) => (&mut self.mean_depth, subgrid_gaps.mean_depth),
+            PeriodicControl::MeanDepth(_) => (&mut self.mean_pressure, subgrid_gaps.mean_pressure),
         };
         *found = found.widened(change);
         let friction = self.friction_from_dissipation.as_mut();
         for friction in friction.into_iter().chain([&mut self.friction_coefficient]) {
-            *friction = friction.widened(unseen.friction);
+            *friction = friction.widened(subgrid_gaps.friction);
         }
-        self.area_fraction = self.area_fraction.widened(unseen.area_fraction);
+        self.area_fraction = self.area_fraction.widened(subgrid_gaps.area_fraction);
         self
     }
 
     /// What the relative error is of.
-    fn asked(&self) -> Known {
+    fn asked(&self) -> TargetEstimate {
         let first = if self.friction_coefficient.value == 0.0 {
             ("area fraction", self.area_fraction)
         } else {
@@ -460,7 +471,7 @@ impl<S> PeriodicEstimate<S> {
         } else {
             first
         };
-        Known { quantity, estimate }
+        TargetEstimate { quantity, estimate }
     }
 }
 
@@ -471,26 +482,26 @@ mod tests {
     use super::*;
     use crate::{PeriodicTransient, PressureField};
 
-    fn found((friction, dissipated): (f64, f64)) -> Found {
-        Found {
+    fn found((friction, dissipated): (f64, f64)) -> GridResult {
+        GridResult {
             friction,
             from_dissipation: Some(dissipated),
             area_fraction: Estimate::exact(0.05),
             in_contact: 100,
             has_all_waves: true,
-            unseen: Unseen::default(),
+            subgrid_gaps: SubgridGapBound::default(),
             mean_pressure: 1.0,
             mean_depth: 0.0,
             residual: 1e-7,
         }
     }
 
-    fn goal() -> Goal<'static> {
-        Goal {
+    fn goal() -> RefinementGoal<'static> {
+        RefinementGoal {
             request: Accuracy::RelativeError(0.01).into(),
             control: PeriodicControl::MeanPressure(1.0),
-            friction: FRICTION,
-            area: AREA,
+            friction: FRICTION_RATE,
+            area: AREA_RATE,
             steps_per_row: None,
         }
     }

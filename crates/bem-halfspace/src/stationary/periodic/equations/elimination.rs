@@ -10,9 +10,9 @@ use numerics::transforms::Real as _;
 
 use super::{Equations, of_first};
 use crate::contact::active_set::Run;
-use crate::parallel::reductions::add_scaled;
-use crate::parallel::row_blocks::copies;
-use crate::stationary::periodic::kernel::Kernel;
+use crate::parallel::bands::copies;
+use crate::parallel::reductions::add;
+use crate::stationary::periodic::kernel::PeriodicKernel;
 
 impl Equations {
     /// Elements in contact, or open ones, whichever are fewer.
@@ -21,7 +21,7 @@ impl Equations {
     }
 
     fn n_open(&self) -> f64 {
-        self.spread.len() as f64 - self.n_contact
+        self.scattered.len() as f64 - self.n_contact
     }
 
     /// Adds the pressures without mean that close the gaps.
@@ -34,7 +34,7 @@ impl Equations {
         let Some(loads) = found else {
             return;
         };
-        let unit = self.unit / self.own_displacement;
+        let unit = self.unit / self.self_influence;
         for (pressure, load) in self.pressure.iter_mut().zip(&loads) {
             *pressure += unit * load;
         }
@@ -46,20 +46,23 @@ impl Equations {
 
     /// The pressures that close the gaps, in their unit, of a contact of few elements.
     fn of_few_elements(&mut self) -> Option<Vec<f64>> {
-        let runs = (0..self.near.bands.n_blocks()).flat_map(|band| self.near.runs(band));
+        let runs =
+            (0..self.neighbourhood.bands.n_bands()).flat_map(|band| self.neighbourhood.runs(band));
         let listed = runs.flat_map(Run::elements).enumerate();
         let (places, elements): (Vec<usize>, Vec<usize>) = listed
             .filter(|(place, _)| self.inside[*place] > 0.0)
             .unzip();
-        let mut image = of_first(&mut self.kernel, Kernel::displace, self.spread.len());
-        image
-            .iter_mut()
-            .for_each(|gap| *gap /= self.own_displacement);
+        let mut image = of_first(
+            &mut self.kernel,
+            PeriodicKernel::displace,
+            self.scattered.len(),
+        );
+        image.iter_mut().for_each(|gap| *gap /= self.self_influence);
         let sides = [&self.gap, &*self.inside];
         let sides = DMatrix::from_fn(elements.len(), 2, |place, side| {
             f64::from(sides[side][places[place]])
         });
-        let matrix = influence(&image, self.near.columns, &elements);
+        let matrix = influence(&image, self.neighbourhood.columns, &elements);
         let solved = matrix.lu().solve(&sides)?;
         let depth = solved.column(0).sum() / solved.column(1).sum();
         let mut loads = vec![0.0; self.inside.len()];
@@ -71,29 +74,29 @@ impl Equations {
 
     /// Likewise of a contact that leaves few elements open.
     fn beside_few_open(&mut self) -> Option<Vec<f64>> {
-        let n = self.spread.len();
+        let n = self.scattered.len();
         let mut inside = copies(0.0, n);
-        self.near.scatter(&self.inside, &mut inside);
+        self.neighbourhood.scatter(&self.inside, &mut inside);
         let open: Vec<usize> = (0..n).filter(|element| inside[*element] == 0.0).collect();
         let gaps = self.gap.iter().zip(&*self.inside);
         let gaps: Vec<f64> = gaps.map(|(gap, inside)| f64::from(gap * inside)).collect();
         let [mut field, mut loads] = [(); 2].map(|()| vec![0.0; n]);
-        self.near.scatter(&gaps, &mut field);
+        self.neighbourhood.scatter(&gaps, &mut field);
         self.invert_exactly(&field, &mut loads);
         if !open.is_empty() {
-            let mut image = of_first(&mut self.kernel, Kernel::invert, n);
+            let mut image = of_first(&mut self.kernel, PeriodicKernel::invert, n);
             image
                 .iter_mut()
-                .for_each(|load| *load *= self.own_displacement);
+                .for_each(|load| *load *= self.self_influence);
             let side = DMatrix::from_fn(open.len(), 1, |place, _| loads[open[place]]);
-            let matrix = influence(&image, self.near.columns, &open);
+            let matrix = influence(&image, self.neighbourhood.columns, &open);
             let opened = matrix.lu().solve(&side)?;
             for (element, gap) in open.iter().zip(&opened) {
                 field[*element] = -gap;
             }
             self.invert_exactly(&field, &mut loads);
         }
-        let pairs = self.listed(&loads).into_iter().zip(&*self.inside);
+        let pairs = self.gather(&loads).into_iter().zip(&*self.inside);
         Some(
             pairs
                 .map(|(load, inside)| -load * f64::from(*inside))
@@ -105,7 +108,7 @@ impl Equations {
     fn invert_exactly(&mut self, field: &[f64], loads: &mut [f64]) {
         self.products += 1;
         self.kernel.invert(field, loads);
-        let own = self.own_displacement;
+        let own = self.self_influence;
         loads.iter_mut().for_each(|load| *load *= own);
     }
 }
@@ -153,9 +156,9 @@ mod tests {
                 .map(|element| (element as f64).sin())
                 .collect();
             let mut pressure = vec![0.0; SIDE * SIDE];
-            equations.take(&contact, &pressure, &before);
+            equations.set_active_set(&contact, &pressure, &before);
             equations.eliminate();
-            equations.give(&mut pressure);
+            equations.copy_pressure_to(&mut pressure);
             let mut gap = vec![0.0; SIDE * SIDE];
             equations.displace(&pressure, &mut gap);
             let inside = || (0..SIDE * SIDE).filter(|element| contact[*element]);

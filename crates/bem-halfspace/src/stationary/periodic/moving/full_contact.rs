@@ -11,7 +11,7 @@ use rustfft::num_complex::Complex;
 use super::stresses::WaveMotion;
 use crate::Grid;
 use crate::parallel::reductions::dot;
-use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::transform::plane_transform::ZERO;
 
 /// A surface whose gaps may all be closed.
@@ -19,7 +19,7 @@ pub(super) struct Closed<'a> {
     pub(super) grid: &'a Grid,
     /// \[m].
     pub(super) heights: &'a [f64],
-    pub(super) waves: Waves,
+    pub(super) waves: FourierMultiplier,
     /// 1 − ν.
     pub(super) factor: f64,
     /// \[Pa].

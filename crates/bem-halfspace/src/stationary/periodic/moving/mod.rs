@@ -21,9 +21,9 @@ use crate::motions::move_along::{
     LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, cycle_tolerance, moved_if_reached,
     slowest_retardation_time,
 };
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::nested::interpolated;
-use crate::stationary::periodic::waves::Waves;
 use crate::stepping::{MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 use full_contact::{Closed, of_row};
@@ -31,14 +31,14 @@ use stresses::{Spectra, WaveMotion, WaveStates};
 
 /// Elements per shortest wave with which an error is first sought, and the fewest of them along an edge that is not level;
 /// three eighths of them are the coarsest grid.
-const PER_WAVE: usize = 8;
-const FEWEST: usize = 32;
+const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
+const MIN_EDGE_ELEMENTS: usize = 32;
 /// Elements times steps of a cycle or path that are not exceeded; a minute or some.
-const MOST_WORK: f64 = 6e7;
+const MAX_ELEMENT_STEPS: f64 = 6e7;
 /// Elements in contact below which, on half the elements, the number of those that touch decides the friction.
 const FEWEST_IN_CONTACT: usize = 30;
 /// Tolerance of the contact of a step, which times the slope is a part of the error of the friction of a cycle.
-const TOLERANCE: f64 = 1e-8;
+const CONTACT_TOLERANCE: f64 = 1e-8;
 /// Memory for an element but for what it remembers, and for each wave along x in a step, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 170.0;
 const BYTES_PER_WAVE: f64 = 80.0;
@@ -105,7 +105,7 @@ pub fn move_along<'w>(
         &goal,
         |elements, tell: &dyn Fn(f64)| problem.on(elements, is_full, tell),
         |record| view.quantities(record),
-        |record, _: &dyn Fn(f64)| Ok::<_, BemError>(others(&view, record)),
+        |record, _: &dyn Fn(f64)| Ok::<_, BemError>(extra_errors(&view, record)),
     )?;
     moved_if_reached(&view, refined)
 }
@@ -147,12 +147,12 @@ pub fn elements_of_motion(surface: &PeriodicSurface) -> usize {
 fn edges(surface: &PeriodicSurface) -> [usize; 2] {
     surface.largest_numbers().map(|number| match number {
         0 => 2,
-        _ => (PER_WAVE * number).max(FEWEST),
+        _ => (ELEMENTS_PER_SHORTEST_WAVE * number).max(MIN_EDGE_ELEMENTS),
     })
 }
 
 /// What is left to the cycle; and all of the values where too few elements touch.
-fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
+fn extra_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
     let pressed = record.steps.iter().filter(|step| step.normal_force > 0.0);
     let fewest = pressed
         .map(|step| step.n_contact)
@@ -160,8 +160,8 @@ fn others(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         .unwrap_or(usize::MAX);
     let mut rests = view.rests(record);
     if let (true, [friction, _, work, ..]) = (record.n_cycles > 0, &mut rests[..]) {
-        friction.iteration = Some(TOLERANCE * record.steepness);
-        work.iteration = Some(TOLERANCE * record.steepness * record.normal_work);
+        friction.iteration = Some(CONTACT_TOLERANCE * record.steepness);
+        work.iteration = Some(CONTACT_TOLERANCE * record.steepness * record.normal_work);
     }
     if fewest >= 4 * FEWEST_IN_CONTACT {
         return rests;
@@ -184,11 +184,11 @@ struct Moving<'a> {
     /// Relative error by which cycles may differ.
     tolerance: f64,
     /// Rows and columns of the grid whose cycle was found last, and what its elements remember at the end.
-    settled: RefCell<Option<([usize; 2], Vec<f64>)>>,
+    limit_cycle: RefCell<Option<([usize; 2], Vec<f64>)>>,
 }
 
 /// A motion on one grid.
-struct OnGrid {
+struct MotionOnGrid {
     grid: Grid,
     /// \[m].
     heights: Vec<f64>,
@@ -198,7 +198,7 @@ struct OnGrid {
 
 /// The state at the end of a step.
 #[derive(Clone, Copy)]
-struct End {
+struct StepEnd {
     tangential_force: f64,
     normal_force: f64,
     depth: f64,
@@ -233,7 +233,7 @@ impl<'a> Moving<'a> {
             spectra: Spectra { relaxation, creep },
             wave_numbers: numbers.map(|number| number as f64 * unit).collect(),
             tolerance: cycle_tolerance(accuracy),
-            settled: RefCell::default(),
+            limit_cycle: RefCell::default(),
         };
         if let Accuracy::Elements(elements) = accuracy {
             problem.check_coarsest(elements)?;
@@ -280,7 +280,7 @@ impl<'a> Moving<'a> {
     fn spacing_and_most_steps(&self, shape: [usize; 2]) -> [f64; 2] {
         let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
         let spacing = self.surface.period()[0] / shape[0] as f64;
-        [spacing, MAX_STEPS.min(MOST_WORK / n_elements)]
+        [spacing, MAX_STEPS.min(MAX_ELEMENT_STEPS / n_elements)]
     }
 
     /// The largest number of elements in the sequence of twice as many that has not too many steps.
@@ -296,12 +296,12 @@ impl<'a> Moving<'a> {
         self.surface.period().iter().product()
     }
 
-    fn on_grid(&self, elements: usize) -> Result<OnGrid, BemError> {
+    fn on_grid(&self, elements: usize) -> Result<MotionOnGrid, BemError> {
         let shape = self.shape(elements);
         let steps = self.steps(elements, shape)?;
         let spacing = [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64);
         let waves = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
-        Ok(OnGrid {
+        Ok(MotionOnGrid {
             heights: self.surface.heights(shape)?,
             grid: Grid::new(shape, spacing)?,
             steps,
@@ -337,11 +337,11 @@ impl<'a> Moving<'a> {
         })
     }
 
-    fn closed_on<'b>(&self, on_grid: &'b OnGrid) -> Closed<'b> {
+    fn closed_on<'b>(&self, on_grid: &'b MotionOnGrid) -> Closed<'b> {
         Closed {
             grid: &on_grid.grid,
             heights: &on_grid.heights,
-            waves: Waves::new(&on_grid.grid, &self.elastomer.base()),
+            waves: FourierMultiplier::new(&on_grid.grid, &self.elastomer.base()),
             factor: 0.5 * self.elastomer.material().half_space_factor(),
             mean_pressure: self.load.largest_control().value() / self.area(),
             largest_numbers: self.surface.largest_numbers(),
@@ -349,7 +349,7 @@ impl<'a> Moving<'a> {
     }
 
     /// A cycle in which the contact is full all the time.
-    fn closed(&self, on_grid: &OnGrid) -> MotionRecord {
+    fn closed(&self, on_grid: &MotionOnGrid) -> MotionRecord {
         let normal_force = self.load.largest_control().value();
         let (base, area) = (self.elastomer.base(), self.area());
         let factor = 0.5 * self.elastomer.material().half_space_factor();
@@ -358,19 +358,19 @@ impl<'a> Moving<'a> {
             .cycle(&on_grid.waves, &self.wave_numbers);
         let yielded =
             factor * self.spectra.creep.equilibrium_compliance() * base.uniform_compliance();
-        let end = |stress: &f64| End {
+        let end = |stress: &f64| StepEnd {
             tangential_force: stress * area,
             normal_force,
             depth: normal_force / area * yielded,
             n_contact: on_grid.grid.n_elements(),
         };
-        let ends: Vec<End> = found.stresses.iter().map(end).collect();
+        let ends: Vec<StepEnd> = found.stresses.iter().map(end).collect();
         let mut record = self.record(ends[ends.len() - 1], &ends, &on_grid.steps);
         record.work = found.work * area;
         record
     }
 
-    fn march(&self, on_grid: &OnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+    fn march(&self, on_grid: &MotionOnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
         let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
@@ -393,15 +393,15 @@ impl<'a> Moving<'a> {
             Ok((record, march.memory.clone()))
         };
         let record = limit_cycle.find(start, pass, tell)?;
-        self.settled.replace(Some((grid.shape(), march.memory)));
+        self.limit_cycle.replace(Some((grid.shape(), march.memory)));
         Ok(record)
     }
 
     /// What elements remember before the first cycle on a grid: as much as at the end of that on another one, from which a material
     /// that forgets slowly is nearly settled; on the first grid what is left of the first touch.
     fn before_cycles(&self, touched: &[f64], shape: [usize; 2]) -> Vec<f64> {
-        let settled = self.settled.borrow();
-        let Some((from, memory)) = &*settled else {
+        let limit_cycle = self.limit_cycle.borrow();
+        let Some((from, memory)) = &*limit_cycle else {
             return touched.to_vec();
         };
         let fields = memory.chunks_exact(from[0] * from[1]);
@@ -414,9 +414,9 @@ impl<'a> Moving<'a> {
     fn pass(
         &self,
         march: &mut PeriodicMarch<'_>,
-        OnGrid { steps, waves, .. }: &OnGrid,
+        MotionOnGrid { steps, waves, .. }: &MotionOnGrid,
         tell: &dyn Fn(f64),
-    ) -> Result<Vec<End>, BemError> {
+    ) -> Result<Vec<StepEnd>, BemError> {
         let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
         let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
             tell(index as f64 / steps.len() as f64);
@@ -430,7 +430,7 @@ impl<'a> Moving<'a> {
         march: &mut PeriodicMarch<'_>,
         (duration, control): (f64, Control),
         state: &WaveStates,
-    ) -> Result<End, BemError> {
+    ) -> Result<StepEnd, BemError> {
         let rows = march.rows();
         let waves = state.displacement.iter().zip(&self.wave_numbers);
         let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
@@ -438,13 +438,13 @@ impl<'a> Moving<'a> {
             [&state.held, &slopes].map(|values| of_row(values, row, rows))
         })?;
         let options = ContactOptions {
-            tolerance: TOLERANCE,
+            tolerance: CONTACT_TOLERANCE,
             ..ContactOptions::default()
         };
         let normal_force = control.value();
         let row = march.step(normal_force / self.area(), &options)?;
         let presses = normal_force > 0.0;
-        Ok(End {
+        Ok(StepEnd {
             tangential_force: if presses {
                 row.friction_coefficient * normal_force
             } else {
@@ -457,11 +457,11 @@ impl<'a> Moving<'a> {
     }
 
     /// Means over the steps, from the state before them.
-    fn record(&self, first: End, ends: &[End], steps: &[MovingStep]) -> MotionRecord {
+    fn record(&self, first: StepEnd, ends: &[StepEnd], steps: &[MovingStep]) -> MotionRecord {
         let mut record = MotionRecord::default();
         let mut before = (first, self.load.stages()[0].start.position);
         for (step, end) in steps.iter().zip(ends) {
-            let mean = |of: fn(&End) -> f64| 0.5 * (of(&before.0) + of(end));
+            let mean = |of: fn(&StepEnd) -> f64| 0.5 * (of(&before.0) + of(end));
             let distance = step.end.position - before.1;
             let of_step = MotionStep {
                 stage: step.stage,
@@ -563,7 +563,7 @@ mod tests {
         let waves = WaveMotion::new(load, &steps, &problem.wave_numbers, &problem.spectra);
         let waves = waves.expect("a motion of waves");
         let mut march = PeriodicMarch::new(&grid, &heights, &rubber, 1e-4).expect("a march");
-        let mut kernel = Waves::new(&grid, &rubber.base());
+        let mut kernel = FourierMultiplier::new(&grid, &rubber.base());
         let creep = &problem.spectra.creep;
         let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
         let mut moved = vec![0.0; heights.len()];

@@ -60,7 +60,7 @@ struct Leg {
 }
 
 impl WaveMotion {
-    /// Waves of some numbers along x \[rad/m]; in a cycle all that came before was the same, and before a path the surface has
+    /// FourierMultiplier of some numbers along x \[rad/m]; in a cycle all that came before was the same, and before a path the surface has
     /// been at its beginning without end.
     pub(super) fn new(
         load: &MovingLoad,

@@ -9,8 +9,8 @@ use crate::elements::contact_boundary::{
 };
 use crate::parallel::reductions::dot;
 use crate::stationary::periodic::equations::Equations;
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::periodic::waves::Waves;
 use crate::{BemError, Grid};
 
 /// Residual of the adjoint equations over their right side, and the part of it that is left after a round of directions.
@@ -35,7 +35,7 @@ pub(super) struct Adjoint<'a> {
     pub(super) equations: Equations,
     /// Turned about.
     pub(super) contact: Vec<bool>,
-    pub(super) waves: Waves,
+    pub(super) waves: FourierMultiplier,
     pub(super) sliding: &'a Sliding,
     pub(super) grid: &'a Grid,
     /// \[m].
@@ -246,10 +246,10 @@ impl Adjoint<'_> {
                 break;
             }
             before = residual;
-            self.equations.take(&self.contact, &loads, &gap);
-            let size = self.equations.size();
-            self.equations.iterate(ROUND * size, 0.0);
-            self.equations.give(&mut loads);
+            self.equations.set_active_set(&self.contact, &loads, &gap);
+            let size = self.equations.residual_rms();
+            self.equations.solve(ROUND * size, 0.0);
+            self.equations.copy_pressure_to(&mut loads);
         }
         Err(BemError::ContactNotConverged {
             iterations: self.equations.products,

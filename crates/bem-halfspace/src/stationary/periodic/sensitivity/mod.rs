@@ -27,8 +27,8 @@ use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::periodic::depth::{Surface, hold};
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::kernel::{Kernel, Sliding};
-use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
+use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation, bands};
 use crate::{BemError, Elastomer, Grid, PressureField};
@@ -174,7 +174,7 @@ impl PeriodicSensitivity {
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
-    /// [of single bodies](crate::steady::sensitivity::SteadySensitivity::by_moduli). Waves along x pass with the multiples of one
+    /// [of single bodies](crate::steady::sensitivity::SteadySensitivity::by_moduli). FourierMultiplier along x pass with the multiples of one
     /// frequency, 2π v/L_x, and what lies between two of them says nothing.
     ///
     /// # Errors
@@ -220,7 +220,7 @@ impl State {
             solve_from(&mut start.borrow_mut(), problem)
         })?;
         let pressure = held.state.pressure.pressure;
-        let waves = Waves::new(grid, sliding.base());
+        let waves = FourierMultiplier::new(grid, sliding.base());
         let mut adjoint = Adjoint {
             equations: Equations::new(sliding, grid)?,
             contact: turned(&pressure, grid).iter().map(|p| *p > 0.0).collect(),
@@ -304,7 +304,7 @@ impl State {
         let [mut moved, mut dissipated, mut under_one] = [0; 3].map(|_| vec![0.0; n]);
         let mut depth = 0.0;
         for ((sliding, grid), sign) in ends.into_iter().zip([-1.0, 1.0]) {
-            let mut kernel = Kernel::new(sliding, grid)?;
+            let mut kernel = PeriodicKernel::new(sliding, grid)?;
             let mut field = vec![0.0; n];
             // At the centres of the elements.
             kernel.displace_centres(&self.pressure, &mut field);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use indenters::rough::PeriodicSurface;
 
-use crate::stationary::periodic::waves::Waves;
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::{Base, PressureField};
 
 /// What opens is larger than the elements that may be under tension: (3/2)^(1/2) times as wide at a round gap, 2^(1/2) times as
@@ -16,7 +16,7 @@ const PLACES: usize = 4;
 
 /// What they change at most.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Unseen {
+pub(super) struct SubgridGapBound {
     pub(super) friction: f64,
     pub(super) area_fraction: f64,
     /// \[Pa].
@@ -25,7 +25,7 @@ pub(super) struct Unseen {
     pub(super) mean_depth: f64,
 }
 
-impl Unseen {
+impl SubgridGapBound {
     /// Where a pressure of waves is lowest it is at most so much lower than at the nearest of N places along either edge:
     ///
     /// ```text
@@ -50,7 +50,7 @@ impl Unseen {
         if pressure.iter().all(|pressure| *pressure >= lower(1)) {
             return Self::default();
         }
-        let mut waves = Waves::new(&field.grid, &Base::default());
+        let mut waves = FourierMultiplier::new(&field.grid, &Base::default());
         let mut between = vec![0.0; pressure.len()];
         let [mut sum, mut count] = [0.0; 2];
         for place in 0..PLACES * PLACES {

@@ -10,7 +10,7 @@ use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 
 /// The waves that fit on a grid.
-pub(super) struct Waves {
+pub(super) struct FourierMultiplier {
     shape: [usize; 2],
     accurate: Option<Transforms<f64>>,
     rough: Option<Transforms<f32>>,
@@ -20,7 +20,7 @@ pub(super) struct Waves {
     stiffness: Vec<f64>,
 }
 
-impl Waves {
+impl FourierMultiplier {
     pub(super) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
@@ -87,7 +87,7 @@ impl Waves {
         });
     }
 
-    /// Symbols of all waves for [`apply_roughly`](Self::apply_roughly).
+    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision).
     pub(super) fn symbols(
         &self,
         symbol: impl Fn(usize, f64) -> Complex<f64> + Sync,
@@ -105,7 +105,7 @@ impl Waves {
     }
 
     /// Multiplies every wave by its symbol, with seven digits. Does not allocate after the first time.
-    pub(super) fn apply_roughly(
+    pub(super) fn apply_single_precision(
         &mut self,
         field: &[f32],
         result: &mut [f32],

@@ -1,7 +1,7 @@
 //! Displacement of a patch of the contact under the load on other patches.
 //!
 //! The inverse S of the influence, restricted to the contact, finds the pressure for the gaps of a patch as if no other
-//! patch were loaded (as in the contact of one instant, `contact/far_loads.rs`). With the pressure w = S 1 for the gap one
+//! patch were loaded (as in the contact of one instant, `contact/block_correction.rs`). With the pressure w = S 1 for the gap one
 //! and its means W over blocks of elements, the displacement d of the blocks under a displacement r of which S makes the
 //! mean pressures s is
 //!
@@ -20,7 +20,7 @@ use crate::parallel::chunks::Starts;
 use crate::parallel::reductions::{add_scaled, sum};
 use crate::parallel::row_blocks::{RowBlocks, copies};
 use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
-use crate::stationary::periodic::kernel::{Kernel, Sliding};
+use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
 /// Length of a block in elements.
@@ -41,11 +41,11 @@ const PART_OF_MEAN: f64 = 0.4;
 const MOST: usize = 80;
 const KEPT: usize = 2;
 
-pub(super) struct FarLoads {
+pub(super) struct BlockCorrection {
     columns: usize,
-    kernel: Kernel,
+    kernel: PeriodicKernel,
     /// Displacement of an element under its own unit pressure, by which displacements are measured, [m/Pa].
-    own_displacement: f64,
+    self_influence: f64,
     /// W.
     weights: Vec<f32>,
     /// That of the inverse by which the equation is solved, and its symbols.
@@ -57,12 +57,12 @@ pub(super) struct FarLoads {
     tolerance: f64,
 }
 
-impl FarLoads {
+impl BlockCorrection {
     /// None where the rows of the grid are no whole number of blocks.
     pub(super) fn new(
         sliding: &Sliding,
         grid: &Grid,
-        own_displacement: f64,
+        self_influence: f64,
     ) -> Result<Option<Self>, BemError> {
         let ([rows, columns], [dx, dy]) = (grid.shape(), grid.spacing());
         if !rows.is_multiple_of(BLOCK) {
@@ -71,8 +71,8 @@ impl FarLoads {
         let blocks = Grid::new([rows / BLOCK, columns], [dx * BLOCK as f64, dy])?;
         Ok(Some(Self {
             columns,
-            kernel: Kernel::new(sliding, &blocks)?,
-            own_displacement,
+            kernel: PeriodicKernel::new(sliding, &blocks)?,
+            self_influence,
             weights: copies(0.0, blocks.n_elements()),
             one_weight: 0.0,
             relaxation: Vec::new(),
@@ -88,17 +88,22 @@ impl FarLoads {
 
     /// Takes the pressures w = S 1 of another contact and subtracts from a copy of them those that other patches make unnecessary;
     /// blocks with a mean tension take no part.
-    pub(super) fn weigh(&mut self, near: &ActiveSet, weights: &[f32], lowered: &mut [f32]) {
+    pub(super) fn weigh(
+        &mut self,
+        near: &ActiveSet,
+        weights: &[f32],
+        unit_depth_response: &mut [f32],
+    ) {
         let means = self.means(near, weights);
         self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
         let total = f64::from(sum([&self.weights], |[weight]| weight));
         let weight = PART_OF_MEAN * total / self.weights.len() as f64;
         self.one_weight = f32::rounded(weight);
-        self.relaxation = self.kernel.relaxation(weight, self.own_displacement);
+        self.relaxation = self.kernel.relaxation(weight, self.self_influence);
         // That of the contact before is not far from it.
         let mut lifted = std::mem::take(&mut self.lifted);
         self.solve(&means, &mut lifted);
-        self.subtract(near, weights, &lifted, lowered);
+        self.subtract(near, weights, &lifted, unit_depth_response);
         self.lifted = lifted;
     }
 
@@ -171,7 +176,7 @@ impl FarLoads {
         } = self;
         let of = RowBlocks::new([means.len(), 1]);
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
-        kernel.apply_roughly(relaxation, means, &mut residual);
+        kernel.apply_single_precision(relaxation, means, &mut residual);
         let target = *tolerance * norm(&residual);
         // What a displacement adds to the residual.
         let mut find_image = |from: &[f32], image: &mut [f32]| {
@@ -182,7 +187,7 @@ impl FarLoads {
                     *load = (*one_weight - weight) * value;
                 }
             });
-            kernel.apply_roughly(relaxation, &load, image);
+            kernel.apply_single_precision(relaxation, &load, image);
             of.for_each([image], |band, [image]| {
                 add_scaled(image, -1.0, &from[of.elements(band)]);
             });
