@@ -82,13 +82,13 @@ impl BlockCorrection {
     }
 
     /// Makes the solutions more accurate, because the directions that they lead to take too little off.
-    pub(super) fn refine(&mut self) {
+    pub(super) fn tighten_tolerance(&mut self) {
         self.tolerance = (FINER * self.tolerance).max(FINEST);
     }
 
     /// Takes the pressures w = S 1 of another contact and subtracts from a copy of them those that other patches make unnecessary;
     /// blocks with a mean tension take no part.
-    pub(super) fn weigh(
+    pub(super) fn set_weights(
         &mut self,
         near: &ActiveSet,
         weights: &[f32],

@@ -1,16 +1,18 @@
-//! The equations of a given contact, solved by minimal residuals.
+//! The linear equations on a given active set, solved by generalised conjugate residuals or directly.
 //!
 //! ```text
-//! h + K p − d = 0  in the contact,   p = 0 outside,   mean of p given
+//! h + K p − d = 0  on the active set,   p = 0 outside,   mean of p given
 //! ```
 //!
-//! Directions are those of generalised conjugate residuals (Eisenstat, Elman & Schultz 1983), so that pressure and gap are
-//! known after every step. The preconditioner is the inverse of K restricted to the contact, less what other patches make
-//! unnecessary. Contacts of few elements, or that leave few open, are solved by elimination, once the steps have taken as long for
-//! one of them, or some times as long for all. Lists hold the elements in contact and their neighbours, of which the
-//! gap shows whether they penetrate.
+//! GCR (Eisenstat, Elman & Schultz 1983) keeps pressure and gap known after every step. The preconditioner is the inverse S of K
+//! on the whole grid, restricted to the active set, less a coarse-space correction (`block_correction.rs`). Problems with few
+//! unknowns are solved directly (`elimination.rs`), once the steps have cost as much as that, or some times as much on all
+//! active sets together. Packed vectors cover the active set and its neighbours, whose gaps tell whether they penetrate.
 //!
-//! In one contact all numbers have seven digits, in units of its gaps; the search renews the gaps with all digits between contacts.
+//! All vectors of one active set are in single precision, in units of its gaps. The search computes the gaps anew in double
+//! precision between active sets, so that no digit of the result is lost.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
 
 mod elimination;
 
@@ -27,64 +29,83 @@ use crate::stationary::periodic::block_correction::BlockCorrection;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Steps tried with one contact whose directions do not all fit into memory, and with one whose do. A dense contact of moduli that
-/// differ by some thousand does not end with 80: its residual falls after a hundred steps of which none is forgotten.
-const STEPS: usize = 80;
-const MOST_STEPS: usize = 400;
-/// Numbers of half the usual length that directions may occupy, per element of a large grid and of a small one, and at most on the
-/// small one; beyond them the oldest are forgotten. With 57 per cent of 2048² elements in contact and moduli that differ by 1000
-/// there are 146 products, with 12 numbers 274 and with 24 of them 136.
-const NUMBERS_PER_ELEMENT: usize = 16;
-pub(super) const NUMBERS_PER_ELEMENT_OF_FEW: usize = 256;
-pub(super) const NUMBERS_OF_FEW: usize = 1 << 24;
-/// A step that leaves more than this part of the residual took little off.
-const LITTLE: f64 = 0.9;
-/// Elements in contact, or open ones, up to which elimination is tried, for the sake of memory, and the time that it takes for n of
-/// them on a grid of N elements, in steps: about n³/N times this on one thread, from 16² to 64² elements.
-const FEW: f64 = 1000.0;
-const ELIMINATION: f64 = 0.005;
-/// Eliminations whose time all contacts of one grid may take by minimal residuals before the others are eliminated. Of 5000 contacts
-/// and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000 products without it.
-const ELIMINATIONS: f64 = 4.0;
+/// Maximum number of steps if the basis has to be truncated to fit into memory; chosen.
+const MAX_STEPS_IF_TRUNCATED: usize = 80;
+/// Maximum number of steps, if the whole basis fits into memory.
+///
+/// A dense contact of moduli that differ by some thousand does not converge in 80: its residual falls after a hundred steps with
+/// an untruncated basis.
+const MAX_STEPS: usize = 400;
+/// Memory budget of the basis on a large grid, in single-precision numbers per element of the grid; older directions are truncated.
+///
+/// With 57 per cent of 2048² elements in contact and moduli that differ by 1000 there are 146 operator applications, with 12
+/// numbers 274 and with 24 of them 136.
+const BASIS_FLOATS_PER_ELEMENT: usize = 16;
+/// The same budget on a small grid, up to [`MAX_BASIS_FLOATS_ON_SMALL_GRID`]; chosen.
+pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
+/// Largest basis that may exceed [`BASIS_FLOATS_PER_ELEMENT`], in single-precision numbers: 64 MiB; chosen.
+pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
+/// Ratio of two successive residuals above which the coarse-space correction is solved more accurately; chosen.
+const STAGNATION_RATIO: f64 = 0.9;
+/// Largest number of unknowns of a direct solve, which bounds its memory; chosen.
+const DIRECT_SOLVE_MAX_UNKNOWNS: f64 = 1000.0;
+/// Cost of a direct solve with n unknowns on a grid of N elements, in steps, over n³/N; measured on one thread from 16² to 64²
+/// elements.
+const DIRECT_SOLVE_COST: f64 = 0.005;
+/// Operator applications on one grid, in direct solves of the present cost, after which active sets are solved directly at once.
+///
+/// Of 5000 contacts and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000
+/// operator applications without it.
+const ITERATIONS_IN_DIRECT_SOLVES: f64 = 4.0;
 
-/// Lists of one contact and its neighbours.
+/// The equations on one active set, with packed vectors over the set and its neighbours.
 pub(super) struct Equations {
     pub(super) kernel: PeriodicKernel,
+    /// `None` if the grid cannot be divided into blocks.
     correction: Option<BlockCorrection>,
+    /// The active set and its neighbours.
     pub(super) neighbourhood: ActiveSet,
-    /// 1 in contact, 0 beside it.
+    /// 1 on the active set, 0 on its neighbours.
     inside: Arc<[f32]>,
+    /// Number of active elements.
     n_contact: f64,
     /// \[Pa].
     pressure: Vec<f64>,
-    /// Unit of gaps, \[m]; that of pressures displaces an element by one.
+    /// Unit of the gaps, \[m]. The unit of the pressures displaces its own element by this unit.
     unit: f64,
-    /// Less its mean in the contact.
+    /// Gap less its mean over the active set, in `unit`.
     gap: Vec<f32>,
-    /// What S, and what the preconditioner, makes of the gap one.
+    /// S 1: response of S to the unit gap on the active set.
     weights: Vec<f32>,
+    /// Response of the preconditioner, with its correction, to the unit gap on the active set.
     unit_depth_response: Vec<f32>,
     total_unit_depth_response: f64,
-    /// K and its inverse on the whole grid.
-    symbols: [Vec<Complex<f32>>; 2],
-    /// Fields that carry lists through transforms; the first vanishes outside them.
+    /// Symbols of K on the whole grid.
+    influence_symbols: Vec<Complex<f32>>,
+    /// Symbols of the inverse of K on the whole grid.
+    inverse_symbols: Vec<Complex<f32>>,
+    /// Field of the grid that carries packed vectors into transforms; zero outside the neighbourhood.
     scattered: Vec<f32>,
+    /// Field of the grid with the result of a transform.
     image: Vec<f32>,
-    /// Displacement of an element under its own unit pressure, [m/Pa].
+    /// Diagonal coefficient of K: displacement of an element under its own unit pressure, \[m/Pa].
     pub(super) self_influence: f64,
-    /// The longest elimination so far, in steps: contacts that take no longer are eliminated at once.
-    longest_elimination: f64,
-    /// Products with the kernel on this grid.
+    /// Largest cost of a direct solve so far, in steps; active sets that cost no more are solved directly at once.
+    largest_direct_cost: f64,
+    /// Operator applications on this grid so far.
     pub(super) products: usize,
 }
 
 impl Equations {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
         let mut kernel = PeriodicKernel::new(sliding, grid)?;
-        let self_influence = of_first(&mut kernel, PeriodicKernel::displace, grid.n_elements())[0];
+        let self_influence =
+            unit_response(&mut kernel, PeriodicKernel::displace, grid.n_elements())[0];
+        let [influence_symbols, inverse_symbols] = kernel.symbols(self_influence);
         let field = || copies(0.0, grid.n_elements());
         Ok(Self {
-            symbols: kernel.symbols(self_influence),
+            influence_symbols,
+            inverse_symbols,
             correction: BlockCorrection::new(sliding, grid, self_influence)?,
             kernel,
             neighbourhood: ActiveSet::new(grid.shape()),
@@ -99,37 +120,37 @@ impl Equations {
             scattered: field(),
             image: field(),
             self_influence,
-            longest_elimination: 0.0,
+            largest_direct_cost: 0.0,
             products: 0,
         })
     }
 
-    /// K p of a whole field.
+    /// Applies K to a pressure field of the whole grid, in double precision.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
         self.products += 1;
         self.kernel.displace(pressure, result);
     }
 
-    /// Takes another contact, with the fields of pressure and gap.
-    pub(super) fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
+    /// Sets the active set, with the fields of pressure \[Pa] and gap \[m], and updates the preconditioner.
+    pub(super) fn set_active_set(&mut self, active: &[bool], pressure: &[f64], gap: &[f64]) {
         let columns = self.neighbourhood.columns;
         self.neighbourhood
-            .assign(|element| has_neighbour(contact, columns, element));
+            .assign(|element| is_active_or_neighbour(active, columns, element));
         self.neighbourhood.find_runs();
         self.scattered.fill(0.0);
         let runs =
             (0..self.neighbourhood.bands.n_bands()).flat_map(|band| self.neighbourhood.runs(band));
-        let inside = runs.flat_map(|run| &contact[run.elements()]);
+        let inside = runs.flat_map(|run| &active[run.elements()]);
         self.inside = inside.map(|inside| f32::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
         let mut weights = self.inside.to_vec();
-        self.invert(&mut weights);
+        self.apply_inverse(&mut weights);
         self.weights = weights;
         self.unit_depth_response = self.weights.clone();
         if let Some(correction) = &mut self.correction {
-            correction.weigh(
+            correction.set_weights(
                 &self.neighbourhood,
                 &self.weights,
                 &mut self.unit_depth_response,
@@ -138,7 +159,7 @@ impl Equations {
         self.total_unit_depth_response = self.total(&self.unit_depth_response);
     }
 
-    /// Lists a gap less its mean in the contact, which takes the more digits the smaller the residual is.
+    /// Sets the packed gap less its mean over the active set. In this unit single precision suffices, however small the residual is.
     fn set_gap(&mut self, mut gap: Vec<f64>) {
         let inside = gap.iter().zip(&*self.inside);
         let sum: f64 = inside.map(|(gap, inside)| gap * f64::from(*inside)).sum();
@@ -151,88 +172,102 @@ impl Equations {
             .collect();
     }
 
-    /// Writes the pressure into a field, as far as the list reaches.
+    /// Copies the pressure on the active set and its neighbours into a field of the grid.
     pub(super) fn copy_pressure_to(&self, pressure: &mut [f64]) {
         self.neighbourhood.scatter(&self.pressure, pressure);
     }
 
-    /// Root mean square of the gap in the contact, \[m].
+    /// Root mean square of the gap on the active set, \[m].
     pub(super) fn residual_rms(&self) -> f64 {
         self.residual(&self.gap) * self.unit
     }
 
-    /// Solves until the largest residual, or the root mean square, is small enough.
-    pub(super) fn solve(&mut self, mean: f64, largest: f64) {
-        let [mean, largest] = [mean, largest].map(|length| length / self.unit);
-        let is_small = |equations: &Self, size: f64, gap: &[f32]| {
-            size <= mean || size <= largest && equations.largest(gap) <= largest
+    /// Solves until the root mean square of the residual is below `rms`, or its maximum below `max`, \[m].
+    pub(super) fn solve(&mut self, rms: f64, max: f64) {
+        let [rms, max] = [rms, max].map(|length| length / self.unit);
+        let is_converged = |equations: &Self, residual: f64, gap: &[f32]| {
+            residual <= rms || residual <= max && equations.max_gap(gap) <= max
         };
-        let are_few = self.n_unknowns() <= FEW;
-        let elimination = ELIMINATION * self.n_unknowns().powi(3) / self.scattered.len() as f64;
-        let worthwhile = (self.products as f64 / ELIMINATIONS).max(self.longest_elimination);
-        if !(are_few && elimination < worthwhile) {
-            self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
-        }
-        if are_few && !is_small(self, self.residual(&self.gap), &self.gap) {
-            self.longest_elimination = self.longest_elimination.max(elimination);
-            self.eliminate();
-        }
-    }
 
-    fn minimise(&mut self, most: f64, is_small: impl Fn(&Self, f64, &[f32]) -> bool) {
-        let mut gap = std::mem::take(&mut self.gap);
-        let mut added = copies(0.0, gap.len());
-        let inside = Arc::clone(&self.inside);
-        let n = self.scattered.len();
-        let of_few = NUMBERS_OF_FEW.min(NUMBERS_PER_ELEMENT_OF_FEW * n);
-        let numbers = of_few.max(NUMBERS_PER_ELEMENT * n);
-        let fitting = (numbers / (2 * inside.len())).clamp(1, MOST_STEPS);
-        #[expect(clippy::cast_possible_truncation, reason = "at most all steps")]
-        #[expect(clippy::cast_sign_loss, reason = "positive")]
-        let most = most.min(fitting.max(STEPS) as f64) as usize;
-        let limits = GcrLimits {
-            max_steps: most,
-            truncation_depth: fitting - 1,
-        };
-        let mut before = f64::INFINITY;
-        gcr(
-            &mut added,
-            &mut gap,
-            Some(&inside),
-            limits,
-            |state, direction, image| {
-                let now = (state.residual_square / self.n_contact).sqrt();
-                let goes_on = !is_small(self, now, state.residual);
-                if goes_on {
-                    if let Some(correction) = &mut self.correction
-                        && now > LITTLE * before
-                    {
-                        correction.refine();
+        // Iterate, unless a direct solve is known to be cheap; at most for the cost of a direct solve, if one is possible.
+        let n_elements = self.scattered.len();
+        let can_be_direct = self.n_unknowns() <= DIRECT_SOLVE_MAX_UNKNOWNS;
+        let direct_cost = DIRECT_SOLVE_COST * self.n_unknowns().powi(3) / n_elements as f64;
+        let affordable =
+            (self.products as f64 / ITERATIONS_IN_DIRECT_SOLVES).max(self.largest_direct_cost);
+        if !(can_be_direct && direct_cost < affordable) {
+            let cost_limit = if can_be_direct {
+                direct_cost
+            } else {
+                f64::INFINITY
+            };
+
+            // The basis holds as many directions, with their images, as fit into memory.
+            let small_grid_floats = MAX_BASIS_FLOATS_ON_SMALL_GRID
+                .min(BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID * n_elements);
+            let basis_floats = small_grid_floats.max(BASIS_FLOATS_PER_ELEMENT * n_elements);
+            let max_directions = (basis_floats / (2 * self.inside.len())).clamp(1, MAX_STEPS);
+            let step_limit = max_directions.max(MAX_STEPS_IF_TRUNCATED) as f64;
+            #[expect(clippy::cast_possible_truncation, reason = "at most all steps")]
+            #[expect(clippy::cast_sign_loss, reason = "positive")]
+            let limits = GcrLimits {
+                max_steps: cost_limit.min(step_limit) as usize,
+                truncation_depth: max_directions - 1,
+            };
+
+            // Run GCR; where it stagnates, solve the coarse-space correction more accurately.
+            let mut gap = std::mem::take(&mut self.gap);
+            let mut added = copies(0.0, gap.len());
+            let inside = Arc::clone(&self.inside);
+            let mut previous = f64::INFINITY;
+            gcr(
+                &mut added,
+                &mut gap,
+                Some(&inside),
+                limits,
+                |state, direction, image| {
+                    let residual = (state.residual_square / self.n_contact).sqrt();
+                    let goes_on = !is_converged(self, residual, state.residual);
+                    if goes_on {
+                        if let Some(correction) = &mut self.correction
+                            && residual > STAGNATION_RATIO * previous
+                        {
+                            correction.tighten_tolerance();
+                        }
+                        previous = residual;
+                        self.find_direction(state.source, direction, image);
                     }
-                    before = now;
-                    self.find_direction(state.source, [direction, image]);
-                }
-                goes_on
-            },
-        );
-        self.gap = gap;
-        let unit = self.unit / self.self_influence;
-        for (pressure, added) in self.pressure.iter_mut().zip(added) {
-            *pressure += unit * f64::from(added);
+                    goes_on
+                },
+            );
+            self.gap = gap;
+            let unit = self.unit / self.self_influence;
+            for (pressure, added) in self.pressure.iter_mut().zip(added) {
+                *pressure += unit * f64::from(added);
+            }
+        }
+
+        // Solve directly what the iteration has not reached.
+        if can_be_direct && !is_converged(self, self.residual(&self.gap), &self.gap) {
+            self.largest_direct_cost = self.largest_direct_cost.max(direct_cost);
+            self.solve_directly();
         }
     }
 
-    /// The gaps that a list of pressures causes.
-    fn displaced(&mut self, pressures: &[f32], gaps: &mut [f32]) {
+    /// The gaps, less their mean, that a packed vector of pressures causes.
+    fn apply_influence(&mut self, pressures: &[f32], gaps: &mut [f32]) {
         self.neighbourhood.scatter(pressures, &mut self.scattered);
         self.products += 1;
-        self.kernel
-            .apply_single_precision(&self.symbols[0], &self.scattered, &mut self.image);
+        self.kernel.apply_single_precision(
+            &self.influence_symbols,
+            &self.scattered,
+            &mut self.image,
+        );
         self.neighbourhood.gather(&self.image, gaps);
         self.subtract_mean(gaps);
     }
 
-    /// Root mean square of a gap in the contact, in its unit.
+    /// Root mean square of a packed gap on the active set, in its unit.
     fn residual(&self, gap: &[f32]) -> f64 {
         let square = self.neighbourhood.sum(|range| {
             let lists = [&self.inside[range.clone()], &gap[range]];
@@ -241,8 +276,8 @@ impl Equations {
         (square / self.n_contact).sqrt()
     }
 
-    /// Largest |gap| in the contact.
-    fn largest(&self, gap: &[f32]) -> f64 {
+    /// Largest |gap| on the active set.
+    fn max_gap(&self, gap: &[f32]) -> f64 {
         let largest = |band: usize| {
             let range = self.neighbourhood.packed_range(band);
             let pairs = self.inside[range.clone()].iter().zip(&gap[range]);
@@ -253,41 +288,43 @@ impl Equations {
         self.neighbourhood.bands.gather(largest, larger)
     }
 
-    /// Pressures without mean that about close the gaps, and the gaps that they cause.
-    fn find_direction(&mut self, gap: &[f32], [direction, image]: [&mut [f32]; 2]) {
+    /// Preconditioned direction that closes the gaps approximately, without mean pressure, and the gaps `image` that it causes.
+    fn find_direction(&mut self, gap: &[f32], direction: &mut [f32], image: &mut [f32]) {
+        // S and its correction, applied to minus the gap on the active set.
         let closing = |band, [direction]: [&mut [f32]; 1]| {
             let range = self.neighbourhood.packed_range(band);
             let pairs = gap[range.clone()].iter().zip(&self.inside[range]);
-            for (place, (gap, inside)) in direction.iter_mut().zip(pairs) {
-                *place = -inside * gap;
+            for (value, (gap, inside)) in direction.iter_mut().zip(pairs) {
+                *value = -inside * gap;
             }
         };
         let bands = self.neighbourhood.bands;
         bands.for_each_part([self.neighbourhood.packed(direction)], closing);
-        self.invert(direction);
+        self.apply_inverse(direction);
         if let Some(correction) = &mut self.correction {
             correction.correct(&self.neighbourhood, &self.weights, direction);
         }
+        // Remove the mean by a change of the depth.
         let total = self.total(direction);
         add_scaled(
             direction,
             f32::rounded(-total / self.total_unit_depth_response),
             &self.unit_depth_response,
         );
-        self.displaced(direction, image);
+        self.apply_influence(direction, image);
     }
 
-    /// S of a list, on the contact.
-    fn invert(&mut self, list: &mut [f32]) {
-        self.neighbourhood.scatter(list, &mut self.scattered);
+    /// Applies S to a packed vector, restricted to the active set.
+    fn apply_inverse(&mut self, vector: &mut [f32]) {
+        self.neighbourhood.scatter(vector, &mut self.scattered);
         self.kernel
-            .apply_single_precision(&self.symbols[1], &self.scattered, &mut self.image);
+            .apply_single_precision(&self.inverse_symbols, &self.scattered, &mut self.image);
         let (neighbourhood, image, inside) = (&self.neighbourhood, &self.image, &self.inside);
         neighbourhood
             .bands
-            .for_each_part([neighbourhood.packed(list)], |band, [list]| {
-                neighbourhood.gather_in(band, image, list);
-                for (value, inside) in list
+            .for_each_part([neighbourhood.packed(vector)], |band, [vector]| {
+                neighbourhood.gather_in(band, image, vector);
+                for (value, inside) in vector
                     .iter_mut()
                     .zip(&inside[neighbourhood.packed_range(band)])
                 {
@@ -296,30 +333,32 @@ impl Equations {
             });
     }
 
+    /// Gathers a field of the grid into a packed vector.
     fn gather(&self, field: &[f64]) -> Vec<f64> {
-        let mut list = copies(0.0, self.neighbourhood.len());
-        self.neighbourhood.gather(field, &mut list);
-        list
+        let mut vector = copies(0.0, self.neighbourhood.len());
+        self.neighbourhood.gather(field, &mut vector);
+        vector
     }
 
-    /// Subtracts the mean over the contact.
-    fn subtract_mean(&self, list: &mut [f32]) {
+    /// Subtracts the mean over the active set from all values.
+    fn subtract_mean(&self, vector: &mut [f32]) {
         let sum = self.neighbourhood.sum(|range| {
-            let lists = [&list[range.clone()], &self.inside[range]];
+            let lists = [&vector[range.clone()], &self.inside[range]];
             sum(lists, |[value, inside]| inside * value).into()
         });
         let mean = f32::rounded(sum / self.n_contact);
-        list.iter_mut().for_each(|value| *value -= mean);
+        vector.iter_mut().for_each(|value| *value -= mean);
     }
 
-    fn total(&self, list: &[f32]) -> f64 {
+    /// Sum of a packed vector.
+    fn total(&self, vector: &[f32]) -> f64 {
         self.neighbourhood
-            .sum(|range| sum([&list[range]], |[value]| value).into())
+            .sum(|range| sum([&vector[range]], |[value]| value).into())
     }
 }
 
-/// What a map makes of 1 on the first element of so many.
-fn of_first(
+/// Result of a linear map of the grid for 1 on its first element and 0 on all others.
+fn unit_response(
     kernel: &mut PeriodicKernel,
     map: fn(&mut PeriodicKernel, &[f64], &mut [f64]),
     n_elements: usize,
@@ -330,11 +369,12 @@ fn of_first(
     image
 }
 
-fn has_neighbour(contact: &[bool], columns: usize, element: usize) -> bool {
-    let rows = contact.len() / columns;
+/// True if an element, or one of its eight periodic neighbours, is active.
+fn is_active_or_neighbour(active: &[bool], columns: usize, element: usize) -> bool {
+    let rows = active.len() / columns;
     let (row, column) = (element / columns, element % columns);
     [row + rows - 1, row, row + 1].iter().any(|row| {
-        let row = &contact[row % rows * columns..][..columns];
+        let row = &active[row % rows * columns..][..columns];
         row[column] || row[(column + 1) % columns] || row[(column + columns - 1) % columns]
     })
 }

@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use indenters::rough::PeriodicSurface;
 use numerics::{Accuracy, Estimate, Request, WorkProgress, between_zero_and_one};
 
-use crate::stationary::periodic::equations::{NUMBERS_OF_FEW, NUMBERS_PER_ELEMENT_OF_FEW};
+use crate::stationary::periodic::equations::{
+    BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID, MAX_BASIS_FLOATS_ON_SMALL_GRID,
+};
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
 use crate::transform::fast_length::fast_length;
@@ -55,8 +57,11 @@ const LARGEST_GRID: f64 = 268_435_456.0;
 const BYTES_PER_ELEMENT: f64 = 186.0;
 /// What directions take besides, so much for each element; no less than elimination may take, and no more than is kept on a small
 /// grid, \[bytes].
-const BYTES_OF_FEW: f64 = (size_of::<f32>() * NUMBERS_PER_ELEMENT_OF_FEW) as f64;
-const BYTES_BESIDE: [f64; 2] = [33_554_432.0, (size_of::<f32>() * NUMBERS_OF_FEW) as f64];
+const BYTES_OF_FEW: f64 = (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
+const BYTES_BESIDE: [f64; 2] = [
+    33_554_432.0,
+    (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64,
+];
 /// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
 const THREE_GRIDS: usize = 4;
 

@@ -1,35 +1,35 @@
-//! The equations of a contact of few elements, or of one that leaves few elements open, by elimination: no ratio of moduli slows
-//! that down.
+//! Direct solution of the equations if few elements are in contact, or few are open, whatever the ratio of the moduli is.
 //!
-//! The pressures of few elements follow from their influence on each other. Beside few open elements the pressures that close all
-//! gaps follow from the inverse of K on the whole grid, once the gaps of these few are known; they are those that leave no
-//! pressure there.
+//! On few active elements the dense matrix of their influence coefficients is factorised. Next to few open elements (complement
+//! solve) the pressure that closes all gaps follows from the inverse of K on the whole grid, once the gaps of the open elements
+//! are known. These are the gaps that leave no pressure there.
 
 use nalgebra::DMatrix;
 use numerics::transforms::Real as _;
 
-use super::{Equations, of_first};
+use super::{Equations, unit_response};
 use crate::contact::active_set::Run;
 use crate::parallel::bands::copies;
 use crate::parallel::reductions::add;
 use crate::stationary::periodic::kernel::PeriodicKernel;
 
 impl Equations {
-    /// Elements in contact, or open ones, whichever are fewer.
+    /// Number of unknowns of a direct solve: elements in contact or open elements, whichever are fewer.
     pub(super) fn n_unknowns(&self) -> f64 {
         self.n_contact.min(self.n_open())
     }
 
+    /// Number of elements outside the active set.
     fn n_open(&self) -> f64 {
         self.scattered.len() as f64 - self.n_contact
     }
 
-    /// Adds the pressures without mean that close the gaps.
-    pub(super) fn eliminate(&mut self) {
+    /// Adds the pressures without mean that close the gaps; does nothing if the matrix is singular.
+    pub(super) fn solve_directly(&mut self) {
         let found = if self.n_contact <= self.n_open() {
-            self.of_few_elements()
+            self.factorise_active_set()
         } else {
-            self.beside_few_open()
+            self.solve_complement()
         };
         let Some(loads) = found else {
             return;
@@ -40,40 +40,43 @@ impl Equations {
         }
         let added: Vec<f32> = loads.into_iter().map(f32::rounded).collect();
         let mut image = copies(0.0, added.len());
-        self.displaced(&added, &mut image);
-        add_scaled(&mut self.gap, 1.0, &image);
+        self.apply_influence(&added, &mut image);
+        add(&mut self.gap, 1.0, &image);
     }
 
-    /// The pressures that close the gaps, in their unit, of a contact of few elements.
-    fn of_few_elements(&mut self) -> Option<Vec<f64>> {
+    /// The pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
+    /// singular.
+    fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
         let runs =
             (0..self.neighbourhood.bands.n_bands()).flat_map(|band| self.neighbourhood.runs(band));
-        let listed = runs.flat_map(Run::elements).enumerate();
-        let (places, elements): (Vec<usize>, Vec<usize>) = listed
-            .filter(|(place, _)| self.inside[*place] > 0.0)
+        let indexed = runs.flat_map(Run::elements).enumerate();
+        let (packed, elements): (Vec<usize>, Vec<usize>) = indexed
+            .filter(|(index, _)| self.inside[*index] > 0.0)
             .unzip();
-        let mut image = of_first(
+        let mut image = unit_response(
             &mut self.kernel,
             PeriodicKernel::displace,
             self.scattered.len(),
         );
         image.iter_mut().for_each(|gap| *gap /= self.self_influence);
-        let sides = [&self.gap, &*self.inside];
-        let sides = DMatrix::from_fn(elements.len(), 2, |place, side| {
-            f64::from(sides[side][places[place]])
+        // Responses to the gaps and to the unit gap, combined so that the mean pressure vanishes.
+        let vectors = [&self.gap, &*self.inside];
+        let right_sides = DMatrix::from_fn(elements.len(), 2, |row, side| {
+            f64::from(vectors[side][packed[row]])
         });
-        let matrix = influence(&image, self.neighbourhood.columns, &elements);
-        let solved = matrix.lu().solve(&sides)?;
+        let matrix = dense_matrix(&image, self.neighbourhood.columns, &elements);
+        let solved = matrix.lu().solve(&right_sides)?;
         let depth = solved.column(0).sum() / solved.column(1).sum();
         let mut loads = vec![0.0; self.inside.len()];
-        for (row, place) in places.into_iter().enumerate() {
-            loads[place] = depth * solved[(row, 1)] - solved[(row, 0)];
+        for (row, index) in packed.into_iter().enumerate() {
+            loads[index] = depth * solved[(row, 1)] - solved[(row, 0)];
         }
         Some(loads)
     }
 
-    /// Likewise of a contact that leaves few elements open.
-    fn beside_few_open(&mut self) -> Option<Vec<f64>> {
+    /// The pressures that close the gaps, in their unit, from the inverse of K and the gaps of the open elements; `None` if the
+    /// dense matrix of the inverse on the open elements is singular.
+    fn solve_complement(&mut self) -> Option<Vec<f64>> {
         let n = self.scattered.len();
         let mut inside = copies(0.0, n);
         self.neighbourhood.scatter(&self.inside, &mut inside);
@@ -82,19 +85,20 @@ impl Equations {
         let gaps: Vec<f64> = gaps.map(|(gap, inside)| f64::from(gap * inside)).collect();
         let [mut field, mut loads] = [(); 2].map(|()| vec![0.0; n]);
         self.neighbourhood.scatter(&gaps, &mut field);
-        self.invert_exactly(&field, &mut loads);
+        self.apply_exact_inverse(&field, &mut loads);
+        // Gaps of the open elements that leave no pressure there.
         if !open.is_empty() {
-            let mut image = of_first(&mut self.kernel, PeriodicKernel::invert, n);
+            let mut image = unit_response(&mut self.kernel, PeriodicKernel::invert, n);
             image
                 .iter_mut()
                 .for_each(|load| *load *= self.self_influence);
-            let side = DMatrix::from_fn(open.len(), 1, |place, _| loads[open[place]]);
-            let matrix = influence(&image, self.neighbourhood.columns, &open);
-            let opened = matrix.lu().solve(&side)?;
-            for (element, gap) in open.iter().zip(&opened) {
+            let right_side = DMatrix::from_fn(open.len(), 1, |row, _| loads[open[row]]);
+            let matrix = dense_matrix(&image, self.neighbourhood.columns, &open);
+            let open_gaps = matrix.lu().solve(&right_side)?;
+            for (element, gap) in open.iter().zip(&open_gaps) {
                 field[*element] = -gap;
             }
-            self.invert_exactly(&field, &mut loads);
+            self.apply_exact_inverse(&field, &mut loads);
         }
         let pairs = self.gather(&loads).into_iter().zip(&*self.inside);
         Some(
@@ -104,8 +108,8 @@ impl Equations {
         )
     }
 
-    /// The pressures without mean that displace the whole grid by a field, but for its mean, in their unit.
-    fn invert_exactly(&mut self, field: &[f64], loads: &mut [f64]) {
+    /// The pressures without mean, in their unit, that displace the whole grid by a field less its mean; in double precision.
+    fn apply_exact_inverse(&mut self, field: &[f64], loads: &mut [f64]) {
         self.products += 1;
         self.kernel.invert(field, loads);
         let own = self.self_influence;
@@ -113,8 +117,8 @@ impl Equations {
     }
 }
 
-/// The dense part, for some elements, of a map that is the same everywhere, from what it makes of the first element of the grid.
-fn influence(image: &[f64], columns: usize, elements: &[usize]) -> DMatrix<f64> {
+/// Dense matrix, for some elements, of a translation-invariant map with the unit response `image`.
+fn dense_matrix(image: &[f64], columns: usize, elements: &[usize]) -> DMatrix<f64> {
     let rows = image.len() / columns;
     let between = |to: usize, from: usize| {
         let row = (to / columns + rows - from / columns) % rows;
@@ -136,9 +140,9 @@ mod tests {
 
     const SIDE: usize = 24;
 
-    /// Of few elements in contact, and of few open ones; the gap is any.
+    /// Few elements in contact, then few open ones, with an arbitrary gap.
     #[test]
-    fn elimination_closes_all_gaps_of_a_contact() {
+    fn a_direct_solve_closes_all_gaps_on_the_active_set() {
         let branches = vec![RelaxationBranch {
             modulus: 999.0,
             relaxation_time: 1.0,
@@ -157,7 +161,7 @@ mod tests {
                 .collect();
             let mut pressure = vec![0.0; SIDE * SIDE];
             equations.set_active_set(&contact, &pressure, &before);
-            equations.eliminate();
+            equations.solve_directly();
             equations.copy_pressure_to(&mut pressure);
             let mut gap = vec![0.0; SIDE * SIDE];
             equations.displace(&pressure, &mut gap);
