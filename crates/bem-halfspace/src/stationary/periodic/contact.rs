@@ -1,4 +1,6 @@
-//! One contact of a periodic surface.
+//! The stationary contact of a periodic surface on one grid, from a first guess of the pressure.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
 
 use crate::parallel::reductions::larger;
 use crate::stationary::periodic::equations::Equations;
@@ -6,22 +8,24 @@ use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};
 
-/// Root mean square of the residual, as a part of that of the heights, to which every contact is solved at least. Without it that
-/// of a solid whose moduli differ by 1000 takes up to twice as many products on 1024² elements.
-const ROUGH: f64 = 0.01;
+/// Loosest tolerance on every active set: root mean square of the residual as a fraction of that of the heights.
+///
+/// Without it the contact of a solid whose moduli differ by 1000 takes up to twice as many operator applications on 1024²
+/// elements.
+const INEXACT_TOLERANCE: f64 = 0.01;
 
 /// A contact problem on one grid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PeriodicContact<'a> {
     pub(super) sliding: &'a Sliding,
     pub(super) grid: &'a Grid,
-    /// At the centres of the elements, \[m].
+    /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
     /// \[Pa].
     pub(super) mean_pressure: f64,
     /// Largest residual, relative to the largest displacement.
     pub(super) tolerance: f64,
-    /// Products with the kernel.
+    /// Maximum number of operator applications.
     pub(super) max_products: usize,
 }
 
@@ -29,13 +33,16 @@ pub(super) struct PeriodicContact<'a> {
 pub(super) struct PeriodicSolution {
     /// Mean of h + u over the contact, \[m].
     pub(super) depth: f64,
+    /// Operator applications on this grid.
     pub(super) products: usize,
+    /// Final residual, relative to the largest displacement.
     pub(super) residual: f64,
 }
 
-/// Solves the problem from a first guess of the pressure, which is the solution afterwards: outside the contact it is the
-/// gap, as a negative multiple of the displacement of an element under its own pressure. Without a positive pressure half
-/// of the elements are taken for the contact.
+/// Solves the problem from a first guess of the pressure, which is replaced by the solution.
+///
+/// Outside the contact the solution is minus the gap over the self-influence, a negative pressure. Without a positive pressure the
+/// first active set is all elements not above the mean height.
 pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
@@ -52,7 +59,7 @@ pub(super) fn solve(
     }
     let own = equations.self_influence;
     let mut contact = PeriodicFixedSetSolver { problem, equations };
-    let inner_tolerance = ROUGH * variance.sqrt();
+    let inner_tolerance = INEXACT_TOLERANCE * variance.sqrt();
     let mut search = Search::new(
         &mut contact,
         heights,
@@ -77,6 +84,7 @@ pub(super) fn solve(
     })
 }
 
+/// The equations of the problem, as the active-set search uses them.
 struct PeriodicFixedSetSolver<'a> {
     problem: PeriodicContact<'a>,
     equations: &'a mut Equations,
@@ -84,9 +92,11 @@ struct PeriodicFixedSetSolver<'a> {
 
 impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     const PERIODIC_ALONG_X: bool = true;
-    /// With 0.1 as a rule there are up to a quarter more products in light contact. With a tenth of the area of 4096² elements in
-    /// contact and moduli that differ by 1000 there are 156 products where they do not differ and 115 as they are; where the second
-    /// holds for residuals that fall by less than a half too, contacts of dashpots take a fifth more.
+    /// With `usual` = 0.1 there are up to a quarter more operator applications in light contact.
+    ///
+    /// With a tenth of the area of 4096² elements in contact and moduli that differ by 1000 there are 156 operator applications if
+    /// both terms are equal, and 115 as they are. If `after_growth` holds for residuals that fall by less than a half too, contacts
+    /// of dashpots take a fifth more.
     const FORCING: ForcingTerms = ForcingTerms {
         usual: 0.2,
         after_growth: 0.06,
@@ -105,7 +115,7 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
         self.equations.self_influence
     }
 
-    /// Displacements without mean, and the largest one.
+    /// Writes the displacements without their mean, and returns the largest absolute one.
     fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64 {
         self.equations.displace(pressure, moved);
         let mean = moved.iter().sum::<f64>() / moved.len() as f64;

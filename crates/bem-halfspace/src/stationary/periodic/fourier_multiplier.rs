@@ -1,4 +1,4 @@
-//! Products with symbols of waves on a periodic grid.
+//! Fourier multipliers on a periodic grid, in double and in single precision.
 
 use std::f64::consts::PI;
 
@@ -9,14 +9,14 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 
-/// The waves that fit on a grid.
+/// Plans and wave numbers of a grid, for products with symbols by the waves that it resolves.
 pub(super) struct FourierMultiplier {
     shape: [usize; 2],
-    accurate: Option<Transforms<f64>>,
-    rough: Option<Transforms<f32>>,
-    /// q_x of the rows of a transformed field, \[rad/m]: that of the shortest wave is positive.
+    double: Option<Transforms<f64>>,
+    single: Option<Transforms<f32>>,
+    /// q_x of the rows of a transformed field, \[rad/m]; positive for the shortest wave.
     pub(super) along_x: Vec<f64>,
-    /// |q|/M of all waves by column and row of the transform, \[rad/m]; that of the longest wave stands for the mean.
+    /// |q|/M of all waves by column and row of the transform, \[rad/m]; for the mean that of the longest wave.
     stiffness: Vec<f64>,
 }
 
@@ -41,15 +41,16 @@ impl FourierMultiplier {
         });
         Self {
             shape: grid.shape(),
-            accurate: None,
-            rough: None,
+            double: None,
+            single: None,
             along_x,
             stiffness,
         }
     }
 
-    /// Multiplies every wave of a field by a symbol of its row in the transform, its q_x and its |q|/M \[rad/m], which is
-    /// that of the longest wave for the mean. Does not allocate after the first time.
+    /// Multiplies every wave of a field by `symbol(row, [q_x, |q|/M])`, with its row in the transform and wave numbers \[rad/m].
+    ///
+    /// For the mean, |q|/M is that of the longest wave. Allocates only at the first call.
     pub(super) fn apply(
         &mut self,
         field: &[f64],
@@ -57,9 +58,9 @@ impl FourierMultiplier {
         symbol: impl Fn(usize, [f64; 2]) -> Complex<f64> + Sync,
     ) {
         let (along_x, stiffness) = (&self.along_x, &self.stiffness);
-        let transforms = Transforms::of(&mut self.accurate, self.shape);
+        let transforms = Transforms::get_or_plan(&mut self.double, self.shape);
         let normalisation = transforms.plans.normalisation();
-        transforms.pass((field, result), |column, values| {
+        transforms.multiply(field, result, |column, values| {
             let stiffness = &stiffness[column * along_x.len()..];
             let waves = along_x.iter().zip(stiffness).enumerate();
             for (value, (row, (&q_x, &q))) in values.iter_mut().zip(waves) {
@@ -68,18 +69,19 @@ impl FourierMultiplier {
         });
     }
 
-    /// The values of a field by parts of an element beside its centres, along both axes. The shortest wave that elements tell must not
-    /// be among them.
+    /// Trigonometric interpolation of a field at a distance from the centres, in elements along both axes. The field must not
+    /// contain the shortest wave of the grid.
     #[cfg(feature = "rough")]
-    pub(super) fn beside(&mut self, field: &[f64], result: &mut [f64], parts: [f64; 2]) {
-        let turns = [0, 1].map(|axis| 2.0 * PI * parts[axis] / self.shape[axis] as f64);
+    pub(super) fn shift(&mut self, field: &[f64], result: &mut [f64], offset: [f64; 2]) {
+        let turns = [0, 1].map(|axis| 2.0 * PI * offset[axis] / self.shape[axis] as f64);
         let rows = self.shape[0];
         let number = |row: usize| row as f64 - if 2 * row > rows { rows as f64 } else { 0.0 };
-        let along = (0..rows).map(|row| Complex::cis(turns[0] * number(row)));
-        let along: Vec<Complex<f64>> = along.collect();
-        let transforms = Transforms::of(&mut self.accurate, self.shape);
+        let along: Vec<Complex<f64>> = (0..rows)
+            .map(|row| Complex::cis(turns[0] * number(row)))
+            .collect();
+        let transforms = Transforms::get_or_plan(&mut self.double, self.shape);
         let normalisation = transforms.plans.normalisation();
-        transforms.pass((field, result), |column, values| {
+        transforms.multiply(field, result, |column, values| {
             let across = Complex::cis(turns[1] * column as f64) * normalisation;
             for (value, along) in values.iter_mut().zip(&along) {
                 *value *= along * across;
@@ -104,7 +106,7 @@ impl FourierMultiplier {
         symbols
     }
 
-    /// Multiplies every wave by its symbol, with seven digits. Does not allocate after the first time.
+    /// Multiplies every wave by its symbol, in single precision. Allocates only at the first call.
     pub(super) fn apply_single_precision(
         &mut self,
         field: &[f32],
@@ -112,8 +114,8 @@ impl FourierMultiplier {
         symbols: &[Complex<f32>],
     ) {
         let rows = self.along_x.len();
-        let transforms = Transforms::of(&mut self.rough, self.shape);
-        transforms.pass((field, result), |column, values| {
+        let transforms = Transforms::get_or_plan(&mut self.single, self.shape);
+        transforms.multiply(field, result, |column, values| {
             for (value, symbol) in values.iter_mut().zip(&symbols[column * rows..]) {
                 *value *= symbol;
             }
@@ -128,9 +130,9 @@ struct Transforms<T> {
 }
 
 impl<T: Real> Transforms<T> {
-    /// Those of a place, which are made where there are none.
-    fn of(place: &mut Option<Self>, shape: [usize; 2]) -> &mut Self {
-        place.get_or_insert_with(|| {
+    /// The transforms in `slot`, which are planned at the first call.
+    fn get_or_plan(slot: &mut Option<Self>, shape: [usize; 2]) -> &mut Self {
+        slot.get_or_insert_with(|| {
             let plans = PlaneTransform::new(shape);
             Self {
                 workspace: Workspace::new(&plans, shape),
@@ -139,10 +141,11 @@ impl<T: Real> Transforms<T> {
         })
     }
 
-    /// Multiplies the columns of the transform of a whole field.
-    fn pass(
+    /// Transforms a whole field, multiplies the columns of its transform, and transforms back.
+    fn multiply(
         &mut self,
-        (field, result): (&[T], &mut [T]),
+        field: &[T],
+        result: &mut [T],
         multiply: impl Fn(usize, &mut [Complex<T>]) + Sync,
     ) {
         let Self { plans, workspace } = self;

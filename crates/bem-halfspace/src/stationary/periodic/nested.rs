@@ -1,4 +1,6 @@
-//! Nested grids, and the full contact.
+//! Nested iteration over grids of twice the spacing, and the full contact in closed form.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces", "From grid to grid".
 
 use std::f64::consts::PI;
 
@@ -10,18 +12,23 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
-/// Grids with fewer elements along an edge are not made coarser.
-const SMALLEST_EDGE: usize = 32;
-/// Tolerance of a solution that is only a start.
+/// Fewest elements along an edge of the coarsest grid; chosen.
+const MIN_COARSE_EDGE: usize = 32;
+/// Smallest relative tolerance of a solution that is only a first guess; chosen.
 const COARSE_TOLERANCE: f64 = 1e-4;
-const COARSE_PRODUCTS: usize = 300;
-/// Elements in contact for each one of twice the edges that a guess has at most. Of 300 contacts of a hundred-thousandth to all of the
-/// area one takes 154 products without it and none more than 103 with it, and all of them 5 per cent less; where it always
-/// holds, those of a tenth of the area take as much more.
-const MOST_FOR_ONE: usize = 6;
+/// Maximum number of operator applications for a first guess; chosen.
+const COARSE_MAX_PRODUCTS: usize = 300;
+/// Largest number of active elements per active element of twice the edges after prolongation; above it the set is restricted to
+/// their children.
+///
+/// Of 300 contacts of a hundred-thousandth to all of the area one takes 154 operator applications without it and none more than
+/// 103 with it, and all of them 5 per cent less. If all sets are restricted, contacts of a tenth of the area take 5 per cent more.
+const MAX_GROWTH_ON_PROLONGATION: usize = 6;
 
-/// Solves the problem with the equations of its grid from a guess on them, or on elements of twice the edges, or from none. The guess
-/// becomes the pressure, and outside the contact the gap, as a negative pressure.
+/// Solves the problem with the equations of its grid.
+///
+/// The guess may be on this grid, on elements of twice the edges, or of any other length for none. It becomes the pressure, which
+/// outside the contact is negative and stands for the gap.
 pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
@@ -31,54 +38,58 @@ pub(super) fn solve(
         return Ok(solved);
     }
     if 4 * guess.len() == problem.heights.len() {
-        *guess = doubled(guess, problem.grid.blocks().shape());
+        *guess = prolong(guess, problem.grid.blocks().shape());
     } else if guess.len() != problem.heights.len() {
         guess.clear();
-        start(&problem, guess)?;
+        solve_on_coarser_grids(&problem, guess)?;
     }
     contact::solve(problem, equations, guess)
 }
 
-/// Starts from the solution on elements of twice the edges, if they can be so long.
-fn start(problem: &PeriodicContact, pressure: &mut Vec<f64>) -> Result<(), BemError> {
-    let can_be_halved = |n: &usize| n.is_multiple_of(2) && *n >= 2 * SMALLEST_EDGE;
-    if !problem.grid.shape().iter().all(can_be_halved) {
+/// Prolongs the solution on elements of twice the edges, found by nested iteration; leaves the pressure as it is if the grid cannot
+/// be coarsened.
+fn solve_on_coarser_grids(
+    problem: &PeriodicContact,
+    pressure: &mut Vec<f64>,
+) -> Result<(), BemError> {
+    let can_be_coarsened = |n: &usize| n.is_multiple_of(2) && *n >= 2 * MIN_COARSE_EDGE;
+    if !problem.grid.shape().iter().all(can_be_coarsened) {
         return Ok(());
     }
     let grid = problem.grid.blocks();
-    let heights = halved(problem.grid, problem.heights);
+    let heights = restrict(problem.grid, problem.heights);
     let coarse = PeriodicContact {
         grid: &grid,
         heights: &heights,
         tolerance: problem.tolerance.max(COARSE_TOLERANCE),
-        max_products: problem.max_products.min(COARSE_PRODUCTS),
+        max_products: problem.max_products.min(COARSE_MAX_PRODUCTS),
         ..*problem
     };
     let mut guess = Vec::new();
-    start(&coarse, &mut guess)?;
+    solve_on_coarser_grids(&coarse, &mut guess)?;
     let mut equations = Equations::new(problem.sliding, &grid)?;
     match contact::solve(coarse, &mut equations, &mut guess) {
-        // Whatever was reached is a guess.
+        // An unconverged solution is a guess too.
         Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
         Err(error) => return Err(error),
     }
-    *pressure = doubled(&guess, grid.shape());
+    *pressure = prolong(&guess, grid.shape());
     Ok(())
 }
 
-/// The waves that fit on a grid of twice the edges, at the centres of its elements.
-fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
+/// Restriction: the modes resolved on elements of twice the edges, at the centres of these.
+fn restrict(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
-    let cut = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
+    let cut_off = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
     let mut field = vec![0.0; heights.len()];
     FourierMultiplier::new(grid, &Base::default()).apply(heights, &mut field, |row, [q_x, q]| {
-        // For the mean this is another mean, which changes nothing but the depth of a guess.
+        // For the mean, q is that of the longest wave; this changes nothing but the depth of a guess.
         let q_y = if row == 0 {
             q
         } else {
             (q * q - q_x * q_x).max(0.0).sqrt()
         };
-        let is_kept = (q_x * dx).abs() < cut && q_y * dy < cut;
+        let is_kept = (q_x * dx).abs() < cut_off && q_y * dy < cut_off;
         if is_kept {
             Complex::from_polar(1.0, 0.5 * (q_x * dx + q_y * dy))
         } else {
@@ -90,15 +101,17 @@ fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A guess from elements of twice the edges, bilinear between their centres. Only what is in contact there stays so where else too much
-/// would come in around few elements, whose pressures are far larger than the gaps of others; and it is the same on all four parts
-/// of each element where else half of what is in contact would be lost, because it is a few elements beside wide gaps.
-fn doubled(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
+/// Prolongation of a first guess from elements of twice the edges, bilinear between their centres.
+///
+/// If the active set grows too much, because the pressures of few elements are far larger than the gaps around them, only children
+/// of active elements stay active. If half of the set would be lost, because it is a few elements next to wide gaps, each element
+/// gives its value to its four children.
+fn prolong(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
     let in_contact = |field: &[f64]| field.iter().filter(|pressure| **pressure > 0.0).count();
     let columns = shape[1];
     let parent = |element: usize| field[element / (4 * columns) * columns + element / 2 % columns];
     let mut fine = interpolated(field, shape, shape.map(|n| 2 * n));
-    if in_contact(&fine) > MOST_FOR_ONE * in_contact(field) {
+    if in_contact(&fine) > MAX_GROWTH_ON_PROLONGATION * in_contact(field) {
         for (element, pressure) in fine.iter_mut().enumerate() {
             if parent(element) <= 0.0 {
                 *pressure = pressure.min(0.0);
@@ -111,10 +124,10 @@ fn doubled(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
     (0..fine.len()).map(parent).collect()
 }
 
-/// A field that repeats itself on another number of elements, bilinear between the centres of its own.
+/// A periodic field on another number of elements, bilinear between the centres of its own.
 pub(super) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
-    // The two nearest elements along an axis, and the part of the second.
-    let beside = |axis: usize| -> Vec<([usize; 2], f64)> {
+    // The two nearest elements along an axis, and the weight of the second.
+    let neighbours = |axis: usize| -> Vec<([usize; 2], f64)> {
         let [n, finer] = [from[axis], to[axis]];
         let between = |index: usize| {
             let place = (index as f64 + 0.5) * n as f64 / finer as f64 + 0.5;
@@ -124,20 +137,20 @@ pub(super) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> V
         };
         (0..finer).map(between).collect()
     };
-    let [along, across] = [0, 1].map(beside);
+    let [along_x, along_y] = [0, 1].map(neighbours);
     let value = |element: usize| {
-        let (rows, part) = along[element / to[1]];
-        let (columns, part_across) = across[element % to[1]];
+        let (rows, weight_x) = along_x[element / to[1]];
+        let (columns, weight_y) = along_y[element % to[1]];
         let [first, second] = rows.map(|row| {
             let [first, second] = columns.map(|column| field[row * from[1] + column]);
-            first + part_across * (second - first)
+            first + weight_y * (second - first)
         });
-        first + part * (second - first)
+        first + weight_x * (second - first)
     };
     (0..to[0] * to[1]).map(value).collect()
 }
 
-/// The pressure that makes the half space follow the surface everywhere, where it is nowhere a tension.
+/// Full contact: the pressure under which the half space follows the surface everywhere; `None` if it is a tension anywhere.
 fn full_contact(
     problem: &PeriodicContact,
     equations: &mut Equations,
@@ -148,8 +161,8 @@ fn full_contact(
     let mut full = vec![0.0; displacement.len()];
     equations.kernel.invert_at_centre(&displacement, &mut full);
     let total: f64 = full.iter().sum();
-    let rest = problem.mean_pressure - total / full.len() as f64;
-    full.iter_mut().for_each(|pressure| *pressure += rest);
+    let missing = problem.mean_pressure - total / full.len() as f64;
+    full.iter_mut().for_each(|pressure| *pressure += missing);
     if full.iter().any(|pressure| *pressure <= 0.0) {
         return None;
     }

@@ -1,9 +1,11 @@
-//! What the outline of a contact by elements leaves unknown of its area.
+//! Error of the contact area after the perimeter correction.
 //!
-//! Counted areas are corrected by the mean excess of an edge over all directions of the outline. Those of a rough surface are not
-//! spread quite evenly. The outlines of grooves have only one direction: where a line passes a elements along x while it passes b
-//! along y, the centres of elements lie on lines beside it that are 1/(a + b) of an edge apart, and the area is unknown by half of
-//! that at every edge.
+//! Counted areas are corrected by the mean excess of an edge over all directions of the contact boundary (`elements/area.rs`).
+//! The directions on a rough surface are not quite uniform, and unidirectional roughness (grooves) has only one. If a line
+//! passes a elements along x while it passes b along y, the centres of elements lie on parallel lines that are 1/(a + b) of an
+//! edge apart. The area is then unknown by half of that at every edge.
+//!
+//! Theory: docs/rough-surfaces.md.
 
 use indenters::rough::{PeriodicSurface, Wave};
 use numerics::Estimate;
@@ -11,23 +13,27 @@ use numerics::Estimate;
 use crate::elements::area::{self, EXCESS_PER_EDGE};
 use crate::{Grid, PressureField};
 
-/// Part of the excess by which the areas of rough contacts still differ: of 821 of them, with four to 16 elements per shortest wave
-/// on the coarsest of three grids, two differ by more than this and what the refinements changed, and 93 without it.
-const PART_OF_EXCESS: f64 = 0.15;
-/// Elements by which other waves move the outline of grooves, up to which it stays straight.
-const STRAIGHT: f64 = 0.5;
+/// Remaining error of the area of a rough contact, as a fraction of the perimeter correction.
+///
+/// Of 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids, two differ by more than this and
+/// the changes on refinement, and 93 without it.
+const REMAINING_FRACTION: f64 = 0.15;
+/// Largest displacement of the boundary of grooves by other waves, in elements, up to which it counts as straight; chosen.
+const MAX_WAVINESS: f64 = 0.5;
 
-/// The part of the period in contact, and what the outline leaves unknown of it.
+/// Fraction of the period in contact, with the error of its perimeter correction.
 pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) -> Estimate {
     let found = area::area_fraction(field.grid.shape()[1], &field.pressure);
     let part = match grooves(surface, &field.grid) {
         Some([along_x, along_y]) => 0.5 / (EXCESS_PER_EDGE * (along_x + along_y) as f64),
         None => 0.0,
     };
-    Estimate::new(found.area, PART_OF_EXCESS.max(part) * found.excess)
+    Estimate::new(found.area, REMAINING_FRACTION.max(part) * found.excess)
 }
 
-/// Elements along x and y, without a common factor, which the lines of a surface pass that has only grooves, as far as the grid tells.
+/// Elements along x and y, without a common factor, that the lines of unidirectional roughness pass.
+///
+/// `None` if other waves displace the contact boundary by more than [`MAX_WAVINESS`].
 fn grooves(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
     let slope = |wave: &Wave| {
         let [x, y] = surface.wave_vector(wave);
@@ -40,10 +46,11 @@ fn grooves(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
     let [n, m] = steepest.numbers.map(i64::from);
     let is_along = |wave: &&Wave| m * i64::from(wave.numbers[0]) == n * i64::from(wave.numbers[1]);
     let (along, others): (Vec<Wave>, Vec<Wave>) = waves.iter().partition(is_along);
-    let of = |waves: Vec<Wave>| PeriodicSurface::new(surface.period(), waves);
-    let moved = of(others).map_or(0.0, |others| others.rms_height());
+    // Displacement of the boundary: height of the other waves over the slope of the grooves.
+    let with_waves = |waves: Vec<Wave>| PeriodicSurface::new(surface.period(), waves);
+    let other_height = with_waves(others).map_or(0.0, |others| others.rms_height());
     let [dx, dy] = grid.spacing();
-    if moved > STRAIGHT * dx.max(dy) * of(along).ok()?.rms_slope() {
+    if other_height > MAX_WAVINESS * dx.max(dy) * with_waves(along).ok()?.rms_slope() {
         return None;
     }
     let [rows, columns] = grid.shape();
@@ -51,11 +58,11 @@ fn grooves(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
         .numbers
         .map(|number| number.unsigned_abs() as usize);
     let passed = [m * rows, n * columns];
-    let (mut common, mut rest) = (passed[0], passed[1]);
-    while rest > 0 {
-        (common, rest) = (rest, common % rest);
+    let (mut divisor, mut remainder) = (passed[0], passed[1]);
+    while remainder > 0 {
+        (divisor, remainder) = (remainder, divisor % remainder);
     }
-    Some(passed.map(|elements| elements / common))
+    Some(passed.map(|elements| elements / divisor))
 }
 
 #[cfg(test)]
