@@ -26,7 +26,7 @@ use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
 /// Length of a block along x, in elements.
-const BLOCK_LENGTH: usize = Bands::LARGEST_BLOCK;
+const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
 /// Weight of an element in the mean over a block.
 const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;
 /// Initial tolerance of the block equation, relative to its right side.
@@ -174,7 +174,7 @@ impl BlockCorrection {
                 let first = run.elements().start;
                 let block =
                     (first / columns - first_row) / BLOCK_LENGTH * columns + first % columns;
-                add(
+                add_scaled(
                     &mut means[block..],
                     INVERSE_BLOCK_LENGTH,
                     &list[run.packed_range()],
@@ -196,7 +196,7 @@ impl BlockCorrection {
             tolerance,
             ..
         } = self;
-        let bands = Bands::new([means.len(), 1]);
+        let bands = RowBlocks::new([means.len(), 1]);
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
         kernel.apply_single_precision(preconditioner, means, &mut residual);
         let target = *tolerance * norm(&residual);
@@ -211,7 +211,7 @@ impl BlockCorrection {
             });
             kernel.apply_single_precision(preconditioner, &load, image);
             bands.for_each([image], |band, [image]| {
-                add(image, -1.0, &from[bands.elements(band)]);
+                add_scaled(image, -1.0, &from[bands.elements(band)]);
             });
         };
         if norm(displacement) > 0.0 {

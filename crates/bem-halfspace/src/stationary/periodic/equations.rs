@@ -139,7 +139,7 @@ impl Equations {
         self.neighbourhood.find_runs();
         self.scattered.fill(0.0);
         let runs =
-            (0..self.neighbourhood.bands.n_bands()).flat_map(|band| self.neighbourhood.runs(band));
+            (0..self.neighbourhood.bands.n_blocks()).flat_map(|band| self.neighbourhood.runs(band));
         let inside = runs.flat_map(|run| &active[run.elements()]);
         self.inside = inside.map(|inside| f32::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);

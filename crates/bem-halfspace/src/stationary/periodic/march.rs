@@ -19,7 +19,7 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::area;
 use crate::elements::grid::elements_along;
-use crate::parallel::reductions::{add, dot};
+use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};

@@ -9,8 +9,8 @@ use numerics::transforms::Real as _;
 
 use super::{Equations, unit_response};
 use crate::contact::active_set::Run;
-use crate::parallel::bands::copies;
-use crate::parallel::reductions::add;
+use crate::parallel::reductions::add_scaled;
+use crate::parallel::row_blocks::copies;
 use crate::stationary::periodic::kernel::PeriodicKernel;
 
 impl Equations {
@@ -41,14 +41,14 @@ impl Equations {
         let added: Vec<f32> = loads.into_iter().map(f32::rounded).collect();
         let mut image = copies(0.0, added.len());
         self.apply_influence(&added, &mut image);
-        add(&mut self.gap, 1.0, &image);
+        add_scaled(&mut self.gap, 1.0, &image);
     }
 
     /// The pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
     /// singular.
     fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
         let runs =
-            (0..self.neighbourhood.bands.n_bands()).flat_map(|band| self.neighbourhood.runs(band));
+            (0..self.neighbourhood.bands.n_blocks()).flat_map(|band| self.neighbourhood.runs(band));
         let indexed = runs.flat_map(Run::elements).enumerate();
         let (packed, elements): (Vec<usize>, Vec<usize>) = indexed
             .filter(|(index, _)| self.inside[*index] > 0.0)
