@@ -13,7 +13,7 @@ use crate::parallel::row_blocks::RowBlocks;
 pub(crate) struct Run {
     /// The first element.
     element: usize,
-    /// Index of its first value in the part of a packed vector that belongs to the band.
+    /// Index of its first value in the part of a packed vector that belongs to the row block.
     packed_start: usize,
     length: usize,
 }
@@ -28,7 +28,7 @@ impl Run {
         self.element - first..self.element - first + self.length
     }
 
-    /// Range of its values in the part of a packed vector that belongs to the band.
+    /// Range of its values in the part of a packed vector that belongs to the row block.
     pub(crate) fn packed_range(&self) -> Range<usize> {
         self.packed_start..self.packed_start + self.length
     }
@@ -46,8 +46,8 @@ pub(crate) struct Matches {
 pub(crate) struct ActiveSet {
     is_active: Vec<bool>,
     pub(crate) columns: usize,
-    pub(crate) bands: RowBlocks,
-    /// Runs of each band, with capacity for as many as are possible, so that a change does not allocate.
+    pub(crate) row_blocks: RowBlocks,
+    /// Runs of each row block, with capacity for as many as are possible, so that a change does not allocate.
     runs: Vec<Vec<Run>>,
     /// Number of active elements before each row block, and in total; `n_blocks + 1` values.
     starts: Vec<usize>,
@@ -56,15 +56,16 @@ pub(crate) struct ActiveSet {
 impl ActiveSet {
     /// The empty set on a grid of the given shape.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
-        let bands = RowBlocks::new(shape);
-        let most_runs = |band| bands.rows(band).len() * shape[1].div_ceil(2);
-        let runs = (0..bands.n_blocks()).map(|band| Vec::with_capacity(most_runs(band)));
+        let row_blocks = RowBlocks::new(shape);
+        let most_runs = |row_block| row_blocks.rows(row_block).len() * shape[1].div_ceil(2);
+        let runs =
+            (0..row_blocks.n_blocks()).map(|row_block| Vec::with_capacity(most_runs(row_block)));
         Self {
             is_active: vec![false; shape[0] * shape[1]],
             columns: shape[1],
-            bands,
+            row_blocks,
             runs: runs.collect(),
-            starts: vec![0; bands.n_blocks() + 1],
+            starts: vec![0; row_blocks.n_blocks() + 1],
         }
     }
 
@@ -79,9 +80,9 @@ impl ActiveSet {
     ///
     /// [`find_runs`](Self::find_runs) must follow.
     pub(crate) fn toggle(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
-        let bands = self.bands;
-        bands.for_each([&mut self.is_active], |band, [is_active]| {
-            for (element, is) in bands.elements(band).zip(is_active) {
+        let row_blocks = self.row_blocks;
+        row_blocks.for_each([&mut self.is_active], |row_block, [is_active]| {
+            for (element, is) in row_blocks.elements(row_block).zip(is_active) {
                 *is ^= changes(element, *is);
             }
         });
@@ -89,14 +90,14 @@ impl ActiveSet {
 
     /// Updates the runs after changes of the flags.
     pub(crate) fn find_runs(&mut self) {
-        let (bands, columns, is_active) = (self.bands, self.columns, &self.is_active);
-        let in_band = |band, [runs]: [&mut [Vec<Run>]; 1]| {
-            let elements = bands.elements(band);
+        let (row_blocks, columns, is_active) = (self.row_blocks, self.columns, &self.is_active);
+        let in_row_block = |row_block, [runs]: [&mut [Vec<Run>]; 1]| {
+            let elements = row_blocks.elements(row_block);
             let rows = is_active[elements.clone()].chunks_exact(columns);
             find_runs_in(rows, elements.start, &mut runs[0]);
         };
         let runs = [(&mut self.runs[..], Starts::Every(1))];
-        bands.for_each_part(runs, in_band);
+        row_blocks.for_each_part(runs, in_row_block);
         let mut before = 0;
         for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
             before += runs.last().map_or(0, |run| run.packed_range().end);
@@ -105,87 +106,88 @@ impl ActiveSet {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.starts[self.bands.n_blocks()]
+        self.starts[self.row_blocks.n_blocks()]
     }
 
-    /// The runs of a band, in increasing order.
-    pub(crate) fn runs(&self, band: usize) -> &[Run] {
-        &self.runs[band]
+    /// The runs of a row block, in increasing order.
+    pub(crate) fn runs(&self, row_block: usize) -> &[Run] {
+        &self.runs[row_block]
     }
 
-    /// The part of a packed vector that belongs to a band.
-    pub(crate) fn packed_range(&self, band: usize) -> Range<usize> {
-        self.starts[band]..self.starts[band + 1]
+    /// The part of a packed vector that belongs to a row block.
+    pub(crate) fn packed_range(&self, row_block: usize) -> Range<usize> {
+        self.starts[row_block]..self.starts[row_block + 1]
     }
 
-    /// The inactive elements of a band as ranges, in increasing order.
-    pub(crate) fn inactive_ranges(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
-        let Range { start, end } = self.bands.elements(band);
-        let runs = self.runs(band).iter().map(Run::elements);
+    /// The inactive elements of a row block as ranges, in increasing order.
+    pub(crate) fn inactive_ranges(&self, row_block: usize) -> impl Iterator<Item = Range<usize>> {
+        let Range { start, end } = self.row_blocks.elements(row_block);
+        let runs = self.runs(row_block).iter().map(Run::elements);
         let starts = std::iter::once(start).chain(runs.clone().map(|run| run.end));
         let ends = runs.map(|run| run.start).chain(std::iter::once(end));
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// A packed vector, split at the bands for [`RowBlocks::fold`].
+    /// A packed vector, split at the row blocks for [`RowBlocks::fold`].
     pub(crate) fn packed<'a, T>(&'a self, vector: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (vector, Starts::Listed(&self.starts))
     }
 
-    /// A field with one value per element, split at the bands for [`RowBlocks::fold`].
+    /// A field with one value per element, split at the row blocks for [`RowBlocks::fold`].
     pub(crate) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
-        (field, self.bands.starts_of_coarse_blocks(1))
+        (field, self.row_blocks.starts_of_coarse_blocks(1))
     }
 
-    /// A field with one value per block of `edge` × `edge` elements, split at the bands for [`RowBlocks::fold`].
+    /// A field with one value per block of `edge` × `edge` elements, split at the row blocks for [`RowBlocks::fold`].
     pub(crate) fn blocks<'a, T>(
         &self,
         edge: usize,
         field: &'a mut [T],
     ) -> (&'a mut [T], Starts<'a>) {
-        (field, self.bands.starts_of_coarse_blocks(edge))
+        (field, self.row_blocks.starts_of_coarse_blocks(edge))
     }
 
-    /// Sum over the bands of a function of their packed ranges.
+    /// Sum over the row blocks of a function of their packed ranges.
     pub(crate) fn sum(&self, of_range: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
-        self.bands.sum(|band| of_range(self.packed_range(band)))
+        self.row_blocks
+            .sum(|row_block| of_range(self.packed_range(row_block)))
     }
 
     /// Gathers the values of a field into a packed vector.
     pub(crate) fn gather<T: Copy + Send + Sync>(&self, field: &[T], vector: &mut [T]) {
-        self.bands
-            .for_each_part([self.packed(vector)], |band, [vector]| {
-                self.gather_in(band, field, vector);
+        self.row_blocks
+            .for_each_part([self.packed(vector)], |row_block, [vector]| {
+                self.gather_in(row_block, field, vector);
             });
     }
 
-    pub(crate) fn gather_in<T: Copy>(&self, band: usize, field: &[T], vector: &mut [T]) {
-        for run in self.runs(band) {
+    pub(crate) fn gather_in<T: Copy>(&self, row_block: usize, field: &[T], vector: &mut [T]) {
+        for run in self.runs(row_block) {
             vector[run.packed_range()].copy_from_slice(&field[run.elements()]);
         }
     }
 
     /// Scatters a packed vector into a field; inactive elements keep their values.
     pub(crate) fn scatter<T: Copy + Send + Sync>(&self, vector: &[T], field: &mut [T]) {
-        self.bands
-            .for_each_part([self.field(field)], |band, [field]| {
-                self.scatter_in(band, &vector[self.packed_range(band)], field);
+        self.row_blocks
+            .for_each_part([self.field(field)], |row_block, [field]| {
+                self.scatter_in(row_block, &vector[self.packed_range(row_block)], field);
             });
     }
 
-    /// Scatters a packed vector into the part of a field that belongs to a band.
-    pub(crate) fn scatter_in<T: Copy>(&self, band: usize, vector: &[T], field: &mut [T]) {
-        let first = self.bands.elements(band).start;
-        for run in self.runs(band) {
+    /// Scatters a packed vector into the part of a field that belongs to a row block.
+    pub(crate) fn scatter_in<T: Copy>(&self, row_block: usize, vector: &[T], field: &mut [T]) {
+        let first = self.row_blocks.elements(row_block).start;
+        for run in self.runs(row_block) {
             field[run.elements_from(first)].copy_from_slice(&vector[run.packed_range()]);
         }
     }
 
     /// Finds the elements for which `is` is true; it gets the element and whether that is active.
     pub(crate) fn find_matches(&self, is: impl Fn(usize, bool) -> bool + Sync) -> Matches {
-        let in_band = |band| {
+        let in_row_block = |row_block| {
             let mut matches = Matches { count: 0, last: 0 };
-            for element in self.bands.elements(band) {
+            for element in self.row_blocks.elements(row_block) {
                 if is(element, self.is_active[element]) {
                     matches.count += 1;
                     matches.last = element;
@@ -193,10 +195,11 @@ impl ActiveSet {
             }
             matches
         };
-        self.bands.gather(in_band, |left: Matches, right| Matches {
-            count: left.count + right.count,
-            last: left.last.max(right.last),
-        })
+        self.row_blocks
+            .gather(in_row_block, |left: Matches, right| Matches {
+                count: left.count + right.count,
+                last: left.last.max(right.last),
+            })
     }
 
     pub(crate) fn contains(&self, element: usize) -> bool {
@@ -222,20 +225,20 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs
     }
 }
 
-/// Sums of terms over the active elements of each block of `EDGE` × `EDGE` elements in a band.
+/// Sums of terms over the active elements of each block of `EDGE` × `EDGE` elements in a row block.
 ///
-/// `term` gets the index of an element in the part of a packed vector that belongs to the band; `sums` has one value per block
-/// of the band.
+/// `term` gets the index of an element in the part of a packed vector that belongs to the row block; `sums` has one value per block
+/// of the row block.
 pub(crate) fn sum_blocks<const EDGE: usize>(
     active: &ActiveSet,
-    band: usize,
+    row_block: usize,
     term: impl Fn(usize) -> f64,
     sums: &mut [f64],
 ) {
     let columns = active.columns;
-    let first_row = active.bands.rows(band).start;
+    let first_row = active.row_blocks.rows(row_block).start;
     sums.fill(0.0);
-    for run in active.runs(band) {
+    for run in active.runs(row_block) {
         let Range { start, end } = run.elements();
         let row = start / columns;
         let sums = &mut sums[(row - first_row) / EDGE * columns.div_ceil(EDGE)..];

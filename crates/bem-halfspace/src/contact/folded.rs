@@ -64,16 +64,16 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
-    let bands = RowBlocks::new(shape);
-    let in_band = |band| {
-        let mut rows_of_band = bands.rows(band);
+    let row_blocks = RowBlocks::new(shape);
+    let in_row_block = |row_block| {
+        let mut rows_of_band = row_blocks.rows(row_block);
         let mut behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
         let along_x = behind.all(|row| lines(row) == lines(rows - 1 - row));
         let along_y = rows_of_band.all(|row| lines(row).into_iter().all(is_palindrome));
         [along_x, along_y]
     };
     let both = |left: [bool; 2], right: [bool; 2]| [0, 1].map(|axis| left[axis] && right[axis]);
-    let equal = bands.gather(in_band, both);
+    let equal = row_blocks.gather(in_row_block, both);
     [0, 1].map(|axis| match convolution.surroundings {
         _ if !equal[axis] || shape[axis] == 1 => Mirror::None,
         Surroundings::Free if shape[axis].is_multiple_of(2) => Mirror::Edge,
@@ -94,12 +94,12 @@ impl ContactBox {
     fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
         let (mirrors, columns) = (self.convolution.mirrors, self.bounds.shape()[1]);
         let weights = MirrorWeights::of(&self.convolution);
-        let bands = RowBlocks::new(whole);
-        bands.for_each(fields, |band, [loads, displacements]| {
+        let row_blocks = RowBlocks::new(whole);
+        row_blocks.for_each(fields, |row_block, [loads, displacements]| {
             let rows = loads
                 .chunks_exact_mut(whole[1])
                 .zip(displacements.chunks_exact_mut(whole[1]));
-            for (row, (loads, displacements)) in bands.rows(band).zip(rows) {
+            for (row, (loads, displacements)) in row_blocks.rows(row_block).zip(rows) {
                 let row = in_front(row, whole[0], mirrors[0]);
                 let part = row * columns..(row + 1) * columns;
                 let front = whole[1] - columns;

@@ -163,17 +163,20 @@ impl<'a> Iteration<'a> {
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
         let weights = MirrorWeights::of(self.convolution);
-        let bands = active.bands;
-        bands.for_each([&mut *self.load, scattered], |band, [load, scattered]| {
-            scattered.fill(0.0);
-            for (load, element) in load.iter_mut().zip(bands.elements(band)) {
-                *load = match (active.contains(element), loaded) {
-                    (true, true) => *load,
-                    (true, false) => uniform * weights.of_element(element),
-                    (false, _) => 0.0,
-                };
-            }
-        });
+        let row_blocks = active.row_blocks;
+        row_blocks.for_each(
+            [&mut *self.load, scattered],
+            |row_block, [load, scattered]| {
+                scattered.fill(0.0);
+                for (load, element) in load.iter_mut().zip(row_blocks.elements(row_block)) {
+                    *load = match (active.contains(element), loaded) {
+                        (true, true) => *load,
+                        (true, false) => uniform * weights.of_element(element),
+                        (false, _) => 0.0,
+                    };
+                }
+            },
+        );
         self.gather_active();
         self.scale_to_force();
         self.recompute_displacement();
@@ -211,11 +214,11 @@ impl<'a> Iteration<'a> {
 
         // Clear the fields on the elements that have left; the runs are still those of the previous set.
         let (active, scattered) = (&self.fields.active, &mut self.fields.scattered);
-        let bands = active.bands;
-        bands.for_each([&mut *self.load, scattered], |band, fields| {
-            let first = bands.elements(band).start;
+        let row_blocks = active.row_blocks;
+        row_blocks.for_each([&mut *self.load, scattered], |row_block, fields| {
+            let first = row_blocks.elements(row_block).start;
             for field in fields {
-                for element in active.runs(band).iter().flat_map(Run::elements) {
+                for element in active.runs(row_block).iter().flat_map(Run::elements) {
                     if !active.contains(element) {
                         field[element - first] = 0.0;
                     }
@@ -248,9 +251,9 @@ impl<'a> Iteration<'a> {
         let preconditioned = &*output;
 
         // (r, z) of the residual and of z without its mean.
-        let by_band = |band| {
+        let by_row_block = |row_block| {
             let [r, z] =
-                [residual, preconditioned].map(|vector| &vector[active.packed_range(band)]);
+                [residual, preconditioned].map(|vector| &vector[active.packed_range(row_block)]);
             [
                 sum([r], |[r]| r),
                 sum([z], |[z]| z),
@@ -258,7 +261,7 @@ impl<'a> Iteration<'a> {
             ]
         };
         let both = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
-        let [sum_r, sum_z, sum_rz] = active.bands.gather(by_band, both);
+        let [sum_r, sum_z, sum_rz] = active.row_blocks.gather(by_row_block, both);
         let mean = match self.control {
             Control::NormalForce(_) => sum_z / active.len() as f64,
             Control::IndentationDepth(_) => 0.0,
@@ -273,13 +276,13 @@ impl<'a> Iteration<'a> {
         };
         let targets = [active.field(scattered), active.packed(direction)];
         active
-            .bands
-            .for_each_part(targets, |band, [scattered, direction]| {
-                let values = &preconditioned[active.packed_range(band)];
+            .row_blocks
+            .for_each_part(targets, |row_block, [scattered, direction]| {
+                let values = &preconditioned[active.packed_range(row_block)];
                 for (direction, value) in direction.iter_mut().zip(values) {
                     *direction = value - mean + conjugation * *direction;
                 }
-                active.scatter_in(band, direction, scattered);
+                active.scatter_in(row_block, direction, scattered);
             });
         self.previous_product = product;
 
@@ -287,13 +290,14 @@ impl<'a> Iteration<'a> {
         let image = &mut fields.direction_displacement;
         self.convolution.apply(self.workspace, scattered, image);
         let direction = &vectors.direction;
-        let energy = active.bands.fold(
+        let energy = active.row_blocks.fold(
             [active.packed(&mut vectors.operator_output)],
-            |band, [output]| {
-                active.gather_in(band, image, output);
-                sum([&direction[active.packed_range(band)], output], |[a, b]| {
-                    a * b
-                })
+            |row_block, [output]| {
+                active.gather_in(row_block, image, output);
+                sum(
+                    [&direction[active.packed_range(row_block)], output],
+                    |[a, b]| a * b,
+                )
             },
             |left, right| left + right,
         );
@@ -321,7 +325,7 @@ impl<'a> Iteration<'a> {
         let sum = self.total_load();
         let (active, vectors) = (&mut self.fields.active, &mut self.fields.vectors);
         let load = [active.packed(&mut vectors.load)];
-        active.bands.for_each_part(load, |_, [load]| {
+        active.row_blocks.for_each_part(load, |_, [load]| {
             for load in load {
                 // Multiplied last, because the quotient of extreme forces may overflow.
                 *load = if sum > 0.0 { *load / sum * total } else { 0.0 };

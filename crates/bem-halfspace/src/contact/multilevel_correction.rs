@@ -84,11 +84,11 @@ impl MultilevelCorrection {
     pub(super) fn set_conductances(&mut self, active: &ActiveSet, unit_gap_loads: &[f64]) {
         let conductances = [active.packed(&mut self.conductances)];
         active
-            .bands
-            .for_each_part(conductances, |band, [conductances]| {
+            .row_blocks
+            .for_each_part(conductances, |row_block, [conductances]| {
                 for (conductance, value) in conductances
                     .iter_mut()
-                    .zip(&unit_gap_loads[active.packed_range(band)])
+                    .zip(&unit_gap_loads[active.packed_range(row_block)])
                 {
                     *conductance = value.max(0.0);
                 }
@@ -99,9 +99,9 @@ impl MultilevelCorrection {
     fn sum_conductances(&mut self, active: &ActiveSet) {
         let (conductances, levels) = (&self.conductances, &mut self.levels);
         let sums = [active.blocks(FINEST_BLOCK_EDGE, &mut levels[0].conductance)];
-        active.bands.for_each_part(sums, |band, [sums]| {
-            let conductances = &conductances[active.packed_range(band)];
-            sum_blocks::<FINEST_BLOCK_EDGE>(active, band, |index| conductances[index], sums);
+        active.row_blocks.for_each_part(sums, |row_block, [sums]| {
+            let conductances = &conductances[active.packed_range(row_block)];
+            sum_blocks::<FINEST_BLOCK_EDGE>(active, row_block, |index| conductances[index], sums);
         });
         levels[0].update_local_fraction();
         for_each_parent(levels, |smaller, level| {

@@ -114,7 +114,8 @@ impl Preconditioner {
         field: &mut [f64],
         result: &mut [f64],
     ) {
-        let (columns, mirror_weights, bands) = (self.shape[1], self.mirror_weights, active.bands);
+        let (columns, mirror_weights, row_blocks) =
+            (self.shape[1], self.mirror_weights, active.row_blocks);
 
         // Scatter the residual over the grid, and restrict it to the blocks of both parts.
         let (conductances, block_loads) = self.correction.conductances_and_loads();
@@ -123,13 +124,13 @@ impl Preconditioner {
             active.blocks(BLOCK_EDGE, &mut self.block_means),
             active.blocks(FINEST_BLOCK_EDGE, block_loads),
         ];
-        bands.for_each_part(targets, |band, [field, means, loads]| {
+        row_blocks.for_each_part(targets, |row_block, [field, means, loads]| {
             let [residual, conductances] =
-                [residual, conductances].map(|vector| &vector[active.packed_range(band)]);
-            active.scatter_in(band, residual, field);
-            sum_blocks::<BLOCK_EDGE>(active, band, |index| 0.25 * residual[index], means);
-            let first = bands.elements(band).start;
-            for run in active.runs(band) {
+                [residual, conductances].map(|vector| &vector[active.packed_range(row_block)]);
+            active.scatter_in(row_block, residual, field);
+            sum_blocks::<BLOCK_EDGE>(active, row_block, |index| 0.25 * residual[index], means);
+            let first = row_blocks.elements(row_block).start;
+            for run in active.runs(row_block) {
                 for (index, weight) in mirror_weights.in_line(run.elements()) {
                     let element = run.elements_from(first).start + index;
                     let [row, column] = [element / columns, element % columns];
@@ -138,7 +139,7 @@ impl Preconditioner {
                 }
             }
             let load = |index: usize| conductances[index] * residual[index];
-            sum_blocks::<FINEST_BLOCK_EDGE>(active, band, load, loads);
+            sum_blocks::<FINEST_BLOCK_EDGE>(active, row_block, load, loads);
         });
 
         // Invert the long waves, and find the displacements that other blocks cause.
@@ -152,10 +153,10 @@ impl Preconditioner {
         // Prolong both to the elements, and add the short waves.
         let (this, field) = (&*self, &*field);
         let (conductances, displacements) = this.correction.conductances_and_displacements();
-        bands.for_each_part([active.packed(result)], |band, [result]| {
+        row_blocks.for_each_part([active.packed(result)], |row_block, [result]| {
             let [residual, conductances] =
-                [residual, conductances].map(|vector| &vector[active.packed_range(band)]);
-            for run in active.runs(band) {
+                [residual, conductances].map(|vector| &vector[active.packed_range(row_block)]);
+            for run in active.runs(row_block) {
                 let start = run.elements().start;
                 let (row, column) = (start / columns, start % columns);
                 let loads = &this.block_loads[row / BLOCK_EDGE * columns.div_ceil(BLOCK_EDGE)..];

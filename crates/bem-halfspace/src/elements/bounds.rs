@@ -39,10 +39,10 @@ impl Bounds {
         shape: [usize; 2],
         is: impl Fn([usize; 2]) -> bool + Sync,
     ) -> Option<Self> {
-        let bands = RowBlocks::new(shape);
-        let in_band = |band| {
-            let elements = bands
-                .elements(band)
+        let row_blocks = RowBlocks::new(shape);
+        let in_row_block = |row_block| {
+            let elements = row_blocks
+                .elements(row_block)
                 .map(|index| [index / shape[1], index % shape[1]]);
             Self::enclosing(elements.filter(|element| is(*element)))
         };
@@ -50,7 +50,7 @@ impl Bounds {
             (Some(left), Some(right)) => Some(left.union(&right)),
             (left, right) => left.or(right),
         };
-        bands.gather(in_band, both)
+        row_blocks.gather(in_row_block, both)
     }
 
     /// The smallest box that holds both.

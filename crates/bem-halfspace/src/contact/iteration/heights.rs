@@ -17,15 +17,15 @@ pub(super) struct Heights {
 }
 
 impl Heights {
-    /// Heights in a band: `outside` has separation and displacement of its elements, `inside` of its active ones.
-    fn of_band(
+    /// Heights in a row block: `outside` has separation and displacement of its elements, `inside` of its active ones.
+    fn of_row_block(
         active: &ActiveSet,
-        band: usize,
+        row_block: usize,
         outside: [&[f64]; 2],
         inside: [&[f64]; 2],
         depth: f64,
     ) -> Self {
-        let first = active.bands.elements(band).start;
+        let first = active.row_blocks.elements(row_block).start;
         let height = |[separation, displacement]: [f64; 2]| separation + displacement;
         let lowest_in = |gap: Range<usize>| {
             let fields = outside.map(|field| &field[gap.start - first..gap.end - first]);
@@ -33,7 +33,7 @@ impl Heights {
         };
         Self {
             lowest_outside: active
-                .inactive_ranges(band)
+                .inactive_ranges(row_block)
                 .map(lowest_in)
                 .fold(f64::INFINITY, smaller),
             sum_inside: sum(inside, |heights| height(heights) - depth),
@@ -57,14 +57,16 @@ impl Iteration<'_> {
         let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
         let separation = &vectors.separation;
-        let in_band = |band, [displacement]: [&mut [f64]; 1]| {
-            active.gather_in(band, fields[1], displacement);
-            let outside = fields.map(|field| &field[active.bands.elements(band)]);
-            let inside = [&separation[active.packed_range(band)], displacement];
-            Heights::of_band(active, band, outside, inside, depth)
+        let in_row_block = |row_block, [displacement]: [&mut [f64]; 1]| {
+            active.gather_in(row_block, fields[1], displacement);
+            let outside = fields.map(|field| &field[active.row_blocks.elements(row_block)]);
+            let inside = [&separation[active.packed_range(row_block)], displacement];
+            Heights::of_row_block(active, row_block, outside, inside, depth)
         };
         let displacement = [active.packed(&mut vectors.displacement)];
-        self.heights = active.bands.fold(displacement, in_band, Heights::both);
+        self.heights = active
+            .row_blocks
+            .fold(displacement, in_row_block, Heights::both);
         self.displacement_is_exact = true;
         self.previous_product = 0.0;
     }
@@ -75,8 +77,11 @@ impl Iteration<'_> {
         let vectors = &mut self.fields.vectors;
         let separation = &vectors.separation;
         let (heights, depth) = (self.separation, self.indentation_depth);
-        let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
-            let (elements, range) = (active.bands.elements(band), active.packed_range(band));
+        let in_row_block = |row_block, [field, displacement, load]: [&mut [f64]; 3]| {
+            let (elements, range) = (
+                active.row_blocks.elements(row_block),
+                active.packed_range(row_block),
+            );
             add_scaled(field, length, &image[elements.clone()]);
             add_scaled(
                 displacement,
@@ -86,14 +91,14 @@ impl Iteration<'_> {
             add_scaled(load, length, &vectors.direction[range.clone()]);
             let outside = [&heights[elements], field];
             let inside = [&separation[range], displacement];
-            Heights::of_band(active, band, outside, inside, depth)
+            Heights::of_row_block(active, row_block, outside, inside, depth)
         };
         let moved = [
             active.field(self.displacement),
             active.packed(&mut vectors.displacement),
             active.packed(&mut vectors.load),
         ];
-        self.heights = active.bands.fold(moved, in_band, Heights::both);
+        self.heights = active.row_blocks.fold(moved, in_row_block, Heights::both);
         self.displacement_is_exact = false;
         self.improved = true;
     }
@@ -129,9 +134,9 @@ impl Iteration<'_> {
             (&vectors.separation, &vectors.displacement, &vectors.load);
         let self_influence = self.convolution.self_influence;
         let depth = self.indentation_depth;
-        let in_band = |band, [residual]: [&mut [f64]; 1]| {
+        let in_row_block = |row_block, [residual]: [&mut [f64]; 1]| {
             let [separation, displacement, load] =
-                [separation, displacement, load].map(|list| &list[active.packed_range(band)]);
+                [separation, displacement, load].map(|list| &list[active.packed_range(row_block)]);
             for (residual, (separation, displacement)) in
                 residual.iter_mut().zip(separation.iter().zip(displacement))
             {
@@ -140,7 +145,9 @@ impl Iteration<'_> {
             Violations::inside(residual, load, displacement, self_influence)
         };
         let residual = [active.packed(&mut vectors.residual)];
-        let inside = active.bands.fold(residual, in_band, Violations::worst);
+        let inside = active
+            .row_blocks
+            .fold(residual, in_row_block, Violations::worst);
         Violations {
             penetration: (depth - self.heights.lowest_outside).max(0.0),
             deflection: larger(inside.deflection, self.given_deflection),

@@ -141,36 +141,37 @@ impl BlockCorrection {
     ) {
         let columns = self.columns;
         let list = [near.packed(pressures)];
-        near.bands.for_each_part(list, |band, [pressures]| {
-            let weights = &weights[near.packed_range(band)];
-            for run in near.runs(band) {
-                let first = run.elements().start;
-                let block = first / columns / BLOCK_LENGTH * columns + first % columns;
-                let blocks = displacement[block..].iter().zip(&self.weights[block..]);
-                let range = run.packed_range();
-                let parts = pressures[range.clone()].iter_mut().zip(&weights[range]);
-                for ((pressure, weight), (displacement, of_block)) in parts.zip(blocks) {
-                    let takes_part = *of_block > 0.0;
-                    *pressure -= if takes_part {
-                        weight * displacement
-                    } else {
-                        0.0
-                    };
+        near.row_blocks
+            .for_each_part(list, |row_block, [pressures]| {
+                let weights = &weights[near.packed_range(row_block)];
+                for run in near.runs(row_block) {
+                    let first = run.elements().start;
+                    let block = first / columns / BLOCK_LENGTH * columns + first % columns;
+                    let blocks = displacement[block..].iter().zip(&self.weights[block..]);
+                    let range = run.packed_range();
+                    let parts = pressures[range.clone()].iter_mut().zip(&weights[range]);
+                    for ((pressure, weight), (displacement, of_block)) in parts.zip(blocks) {
+                        let takes_part = *of_block > 0.0;
+                        *pressure -= if takes_part {
+                            weight * displacement
+                        } else {
+                            0.0
+                        };
+                    }
                 }
-            }
-        });
+            });
     }
 
     /// Means of a packed vector over the blocks; elements outside count as zero.
     fn means(&self, near: &ActiveSet, list: &[f32]) -> Vec<f32> {
         let columns = self.columns;
         let mut means = copies(0.0, self.weights.len());
-        let starts = Starts::Every(near.bands.rows(0).len() / BLOCK_LENGTH * columns);
+        let starts = Starts::Every(near.row_blocks.rows(0).len() / BLOCK_LENGTH * columns);
         let parts = [(&mut means[..], starts)];
-        near.bands.for_each_part(parts, |band, [means]| {
-            let first_row = near.bands.rows(band).start;
-            let list = &list[near.packed_range(band)];
-            for run in near.runs(band) {
+        near.row_blocks.for_each_part(parts, |row_block, [means]| {
+            let first_row = near.row_blocks.rows(row_block).start;
+            let list = &list[near.packed_range(row_block)];
+            for run in near.runs(row_block) {
                 let first = run.elements().start;
                 let block =
                     (first / columns - first_row) / BLOCK_LENGTH * columns + first % columns;
@@ -196,22 +197,22 @@ impl BlockCorrection {
             tolerance,
             ..
         } = self;
-        let bands = RowBlocks::new([means.len(), 1]);
+        let row_blocks = RowBlocks::new([means.len(), 1]);
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
         kernel.apply_single_precision(preconditioner, means, &mut residual);
         let target = *tolerance * norm(&residual);
         // Change of the residual by a displacement.
         let mut find_image = |from: &[f32], image: &mut [f32]| {
-            bands.for_each([&mut load], |band, [load]| {
-                let elements = bands.elements(band);
+            row_blocks.for_each([&mut load], |row_block, [load]| {
+                let elements = row_blocks.elements(row_block);
                 let pairs = from[elements.clone()].iter().zip(&weights[elements]);
                 for (load, (value, weight)) in load.iter_mut().zip(pairs) {
                     *load = (*mean_weight - weight) * value;
                 }
             });
             kernel.apply_single_precision(preconditioner, &load, image);
-            bands.for_each([image], |band, [image]| {
-                add_scaled(image, -1.0, &from[bands.elements(band)]);
+            row_blocks.for_each([image], |row_block, [image]| {
+                add_scaled(image, -1.0, &from[row_blocks.elements(row_block)]);
             });
         };
         if norm(displacement) > 0.0 {

@@ -138,8 +138,8 @@ impl Equations {
             .assign(|element| is_active_or_neighbour(active, columns, element));
         self.neighbourhood.find_runs();
         self.scattered.fill(0.0);
-        let runs =
-            (0..self.neighbourhood.bands.n_blocks()).flat_map(|band| self.neighbourhood.runs(band));
+        let runs = (0..self.neighbourhood.row_blocks.n_blocks())
+            .flat_map(|row_block| self.neighbourhood.runs(row_block));
         let inside = runs.flat_map(|run| &active[run.elements()]);
         self.inside = inside.map(|inside| f32::from(*inside)).collect();
         self.n_contact = self.total(&self.inside);
@@ -278,28 +278,28 @@ impl Equations {
 
     /// Largest |gap| on the active set.
     fn max_gap(&self, gap: &[f32]) -> f64 {
-        let largest = |band: usize| {
-            let range = self.neighbourhood.packed_range(band);
+        let largest = |row_block: usize| {
+            let range = self.neighbourhood.packed_range(row_block);
             let pairs = self.inside[range.clone()].iter().zip(&gap[range]);
             pairs.fold(0.0, |top, (inside, gap)| {
                 larger(top, f64::from(inside * gap.abs()))
             })
         };
-        self.neighbourhood.bands.gather(largest, larger)
+        self.neighbourhood.row_blocks.gather(largest, larger)
     }
 
     /// Preconditioned direction that closes the gaps approximately, without mean pressure, and the gaps `image` that it causes.
     fn find_direction(&mut self, gap: &[f32], direction: &mut [f32], image: &mut [f32]) {
         // S and its correction, applied to minus the gap on the active set.
-        let closing = |band, [direction]: [&mut [f32]; 1]| {
-            let range = self.neighbourhood.packed_range(band);
+        let closing = |row_block, [direction]: [&mut [f32]; 1]| {
+            let range = self.neighbourhood.packed_range(row_block);
             let pairs = gap[range.clone()].iter().zip(&self.inside[range]);
             for (value, (gap, inside)) in direction.iter_mut().zip(pairs) {
                 *value = -inside * gap;
             }
         };
-        let bands = self.neighbourhood.bands;
-        bands.for_each_part([self.neighbourhood.packed(direction)], closing);
+        let row_blocks = self.neighbourhood.row_blocks;
+        row_blocks.for_each_part([self.neighbourhood.packed(direction)], closing);
         self.apply_inverse(direction);
         if let Some(correction) = &mut self.correction {
             correction.correct(&self.neighbourhood, &self.weights, direction);
@@ -320,17 +320,18 @@ impl Equations {
         self.kernel
             .apply_single_precision(&self.inverse_symbols, &self.scattered, &mut self.image);
         let (neighbourhood, image, inside) = (&self.neighbourhood, &self.image, &self.inside);
-        neighbourhood
-            .bands
-            .for_each_part([neighbourhood.packed(vector)], |band, [vector]| {
-                neighbourhood.gather_in(band, image, vector);
+        neighbourhood.row_blocks.for_each_part(
+            [neighbourhood.packed(vector)],
+            |row_block, [vector]| {
+                neighbourhood.gather_in(row_block, image, vector);
                 for (value, inside) in vector
                     .iter_mut()
-                    .zip(&inside[neighbourhood.packed_range(band)])
+                    .zip(&inside[neighbourhood.packed_range(row_block)])
                 {
                     *value *= inside;
                 }
-            });
+            },
+        );
     }
 
     /// Gathers a field of the grid into a packed vector.

@@ -47,8 +47,8 @@ impl Equations {
     /// The pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
     /// singular.
     fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
-        let runs =
-            (0..self.neighbourhood.bands.n_blocks()).flat_map(|band| self.neighbourhood.runs(band));
+        let runs = (0..self.neighbourhood.row_blocks.n_blocks())
+            .flat_map(|row_block| self.neighbourhood.runs(row_block));
         let indexed = runs.flat_map(Run::elements).enumerate();
         let (packed, elements): (Vec<usize>, Vec<usize>) = indexed
             .filter(|(index, _)| self.inside[*index] > 0.0)
