@@ -1,4 +1,4 @@
-//! The heights of a rigid line over the elements of a chain.
+//! Heights of a rigid line over the elements of a Winkler foundation.
 //!
 //! One element lies at the lowest point of the line. A kink there (the apex of a cone, the cusp of a power p < 1) then
 //! falls between two steps and never inside one, so that the slopes on its two sides are not mixed.
@@ -18,7 +18,7 @@ const LOOKOUT_STRIDE: usize = 64;
 /// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
 const CEILING_MARGIN: f64 = 1e-9;
 
-/// The part of a line that a chain can touch.
+/// The elements under the part of a line that can come into contact.
 pub(crate) struct ElementHeights {
     /// Heights above the lowest element, \[m], from the rear to the front.
     pub(crate) heights: Vec<f64>,
@@ -26,8 +26,9 @@ pub(crate) struct ElementHeights {
     pub(crate) lowest_height: f64,
     /// Height above the lowest element up to which no element is missing, \[m]; infinite with the whole line.
     pub(crate) ceiling: f64,
+    /// Position of the lowest point, or of the foremost of several, \[m].
     anchor: f64,
-    /// The element at the lowest point.
+    /// Index of the element at the lowest point.
     pub(crate) anchor_index: usize,
     /// Spacing of the elements, \[m].
     pub(crate) spacing: f64,
@@ -53,7 +54,7 @@ impl ElementHeights {
         }
     }
 
-    /// So many elements that an `area` \[m²] can be displaced below the ceiling, or the whole of a finite line.
+    /// Enough elements that an `area` \[m²] can be displaced below the ceiling, or all of a finite line.
     pub(crate) fn holding(line: &dyn RigidLine, spacing: f64, area: f64) -> Result<Self, MdrError> {
         let mut sampled = Self::below(line, spacing, 0.0)?;
         let mut reach = 1;
@@ -80,7 +81,7 @@ impl ElementHeights {
         self.anchor + (ahead - behind) * self.spacing
     }
 
-    /// The contact has reached an element beyond which the line is not given.
+    /// The error for a contact that reaches the last element of the line.
     pub(crate) fn reached(&self, element: usize, indentation_depth: f64, time: f64) -> MdrError {
         MdrError::ContactReachesEdge {
             position: self.position(element),
@@ -103,6 +104,7 @@ impl ElementHeights {
         rear.min(front) - self.lowest_height
     }
 
+    /// The elements around an anchor, up to a height above it.
     fn around(
         line: &dyn RigidLine,
         anchor: f64,
@@ -149,13 +151,16 @@ impl ElementHeights {
 /// The elements on one side of the anchor, numbered from 1.
 struct Ray<'a> {
     line: &'a dyn RigidLine,
+    /// Position of the anchor, \[m].
     anchor: f64,
+    /// Distance from element to element with its sign, \[m].
     step: f64,
+    /// Height of the line up to which elements are needed, \[m].
     ceiling: f64,
 }
 
 impl Ray<'_> {
-    /// The heights up to one element beyond the last one below the ceiling; `None` when there are too many.
+    /// The heights up to one element beyond the last one below the ceiling; `None` if there are too many.
     fn heights(&self) -> Result<Option<Vec<f64>>, MdrError> {
         let Some(n_needed) = self.look_out()? else {
             return Ok(None);
@@ -167,7 +172,7 @@ impl Ray<'_> {
                 break;
             };
             let height = checked_height(self.line, position)?;
-            // A vertical edge, as the equator of a sphere.
+            // A vertical edge, as the equator of a sphere, ends the line.
             if height == f64::INFINITY {
                 break;
             }
@@ -180,7 +185,7 @@ impl Ray<'_> {
         Ok(Some(heights))
     }
 
-    /// Number of elements beyond which no height below the ceiling was seen.
+    /// Number of elements beyond which no sample lies below the ceiling; `None` if it is too large.
     fn look_out(&self) -> Result<Option<usize>, MdrError> {
         let bounded = self.end().is_finite();
         let mut element = 1;
@@ -202,7 +207,7 @@ impl Ray<'_> {
         Ok(Some(n_needed))
     }
 
-    /// Position of an element, if the line reaches as far.
+    /// Position of an element, \[m]; `None` beyond the end of the line.
     fn position(&self, element: usize) -> Option<f64> {
         /// Relative rounding by which a last element may miss the end of the domain; it then lies on the end.
         const DOMAIN_END_ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -220,21 +225,23 @@ impl Ray<'_> {
         })
     }
 
+    /// End of the domain of the line on this side, \[m].
     fn end(&self) -> f64 {
         let [rear, front] = self.line.domain();
         if self.step > 0.0 { front } else { rear }
     }
 }
 
-/// The lowest among the kinks, the ends of the domain, and x = 0; the foremost of several, where the leading edge
-/// begins.
+/// Position of the lowest among the kinks, the ends of the domain, and x = 0, \[m].
+///
+/// The foremost of several equal ones, where the leading edge begins.
 pub(crate) fn lowest_candidate(line: &dyn RigidLine) -> Result<f64, MdrError> {
     let [rear, front] = line.domain();
     let mut candidates = line.kinks();
     candidates.extend([0.0, rear, front]);
     let inside = |x: &f64| x.is_finite() && *x >= rear && *x <= front;
-    let places = candidates.into_iter().filter(inside);
-    let heights = places.map(|x| (line.height(x), x));
+    let positions = candidates.into_iter().filter(inside);
+    let heights = positions.map(|x| (line.height(x), x));
     let known = heights.filter(|(height, _)| height.is_finite());
     let lowest = known.min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
     let failed = || invalid_height(rear, line.height(rear));
@@ -259,7 +266,7 @@ pub(crate) fn checked_height(line: &dyn RigidLine, position: f64) -> Result<f64,
     Ok(height)
 }
 
-/// The line has a height there that is none.
+/// The error for a height that is not a number or −∞.
 pub(crate) const fn invalid_height(position: f64, value: f64) -> MdrError {
     MdrError::InvalidHeight { position, value }
 }

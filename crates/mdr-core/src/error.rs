@@ -1,4 +1,4 @@
-//! Why a problem is refused, or has no solution.
+//! Errors of this crate.
 
 use indenters::MotionView;
 use indenters::{IndenterError, Moved};
@@ -15,7 +15,7 @@ pub enum MdrError {
     /// A parameter is not a number, or outside the range it may take.
     #[error(transparent)]
     InvalidParameter(#[from] InvalidParameter),
-    /// A list has no entries.
+    /// A list is empty.
     #[error("{list} must have at least one entry")]
     Empty {
         /// Name of the list.
@@ -35,7 +35,7 @@ pub enum MdrError {
         "more than {allowed} elements of spacing {spacing} lie less than {height} above the lowest point of the line"
     )]
     TooManyElements {
-        /// The most elements that a chain may have.
+        /// Elements of a foundation at most.
         allowed: usize,
         /// Spacing of the elements, \[m].
         spacing: f64,
@@ -81,9 +81,9 @@ pub enum MdrError {
     /// The line touches more often, or has more detail, than can be followed.
     #[error("more than {allowed} {parts} are needed, those at position {} among them", Rounded(*position))]
     TooMuchDetail {
-        /// Contact intervals, or the polynomials that stand for the line.
+        /// What there is too much of: contact intervals, or polynomials of the line.
         parts: &'static str,
-        /// The most of them.
+        /// Their largest number.
         allowed: usize,
         /// Where there are too many, \[m].
         position: f64,
@@ -97,7 +97,7 @@ pub enum MdrError {
         /// Where the line is too steep, \[m].
         position: f64,
     },
-    /// The friction coefficient of a stationary state, or the force or depth of a static one, is known less well than asked
+    /// The friction coefficient of a stationary state, or the force or depth of a static one, has a larger error than asked
     /// for.
     #[error(
         "the {quantity} was not reached to the relative error {relative_error:e}: it is {}",
@@ -112,13 +112,13 @@ pub enum MdrError {
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
-        /// What was found, with its bars; of a static state on springs.
+        /// The result, with its errors; of a static state on springs.
         reached: Box<SteadySliding>,
     },
-    /// A quantity is known less well than asked for on the finest resolution allowed.
+    /// The work along a history has a larger error than asked for with the shortest parts allowed.
     #[error("the work along the history {0}")]
     WorkNotReached(NotReached),
-    /// The depth along a history is known less well than asked for with the shortest parts of it allowed.
+    /// The depth along a history has a larger error than asked for with the shortest parts allowed.
     #[error(
         "the largest indentation depth of the history was not reached to the relative error {:e} with {} parts between two of its \
          points: it is {}",
@@ -127,34 +127,34 @@ pub enum MdrError {
         Estimate::new(missed.value, missed.error)
     )]
     HistoryNotReached {
-        /// What is not known well enough.
+        /// The quantity, its value and its error.
         missed: NotReached,
-        /// What was found, with its bars.
+        /// The result, with its errors.
         reached: Vec<CurvePoint>,
     },
-    /// The same of a march on the finest chain allowed.
+    /// The friction coefficient of a march has a larger error than asked for on the finest resolution allowed.
     #[error("the friction coefficient {missed}")]
     SlidingNotReached {
-        /// What is not known well enough.
+        /// The quantity, its value and its error.
         missed: NotReached,
-        /// What was found, with its bars.
+        /// The result, with its errors.
         reached: Box<Sliding>,
     },
-    /// A motion is known less well than asked for on the finest resolution allowed.
+    /// A quantity of a motion has a larger error than asked for on the finest resolution allowed.
     #[error("the {} {missed}", MotionView::in_words(missed.quantity))]
     MotionNotReached {
-        /// What is not known well enough.
+        /// The quantity, its value and its error.
         missed: NotReached,
-        /// What was found, with its bars.
+        /// The result, with its errors.
         reached: Box<Moved>,
     },
-    /// A material that flows gives way to and fro, or pass after pass on a track, without end.
+    /// A material that flows has no limit cycle in a reciprocating motion, and no periodic state on a track.
     #[error(
         "a material that flows gives way further in every cycle or pass, and none is like the one before: give it an \
          equilibrium modulus, or a motion through points"
     )]
     NoCycle,
-    /// Cycle after cycle still changes.
+    /// The limit cycle, or the periodic state on a track, is not reached.
     #[error(
         "after {cycles} cycles of the motion, or passes of the track, the relative change that may be left is {change:.1e}, and the tolerance \
          {tolerance:.1e}: the material remembers too many cycles"
@@ -162,12 +162,12 @@ pub enum MdrError {
     NotPeriodic {
         /// Cycles that were followed.
         cycles: usize,
-        /// Relative change that may be left.
+        /// Relative change that may remain.
         change: f64,
         /// The tolerance.
         tolerance: f64,
     },
-    /// On its track the body would be in two passes at once.
+    /// The body is longer than the track.
     #[error(
         "the track must be longer than the body is where it is below the surface, {} m, but is {} m",
         Rounded(*needed), InWords(*track)
@@ -183,7 +183,7 @@ pub enum MdrError {
         "under a constant load a material that flows never comes to rest: press it for a duration"
     )]
     NoEquilibrium,
-    /// The contact has reached the last element, beyond which the line is not given.
+    /// The contact has reached the last element of the line.
     #[error(
         "the contact reached the edge at position {} (of a sphere: its equator) at depth {} m and time {} s: lower the force, or check \
          the unit of the modulus or viscosity",
@@ -197,27 +197,27 @@ pub enum MdrError {
         /// Time since first touch, \[s].
         time: f64,
     },
-    /// A contact that was pressed again is not a disc any more, and the one-dimensional model not exact.
+    /// The contact is not a disc after pressing again, so that the one-dimensional model is not exact.
     #[error(
         "at time {} s the surface has recovered in such a way that a part of the contact opens inside it, or closes \
          outside: press again later, or less",
         Rounded(*time)
     )]
     NotADisc {
-        /// When, \[s].
+        /// Time at which it ceases to be a disc, \[s].
         time: f64,
     },
-    /// Elements that were left are touched again, and the profile stands for a surface whose elements are not independent.
+    /// Separated elements come into contact again, and the profile is that of a surface whose elements are not independent.
     #[error(
         "at time {} s the contact grows again after it has shrunk, and only on a half space its force is that of springs \
          side by side: follow it with boundary elements",
         Rounded(*time)
     )]
     TouchedAgain {
-        /// When, \[s].
+        /// Time at which the contact grows again, \[s].
         time: f64,
     },
-    /// Too few elements are in contact at the end for the result to mean anything.
+    /// Too few elements are in contact at the end for a meaningful result.
     #[error(
         "at least {needed} elements must be in contact at spacing {} m, but only {n_contact} are",
         Rounded(*spacing)
@@ -255,7 +255,7 @@ pub enum MdrError {
         /// Time since first touch, \[s].
         time: f64,
     },
-    /// The load is not one that the method takes.
+    /// The load or the body is not one that the method can treat.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
     /// The material refuses a step in time.

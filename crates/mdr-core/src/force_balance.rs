@@ -1,16 +1,16 @@
-//! One instant of the chain.
+//! Balance of the forces of all elements in one step: the depth that carries a normal force.
 //!
 //! ```text
 //! f = 4 η Δx du/dt                                   (10)
 //! f_i = (4 Δx / α) max(0, d − h_i − u_i)              over one implicit step of compliance α
 //! Σ (d − h_i − u_i)⁺ = α F_N / (4 Δx)
 //! ```
-//! The load potential of an element under the force f is w = f/(4 Δx), and a step moves it by α w. The sum is a
-//! convex, increasing, piecewise-linear function of the depth, so that Newton's method ends at the solution itself.
+//! The load potential of an element under the force f is w = f/(4 Δx), and a step moves the element by α w. The sum is a
+//! convex, increasing, piecewise linear function of the depth, so that Newton's method ends at the exact solution.
 
 use crate::compensated::CompensatedSum;
 
-/// A rigid line over a chain, before the depth of the instant is known.
+/// A rigid line over a foundation, before the depth is known.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ForceBalance<'a> {
     /// Heights h_i of the line over each element, above its lowest point, \[m]; `+∞` where there is no body.
@@ -19,22 +19,25 @@ pub(crate) struct ForceBalance<'a> {
     pub(crate) displacements: &'a [f64],
 }
 
-/// The elements below a depth, and the sum of their compressions.
+/// A depth, and the elements that are compressed there.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TrialDepth {
+    /// Indentation depth d, \[m].
     pub(crate) depth: f64,
+    /// Number of compressed elements.
     pub(crate) n_below: usize,
+    /// Sum of their compressions, \[m].
     pub(crate) compression: f64,
 }
 
 impl ForceBalance<'_> {
-    /// The depth at which the compressions add up to what is `needed` ≥ 0 \[m], beginning with the elements below `guess`;
-    /// where that is 0 the line touches the first element.
+    /// The depth at which the compressions add up to `needed` ≥ 0 \[m], by Newton's method from the elements below `guess`.
     ///
-    /// From the first step on Newton's method comes down to the solution from above, and its contacts are nested;
-    /// when the contact has not lost an element, the equation is linear between the last two depths and solved. If f is
-    /// the excess of force and g the number of elements, convexity gives f'/f + g'/g ≤ 1 from step to step, so that
-    /// f g falls by a factor of four or more: the number of passes is logarithmic, with a guess two or three.
+    /// If `needed` is 0 the line just touches the first element. After the first step the iterates decrease to the solution,
+    /// and their sets of elements are nested. When a step loses no element, the equation is linear between its two depths
+    /// and solved. With f the excess of force and g the number of elements, convexity gives f'/f + g'/g ≤ 1 from step to
+    /// step, so that f g falls by a factor of four or more: the number of steps is logarithmic, with a good guess two or
+    /// three.
     pub(crate) fn solve(&self, needed: f64, guess: f64) -> TrialDepth {
         let guessed = self.at_depth(guess);
         let mut level = self.at_depth(match guessed.n_below {
@@ -52,6 +55,7 @@ impl ForceBalance<'_> {
         level
     }
 
+    /// The compressed elements at a depth.
     pub(crate) fn at_depth(&self, depth: f64) -> TrialDepth {
         let mut n_below = 0;
         let mut compression = CompensatedSum::default();
@@ -68,12 +72,12 @@ impl ForceBalance<'_> {
         }
     }
 
-    /// Depth at which the line touches the first element.
+    /// Depth at which the line touches the first element, \[m].
     pub(crate) fn first_contact_depth(&self) -> f64 {
         self.contact_depths().fold(f64::INFINITY, f64::min)
     }
 
-    /// Depth at which the line touches each element.
+    /// Depth at which the line touches each element, \[m].
     fn contact_depths(&self) -> impl Iterator<Item = f64> {
         let elements = self.heights.iter().zip(self.displacements);
         elements.map(|(height, displacement)| height + displacement)

@@ -1,11 +1,11 @@
-//! Friction and contact in the one-dimensional model (method of dimensionality reduction, MDR): a rigid line on elements
-//! that do not feel each other, a chain of dashpots in Kürschner 2014, Sect. 3 and 4, and here of any linear viscoelastic
-//! [`Material`](rheology::Material).
+//! Friction and contact in the one-dimensional model (method of dimensionality reduction, MDR): a rigid line on a Winkler
+//! foundation, whose elements do not interact. In Kürschner 2014, Sect. 3 and 4, they are a chain of dashpots; here they are
+//! of any linear viscoelastic [`Material`](rheology::Material).
 //!
-//! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the approach to it from first touch, [`indent`](indent())
-//! pressing for a time, [`press`](press()) the contact at rest, [`move_along`] any motion, to and fro too; each gives its
-//! numbers with their errors.
-//! [`slide_on_grid`] marches on one stated resolution. A body of revolution is given by its
+//! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the approach to it from first contact. [`indent`](indent())
+//! is pressing for a time, [`indent_along`] pressing along a history, [`press`](press()) the contact at rest, and [`move_along`]
+//! any motion, also reciprocating. All results have error estimates.
+//! [`slide_on_grid`] marches with a stated spacing. A body of revolution is given by its
 //! [`EquivalentLine`](indenters::EquivalentLine), or any other [`RigidLine`](indenters::RigidLine) as it is.
 //!
 //! The cone of Fig. 7 has the friction coefficient μ = (π/2) c₁, (21), at every speed:
@@ -40,7 +40,7 @@ mod refinement;
 mod slide;
 mod steady;
 
-/// The program of that page compiles.
+/// The program of the README compiles.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;
