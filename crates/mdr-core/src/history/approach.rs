@@ -352,23 +352,19 @@ impl Approach {
             return;
         };
         let lag = time - (ring.start_time + ring.duration);
-        let EdgePlace {
-            radius,
-            slope,
-            depth,
-        } = self.place(self.rings.len() - 1, 1.0);
+        let edge = self.place(self.rings.len() - 1, 1.0);
         for (k, rate) in self.rates.iter().enumerate() {
             let decay = (-rate * lag).exp();
             let [at_contact, load] = [self.at_front.depth[k], self.at_front.load[k]];
             let strain = self.now.depth[k] - decay * at_contact;
-            self.now.load[k] = radius * strain + decay * load;
+            self.now.load[k] = edge.radius * strain + decay * load;
             if let Some(time_weighted) = self.now.time_weighted.get_mut(k) {
                 let before = self.at_front.time_weighted[k];
-                time_weighted.load = radius
+                time_weighted.load = edge.radius
                     * (time_weighted.depth - decay * (before.depth + lag * at_contact))
                     + decay * (before.load + lag * load);
-                time_weighted.edge = decay * before.edge + slope * strain;
-                time_weighted.stretch = decay * before.stretch - depth * slope * strain;
+                time_weighted.edge = decay * before.edge + edge.slope * strain;
+                time_weighted.stretch = decay * before.stretch - edge.depth * edge.slope * strain;
             }
         }
     }
@@ -540,11 +536,6 @@ impl Approach {
     fn integrate_to_edge(&mut self, shift: f64) {
         let EdgeElement { ring, theta, .. } = self.edge;
         let place = self.place(ring, theta);
-        let EdgePlace {
-            radius,
-            slope,
-            depth,
-        } = place;
         if ring + 1 == self.rings.len() && theta >= 1.0 {
             self.at_contact.copy_from(&self.at_front);
         } else {
@@ -552,13 +543,13 @@ impl Approach {
         }
         let edge = &mut self.edge;
         for (k, sum) in edge.sums.iter_mut().enumerate() {
-            *sum = radius * edge.strains[k] + edge.decays[k] * self.at_contact.load[k];
+            *sum = place.radius * edge.strains[k] + edge.decays[k] * self.at_contact.load[k];
         }
         // ∂F/∂D = a' w at constant t, and w falls to 0 within the shift.
-        (edge.shift, edge.correction) = (shift, 0.5 * slope * edge.load * shift);
+        (edge.shift, edge.correction) = (shift, 0.5 * place.slope * edge.load * shift);
         edge.place = Some(place);
         let from = self.rings[ring].start_depth;
-        edge.radius = self.radii.at([from, depth + shift])[0];
+        edge.radius = self.radii.radius_and_slope([from, place.depth + shift])[0];
     }
 
     /// The part of a ring up to θ, and the coefficients of its radius.

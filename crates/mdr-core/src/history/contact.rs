@@ -121,7 +121,7 @@ impl<'a> Contact<'a> {
         let at_edge = self.rings.last().zip(self.edge_modulus);
         let edge_change = at_edge.map(|(ring, modulus)| {
             let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
-            let slope = self.radii.at(depths)[1];
+            let slope = self.radii.radius_and_slope(depths)[1];
             change_of_edge(slope, modulus, self.path.scale(self.path.end()))
         });
         let [time, depth] = self.path.last();
@@ -232,7 +232,7 @@ impl<'a> Contact<'a> {
             depths[1] = limit;
             to = path.time_of_depth(at.segment, limit);
         }
-        let [outer, _] = self.radii.at(depths);
+        let [outer, _] = self.radii.radius_and_slope(depths);
         self.largest = LargestContact {
             radius: outer,
             depth: depths[1],

@@ -108,7 +108,7 @@ impl ForceHistory<'_> {
             let depth = point.indentation_depth.value;
             let radius = point.contact_radius.value.max(0.0);
             let error = depth_error + 2.0 * self.options.modulus_error * depth.abs();
-            let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * depth_error;
+            let of_depth = radii.radius_and_slope([depth.max(0.0); 2])[1].abs() * depth_error;
             CurvePoint {
                 indentation_depth: Estimate::new(depth, error),
                 contact_radius: Estimate::new(
@@ -148,7 +148,7 @@ impl ForceHistory<'_> {
             radii = known_up_to(self.body, &mut deepest)?;
             if deepest < wanted && radii.area() < area {
                 return Err(MdrError::ForceBeyondEdge {
-                    position: radii.at([deepest; 2])[0],
+                    position: radii.radius_and_slope([deepest; 2])[0],
                     available: deepest,
                     carried_force: normal_force * (radii.area() / area),
                     normal_force,
@@ -189,7 +189,7 @@ impl ForceHistory<'_> {
             let is_flat = self.body.apex_exponent() == f64::INFINITY;
             let touches = depth > 0.0 || (is_flat && force > 0.0);
             let radius = if touches {
-                radii.at([depth; 2])[0]
+                radii.radius_and_slope([depth; 2])[0]
             } else {
                 0.0
             };
@@ -204,7 +204,10 @@ impl ForceHistory<'_> {
                 time,
                 indentation_depth: bar(depth, unknown),
                 normal_force: Estimate::exact(force),
-                contact_radius: bar(radius, radii.at([depth; 2])[1].abs() * unknown),
+                contact_radius: bar(
+                    radius,
+                    radii.radius_and_slope([depth; 2])[1].abs() * unknown,
+                ),
             });
             before = *point;
         }

@@ -116,7 +116,8 @@ pub fn indent_along(
     between_zero_and_one("relative_error", options.relative_error)?;
     let points = validated_points(history)?;
     if points.iter().all(|[_, value]| *value <= 0.0) {
-        return Ok(points.into_iter().map(unloaded_point).collect());
+        let unloaded = |point: [f64; 2]| unloaded_point(point[0], point[1]);
+        return Ok(points.into_iter().map(unloaded).collect());
     }
     // As a pointer to it, a material of any size is one that can be an object.
     let material: &dyn Material = &material;
@@ -141,7 +142,7 @@ pub fn indent_along(
 }
 
 /// A point of the curve without load, at a time and depth.
-const fn unloaded_point([time, depth]: [f64; 2]) -> CurvePoint {
+const fn unloaded_point(time: f64, depth: f64) -> CurvePoint {
     CurvePoint {
         time,
         indentation_depth: Estimate::exact(depth),
@@ -256,7 +257,7 @@ fn follow_recontact(
     path.push(points[0][0], points[0][1].min(0.0));
     let begins_above = points[0][1] <= 0.0;
     let mut curve = Vec::with_capacity(points.len());
-    curve.extend(begins_above.then(|| unloaded_point(points[0])));
+    curve.extend(begins_above.then(|| unloaded_point(points[0][0], points[0][1])));
     let mut contact = Contact::new(body, path, radii);
     for [time, depth] in &points[curve.len()..] {
         contact.follow(*time, *depth)?;

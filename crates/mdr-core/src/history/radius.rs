@@ -155,7 +155,7 @@ impl Radii {
     }
 
     /// The radius and its derivative at the second of two depths, on the piece that holds both.
-    pub(super) fn at(&self, depths: [f64; 2]) -> [f64; 2] {
+    pub(super) fn radius_and_slope(&self, depths: [f64; 2]) -> [f64; 2] {
         let [from, depth] = depths;
         let piece = self.piece_at(0.5 * (from + depth));
         let position = piece.position(depth);

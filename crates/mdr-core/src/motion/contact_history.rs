@@ -101,12 +101,10 @@ impl ContactHistory {
 
     /// Residual F of all elements and modes, for a cycle from the amplitudes `state` to `end`.
     pub(super) fn residual(&self, modes: &[Mode], state: &[f64], end: &[f64]) -> Vec<f64> {
-        let n_history_variables = state.len() / self.elements.len();
+        let n_history = state.len() / self.elements.len();
         let mut residual = vec![0.0; state.len()];
-        let rows = residual.chunks_mut(n_history_variables).zip(&self.elements);
-        let states = state
-            .chunks(n_history_variables)
-            .zip(end.chunks(n_history_variables));
+        let rows = residual.chunks_mut(n_history).zip(&self.elements);
+        let states = state.chunks(n_history).zip(end.chunks(n_history));
         for ((row, element), (state, end)) in rows.zip(states) {
             for (k, mode) in modes.iter().enumerate() {
                 let periods = self.period / mode.length;
@@ -185,7 +183,7 @@ impl<'a> CycleJacobian<'a> {
 
     /// Step δ that covers n cycles instead of all: with κ = e^(−T/λ), F and β are multiplied by (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
-        let n_history_variables = residual.len() / self.contact_history.elements.len();
+        let n_history = residual.len() / self.contact_history.elements.len();
         let weights = modes.iter().map(|mode| {
             let period = self.contact_history.period;
             let lost = mode.recovered(period);
@@ -201,7 +199,7 @@ impl<'a> CycleJacobian<'a> {
 
         // The step without the response of the loads, and its mean displacement over a cycle.
         let mut step = residual.to_vec();
-        let rows = step.chunks_mut(n_history_variables).map(|row| {
+        let rows = step.chunks_mut(n_history).map(|row| {
             let history = row.iter_mut().zip(&weights);
             history.fold(0.0, |sum, (amplitude, mode)| {
                 *amplitude *= mode.step_factor;
@@ -216,7 +214,7 @@ impl<'a> CycleJacobian<'a> {
 
         // Subtract the response of the loads.
         let load_response = self.load_response(&free, compliance);
-        for (row, load_response) in step.chunks_mut(n_history_variables).zip(&load_response) {
+        for (row, load_response) in step.chunks_mut(n_history).zip(&load_response) {
             for (amplitude, mode) in row.iter_mut().zip(&weights) {
                 *amplitude -= mode.load_compliance * load_response;
             }

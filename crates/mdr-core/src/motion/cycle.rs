@@ -8,7 +8,7 @@ use indenters::{Control, MotionRecord, MovingStep};
 
 use super::contact_history::{ContactHistory, CycleJacobian};
 use super::march::MotionProblem;
-use super::time_step::n_history_variables;
+use super::time_step::n_history;
 use super::winkler::WinklerFoundation;
 use crate::MdrError;
 use crate::steady::Mode;
@@ -153,7 +153,7 @@ impl<'a> CycleSearch<'a> {
 
     /// Rounding of the norm of the residual, \[m].
     fn rounding(&self) -> f64 {
-        let n_history_variables = n_history_variables(&self.problem.foundation);
+        let n_history = n_history(&self.problem.foundation);
         let weights: Vec<f64> = self
             .modes()
             .iter()
@@ -164,7 +164,7 @@ impl<'a> CycleSearch<'a> {
                         .max(ContactHistory::MAX_PERIODS_FROM_IMPULSE)
             })
             .collect();
-        let rows = self.state.chunks(n_history_variables);
+        let rows = self.state.chunks(n_history);
         norm(rows.flat_map(|row| row.iter().zip(&weights).map(|(slot, weight)| slot * weight)))
     }
 
@@ -199,8 +199,8 @@ impl<'a> CycleSearch<'a> {
         self.residual_before = norm(self.residual.iter().copied());
         let rows = self
             .expected_residual
-            .chunks_mut(n_history_variables(foundation))
-            .zip(step.chunks(n_history_variables(foundation)));
+            .chunks_mut(n_history(foundation))
+            .zip(step.chunks(n_history(foundation)));
         for (expected_residual, step) in rows {
             for ((expected_residual, step), left) in
                 expected_residual.iter_mut().zip(step).zip(&left)

@@ -9,7 +9,7 @@ use rheology::Material;
 
 use super::cycle::find_limit_cycle;
 use super::element_means::average_tangential_forces;
-use super::time_step::n_history_variables;
+use super::time_step::n_history;
 use super::winkler::{FoundationStep, Prescribed, SavedRecovery, WinklerFoundation};
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
@@ -129,14 +129,13 @@ impl<'a> MotionProblem<'a> {
         let n_steps = self.load.n_steps(elements, spacing, MAX_STEPS)?;
         let [rear, front] = self.load.range();
         let n_elements = (front - rear) / spacing + FOUNDATION_PER_CONTACT * elements as f64;
-        let n_history_variables = n_history_variables(&self.foundation);
+        let n_history = n_history(&self.foundation);
         let copies = if self.load.is_cycle() {
             N_STORED_STATES
         } else {
             1.0
         };
-        let per_element =
-            copies * (n_history_variables * size_of::<f64>()) as f64 + MOTION_BYTES_PER_ELEMENT;
+        let per_element = copies * (n_history * size_of::<f64>()) as f64 + MOTION_BYTES_PER_ELEMENT;
         // Values on four resolutions, of which a list that grows by doubling.
         let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)

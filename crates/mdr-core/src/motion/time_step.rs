@@ -67,7 +67,7 @@ pub(super) struct StepWork {
 }
 
 /// Number of history variables of an element, stresses of branches or amplitudes of modes: a multiple of [`LANES`].
-pub(super) fn n_history_variables(foundation: &Foundation) -> usize {
+pub(super) fn n_history(foundation: &Foundation) -> usize {
     let used = foundation.branches.len().max(foundation.modes.len());
     used.max(1).next_multiple_of(LANES)
 }

@@ -18,7 +18,7 @@ pub(super) use saved_recovery::SavedRecovery;
 use super::contact_history::{ContactHistory, ElementRecord};
 use super::event::ContactEvent;
 use super::heights::{HeightRow, HeightTable};
-use super::time_step::{StepWork, TimeStep, n_history_variables};
+use super::time_step::{StepWork, TimeStep, n_history};
 use crate::MdrError;
 use crate::element_heights::ElementHeights;
 use crate::error::finite;
@@ -87,7 +87,7 @@ pub(super) struct WinklerFoundation<'a> {
     states: Vec<ElementState>,
     /// History variables, element by element: stresses e_i of a loaded one, amplitudes β_k of a free one.
     history: Vec<f64>,
-    n_history_variables: usize,
+    n_history: usize,
     step: TimeStep,
     body: BodyState,
     /// First and last element of the window in which elements can be loaded in the step.
@@ -142,16 +142,16 @@ impl<'a> WinklerFoundation<'a> {
         let [rear, front] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let first = ((range[0] + rear) / spacing).floor() - FOUNDATION_MARGIN;
         let last = ((range[1] + front) / spacing).ceil() + FOUNDATION_MARGIN;
-        let n_elements = whole(last - first) + 1;
-        let n_history_variables = n_history_variables(foundation);
+        let n_elements = to_index(last - first) + 1;
+        let n_history = n_history(foundation);
         Ok(Self {
             line: HeightTable::new(line, sampled)?,
             foundation,
             sampled,
             first,
             states: vec![ElementState::Untouched; n_elements],
-            history: vec![0.0; n_elements * n_history_variables],
-            n_history_variables,
+            history: vec![0.0; n_elements * n_history],
+            n_history,
             step: TimeStep::default(),
             body: BodyState {
                 time,
@@ -274,7 +274,10 @@ impl<'a> WinklerFoundation<'a> {
         let low = (positions[0].min(positions[1]) + rear) / spacing - self.first;
         let high = (positions[0].max(positions[1]) + front) / spacing - self.first;
         let last = self.states.len() - 1;
-        let window = [whole(low.floor() - 1.0), whole(high.ceil() + 1.0).min(last)];
+        let window = [
+            to_index(low.floor() - 1.0),
+            to_index(high.ceil() + 1.0).min(last),
+        ];
         let start = (self.first + window[0] as f64) * spacing;
         let count = window[1] + 1 - window[0];
         self.window = window;
@@ -289,8 +292,7 @@ impl<'a> WinklerFoundation<'a> {
         let start = self.window[0];
         self.unloaded_displacements.clear();
         for element in start..=self.window[1] {
-            let history =
-                element * self.n_history_variables..(element + 1) * self.n_history_variables;
+            let history = element * self.n_history..(element + 1) * self.n_history;
             let history = &mut self.history[history];
             let displacement_at_end = match &mut self.states[element] {
                 ElementState::Untouched => 0.0,
@@ -335,7 +337,7 @@ impl<'a> WinklerFoundation<'a> {
         let element = self.window[0] + index;
         let heights = [self.heights_before.over(element), self.heights[index]];
         let under = [self.body.depth - heights[0], to.depth - heights[1]];
-        let history = element * self.n_history_variables..(element + 1) * self.n_history_variables;
+        let history = element * self.n_history..(element + 1) * self.n_history;
         let event = ContactEvent {
             foundation: self.foundation,
             duration: self.step.duration,
@@ -406,8 +408,7 @@ impl<'a> WinklerFoundation<'a> {
         let mut lost = 0.0;
         let elapsed = self.body.time - time;
         for (element, state) in self.states.iter_mut().enumerate() {
-            let history =
-                element * self.n_history_variables..(element + 1) * self.n_history_variables;
+            let history = element * self.n_history..(element + 1) * self.n_history;
             match state {
                 ElementState::Untouched => {}
                 ElementState::Free { since, .. } => *since -= elapsed,
@@ -443,8 +444,7 @@ impl<'a> WinklerFoundation<'a> {
         };
         let mut stored = 0.0;
         for (element, height) in (self.window[0]..=self.window[1]).zip(&self.heights) {
-            let history =
-                element * self.n_history_variables..(element + 1) * self.n_history_variables;
+            let history = element * self.n_history..(element + 1) * self.n_history;
             let history = &mut self.history[history];
             let ElementState::Free { limit, .. } = self.states[element] else {
                 continue;
@@ -479,8 +479,7 @@ impl<'a> WinklerFoundation<'a> {
         let time = self.body.time;
         for (element, state) in self.states.iter_mut().enumerate() {
             if let ElementState::Free { since, .. } = state {
-                let history =
-                    element * self.n_history_variables..(element + 1) * self.n_history_variables;
+                let history = element * self.n_history..(element + 1) * self.n_history;
                 let history = self.history[history].iter_mut();
                 for (slot, mode) in history.zip(&self.foundation.modes) {
                     *slot *= (-(time - *since) / mode.length).exp();
@@ -506,6 +505,6 @@ impl StepSums {
     clippy::cast_sign_loss,
     reason = "elements are counted before, and fewer than the most allowed"
 )]
-const fn whole(number: f64) -> usize {
+const fn to_index(number: f64) -> usize {
     number as usize
 }

@@ -177,7 +177,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
     fn resolve(&self, ends: [f64; 2], pieces: &mut Vec<Piece>) -> Result<(), MdrError> {
         let mut waiting = vec![ends];
         while let Some(ends) = waiting.pop() {
-            let piece = self.piece(ends)?;
+            let piece = self.interpolate_piece(ends)?;
             let middle = ends[0].midpoint(ends[1]);
             let farthest = ends[0].abs().max(ends[1].abs());
             let smallest = (MIN_PIECE_LENGTH * farthest).max(f64::MIN_POSITIVE);
@@ -210,14 +210,15 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         match turn.filter(|x| !piece.segment.ends.contains(x)) {
             None => pieces.push(piece),
             Some(turn) => {
-                pieces.push(self.piece([piece.segment.ends[0], turn])?);
-                pieces.push(self.piece([turn, piece.segment.ends[1]])?);
+                pieces.push(self.interpolate_piece([piece.segment.ends[0], turn])?);
+                pieces.push(self.interpolate_piece([turn, piece.segment.ends[1]])?);
             }
         }
         Ok(())
     }
 
-    fn piece(&self, ends: [f64; 2]) -> Result<Piece, MdrError> {
+    /// The polynomial between two positions, and the size of its tail.
+    fn interpolate_piece(&self, ends: [f64; 2]) -> Result<Piece, MdrError> {
         let mut piece = Piece {
             segment: Segment {
                 displacements: [0.0; DEGREE + 1],

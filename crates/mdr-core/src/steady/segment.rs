@@ -41,7 +41,7 @@ impl Segment {
     }
 
     /// The part of the segment between two values of t.
-    pub(super) fn part(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
+    pub(super) fn between(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
         if from <= -1.0 && to >= 1.0 {
             return self.clone();
         }

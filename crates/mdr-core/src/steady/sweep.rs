@@ -93,7 +93,7 @@ pub(super) fn sweep(
         let whole = &piece.segment;
         let mut start = -1.0;
         while start < 1.0 {
-            let segment = whole.part(&profile.interpolation, [start, 1.0]);
+            let segment = whole.between(&profile.interpolation, [start, 1.0]);
             let reached = march.advance(&segment, piece)?;
             start = if reached >= 1.0 {
                 1.0
@@ -217,7 +217,7 @@ impl SurfaceMarch<'_> {
     fn release_at(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = stresses.to_vec();
         if 1.0 + t > MIN_CONTACT_PART {
-            let loaded = segment.part(&self.profile.interpolation, [-1.0, t]);
+            let loaded = segment.between(&self.profile.interpolation, [-1.0, t]);
             let solution = self.foundation.solve_segment(&loaded, &stresses);
             self.add(&solution, &loaded, tail);
             stresses = solution.stresses;
@@ -325,13 +325,15 @@ fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
 /// Positions inside the boundary layers that are thinner than the distance of the other samples.
 fn layer_samples(solution: &SegmentSolution) -> Vec<f64> {
     let first = samples().next().unwrap_or(1.0);
-    let thin = solution
+    let widths = solution
         .layers
         .iter()
         .rev()
         .map(|layer| layer.ratio.recip());
-    let thin = thin.filter(|width| *width > MIN_LAYER_WIDTH && width - 1.0 < first);
-    let mut samples: Vec<f64> = thin.map(|width| width - 1.0).collect();
+    let mut samples: Vec<f64> = widths
+        .filter(|width| *width > MIN_LAYER_WIDTH && width - 1.0 < first)
+        .map(|width| width - 1.0)
+        .collect();
     samples.sort_by(f64::total_cmp);
     samples
 }

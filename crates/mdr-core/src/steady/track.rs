@@ -47,18 +47,14 @@ pub(super) fn sweep_until_periodic(
     let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
     let mut left = 0.0;
     let pass = |ahead: &[f64]| {
-        let (_, behind) = sweep(
-            foundation,
-            profile,
-            foundation.recovering_surface(ahead),
-            None,
-        )?;
+        let ahead = foundation.recovering_surface(ahead);
+        let (_, behind) = sweep(foundation, profile, ahead, None)?;
         let end = foundation.remaining_amplitudes(&behind, free);
         Ok::<_, MdrError>((end.clone(), end))
     };
     let rest = |now: &mut Vec<f64>, before: &Vec<f64>| {
-        let changes = now.iter().zip(before.iter());
-        let changes = changes.map(|(now, before)| (now - before).abs());
+        let pairs = now.iter().zip(before.iter());
+        let changes = pairs.map(|(now, before)| (now - before).abs());
         left = slowness * changes.fold(0.0, f64::max);
         left
     };

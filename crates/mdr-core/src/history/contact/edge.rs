@@ -75,7 +75,9 @@ impl Contact<'_> {
         let since = since(bracketed_root(load, ends).unwrap_or(ends[1]));
         Some(Edge {
             n_rings: 0,
-            radius: self.radii.at([ring.from, since].map(|at| path.depth(at)))[0],
+            radius: self
+                .radii
+                .radius_and_slope([ring.from, since].map(|at| path.depth(at)))[0],
             stresses: path.lag(since, at).stresses,
             since: Some(since),
         })

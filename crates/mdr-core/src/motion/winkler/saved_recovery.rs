@@ -1,6 +1,6 @@
 //! Transfer of the state of recovery between foundations of different spacing.
 
-use super::{ElementState, WinklerFoundation, whole};
+use super::{ElementState, WinklerFoundation, to_index};
 
 /// Amplitudes of recovery of a foundation.
 #[derive(Debug, Clone)]
@@ -26,18 +26,16 @@ impl WinklerFoundation<'_> {
     /// Sets the amplitudes of recovery by linear interpolation of saved ones.
     pub(crate) fn restore_recovery(&mut self, saved: &SavedRecovery) {
         let (spacing, since) = (self.sampled.spacing, self.body.time);
-        let last = saved.history.len() / self.n_history_variables;
+        let last = saved.history.len() / self.n_history;
         for (element, state) in self.states.iter_mut().enumerate() {
             let x = (self.first + element as f64) * spacing;
             let place = ((x - saved.first) / saved.spacing).max(0.0);
-            let (at, part) = (whole(place), place.fract());
+            let (at, part) = (to_index(place), place.fract());
             if at + 1 >= last {
                 continue;
             }
-            let history =
-                &mut self.history[element * self.n_history_variables..][..self.n_history_variables];
-            let (rear, front) =
-                saved.history[at * self.n_history_variables..].split_at(self.n_history_variables);
+            let history = &mut self.history[element * self.n_history..][..self.n_history];
+            let (rear, front) = saved.history[at * self.n_history..].split_at(self.n_history);
             for (slot, (rear, front)) in history.iter_mut().zip(rear.iter().zip(front)) {
                 *slot = rear + part * (front - rear);
             }
