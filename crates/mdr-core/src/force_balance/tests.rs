@@ -1,4 +1,4 @@
-//! One instant: the forces are compressive, act only on touched elements, and balance the normal force to rounding.
+//! The forces are compressive, act only on touched elements, and balance the normal force to rounding.
 
 use casebook::fixed_cases;
 use proptest::prelude::*;
@@ -10,7 +10,7 @@ proptest! {
 
     /// More depth is more load: one depth has this balance and complementarity.
     #[test]
-    fn any_chain_is_in_balance(
+    fn any_foundation_is_in_balance(
         elements in prop::collection::vec((0.0..1.0_f64, -0.5..0.5_f64), 1..200),
         exponents in (-6.0..3.0_f64, 0.0..60.0_f64),
     ) {

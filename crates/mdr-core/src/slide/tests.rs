@@ -1,4 +1,4 @@
-//! Parts of the error of a march, each beside what it stands for.
+//! Parts of the error of a march, each compared with the deviation that it estimates.
 
 use casebook::standard_solid;
 use indenters::{EquivalentLine, PowerProfile};
@@ -11,10 +11,10 @@ fn solid(times: f64) -> StandardSolid {
     standard_solid([1.0, 3.0, 3.0 * times]).expect("a material")
 }
 
-/// What is not of first order is smaller by the number of elements along the layer or the contact, and is seen to be:
-/// a tenth on 256 elements, of which 26 are along the shortest distance of relaxation.
+/// Terms of higher order are smaller by the number of elements along the layer or the contact: about a tenth on 256
+/// elements, of which 26 are along the shortest distance of relaxation.
 #[test]
-fn the_error_of_the_step_is_that_of_a_chain_with_memory() {
+fn the_error_of_the_step_is_that_of_a_march_with_relaxation() {
     let load = SlidingLoad::new(4.0, 1.0).expect("a load");
     let maxwell = Maxwell::new(5.0, 1.0).expect("a material");
     let solids = [0.2, 1.0].map(solid);

@@ -121,7 +121,7 @@ fn a_spacing_that_rounds_away_is_refused() {
     });
 }
 
-/// The stationary depth is a number, and so is the compliance at once, 1e308 1/Pa; what a step compresses is not.
+/// The stationary depth is finite, and so is the instantaneous compliance, 1e308 1/Pa; the compression of a step is not.
 #[test]
 fn a_compression_beyond_the_largest_number_is_refused() {
     let options = SlideOptions {

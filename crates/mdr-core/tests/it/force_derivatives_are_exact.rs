@@ -123,7 +123,7 @@ fn assert_same(exact: &ForceDerivatives, curve: &[CurvePoint], case: &str) {
     }
 }
 
-/// Elements that are touched again as if they had never been left: wrong in the second order of the dip.
+/// Elements that come into contact again count as if they had never separated: an error of second order in the dip.
 #[test]
 fn a_dip_in_a_dwell_is_wrong_in_second_order() {
     let body = body("paraboloid");

@@ -86,7 +86,9 @@ pub(crate) fn follow(
     indent_along(&body, material, path, &HistoryOptions::default()).expect("a disc")
 }
 
-/// Every bar holds the reference, which has so many digits, and no bar is above 1e-10 of the largest value.
+/// Every error estimate covers the deviation from the reference, and none is above 1e-10 of the largest value.
+///
+/// `reference` is the relative error of the reference.
 fn assert_bars(curve: &[CurvePoint], expected: &[[f64; 3]], reference: f64, name: &str) {
     assert!(!expected.is_empty(), "{name} has rows");
     for column in [1, 2] {
@@ -239,8 +241,8 @@ fn depth_and_force_are_inverse() {
     assert!(jumps, "{depths:?}");
 }
 
-/// Bars of depths under a force that falls, to no force, at once, and before it rises again, hold a finer result; the parts
-/// that are needed grow slowly, because they are extrapolated.
+/// Error estimates of the depth cover a finer result: under a force that falls, that falls to zero, that jumps, and that rises
+/// again. The number of parts grows slowly, because the depths are extrapolated.
 #[test]
 fn depths_under_a_falling_force_are_within_their_bars() {
     for forces in [
@@ -257,7 +259,7 @@ fn depths_under_a_falling_force_are_within_their_bars() {
     }
 }
 
-/// Where every branch has forgotten when it was touched, no load says where the edge is.
+/// Where all branches have relaxed since contact, no load determines the edge.
 #[test]
 fn a_contact_that_has_relaxed_carries_nothing() {
     for fluid in ["maxwell", "fluid"] {
@@ -269,8 +271,8 @@ fn a_contact_that_has_relaxed_carries_nothing() {
     }
 }
 
-/// Against the trapezoidal rule on many points, with a contact that turns and is lost inside segments; in a spring nothing
-/// stays.
+/// Compared with the trapezoidal rule on many points, for a contact whose edge turns and that separates inside segments. An
+/// elastic material keeps no energy.
 #[test]
 fn work_is_the_area_under_the_curve() {
     let body = body("paraboloid");

@@ -104,7 +104,7 @@ fn discrete_friction(line: &SampledLine, depth: f64) -> f64 {
 proptest! {
     #![proptest_config(fixed_cases(128))]
 
-    /// On the way the depth only grows, and never beyond the stationary one; this is what bounds the chain.
+    /// During the march the depth only grows, and never beyond the stationary one; this bounds the foundation.
     #[test]
     fn any_line_sinks_to_its_stationary_depth_and_no_further(
         inner in prop::collection::vec(0.0..1.0_f64, 4..30),

@@ -1,4 +1,4 @@
-//! What the chain claims, one file per claim.
+//! Claims of the one-dimensional model, one file per claim.
 
 mod any_scene_keeps_the_invariants;
 mod bad_input_is_refused;

@@ -1,5 +1,5 @@
-//! Marching from first touch ends where the direct solution says, for every kind of material, also where the line lets
-//! go and touches again.
+//! Marching from first contact ends in the stationary state of `steady`, for every kind of material, also where elements
+//! separate and come into contact again.
 
 use indenters::{EquivalentLine, RigidLine};
 use mdr_core::{SlideOptions, SlideRow, SteadySliding, slide_on_grid};
@@ -25,8 +25,8 @@ fn materials() -> Vec<Box<dyn Material>> {
     ]
 }
 
-/// The load of an element is held over a step: first order in the spacing, which the extrapolation takes away. What is
-/// left is that contacts end between elements; of several short ones each has some tens.
+/// The load of an element is constant over a step, an error of first order in the spacing that extrapolation removes. The
+/// remaining error is that contacts end between elements; several short ones have some tens of elements each.
 fn assert_converges(
     line: &impl RigidLine,
     material: &dyn Material,
@@ -68,10 +68,10 @@ fn bodies_of_revolution_end_in_the_stationary_state() {
     }
 }
 
-/// Bumps that come down one after the other on a surface that has not recovered; without what the branches of the
-/// material remember at the second touch, depths would be off by up to 1.7 %.
+/// Bumps that meet, one after the other, a surface that has not recovered. Without the history variables at the second
+/// contact, depths would be wrong by up to 1.7 %.
 #[test]
-fn a_line_that_touches_again_ends_in_the_stationary_state() {
+fn a_line_with_repeated_contact_ends_in_the_stationary_state() {
     let bumps = line([-8.0, 8.0], |x: f64| 0.02 * x * x - 0.2 * (5.0 * x).cos());
     let mut most_contacts = 0;
     for material in materials() {

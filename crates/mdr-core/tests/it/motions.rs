@@ -1,5 +1,5 @@
-//! A motion through points has the stationary state in its middle, one to and fro has the linear answer where the contact
-//! stays, and bars hold.
+//! A motion through points reaches the stationary state in its middle, and a reciprocating one has the linear response where
+//! the contact stays; errors are within their estimates.
 
 use std::f64::consts::PI;
 
@@ -37,7 +37,7 @@ fn through(points: &[[f64; 2]], control: Control) -> MovingLoad {
     MovingLoad::through(&points).expect("a motion")
 }
 
-pub(crate) fn to_and_fro(length: f64, frequency: f64, control: Control) -> MovingLoad {
+pub(crate) fn reciprocating(length: f64, frequency: f64, control: Control) -> MovingLoad {
     let stroke = Stroke {
         length,
         frequency,
@@ -46,7 +46,7 @@ pub(crate) fn to_and_fro(length: f64, frequency: f64, control: Control) -> Movin
     MovingLoad::reciprocating(control, stroke).expect("a motion")
 }
 
-/// Of the last point of the stage that ends at a time.
+/// Tangential force at the last point of the stage that ends at a time.
 fn force_at(moved: &Moved, time: f64) -> numerics::Estimate {
     let at = |point: &&MovedPoint| (point.time - time).abs() < 1e-9 * time;
     moved
@@ -81,7 +81,7 @@ fn a_long_stroke_ends_in_steady_sliding_forth_and_back() {
         for (time, sign) in [(0.3, 1.0), (0.7, -1.0)] {
             let got = force_at(&moved, time);
             let error = (got.value - sign * expected).abs();
-            // On the way back the elements still remember the way there.
+            // On the way back the elements have not yet recovered from the first stroke.
             let remembered = if sign < 0.0 { 1e-3 * expected } else { 0.0 };
             assert!(
                 error <= got.error + remembered && got.error < 5e-3 * expected,
@@ -102,7 +102,7 @@ fn where_the_contact_stays_the_loss_is_that_of_the_loss_modulus() {
     for (n_branches, frequency) in [(1, 200.0), (3, 1.0), (3, 1e3)] {
         let material = rubber(n_branches);
         let stroke = 1e-3 * half_contact;
-        let motion = to_and_fro(stroke, frequency, Control::IndentationDepth(depth));
+        let motion = reciprocating(stroke, frequency, Control::IndentationDepth(depth));
         let moved = move_along(&line, &material, &motion, Accuracy::Elements(256));
         let moved = moved.expect("a cycle");
         let loss = material
@@ -124,7 +124,7 @@ fn from_fretting_to_sliding_friction_grows_with_the_stroke() {
     let ball = ball();
     let mut before = 0.0;
     for stroke in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
-        let motion = to_and_fro(stroke, 1.0, Control::NormalForce(FORCE));
+        let motion = reciprocating(stroke, 1.0, Control::NormalForce(FORCE));
         let moved = move_along(&EquivalentLine(&ball), &rubber(2), &motion, 1e-2);
         let friction = moved.expect("a cycle").friction_coefficient;
         assert!(
@@ -160,12 +160,15 @@ fn after_a_dwell_friction_begins_with_a_peak() {
 }
 
 #[test]
-fn bars_of_coarse_chains_hold_finer_values() {
+fn errors_of_coarse_foundations_hold_finer_values() {
     let ball = ball();
     let line = EquivalentLine(&ball);
     let cases = [
-        (3, to_and_fro(2e-3, 3.0, Control::NormalForce(FORCE))),
-        (2, to_and_fro(5e-5, 30.0, Control::IndentationDepth(5e-5))),
+        (3, reciprocating(2e-3, 3.0, Control::NormalForce(FORCE))),
+        (
+            2,
+            reciprocating(5e-5, 30.0, Control::IndentationDepth(5e-5)),
+        ),
         (
             2,
             through(
@@ -219,7 +222,7 @@ fn few_elements_know_the_friction_under_a_force() {
     let ball = ball();
     let line = EquivalentLine(&ball);
     for (n_branches, length, frequency) in [(3, 1e-2, 2.0), (2, 3e-3, 10.0), (1, 5e-3, 100.0)] {
-        let motion = to_and_fro(length, frequency, Control::NormalForce(FORCE));
+        let motion = reciprocating(length, frequency, Control::NormalForce(FORCE));
         let on = |elements| {
             let request = Accuracy::Elements(elements);
             let moved = move_along(&line, &rubber(n_branches), &motion, request);
@@ -243,7 +246,7 @@ fn few_elements_do_not_know_short_strokes_by_chance() {
     let branches = vec![branch(2.138e5, 0.555), branch(1.806e5, 7.3)];
     let spectrum = RelaxationSpectrum::new(2.240_388e6, 0.0, branches).expect("a spectrum");
     let rubber = Prony::new(spectrum).expect("a material");
-    let load = to_and_fro(
+    let load = reciprocating(
         9.439_636e-6,
         0.525_269,
         Control::IndentationDepth(3.027_064e-6),
@@ -319,7 +322,7 @@ fn bars_of_flat_ends_hold() {
         (Control::IndentationDepth(1.6e-4), 3.7e-3, 0.35),
         (Control::NormalForce(2.3), 1.7e-3, 0.27),
     ] {
-        let motion = to_and_fro(length, frequency, control);
+        let motion = reciprocating(length, frequency, control);
         let on = |elements| {
             let request = Accuracy::Elements(elements);
             let moved = move_along(&line, &rubber(3), &motion, request);
@@ -358,7 +361,7 @@ fn the_day_of_a_motion_changes_nothing_but_its_times() {
 fn no_cycle_gives_energy_back() {
     let spring = RelaxationSpectrum::new(1e6, 0.0, Vec::new()).expect("a spectrum");
     let spring = Prony::new(spring).expect("a material");
-    let load = to_and_fro(1e-3, 1.0, Control::NormalForce(FORCE));
+    let load = reciprocating(1e-3, 1.0, Control::NormalForce(FORCE));
     let moved = move_along(&EquivalentLine(&ball()), &spring, &load, 1e-3).expect("a cycle");
     let energy = moved.dissipated_energy.expect("of a cycle");
     for known in [moved.friction_coefficient, energy] {
@@ -389,21 +392,21 @@ fn the_energy_of_a_cycle_at_a_depth_has_a_bar_of_its_own() {
     assert!(apart <= coarse.error + fine.error, "{coarse:?}, {fine:?}");
 }
 
-/// Two branches, of which one remembers so many cycles.
-fn long_memory(period: f64, cycles: f64) -> Prony {
+/// A material of two branches, of which one relaxes over a number of cycles.
+fn slow_material(period: f64, cycles: f64) -> Prony {
     let slow = RelaxationBranch::new(3e6, cycles * period);
     let branches = vec![RelaxationBranch::new(5e6, 0.1 * period), slow];
     let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches).expect("a spectrum");
     Prony::new(spectrum).expect("a material")
 }
 
-/// The cycle that is solved for is the one to which a motion through the points of all cycles comes.
+/// The limit cycle that is solved for is the one that a motion through the points of all cycles approaches.
 #[test]
-fn a_long_memory_ends_where_its_cycles_do() {
+fn slow_relaxation_reaches_the_limit_of_its_cycles() {
     const PERIOD: f64 = 0.02;
     const CYCLES: u32 = 350;
     let (ball, control) = (ball(), Control::NormalForce(FORCE));
-    let rubber = long_memory(PERIOD, 10.0);
+    let rubber = slow_material(PERIOD, 10.0);
     // The retardation time is four times the relaxation time.
     let left = (-f64::from(CYCLES) / 40.0).exp();
     for length in [5e-5, 3e-3] {
@@ -431,15 +434,15 @@ fn a_long_memory_ends_where_its_cycles_do() {
     }
 }
 
-/// Where next to nothing is forgotten in a cycle, only the mean load counts, and not for how long.
+/// Where a mode hardly recovers in a cycle, only the mean load matters, and not the retardation time.
 #[test]
-fn a_memory_of_endless_cycles_has_a_limit() {
+fn relaxation_over_very_many_cycles_has_a_limit() {
     const PERIOD: f64 = 0.02;
     let ball = ball();
     for length in [5e-5, 3e-3] {
-        let stroke = to_and_fro(length, PERIOD.recip(), Control::NormalForce(FORCE));
+        let stroke = reciprocating(length, PERIOD.recip(), Control::NormalForce(FORCE));
         let friction = |cycles: f64| {
-            let rubber = long_memory(PERIOD, cycles);
+            let rubber = slow_material(PERIOD, cycles);
             let moved = move_along(&EquivalentLine(&ball), &rubber, &stroke, 1e-3);
             moved.expect("a cycle").friction_coefficient
         };
@@ -460,14 +463,14 @@ fn what_cannot_move_so_is_refused() {
     let (ball, control) = (ball(), Control::NormalForce(FORCE));
     let line = EquivalentLine(&ball);
     let fluid = Maxwell::new(1e6, 1e5).expect("a fluid");
-    let refused = move_along(&line, &fluid, &to_and_fro(1e-3, 1.0, control), 1e-2);
+    let refused = move_along(&line, &fluid, &reciprocating(1e-3, 1.0, control), 1e-2);
     assert_eq!(refused, Err(MdrError::NoCycle), "a fluid to and fro");
     let path = through(&[[0.0, 0.0], [0.1, 1e-3], [0.2, 0.0]], control);
     assert!(
         move_along(&line, &fluid, &path, 1e-2).is_ok(),
         "a fluid once"
     );
-    let far = move_along(&line, &rubber(1), &to_and_fro(1e4, 1.0, control), 1e-2);
+    let far = move_along(&line, &rubber(1), &reciprocating(1e4, 1.0, control), 1e-2);
     assert!(
         matches!(
             far,
@@ -478,7 +481,7 @@ fn what_cannot_move_so_is_refused() {
     let deep = move_along(
         &line,
         &rubber(1),
-        &to_and_fro(1e-3, 1.0, Control::NormalForce(1e4)),
+        &reciprocating(1e-3, 1.0, Control::NormalForce(1e4)),
         1e-2,
     );
     assert!(deep.is_err(), "beyond the equator: {deep:?}");

@@ -60,7 +60,7 @@ fn bodies(case: &Case) -> [(&'static str, PowerProfile); 2] {
     [("paraboloid", paraboloid), ("cone", cone)]
 }
 
-/// A depth that rises and a force that is there at once, as Lee and Radok say.
+/// A ramp of the depth and a step of the force, as given by Lee and Radok.
 #[test]
 fn ramps_of_depth_and_steps_of_force_are_those_of_lee_and_radok() {
     for case in casebook::group("VIS-01") {

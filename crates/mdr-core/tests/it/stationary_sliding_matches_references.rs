@@ -1,5 +1,5 @@
-//! Depth, force, friction and both ends of the stationary contact, for every foundation of the casebook and where there is
-//! a closed form: very slow, very fast, full contact.
+//! Depth, force, friction and both ends of the stationary contact, for every foundation of the casebook, and
+//! for the limits with a closed form: very slow, very fast, full contact.
 
 use std::f64::consts::TAU;
 

@@ -91,7 +91,7 @@ pub(crate) fn line<H: Fn(f64) -> f64>(domain: [f64; 2], height: H) -> Line<H> {
     }
 }
 
-/// A line without ends.
+/// An infinite line.
 pub(crate) fn endless<H: Fn(f64) -> f64>(height: H) -> Line<H> {
     line([f64::NEG_INFINITY, f64::INFINITY], height)
 }

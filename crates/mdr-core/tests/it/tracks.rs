@@ -28,9 +28,10 @@ fn on(track: f64, velocity: f64) -> SteadySliding {
     state.expect("a stationary state")
 }
 
-/// What is left of a pass after the track is e^(−L/(v λ)) of what it leaves behind, and the friction changes by so much.
+/// After a track of length L the fraction e^(−L/(v λ)) of the displacement behind the line remains, and the friction changes
+/// in proportion.
 #[test]
-fn a_long_track_is_a_straight_one_but_for_what_is_left_of_the_last_pass() {
+fn a_long_track_is_fresh_ground_but_for_the_rest_of_the_last_pass() {
     let straight = steady(
         &EquivalentLine(&ball()),
         &rubber(),
@@ -58,8 +59,8 @@ fn a_long_track_is_a_straight_one_but_for_what_is_left_of_the_last_pass() {
     }
 }
 
-/// With v λ ≫ L the element carries the mean of the track, and the contact is that of the spring that acts at once on a surface
-/// that has sunk by J₁ F/(4 L); the friction is that of what still changes, in proportion to L/(v λ).
+/// With v λ ≫ L the slow retardation element follows the mean load of the track. The contact is that of the instantaneous
+/// spring on a surface that has sunk by J₁ F/(4 L), and the friction is in proportion to L/(v λ).
 #[test]
 fn on_a_short_track_the_slow_element_carries_the_mean_load() {
     let (track, force) = (4e-3, 2.0);
