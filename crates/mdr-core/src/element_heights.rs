@@ -126,12 +126,16 @@ impl ElementHeights {
             spacing,
             height,
         };
+
+        // Heights on both sides of the anchor, relative to it, from the rear to the front.
         let rear = ray(-spacing).heights()?.ok_or_else(too_many)?;
         let front = ray(spacing).heights()?.ok_or_else(too_many)?;
         let anchor_index = rear.len();
         let mut heights: Vec<f64> = rear.into_iter().rev().collect();
         heights.push(anchor_height);
         heights.extend(front);
+
+        // Heights relative to the lowest element.
         let lowest_height = heights.iter().copied().fold(anchor_height, f64::min);
         for height in &mut heights {
             *height -= lowest_height;

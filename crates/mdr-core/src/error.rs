@@ -194,7 +194,7 @@ pub enum MdrError {
         position: f64,
         /// Indentation depth at that instant, \[m].
         indentation_depth: f64,
-        /// Time since first touch, \[s].
+        /// Time since first contact, \[s].
         time: f64,
     },
     /// The contact is not a disc after pressing again, so that the one-dimensional model is not exact.
@@ -252,7 +252,7 @@ pub enum MdrError {
         quantity: &'static str,
         /// Its value.
         value: f64,
-        /// Time since first touch, \[s].
+        /// Time since first contact, \[s].
         time: f64,
     },
     /// The load or the body is not one that the method can treat.

@@ -445,18 +445,20 @@ impl Approach {
         let edge = &mut self.edge;
         (edge.ring, edge.theta, edge.lag) =
             (index, theta, self.point.time - (ring.start_time + step));
+
+        // Its load w, the modulus −∂w/∂D, and the rate of the modulus.
         edge.load = self.viscosity * self.speed;
         let [mut modulus, mut slope] = [0.0; 2];
         for (k, at_contact) in integrals_at_rings.iter().enumerate() {
-            let (rate, glass) = (self.rates[k], self.moduli[k]);
+            let (rate, stiffness) = (self.rates[k], self.moduli[k]);
             let [decay, mean] = decay_and_mean(rate * step);
             let at_contact = decay * at_contact + rise * mean;
             let decay = (-rate * edge.lag).exp();
             let strain = self.now.depth[k] - decay * at_contact;
             (edge.decays[k], edge.strains[k]) = (decay, strain);
-            edge.load += glass * strain;
-            modulus += glass * decay;
-            slope += rate * glass * decay;
+            edge.load += stiffness * strain;
+            modulus += stiffness * decay;
+            slope += rate * stiffness * decay;
         }
         edge.modulus = modulus;
         if edge.load == 0.0 || modulus <= f64::MIN_POSITIVE {
@@ -467,6 +469,8 @@ impl Approach {
                 curvature: 0.0,
             };
         }
+
+        // The step to w = 0.
         let shift = edge.load / modulus;
         let curvature = 0.5 * shift * slope / modulus * (ring.duration / ring.rise);
         let is_moderate = curvature.abs() < 0.25;
@@ -497,6 +501,7 @@ impl Approach {
         self.edge.place = None;
         let mut bracket = [0.0, deepest];
         for step in 0..MAX_EDGE_STEPS {
+            // The ring of this depth.
             while ring > 0 && depth < self.rings[ring].start_depth {
                 ring -= 1;
             }
@@ -504,19 +509,23 @@ impl Approach {
                 ring += 1;
             }
             let EdgeStep { shift, curvature } = self.step_to_edge(ring, depth);
-            let is_left = self.edge.load < 0.0;
-            if depth <= 0.0 && is_left {
+            let is_tensile = self.edge.load < 0.0;
+            if depth <= 0.0 && is_tensile {
                 return;
             }
-            bracket[usize::from(is_left)] = depth;
+
+            // The load falls outwards: a tensile element bounds the edge from outside.
+            bracket[usize::from(is_tensile)] = depth;
             let next = (depth + shift).clamp(0.0, deepest);
+
+            // Stop by the change of the depth, or by its effect on the force if no derivatives are wanted.
             let change = (next - depth).abs() / next;
-            let of_force =
+            let force_is_known =
                 change * change * (change + curvature.abs()) <= EDGE_TOLERANCE * EDGE_TOLERANCE;
-            let is_still = next.total_cmp(&depth).is_eq();
-            if is_still
+            let is_unchanged = next.total_cmp(&depth).is_eq();
+            if is_unchanged
                 || change <= EDGE_TOLERANCE
-                || (of_force && self.now.time_weighted.is_empty())
+                || (force_is_known && self.now.time_weighted.is_empty())
             {
                 self.last_edge_shift = next - before;
                 self.integrate_to_edge(next - depth);

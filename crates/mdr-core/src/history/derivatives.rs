@@ -99,6 +99,8 @@ impl ForceDerivatives {
                 depth,
             } = place;
             contact_radius = approach.radius();
+
+            // ∂/∂η₀, and what the load of the element at the edge adds by its shift.
             let (edge, at_contact, rates) = (&approach.edge, &approach.at_contact, &approach.rates);
             by_viscosity = approach.speed * radius;
             force = approach.viscosity * by_viscosity;

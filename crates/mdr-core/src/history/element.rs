@@ -90,12 +90,12 @@ impl LineElements<'_> {
                         stresses: self.free_stresses(&free, at),
                     })
                 }
-                (EdgeDirection::Separation, ElementState::Loaded(touched)) => {
-                    let before = self.stresses(&touched, edge_move.from);
+                (EdgeDirection::Separation, ElementState::Loaded(loaded)) => {
+                    let before = self.stresses(&loaded, edge_move.from);
                     let at = zero_in(edge_move, |at| {
                         self.path.load_later(&before, edge_move.from, at)
                     });
-                    ElementState::Free(self.release(height, &self.stresses(&touched, at), at))
+                    ElementState::Free(self.release(height, &self.stresses(&loaded, at), at))
                 }
                 (_, state) => state,
             };
@@ -104,9 +104,9 @@ impl LineElements<'_> {
     }
 
     /// σ_k of an element in contact, \[Pa m].
-    pub(super) fn stresses(&self, touched: &Loaded, at: SegmentTime) -> Vec<f64> {
-        let lag = self.path.lag(touched.since, at);
-        let terms = touched.stresses.iter().zip(&lag.decays).zip(lag.stresses);
+    pub(super) fn stresses(&self, loaded: &Loaded, at: SegmentTime) -> Vec<f64> {
+        let lag = self.path.lag(loaded.since, at);
+        let terms = loaded.stresses.iter().zip(&lag.decays).zip(lag.stresses);
         terms
             .map(|((stress, decay), gained)| stress * decay + gained)
             .collect()

@@ -171,10 +171,14 @@ impl ForceHistory<'_> {
         let mut has_fallen = false;
         for point in points {
             let ([time, force], step, rise) = (*point, point[0] - before[0], point[1] - before[1]);
+
+            // A force that has never fallen cannot make the contact shrink.
             has_fallen |= rise < 0.0;
             if has_fallen && shrinks(&creep, &delayed, before[1], step, rise) {
                 break;
             }
+
+            // ∫ J dF at the end of the step.
             for (value, element) in delayed.iter_mut().zip(creep.elements()) {
                 let x = step / element.retardation_time;
                 let [decay, mean] = decay_and_mean(x);
@@ -185,7 +189,8 @@ impl ForceHistory<'_> {
             let recoverable =
                 creep.instantaneous_compliance() * force + delayed.iter().sum::<f64>();
             let depth = radii.depth_of_area((recoverable + flown) / factor);
-            // Only a flat end has a contact before it is deeper than the surface.
+
+            // Only a flat end is in contact before it is below the surface.
             let is_flat = self.body.apex_exponent() == f64::INFINITY;
             let touches = depth > 0.0 || (is_flat && force > 0.0);
             let radius = if touches {
@@ -193,7 +198,9 @@ impl ForceHistory<'_> {
             } else {
                 0.0
             };
-            let unknown = if depth > 0.0 {
+
+            // Errors, by the polynomials of the radii and by rounding.
+            let depth_error = if depth > 0.0 {
                 radii.area_error / radius
             } else {
                 0.0
@@ -202,11 +209,11 @@ impl ForceHistory<'_> {
             let bar = |value: f64, error: f64| Estimate::new(value, relative * value + error);
             curve.push(CurvePoint {
                 time,
-                indentation_depth: bar(depth, unknown),
+                indentation_depth: bar(depth, depth_error),
                 normal_force: Estimate::exact(force),
                 contact_radius: bar(
                     radius,
-                    radii.radius_and_slope([depth; 2])[1].abs() * unknown,
+                    radii.radius_and_slope([depth; 2])[1].abs() * depth_error,
                 ),
             });
             before = *point;
@@ -216,6 +223,7 @@ impl ForceHistory<'_> {
 
     /// The curve with a number of parts per segment.
     fn march(&self, radii: &Radii, parts: usize) -> Result<Vec<CurvePoint>, MdrError> {
+        // Points of the history, and those in between that are not asked for.
         let mut before = [self.points[0][0], 0.0];
         let mut points = Vec::new();
         for point in &self.points {
@@ -226,7 +234,7 @@ impl ForceHistory<'_> {
                 let uniform = part as f64 / n as f64;
                 let share = uniform * uniform * (3.0 - 2.0 * uniform);
                 let between = [0, 1].map(|k| before[k] + share * step[k]);
-                // What was given comes back as it is.
+                // The points of the history without rounding.
                 points.push(if part == n {
                     (*point, true)
                 } else {

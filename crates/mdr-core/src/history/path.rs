@@ -4,7 +4,7 @@
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ(s) ds        a lone spring is a branch with 1/τ = 0
 //! ```
 //! An element that stays in contact from the time s on has the stress σ_k(t) = G_k q_k(t) + r_k e^(−(t − s)/τ_k) in
-//! branch k, with r_k = −G_k q_k(s) where it was never touched before, and the load w = η₀ ḋ + Σ σ_k.
+//! branch k, with r_k = −G_k q_k(s) if it was never in contact before, and the load w = η₀ ḋ + Σ σ_k.
 
 use std::borrow::Cow;
 use std::sync::Arc;

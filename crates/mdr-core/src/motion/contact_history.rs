@@ -157,6 +157,7 @@ impl<'a> CycleJacobian<'a> {
         foundation: &Foundation,
         is_force: bool,
     ) -> Self {
+        // Time for which each element is in contact.
         let mut times = vec![0.0; contact_history.elements.len() + 1];
         for (duration, runs) in contact_history.steps_with_runs() {
             add_to_runs(&mut times, runs, duration);
@@ -256,7 +257,7 @@ impl<'a> CycleJacobian<'a> {
     /// M v for the v that solves v = free − compliance · M v, by conjugate gradients, preconditioned by the M of a prescribed
     /// depth, which is diagonal.
     fn load_response(&self, free: &[f64], compliance: f64) -> Vec<f64> {
-        let over = |r: &[f64]| -> Vec<f64> {
+        let precondition = |r: &[f64]| -> Vec<f64> {
             let weights = self.moduli.iter().zip(&self.contact_fractions);
             let scaled = r.iter().zip(weights);
             scaled
@@ -270,9 +271,11 @@ impl<'a> CycleJacobian<'a> {
                 .map(|(v, m)| v + compliance * m)
                 .collect()
         };
-        let mut v = over(free);
+
+        // Start from the solution of the preconditioner.
+        let mut v = precondition(free);
         let mut r: Vec<f64> = free.iter().zip(applied(&v)).map(|(f, a)| f - a).collect();
-        let mut z = over(&r);
+        let mut z = precondition(&r);
         let mut p = z.clone();
         let mut size = dot(&r, &z);
         let enough = CG_TOLERANCE * CG_TOLERANCE * dot(free, &v);
@@ -284,7 +287,7 @@ impl<'a> CycleJacobian<'a> {
             let step = size / dot(&p, &a);
             add_scaled(&mut v, step, &p);
             add_scaled(&mut r, -step, &a);
-            z = over(&r);
+            z = precondition(&r);
             let before = std::mem::replace(&mut size, dot(&r, &z));
             let ratio = size / before;
             p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + ratio * *p);

@@ -81,6 +81,8 @@ impl<'a> HeightTable<'a> {
         let skipped = whole_part(before.ceil()).min(n_elements);
         let cell = whole_part((cell + (skipped * CELLS_PER_ELEMENT) as f64).max(1.0));
         let from = |number: usize| &self.nodes[number % CELLS_PER_ELEMENT][..];
+
+        // Cubics for all elements, each with the same weights of its four nodes.
         let nodes = [cell - 1, cell, cell + 1, cell + 2].map(|node| {
             let first = (node / CELLS_PER_ELEMENT).min(from(node).len());
             &from(node)[first..]
@@ -94,6 +96,8 @@ impl<'a> HeightTable<'a> {
         });
         row.extend(cubics.take(n_elements - skipped));
         row.resize(n_elements, f64::NAN);
+
+        // Heights of the line itself where a cubic does not hold.
         let smooth = &self.is_smooth[cell % CELLS_PER_ELEMENT];
         for (element, height) in row.iter_mut().enumerate() {
             let index = element

@@ -85,6 +85,7 @@ pub fn move_along<'w>(
     load: &MovingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, MdrError> {
+    // Refuse what has no limit on refinement, and prepare the motion.
     let request = request.into();
     LineProblem::new(line, material, load.fastest())?.check_kinks(load.largest_control())?;
     let length = contact_length(line, material, load)?;
@@ -93,6 +94,8 @@ pub fn move_along<'w>(
         Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ELEMENTS,
     };
     let problem = MotionProblem::new(line, material, load, length, tolerance)?;
+
+    // Refine until the errors are as asked for, or the work is too much.
     let limited = WorkLimit {
         watch: request.watch,
         load,

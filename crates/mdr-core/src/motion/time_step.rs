@@ -15,9 +15,9 @@ const SERIES_MAX_RATIO: f64 = 0.5;
 const N_PHI_TERMS: usize = 18;
 /// Coefficients of a^k, k ≥ 1, in φ(a) − 1, φ(a) − φ(2a), and 1 − 2 φ(a) + φ(2a).
 const PHI_SERIES: [[f64; N_PHI_TERMS]; 3] = [
-    coefficients([1.0, 0.0]),
-    coefficients([1.0, -1.0]),
-    coefficients([-2.0, 1.0]),
+    coefficients(1.0, 0.0),
+    coefficients(1.0, -1.0),
+    coefficients(-2.0, 1.0),
 ];
 /// Branches that are computed together, so that the compiler can use vector instructions; a history variable without
 /// a branch is 0.
@@ -205,7 +205,7 @@ fn total(lanes: Lanes) -> f64 {
 }
 
 /// Coefficients of a^k, k ≥ 1, in `once` φ(a) + `twice` φ(2a), with φ(a) = Σ (−a)^k/(k + 1)!.
-const fn coefficients([once, twice]: [f64; 2]) -> [f64; N_PHI_TERMS] {
+const fn coefficients(once: f64, twice: f64) -> [f64; N_PHI_TERMS] {
     let mut coefficients = [0.0; N_PHI_TERMS];
     let (mut term, mut power, mut k) = (1.0, 1.0, 0);
     while k < N_PHI_TERMS {

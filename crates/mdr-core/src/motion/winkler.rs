@@ -260,6 +260,8 @@ impl<'a> WinklerFoundation<'a> {
     fn update_window(&mut self, position: f64, limit: f64) -> Result<(), MdrError> {
         let spacing = self.sampled.spacing;
         let heights = &self.sampled.heights;
+
+        // The elements below the limit, with one more on each side, where the line is before and after the step.
         let is_low = |height: &f64| *height <= limit;
         let anchor = self.sampled.anchor_index;
         let rear = heights
@@ -268,16 +270,18 @@ impl<'a> WinklerFoundation<'a> {
             .unwrap_or(anchor)
             .saturating_sub(1);
         let front = heights.iter().rposition(is_low).unwrap_or(anchor) + 1;
-        let rear = self.sampled.position(rear);
-        let front = self.sampled.position(front.min(heights.len() - 1));
+        let rear_x = self.sampled.position(rear);
+        let front_x = self.sampled.position(front.min(heights.len() - 1));
         let positions = [self.body.position, position];
-        let low = (positions[0].min(positions[1]) + rear) / spacing - self.first;
-        let high = (positions[0].max(positions[1]) + front) / spacing - self.first;
+        let low = (positions[0].min(positions[1]) + rear_x) / spacing - self.first;
+        let high = (positions[0].max(positions[1]) + front_x) / spacing - self.first;
         let last = self.states.len() - 1;
         let window = [
             to_index(low.floor() - 1.0),
             to_index(high.ceil() + 1.0).min(last),
         ];
+
+        // The heights over the window at both positions.
         let start = (self.first + window[0] as f64) * spacing;
         let count = window[1] + 1 - window[0];
         self.window = window;
@@ -343,6 +347,8 @@ impl<'a> WinklerFoundation<'a> {
             duration: self.step.duration,
             history: &mut self.history[history],
         };
+
+        // An element is loaded at the end if the line is below its unloaded displacement.
         let is_loaded = under[1] > self.unloaded_displacements[index];
         let loaded = ElementState::Loaded {
             displacement: under[1],
@@ -372,6 +378,8 @@ impl<'a> WinklerFoundation<'a> {
             }
             ElementState::Untouched => return,
         };
+
+        // Add its work, and record its contact for the search of a limit cycle.
         let was_loaded = matches!(self.states[element], ElementState::Loaded { .. });
         self.contact_history.record(ElementRecord {
             element,
@@ -400,8 +408,9 @@ impl<'a> WinklerFoundation<'a> {
         (height(x + 0.5 * spacing) - height(x - 0.5 * spacing)) / spacing
     }
 
-    /// Separates all elements at once and sets the time, so that the amplitudes of recovery are the whole state; returns the
-    /// energy that was stored in the loaded elements.
+    /// Separates all elements and sets the time, so that the amplitudes of recovery are the whole state.
+    ///
+    /// Returns the energy that was stored in the loaded elements.
     ///
     /// Where the instantaneous modulus is finite, [`reload`](Self::reload) at the same place takes up that energy again.
     pub(super) fn unload_all(&mut self, time: f64) -> f64 {

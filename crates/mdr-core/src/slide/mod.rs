@@ -65,7 +65,7 @@ pub struct Sliding {
 /// use mdr_core::indenters::{EquivalentLine, PowerProfile, SlidingLoad};
 /// use mdr_core::{rheology::Viscous, slide};
 ///
-/// // Long after first touch the friction is that of (21).
+/// // Long after first contact the friction is that of (21).
 /// let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1e4)?);
 /// let load = SlidingLoad::new(1.0, 0.01)?.after(0.1)?;
 /// let slid = slide(&EquivalentLine(&cone), &fluid, &load, 1e-2)?;
@@ -85,6 +85,8 @@ pub fn slide<'w>(
 ) -> Result<Sliding, MdrError> {
     LineProblem::new(line, material, load.velocity())?.check_kinks(load.control())?;
     let motion = Motion::new(line, material, load)?;
+
+    // Refine until the errors are as asked for.
     let goal = Goal {
         request: request.into(),
         initial_elements: FIRST_ELEMENTS,
@@ -97,12 +99,16 @@ pub fn slide<'w>(
     let solve = |elements, report: &dyn Fn(f64)| motion.march(elements, report);
     let others = |march: &OnElements, report: &dyn Fn(f64)| motion.other_errors(march, report);
     let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
+
+    // The error of the depth behind a steep kink is larger than that of the order that is assumed for the friction.
     let (march, mut error) = (refined.value, refined.error);
     let error_parts = refined.parts[0];
     if has_steep_kinks(line) {
         let elements = refined.parts[1].discretisation.into_iter().sum::<f64>();
         error[1] += (STEEP_KINK_ERROR_FACTOR - 1.0) * elements;
     }
+
+    // The result of the finest resolution, with its errors.
     let end_values = motion.end_values(&march.transient);
     let [friction_coefficient, indentation_depth, rear, front] =
         std::array::from_fn(|k| Estimate::new(end_values[k], error[k]));
@@ -279,6 +285,7 @@ impl<'a> Motion<'a> {
         let remainder = |value: fn(&SlideRow) -> f64| {
             let end = rows.len() - 1;
             let back = |lengths: usize| value(&rows[end.saturating_sub(lengths * last.n_contact)]);
+            // The changes decay geometrically from contact length to contact length.
             let [now, before, earlier] = [0, 1, 2].map(back);
             let [change, change_before] = [now - before, before - earlier].map(f64::abs);
             let ratio = (change / change_before).min(MAX_CHANGE_RATIO);

@@ -86,9 +86,9 @@ impl SlideOptions {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlideRow {
-    /// Distance slid since first touch, \[m].
+    /// Distance slid since first contact, \[m].
     pub sliding_distance: f64,
-    /// Time since first touch, \[s].
+    /// Time since first contact, \[s].
     pub time: f64,
     /// Indentation depth d, \[m].
     pub indentation_depth: f64,
@@ -112,7 +112,7 @@ pub struct SlideRow {
     pub contact_length: f64,
 }
 
-/// Sliding from first touch on.
+/// Sliding from first contact on.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]

@@ -39,6 +39,7 @@ pub(super) fn polished_depth(
     target: f64,
     start: f64,
 ) -> Result<f64, MdrError> {
+    // Secant method in the logarithms of force and depth.
     let (mut depth, at_depth) = within_reach(&load, start, target)?;
     let mut excess = (at_depth / target).ln();
     // Force and depth are nearly a power law, whose exponent the steps find. The first one assumes an exponent between fluid
@@ -55,6 +56,8 @@ pub(super) fn polished_depth(
         if slope.is_finite() && slope > 0.5 {
             exponent = slope;
         }
+
+        // Stop when the excess does not fall any more: rounding.
         if next_excess.abs() < excess.abs() {
             (depth, excess) = (next, next_excess);
         } else if step_number > 0 {
@@ -77,6 +80,8 @@ fn bracket(
     } else {
         [1.0 + BRACKET_MARGIN, BRACKET_STRIDE]
     };
+
+    // The force grows at least in proportion to the depth, which gives the other end of the bracket; else it is widened.
     let mut far = start * (target / at_start) * margin;
     for _ in 0..MAX_BRACKET_STRIDES {
         if far <= f64::MIN_POSITIVE || !far.is_finite() {

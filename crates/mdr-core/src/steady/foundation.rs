@@ -112,6 +112,8 @@ impl Foundation {
         check_spectra(material)?;
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let factor = material.half_space_factor();
+
+        // Unit of stress.
         let dashpot = relaxation.viscosity() * velocity / factor;
         let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
         let spring = relaxation.equilibrium_modulus() / factor;
@@ -122,6 +124,8 @@ impl Foundation {
             dashpot
         };
         let unit = positive("stiffness of the foundation", stiffness)?;
+
+        // Distances of relaxation and retardation.
         let lengths = |times: Vec<f64>, name| {
             let lengths = times
                 .into_iter()
@@ -129,11 +133,13 @@ impl Foundation {
             lengths.collect::<Result<Vec<f64>, _>>()
         };
         let times = relaxation.branches().iter().map(|b| b.relaxation_time);
-        let relaxing = lengths(times.collect(), "distance of relaxation")?;
+        let relaxation_lengths = lengths(times.collect(), "distance of relaxation")?;
         let times = creep.elements().iter().map(|e| e.retardation_time);
         let recovery_lengths = lengths(times.collect(), "distance of retardation")?;
+
+        // Branches and modes with the coefficients of the transformation between them.
         let ratio = |branch: f64, mode: f64| branch / (mode - branch);
-        let branch_lengths = relaxation.branches().iter().zip(&relaxing);
+        let branch_lengths = relaxation.branches().iter().zip(&relaxation_lengths);
         let branches = branch_lengths.map(|(branch, &length)| Branch {
             modulus: branch.modulus / factor / unit,
             length,
@@ -146,7 +152,7 @@ impl Foundation {
         let modes = mode_lengths.map(|(element, &length)| Mode {
             compliance: element.compliance * factor * unit,
             length,
-            ratios: relaxing
+            ratios: relaxation_lengths
                 .iter()
                 .map(|&branch| ratio(branch, length))
                 .collect(),
@@ -241,6 +247,8 @@ impl Foundation {
         let square_rate = square_integral(&rates);
         let dashpot = self.dashpot * per_length;
         let rise = segment.end() - start_value(&segment.displacements);
+
+        // The spring and the lone dashpot.
         let mut solution = SegmentSolution {
             smooth: [0.0; MAX_TERMS],
             n_terms: rates.len(),
@@ -254,6 +262,8 @@ impl Foundation {
         for (k, rate) in rates.iter().enumerate() {
             solution.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
         }
+
+        // The branches.
         let n_rates = segment.degree.max(1);
         for (branch, start) in self.branches.iter().zip(stresses) {
             let ratio = 0.5 * segment.length / branch.length;

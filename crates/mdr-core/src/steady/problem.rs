@@ -197,12 +197,16 @@ impl<'a> LineProblem<'a> {
         if let Some(position) = sums.too_steep {
             return Err(MdrError::FrictionDiverges { position });
         }
+
+        // Force and friction.
         let ends = sums.ends();
         sums.contacts.reverse();
         let SweepSums { load, work, .. } = sums;
         let force = 4.0 * self.foundation.unit * (depth * load);
         let force = finite("normal force", force, 0.0)?;
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
+
+        // Their errors, by the tails of the polynomials and by rounding.
         let errors = [sums.load_error, sums.work_error];
         let [load_error, work_error] = errors.map(|error| TAIL_SAFETY_FACTOR * error);
         // A larger force at the same depth is a smaller depth at the same force, which changes the friction again.

@@ -182,6 +182,8 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             let farthest = ends[0].abs().max(ends[1].abs());
             let smallest = (MIN_PIECE_LENGTH * farthest).max(f64::MIN_POSITIVE);
             let indivisible = piece.segment.length <= smallest || ends.contains(&middle);
+
+            // Keep a resolved piece, straighten one that cannot be halved, halve the others.
             if piece.is_rounding() || self.is_resolved(&piece)? {
                 self.split_at_turning_point(piece, pieces)?;
             } else if indivisible {

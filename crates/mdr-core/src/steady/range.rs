@@ -47,6 +47,8 @@ impl Range {
         let anchor_height = checked_height(line, anchor)?;
         let excess = |x: f64| Ok(checked_height(line, x)? - anchor_height - depth);
         let [rear_end, front_end] = line.domain();
+
+        // The ends, from outside to inside, over the whole line and over the pieces between kinks.
         let mut stops = line.kinks();
         stops.retain(|x| *x > rear_end && *x < front_end);
         stops.insert(0, rear_end);

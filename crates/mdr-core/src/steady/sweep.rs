@@ -155,6 +155,8 @@ impl SurfaceMarch<'_> {
                 position: segment.position(t),
             });
         }
+
+        // The stored energy comes back, and the branches have the stresses that are left.
         let t = if 1.0 - t > MIN_CONTACT_PART { t } else { 1.0 };
         let distance = 0.5 * (1.0 + t) * segment.length;
         let free = self.foundation.free_displacement(&recovery, distance);
@@ -162,6 +164,8 @@ impl SurfaceMarch<'_> {
         let position = segment.position(t);
         let displacement = self.storing_displacement(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
+
+        // A contact that begins late, by rounding of positions, is a jump.
         let compression = segment.displacement(t) - free;
         if compression > MAX_MISSED_COMPRESSION {
             self.foundation
@@ -242,7 +246,7 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    /// Ends a contact interval: the stored energy is lost.
+    /// Ends a contact interval, and adds the stored energy to the work.
     fn end_contact(&mut self, displacement: f64, stresses: &[f64], position: f64) {
         self.sums.work += self.foundation.stored_energy(displacement, stresses);
         self.append_zero_load(position);

@@ -106,7 +106,7 @@ impl Contact<'_> {
             .elements()
             .follow(radius, &self.edge_moves[..=ring.n_earlier])
         {
-            ElementState::Loaded(touched) => self.elements().stresses(&touched, at),
+            ElementState::Loaded(loaded) => self.elements().stresses(&loaded, at),
             // By rounding an element of no extent may lie beside the ring.
             _ => self.path.lag(ring.to, at).stresses,
         }
