@@ -31,7 +31,7 @@ pub enum FixedPoint<T> {
     },
     /// The remaining error exceeds the tolerance after the largest number of evaluations.
     NotConverged {
-        /// The last known remaining error.
+        /// The last known remaining error; infinite if there were fewer than two evaluations.
         remaining_error: f64,
     },
 }

@@ -23,15 +23,17 @@ use super::chebyshev::ChebyshevPair;
 use super::equation::{ContactDisc, EquivalentLine, WaveQuadrature};
 use crate::FrictionError;
 
-/// Largest last coefficients of a Chebyshev series that end its refinement; chosen. Relative to the radius.
+/// Largest modulus of the last coefficients, relative to the radius, at which a Chebyshev series is not refined further; chosen.
 const SERIES_TOLERANCE: f64 = 1e-8;
 /// Largest sum of the last coefficients of both series with which a profile is still accepted; chosen.
 const MAX_TAIL: f64 = 5e-8;
 /// Upper bound of the relative error of a radius, over the sum of the last coefficients of both series behind it.
+///
+/// The test `the_profile_is_known_within_its_error` compares it with single contacts.
 const ERROR_OVER_TAIL: f64 = 20.0;
 /// Upper bound of the relative error of a radius by the terms that the series leave out, in addition to that by the tail.
 const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
-/// Upper bound of the contact radius on a layer over that on the half space at the same depth; it is reached on a film.
+/// Upper bound of the contact radius on a layer over that on the half space at the same depth; the ratio is largest on a film.
 const MAX_RADIUS_RATIO: f64 = 3.0;
 /// Factor on the radius per step of the search for a depth; chosen.
 const SEARCH_GROWTH: f64 = 1.25;
@@ -66,6 +68,7 @@ pub struct LayerProfile {
 /// Equivalent radius A and contact radius a as functions of the depth.
 #[derive(Debug, Clone, PartialEq)]
 struct Piece {
+    /// The depth, \[m].
     depths: GradedMap,
     /// Exponent e of the factor y^e in both radii.
     apex_exponent: f64,
@@ -78,8 +81,9 @@ struct Piece {
 struct GradedMap {
     /// Start and end of the interval.
     ends: [f64; 2],
-    /// m.
+    /// Exponent m.
     power: f64,
+    /// Scale σ of y on which the nodes are dense at the start.
     sigma: f64,
     /// asinh(1/σ).
     asinh: f64,
@@ -95,10 +99,12 @@ impl GradedMap {
         }
     }
 
+    /// y from 0 to 1 for x from −1 to 1.
     fn y(&self, x: f64) -> f64 {
         self.sigma * (0.5 * (1.0 + x) * self.asinh).sinh()
     }
 
+    /// The value of the interval at x.
     fn value(&self, x: f64) -> f64 {
         let [start, end] = self.ends;
         start + (end - start) * self.y(x).powf(self.power)
@@ -316,7 +322,7 @@ struct ContactOnLayer {
 
 /// The contacts between two kinks of a body.
 struct ContactSeries {
-    /// The contact radius.
+    /// The contact radius, \[m].
     contact_radii: GradedMap,
     /// ln(A/a), and the depth over the height of the line.
     ratios: ChebyshevPair,
