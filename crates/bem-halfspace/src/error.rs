@@ -1,7 +1,7 @@
 //! The error type of the crate: refused input, and computations that did not reach what was asked.
 
 use indenters::IndenterError;
-use numerics::{Estimate, InWords, InvalidParameter, Rounded};
+use numerics::{Estimate, InvalidParameter, MessageNumber, Rounded};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -118,7 +118,7 @@ pub enum BemError {
     #[error(
         "the contact was not solved: after {iterations} iterations the residual is {:.1e}, \
          the tolerance {tolerance:.1e}",
-        InWords(*residual)
+        MessageNumber(*residual)
     )]
     ContactNotConverged {
         /// Number of iterations.
@@ -137,7 +137,7 @@ pub enum BemError {
     /// The normal force exceeds the largest pressure times the area of the grid.
     #[error(
         "the grid bears less than {} N below the largest pressure, but the normal force is {} N",
-        Rounded(*limit), InWords(*normal_force)
+        Rounded(*limit), MessageNumber(*normal_force)
     )]
     ForceNotBorne {
         /// Force asked for, \[N].
@@ -231,7 +231,7 @@ pub enum BemError {
     /// the track's length ahead or behind.
     #[error(
         "the track must be twice as long as the part of it on which contact may occur, {} m, but is {} m",
-        Rounded(*needed), InWords(*track)
+        Rounded(*needed), MessageNumber(*track)
     )]
     TrackTooShort {
         /// Length of the track, \[m].

@@ -1,7 +1,7 @@
 //! Errors of the closed forms and quadratures.
 
 use indenters::IndenterError;
-use numerics::{Estimate, InWords, InvalidParameter, Rounded};
+use numerics::{Estimate, InvalidParameter, MessageNumber, Rounded};
 use thiserror::Error;
 
 /// Reason why the friction integral diverges.
@@ -95,7 +95,7 @@ pub enum FrictionError {
         error: f64,
     },
     /// A result is too large or too small for a floating-point number.
-    #[error("{quantity} leaves the range of floating-point numbers: it is {}", InWords(*value))]
+    #[error("{quantity} leaves the range of floating-point numbers: it is {}", MessageNumber(*value))]
     OutOfRange {
         /// Name of the quantity.
         quantity: &'static str,

@@ -2,7 +2,7 @@
 
 use indenters::MotionView;
 use indenters::{IndenterError, Moved};
-use numerics::{Estimate, InWords, InvalidParameter, NotReached, Rounded};
+use numerics::{Estimate, InvalidParameter, MessageNumber, NotReached, Rounded};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -46,7 +46,7 @@ pub enum MdrError {
     #[error(
         "the contact would reach the edge at position {} (of a sphere: its equator) under a force, in N, of {}, \
          which is not the normal force {} N: lower the force, or check the unit of the modulus or viscosity",
-        Rounded(*position), Rounded(*carried_force), InWords(*normal_force)
+        Rounded(*position), Rounded(*carried_force), MessageNumber(*normal_force)
     )]
     ForceBeyondEdge {
         /// Where the line ends, \[m].
@@ -62,7 +62,7 @@ pub enum MdrError {
     #[error(
         "the contact would reach the edge at position {} (of a sphere: its equator), where the line is {} m \
          above its lowest point, at a depth less than {} m",
-        Rounded(*position), Rounded(*available), InWords(*indentation_depth)
+        Rounded(*position), Rounded(*available), MessageNumber(*indentation_depth)
     )]
     DepthBeyondEdge {
         /// Where the line ends, \[m].
@@ -170,7 +170,7 @@ pub enum MdrError {
     /// The body is longer than the track.
     #[error(
         "the track must be longer than the body is where it is below the surface, {} m, but is {} m",
-        Rounded(*needed), InWords(*track)
+        Rounded(*needed), MessageNumber(*track)
     )]
     TrackTooShort {
         /// Length of the track, \[m].
@@ -246,7 +246,7 @@ pub enum MdrError {
         rows: Vec<SlideRow>,
     },
     /// A quantity left the range of floating-point numbers.
-    #[error("{quantity} became {} at time {} s", InWords(*value), Rounded(*time))]
+    #[error("{quantity} became {} at time {} s", MessageNumber(*value), Rounded(*time))]
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,

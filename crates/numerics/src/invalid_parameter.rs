@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// A parameter that is not a number, or out of its allowed range.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("{parameter} must be {allowed}, but is {}", InWords(*value))]
+#[error("{parameter} must be {allowed}, but is {}", MessageNumber(*value))]
 pub struct InvalidParameter {
     /// Name of the parameter.
     pub parameter: &'static str,
@@ -22,9 +22,9 @@ pub struct InvalidParameter {
 /// Infinity and NaN are written in words, very large and very small numbers with a power of ten, and zero without sign and
 /// power. Rounding errors of decimal numbers of few digits are not shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct InWords(pub f64);
+pub struct MessageNumber(pub f64);
 
-impl InWords {
+impl MessageNumber {
     /// Words for a value that is infinite or not a number; `None` for a finite one.
     const fn words(self) -> Option<&'static str> {
         match self.0 {
@@ -36,7 +36,7 @@ impl InWords {
     }
 }
 
-impl Display for InWords {
+impl Display for MessageNumber {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self.words() {
             Some(words) => formatter.write_str(words),
@@ -82,7 +82,7 @@ pub struct Rounded(pub f64);
 impl Display for Rounded {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         let rounded = format!("{:.4e}", self.0).parse();
-        Display::fmt(&InWords(rounded.unwrap_or(self.0)), formatter)
+        Display::fmt(&MessageNumber(rounded.unwrap_or(self.0)), formatter)
     }
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn power_of_ten(number: f64) -> i32 {
     power.and_then(|power| power.parse().ok()).unwrap_or(0)
 }
 
-impl LowerExp for InWords {
+impl LowerExp for MessageNumber {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         match self.words() {
             Some(words) => formatter.write_str(words),
@@ -170,10 +170,10 @@ mod tests {
     #[test]
     fn numbers_in_messages_are_short() {
         let numbers = [1e-300, -1e300, 0.25, -0.0, 1e-4, 300.0, f64::INFINITY];
-        let said = numbers.map(|number| InWords(number).to_string());
+        let said = numbers.map(|number| MessageNumber(number).to_string());
         let expected = "1e-300|-1e300|0.25|0|0.0001|300|larger than any number";
         assert_eq!(said.join("|"), expected, "in words");
-        assert_eq!(format!("{:.1e}", InWords(-0.0)), "0", "with a power");
+        assert_eq!(format!("{:.1e}", MessageNumber(-0.0)), "0", "with a power");
         let noisy = [
             0.1 + 0.2,
             31.599_999_999_999_998,
@@ -181,7 +181,7 @@ mod tests {
             1.0 - 1e-16,
             1.0 / 3.0,
         ];
-        let said = noisy.map(|number| InWords(number).to_string());
+        let said = noisy.map(|number| MessageNumber(number).to_string());
         let expected = "0.3|31.6|-40.239|0.9999999999999999|0.3333333333333333";
         assert_eq!(said.join("|"), expected, "rounding errors");
         let said = [1.0 / 3.0, 2.0e-7 / 3.0, 20.0].map(|number| Rounded(number).to_string());
@@ -206,7 +206,7 @@ mod tests {
                 assert!(!error.contains("inf") && !error.contains("NaN"), "{error}");
                 let said = error.starts_with("length must be ");
                 assert!(
-                    said && error.ends_with(&format!(", but is {}", InWords(value))),
+                    said && error.ends_with(&format!(", but is {}", MessageNumber(value))),
                     "{error}"
                 );
             }

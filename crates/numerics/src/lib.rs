@@ -52,7 +52,7 @@ pub use estimate::{Estimate, ValueWithError};
 pub use fixed_point::{FixedPoint, MAX_STORED_STATES, anderson_fixed_point};
 pub use fourier::fourier_power;
 pub use invalid_parameter::{
-    InWords, InvalidParameter, Rounded, between_zero_and_one, finite, in_range, not_negative,
+    InvalidParameter, MessageNumber, Rounded, between_zero_and_one, finite, in_range, not_negative,
     positive,
 };
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};

@@ -1,6 +1,6 @@
 //! What can be wrong with a material.
 
-use numerics::{InWords, InvalidParameter};
+use numerics::{InvalidParameter, MessageNumber};
 use thiserror::Error;
 
 /// Why a material, or an argument of one of its functions, is refused.
@@ -13,7 +13,7 @@ pub enum RheologyError {
     /// A parameter of one member of a list is not a number, or outside the range it may take.
     #[error(
         "{} of {list}[{index}] must be {}, but is {}",
-        refused.parameter, refused.allowed, InWords(refused.value)
+        refused.parameter, refused.allowed, MessageNumber(refused.value)
     )]
     InvalidElement {
         /// Name of the list.
@@ -34,7 +34,7 @@ pub enum RheologyError {
     )]
     NoCompliance,
     /// A temperature at which the WLF law has no meaning.
-    #[error("the temperature must be above {}, the pole of the WLF law, but is {}", InWords(*pole), InWords(*temperature))]
+    #[error("the temperature must be above {}, the pole of the WLF law, but is {}", MessageNumber(*pole), MessageNumber(*temperature))]
     BelowWlfPole {
         /// The temperature.
         temperature: f64,
@@ -44,7 +44,7 @@ pub enum RheologyError {
     /// A temperature at which a law of shifting is not known to hold.
     #[error(
         "the temperature must be from {} °C to {} °C, the range of the shift law, but is {} °C",
-        InWords(*lowest), InWords(*highest), InWords(*temperature)
+        MessageNumber(*lowest), MessageNumber(*highest), MessageNumber(*temperature)
     )]
     OutsideShiftLaw {
         /// The temperature, \[°C].
@@ -58,7 +58,7 @@ pub enum RheologyError {
     #[error(
         "no shift law leads from the nearest isotherm, at {}, to the reference temperature {}: a law needs isotherms \
          of several temperatures, the warmer the faster; ask for the temperature of an isotherm",
-        InWords(*nearest), InWords(*temperature)
+        MessageNumber(*nearest), MessageNumber(*temperature)
     )]
     NoShiftLaw {
         /// The temperature that is wanted.
@@ -93,7 +93,7 @@ pub enum RheologyError {
     #[cfg(feature = "fit")]
     #[error(
         "the isotherms at {} and {} have no moduli in common: no shift brings them together",
-        InWords(*first), InWords(*second)
+        MessageNumber(*first), MessageNumber(*second)
     )]
     NoOverlap {
         /// Temperature of one.

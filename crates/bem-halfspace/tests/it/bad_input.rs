@@ -10,7 +10,7 @@ use bem_halfspace::{
     indent, press,
 };
 use indenters::{Cylinder, FlatPunch, PressingLoad, Sphere, Surface};
-use numerics::{Accuracy, InWords};
+use numerics::{Accuracy, MessageNumber};
 use rheology::{CreepSpectrum, Material, Prony, RelaxationSpectrum};
 
 use crate::support::{
@@ -32,7 +32,7 @@ fn solid() -> Prony {
 fn assert_bad<T>(bad: f64, result: Result<T, BemError>, name: &str) {
     let text = result.as_ref().err().map(ToString::to_string);
     let text = text.unwrap_or_default();
-    let said = format!(" is {}", InWords(bad));
+    let said = format!(" is {}", MessageNumber(bad));
     assert!(text.ends_with(&said), "{bad}: {text}");
     assert_refused(bad, result, name);
 }

@@ -1,6 +1,6 @@
 //! What there is to say about a curve.
 
-use numerics::InWords;
+use numerics::MessageNumber;
 
 /// What is wrong with a curve, or doubtful about a fit; with a count or the first point, a time \[s] or a force \[N].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -19,13 +19,13 @@ pub enum Flag {
     #[error("points are missing after the time {0} s")]
     Gap(f64),
     /// The depth is the same at all points, \[m].
-    #[error("the depth does not change: it is {} m at every point", InWords(*_0))]
+    #[error("the depth does not change: it is {} m at every point", MessageNumber(*_0))]
     ConstantDepth(f64),
     /// The largest force stays exactly the same while the body goes on.
-    #[error("the force is cut off at {:.1e} N", InWords(*_0))]
+    #[error("the force is cut off at {:.1e} N", MessageNumber(*_0))]
     Saturated(f64),
     /// The force does not rise above its noise.
-    #[error("there is no contact: the force does not rise above its noise of {:.1e} N", InWords(*_0))]
+    #[error("there is no contact: the force does not rise above its noise of {:.1e} N", MessageNumber(*_0))]
     NoContact(f64),
     /// The force falls while the body goes down.
     #[error(

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use viscofriction::WrongInput;
-use viscofriction::numerics::InWords;
+use viscofriction::numerics::MessageNumber;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
@@ -208,7 +208,7 @@ impl Key<'_> {
         let shown = rounded(decimals.unwrap_or(MOST_DECIMALS));
         shown
             .into_iter()
-            .map(|number| InWords(number).to_string())
+            .map(|number| MessageNumber(number).to_string())
             .collect()
     }
 }

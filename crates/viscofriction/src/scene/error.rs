@@ -1,6 +1,6 @@
 //! What can be wrong with a scene, with the key it is wrong at.
 
-use numerics::{InWords, InvalidParameter};
+use numerics::{InvalidParameter, MessageNumber};
 use thiserror::Error;
 
 /// Why a scene is refused; the key is a path such as `material.prony.branches[2].modulus`.
@@ -8,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SceneError {
     /// A number is outside the range it may take.
-    #[error("{key} must be {allowed}, but is {}", InWords(*value))]
+    #[error("{key} must be {allowed}, but is {}", MessageNumber(*value))]
     Value {
         /// Where.
         key: String,

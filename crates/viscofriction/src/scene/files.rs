@@ -6,7 +6,7 @@ use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
-use numerics::{InWords, InvalidParameter, not_negative, positive};
+use numerics::{InvalidParameter, MessageNumber, not_negative, positive};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -57,7 +57,7 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
         positive("wave_number", row.wave_number).map_err(refused)?;
         not_negative("density", row.density).map_err(refused)?;
         if row.wave_number <= before {
-            let [found, before] = [row.wave_number, before].map(InWords);
+            let [found, before] = [row.wave_number, before].map(MessageNumber);
             let problem = "wave_number must be larger than in the row before, but is";
             return Err(wrong((*line, format!("{problem} {found} after {before}"))));
         }
@@ -160,12 +160,12 @@ fn check_time(time: f64, before: Option<f64>, follows: fn(f64, f64) -> bool) -> 
     if time < 0.0 {
         return Err(format!(
             "time_s must be at least 0, but is {}",
-            InWords(time)
+            MessageNumber(time)
         ));
     }
     match before {
         Some(before) if !follows(time, before) => {
-            let [time, before] = [time, before].map(InWords);
+            let [time, before] = [time, before].map(MessageNumber);
             Err(format!(
                 "time_s must not go back, but is {time} after {before}"
             ))
@@ -179,7 +179,7 @@ fn check_finite(column: &str, number: f64) -> Result<(), String> {
         true => Ok(()),
         false => Err(format!(
             "{column} must be finite, but is {}",
-            InWords(number)
+            MessageNumber(number)
         )),
     }
 }
@@ -193,7 +193,7 @@ fn check_control(controls: [Option<f64>; 2], first: [bool; 2]) -> Result<(), Str
     if let [Some(force), _] = controls
         && force < 0.0
     {
-        let force = InWords(force);
+        let force = MessageNumber(force);
         return Err(format!("normal_force_n must be at least 0, but is {force}"));
     }
     let given = controls.map(|one| one.is_some());

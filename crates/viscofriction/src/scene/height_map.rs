@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use indenters::topography::{LateralUnit, Topography, TopographyError};
-use numerics::{InWords, in_range, positive, whole_part};
+use numerics::{MessageNumber, in_range, positive, whole_part};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -229,7 +229,10 @@ impl HeightMapTable {
         let problem = if self.level {
             "the map is flat: without its mean slope all heights are the same".to_owned()
         } else {
-            format!("the map is flat: all heights are {} m", InWords(lowest))
+            format!(
+                "the map is flat: all heights are {} m",
+                MessageNumber(lowest)
+            )
         };
         Err(self.in_file(&format!(
             "{problem}; a body with a flat end is a flat-punch"

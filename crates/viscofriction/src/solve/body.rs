@@ -8,7 +8,7 @@ use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
-use numerics::{InWords, in_range, positive};
+use numerics::{MessageNumber, in_range, positive};
 
 use super::heights::{STEEPEST, body_of_heights};
 use super::memory::check_waves_to_draw;
@@ -160,7 +160,7 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
 fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
     let [shortest, longest] = [surface.shortest_wavelength, surface.longest_wavelength];
     if shortest > longest {
-        let [shortest, longest] = [shortest, longest].map(InWords);
+        let [shortest, longest] = [shortest, longest].map(MessageNumber);
         let problem = format!(
             "it must not be longer than longest_wavelength, {longest} m, but is {shortest} m"
         );

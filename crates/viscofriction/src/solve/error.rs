@@ -4,7 +4,7 @@ use bem_halfspace::BemError;
 use friction_analytic::FrictionError;
 use indenters::IndenterError;
 use mdr_core::MdrError;
-use numerics::{Estimate, InWords};
+use numerics::{Estimate, MessageNumber};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -58,7 +58,7 @@ pub enum SolveError {
     #[error(
         "the friction coefficient was not reached to the relative error {}, because the series of the material is off by \
          {series:.1e}: it is {}; give a larger solve.relative_error, or a material with a smaller relative_error",
-        InWords(*asked),
+        MessageNumber(*asked),
         Estimate::new(*value, *error)
     )]
     SeriesTooCoarse {
@@ -75,8 +75,8 @@ pub enum SolveError {
     #[error(
         "the relative standard error {} of the mean was not reached: it is {:.1e} after {surfaces} surfaces; give a larger \
          standard_error, more realisations, or a larger period",
-        InWords(*asked),
-        InWords(*reached)
+        MessageNumber(*asked),
+        MessageNumber(*reached)
     )]
     TooFewSurfaces {
         /// Relative standard error asked for.
@@ -108,7 +108,7 @@ pub enum SolveError {
     /// A quantity that no number can hold.
     #[error(
         "{quantity} is {} in units of SI; check the units of indenter, material and load, from which it follows",
-        InWords(*value)
+        MessageNumber(*value)
     )]
     OutOfRange {
         /// Its name.
@@ -172,7 +172,7 @@ pub enum SolveError {
         longest: f64,
     },
     /// No front of the contact carries the force.
-    #[error("no front of the contact was found that carries the normal force {}", InWords(*normal_force))]
+    #[error("no front of the contact was found that carries the normal force {}", MessageNumber(*normal_force))]
     FrontNotFound {
         /// The force, \[N].
         normal_force: f64,
