@@ -227,7 +227,7 @@ fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
         body.profile_slope(radius * cosine) * cosine * cosine
     };
     let angle = |b: f64| ((radius - b) * (radius + b)).sqrt().atan2(b);
-    // From the rim at ψ = 0 to the apex at ψ = π/2.
+    // From the contact boundary at ψ = 0 to the apex at ψ = π/2.
     let radii = ends_outside_apex(body, radius).into_iter().rev();
     let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
     let angular = over_pieces(integrand, &angles);

@@ -10,7 +10,7 @@
 //! - Other materials: cone and paraboloid on a [Kelvin–Voigt](kelvin_voigt_sliding) and a [Maxwell](maxwell_sliding)
 //!   foundation, a [wavy line](wavy_sliding) in full contact on any; for any solid the friction at
 //!   [low](low_speed_friction) and [high](high_speed_friction) speed, on the half space at low speed to
-//!   [second order](slow_sliding) with an error bar.
+//!   [second order](slow_sliding()) with an error bar.
 //! - In plane strain: a [cylinder](cylinder_sliding) on a three-element or Kelvin–Voigt solid (Hunter 1961).
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact

@@ -39,7 +39,7 @@ const MAX_RADIUS_RATIO: f64 = 3.0;
 const SEARCH_GROWTH: f64 = 1.25;
 /// Depth that the radius found is to reach, over the depth sought; chosen.
 ///
-/// The equations take longer by the cube of the radius, so that not much more than the depth sought is worth a step.
+/// The cost of the equations grows like the cube of the radius, so that the radius is not to exceed the needed one by much.
 const DEPTH_MARGIN: f64 = 1.02;
 /// Largest parameter σ of a [`GradedMap`], with which it is nearly linear in y; chosen.
 const MAX_SIGMA: f64 = 10.0;
@@ -295,7 +295,7 @@ impl EquivalentProfile for LayerProfile {
         self.exponent
     }
 
-    /// False, because the surface beside a load moves with it.
+    /// False, because the surface outside the contact moves with the load.
     fn is_exact_where_touched_again(&self) -> bool {
         false
     }
