@@ -1,5 +1,5 @@
-//! Generalised conjugate residuals, GCR (Eisenstat, Elman & Schultz 1983): minimal residuals for operators that need not be
-//! symmetric, with the solution and the residual known after every step.
+//! Generalised conjugate residuals, GCR (Eisenstat, Elman & Schultz 1983). The method minimises the residual of operators that need not
+//! be symmetric; solution and residual are known after every step.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Periodic surfaces".
 

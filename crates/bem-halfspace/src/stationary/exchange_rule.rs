@@ -4,11 +4,11 @@
 //! is *non-improving* if there are at least as many violations as in an earlier one, or if it left a larger residual than the update
 //! before. The rule gets more cautious with the number of non-improving updates in a row:
 //!
-//! 1. at first all violating elements are exchanged;
-//! 2. then only violations that are the largest within a radius, so that neighbours do not change sides back and forth together; the
-//!    radius doubles every [`RADIUS_DOUBLING_INTERVAL`] updates;
-//! 3. when the radius covers the grid, the single violating element of the highest index. For an operator with a positive definite
-//!    symmetric part no active set then occurs twice, so that the number of violations falls after finitely many updates (Murty
+//! 1. At first all violating elements are exchanged.
+//! 2. Then only violations that are the largest within a radius are exchanged, so that neighbours do not change sides back and forth
+//!    together. The radius doubles every [`RADIUS_DOUBLING_INTERVAL`] updates.
+//! 3. When the radius covers the grid, the single violating element of the highest index is exchanged. If the operator has a positive
+//!    definite symmetric part, no active set then occurs twice, so that the violations become fewer after finitely many updates (Murty
 //!    1974).
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".

@@ -7,10 +7,12 @@
 //! Each update of the active set
 //!
 //! 1. solves g = 0 on the active set, to a tolerance that follows the residual left by the last exchange (inexact Newton);
-//! 2. collects the KKT violations: p < 0 on the set, g < 0 outside it. The gaps are those of the solution with its tension: projecting
-//!    the tension away moves soft waves, and with them everything far from the contact;
+//! 2. collects the KKT violations, p < 0 on the set and g < 0 outside it;
 //! 3. exchanges all violating elements, or fewer while the search does not improve (`exchange_rule.rs`);
 //! 4. projects the pressure onto p ≥ 0, and tests for convergence.
+//!
+//! The gaps of step 2 are those of the solution with its tension. Projecting the tension away moves soft waves, and with them everything
+//! far from the contact.
 //!
 //! The operator K of a moving contact is not symmetric, so that there is no energy to descend; that the search ends rests on the
 //! exchange rule.
@@ -31,13 +33,13 @@ const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
 /// Penetration far from the active set, as a fraction of the largest residual on the set, below which it counts as solver error;
 /// chosen.
 const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
-/// Tensile fraction of the force above which an update only removes elements, because the gaps outside then say little. Of light
-/// contacts on dashpots with 128² elements, whose moduli grow up to a million times with the frequency, one in seven is not found in
-/// 3000 operator applications without it, and others take three times as many. With 0.25 there are as many applications.
+/// Tensile fraction of the force above which an update only removes elements, because the gaps outside then say little. On dashpots of
+/// 128² elements whose moduli grow up to a million times with the frequency, one light contact in seven is not found in 3000 operator
+/// applications without it. Others take three times as many. With 0.25 there are as many applications.
 const MAX_TENSILE_FRACTION: f64 = 0.2;
 /// Largest residual of the inner solution, as a fraction of the largest gap that counts as closed; chosen.
 const INNER_SHARE_OF_TOLERANCE: f64 = 0.5;
-/// Residual that is always allowed, in units of the last place of the depth: after a long memory a line has sunk a million times as
+/// Residual that is always allowed, in units of the last place of the depth. After a long memory a line has sunk a million times as
 /// deep as it touches.
 const DEPTH_ROUNDING_ULPS: f64 = 16.0;
 /// Number of times that the residual of an unchanged active set may grow before the search gives up, because such growth is rounding
@@ -230,10 +232,10 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         (self.tolerance * self.scale).max(rounding)
     }
 
-    /// Projects onto p ≥ 0 and p = 0 outside the active set, keeping the force of each line along the motion: removed tension is
+    /// Projects onto p ≥ 0, and p = 0 outside the active set, keeping the force of each line along the motion. Removed tension is
     /// subtracted from the next loaded elements behind it. The longest waves along the motion may be a thousand times more compliant
-    /// than all others. This projection hardly changes them, and waves with crests along the motion not at all. Setting tension to
-    /// zero would excite them and drive the surfaces apart.
+    /// than all others. This projection hardly changes them, and waves with crests along the motion not at all. Setting tension to zero
+    /// would excite them and drive the surfaces apart.
     fn project_nonnegative(&mut self) {
         let mut tension_by_line = vec![0.0; self.problem.shape()[1]];
         // A periodic line needs a second pass for the tension that is left at its rear end.

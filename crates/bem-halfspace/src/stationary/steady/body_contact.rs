@@ -25,8 +25,8 @@ pub(super) struct Solution {
     pub(super) solved_directly: bool,
     /// Largest residual |h + u − d| in the contact, in units of the depth scale.
     pub(super) residual: f64,
-    /// Load-weighted mean of half the difference of the gaps ahead of and behind an element, in units of the depth scale; the slope that
-    /// the gaps next to the contact add, times the length of an element.
+    /// Load-weighted mean of half the difference of the gaps ahead of and behind an element, in units of the depth scale. Over the
+    /// length of an element it is the slope that the gaps next to the contact add.
     pub(super) gap_difference: f64,
 }
 

@@ -21,8 +21,8 @@ use crate::{BemError, Elastomer};
 
 /// Aspect ratio Δy/Δx of a grid with a given number of elements; chosen.
 const BODY_ASPECT: f64 = 0.5;
-/// Convergence order that is assumed under a smooth body. The front leaves 3/2, and a boundary that follows the elements less: with 1.1 the
-/// error estimates hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90, and with 1 they are wider.
+/// Convergence order that is assumed under a smooth body. The front leaves 3/2, a boundary that follows the elements less. With 1.1 the
+/// error estimates hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90; with 1 they are wider.
 const BODY_ORDER: f64 = 1.1;
 /// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only.
 const FLAT_END_ORDER: f64 = 0.5;
@@ -110,12 +110,11 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// request is a relative error of the friction coefficient, and of the normal force where that is not given, or an approximate number of
 /// elements along the contact.
 ///
-/// A sliding distance of the load has an effect on a material that flows only, whose depth is that after the distance, up to terms of the
-/// order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the
-/// motion from first touch.
+/// A sliding distance of the load has an effect on a material that flows only. The depth is that after the distance, up to terms of the
+/// order of (contact length)/(distance); [`slide`](crate::motions::slide::slide()) follows the motion from first touch.
 ///
-/// On a [track](SlidingLoad::on_track) the surface ahead of the body still contains the creep of all passes before, and loads act
-/// on the surface within half the length of the track only.
+/// On a [track](SlidingLoad::on_track) the surface ahead of the body still contains the creep of all passes before. Loads act on the
+/// surface within half the length of the track only.
 ///
 /// ```
 /// use bem_halfspace::indenters::PowerProfile;
@@ -285,8 +284,8 @@ pub(super) fn resolution(
     }
 }
 
-/// Removes from an estimate what has no meaning: the depth of a material that flows without a sliding distance, and the friction of an
-/// elastic material, which is exactly 0 under any body.
+/// Removes from an estimate what has no meaning: the depth of a material that flows if there is no sliding distance, and the friction
+/// of an elastic material. That is exactly 0 under any body.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a sliding distance on which the state is not yet stationary.

@@ -234,8 +234,8 @@ impl<'a> Directions<'a> {
         }
     }
 
-    /// Writes loads that nearly close the gaps, at the depth change δ that keeps the prescribed force or depth, and the gaps K x − δ
-    /// that they add.
+    /// Writes loads that nearly close the gaps, and the gaps K x − δ that they add. The depth change δ keeps the prescribed force or
+    /// depth.
     fn write(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
         let mut loads = self.preconditioner.loads(gaps, self.region);

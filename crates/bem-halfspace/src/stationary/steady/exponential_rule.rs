@@ -4,9 +4,9 @@
 //! rate · ∫_0^1 e^(−rate·s) f(s) ds = Σ W_j(rate) f(s_j)
 //! ```
 //!
-//! The function is replaced by the polynomial through the Gauss–Lobatto points, or through integers; integrals of Legendre polynomials
-//! against the exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial for any
-//! rate, because the weight is positive with the sum 1 − e^(−rate).
+//! The function is replaced by the polynomial through the Gauss–Lobatto points, or through integers. Integrals of Legendre polynomials
+//! against the exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial for
+//! any rate, because the weight is positive with the sum 1 − e^(−rate).
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material".
 

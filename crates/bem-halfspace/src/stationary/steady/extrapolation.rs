@@ -13,8 +13,8 @@ pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [0.5, 0.5];
 /// Convergence orders that are observed for the friction on any material but a dashpot: 2 from the dissipated power, and under cones, up to
 /// 5/2 from slopes.
 const CREEPING_ORDERS: [f64; 2] = [2.0, 2.5];
-/// A higher order is accepted if its error is below this fraction of the error before, because the smallest of several error estimates
-/// holds less often than each of them. With it all of 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without higher orders, and
+/// A higher order is accepted if its error is below this fraction of the error before. The smallest of several error estimates holds
+/// less often than each of them. With it all of 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without higher orders, and
 /// the median is 0.6 of that.
 const HIGHER_ORDER_ERROR_RATIO: f64 = 0.5;
 /// A second elimination is accepted if its error is below this fraction of that of the first; chosen.
@@ -64,8 +64,8 @@ pub(super) fn extrapolate_faster(values: &[f64], order: f64) -> Estimate {
 
 /// Change of the limit if errors fall with the observed order, limited to a range, instead of `order`.
 ///
-/// Where the edge of a flat end is just inside the contact, elements that are longer than the contact beyond it resolve a punch only,
-/// whose errors fall with the order 1/2. The larger of the last two changes counts, because one may be small by accident.
+/// Where the edge of a flat end is just inside the contact, elements that are longer than the contact beyond it resolve a punch only.
+/// Its errors fall with the order 1/2. The larger of the last two changes counts, because one may be small by accident.
 pub(super) fn change_at_observed_order(values: &[f64], order: f64, range: [f64; 2]) -> f64 {
     let [min_ratio, max_ratio] = range.map(f64::exp2);
     let change = |window: &[f64]| {

@@ -1,10 +1,9 @@
 //! Refinement to a requested error.
 //!
-//! The boundary of the contact follows the elements. On one grid that scatters the friction around its trend, so each refinement
-//! averages over four grids that are shifted by half an element along x and y, in plane strain by quarters along x. The averages
-//! converge with the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p is slower, and are extrapolated. On
-//! any material but a dashpot the contact is also closed at its rear, and the remaining scatter decides: it is added to the error
-//! estimate.
+//! The boundary of the contact follows the elements. On one grid that scatters the friction around its trend. Each refinement therefore
+//! averages over four grids, shifted by half an element along x and y, in plane strain by quarters along x. The averages converge with
+//! the order 3/2 of the singular front edge, or 2p − 1 where the apex h ∼ r^p is slower. They are extrapolated. On any material but a
+//! dashpot the contact is also closed at its rear, and the remaining scatter decides: it is added to the error estimate.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar" and "Order and error bar".
 
@@ -31,8 +30,8 @@ use crate::stationary::steady::{Reuse, SteadyOptions, solve};
 /// Shifts of the grid along x and y, in elements, which keep the mirror symmetry in y. The first two and the last two are diagonal
 /// pairs.
 const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
-/// Shifts of the grid in plane strain, in elements. The means over the first two and over the last two differ by the second harmonic of
-/// the friction as a function of the shift, which the mean of all four eliminates.
+/// Shifts of the grid in plane strain, in elements. As a function of the shift the friction has a second harmonic, by which the means
+/// over the first two and over the last two differ. The mean of all four eliminates it.
 const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
 /// Number of last refinements in plane strain whose largest scatter counts; chosen. On one of them it may be small by chance, and the
 /// extrapolated limit contains the scatter of all values that it eliminates.
@@ -44,9 +43,9 @@ const AREA_ORDER: f64 = 1.0;
 /// The friction from dissipation replaces that from slopes if its error is below this fraction of the other; chosen. The smaller of
 /// two error estimates holds less often than either.
 const MAX_DISSIPATION_ERROR_RATIO: f64 = 0.5;
-/// Safety factor on the error of the friction on any material but a dashpot, where the whole contact boundary scatters and the
-/// refinement that ends has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and
-/// cylinders, with it 98.6 (docs/calibration.md).
+/// Safety factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the last
+/// refinement has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and cylinders, with
+/// it 98.6 (docs/calibration.md).
 const SAFETY_FACTOR_CREEPING: f64 = 1.5;
 /// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are tried; chosen. A
 /// larger friction reaches the requested error without them.
@@ -85,8 +84,8 @@ pub struct RefinementOptions {
     /// Aspect ratio Δy/Δx of the elements. The contact boundary is steeper across the sliding direction than along it.
     pub aspect: f64,
     /// Largest number of unknown pressures. Refinement stops before a grid that is expected to exceed it, from the number on the grid
-    /// before. It also stops before a footprint of more than 1e5 elements that has more than 50 times as many elements as this, or
-    /// 12.5 times as many beyond 2e6 elements.
+    /// before. It also stops before a footprint of more than 1e5 elements that has more than 50 times as many elements as this. Beyond
+    /// 2e6 elements the factor is 12.5.
     pub max_unknowns: usize,
 }
 
@@ -272,8 +271,8 @@ impl Grids<'_> {
         friction.widened(unresolved * friction.value.abs())
     }
 
-    /// Extrapolated limit of one of the two frictions. A small friction on any material but a dashpot may converge faster than front and
-    /// apex allow on a dashpot; higher orders are then tried for bodies of finite width without edges.
+    /// Extrapolated limit of one of the two frictions. A small friction on any material but a dashpot may converge faster than front
+    /// and apex allow on a dashpot. Higher orders are then tried for bodies of finite width without edges.
     fn extrapolate_friction(
         &self,
         refinements: &[Refinement],

@@ -193,8 +193,9 @@ pub(super) struct GridLoading {
 }
 
 impl GridLoading {
-    /// True if the collocation points lie near the centres of the elements: if the material is more of a solid than a fluid at the shortest
-    /// wave of the grid. Then the friction of a body with edges follows from the displacements of the neighbours of an element.
+    /// True if the collocation points lie near the centres of the elements: the material is more of a solid than a fluid at the
+    /// shortest wave of the grid. Then the friction of a body with edges follows from the displacements of the neighbours of an
+    /// element.
     pub(super) fn is_solid_for_elements(&self) -> bool {
         self.creep.collocation_shift > -0.25
     }

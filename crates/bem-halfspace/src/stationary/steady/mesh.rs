@@ -1,8 +1,8 @@
 //! The stationary problem on a grid: the candidate elements, their heights, kernel and symmetry.
 //!
 //! On a dashpot the gap changes by ∫w/(ηv) minus the rise of the body between the rear edges of two neighbouring elements.
-//! Where the body does not rise, the gap is therefore larger at the rear than at the front, and no element can touch: only
-//! elements over which the body rises are candidates. On any other material all elements that the body covers are.
+//! Where the body does not rise, the gap is therefore larger at the rear than at the front, and no element can touch. Only elements
+//! over which the body rises are candidates. On any other material all elements that the body covers are.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Where the gap is evaluated".
 

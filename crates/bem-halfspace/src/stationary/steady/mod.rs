@@ -11,9 +11,10 @@
 //! material flows, the surface sinks like ln t, without limit. This constant is absorbed in d, which then has no meaning of
 //! its own; friction and contact do not depend on it.
 //!
-//! Friction is summed with the mean slope of each element. The gap is evaluated at a collocation point between the rear edge
-//! and the centre of the element, in proportion to the loss angle at the wave length of two elements. A dashpot needs the rear edge, as
-//! a march in time does when the pressure of a step belongs to the motion during the step; a spring needs the centre.
+//! Friction is summed with the mean slope of each element. The gap is evaluated at a collocation point between the rear edge and the
+//! centre of the element. Its position is proportional to the loss angle at the wave length of two elements. A dashpot needs the rear
+//! edge, a spring the centre. A march in time does the same for a dashpot when the pressure of a step belongs to the motion during the
+//! step.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "One complementarity problem" and "Where the gap is evaluated".
 
@@ -102,8 +103,8 @@ impl SteadyOptions {
     }
 }
 
-/// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth;
-/// the sliding distance of the load matters for a depth on a material that flows only.
+/// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth. The sliding
+/// distance of the load matters only for a depth on a material that flows.
 ///
 /// The active set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587), with single pivots as the
 /// safeguard against cycles. Small contacts are solved directly. Large ones are solved by GCR with transforms and the Wiener–Hopf

@@ -1,11 +1,11 @@
 //! The load potential of an element as filtered by retardation elements, row by row from ahead.
 //!
-//! The potential is replaced by polynomials on panels that are at most as long as their distance from the edges of the loaded
-//! element, where it is singular; the exponentials are integrated exactly. With n points on a panel, the error is of the order ρ⁻ⁿ of
-//! the potential. ρ is the sum of the half axes of the ellipse around the panel that reaches the singularity (Bernstein): 6 for a panel
-//! next to it, 4 distance/length far away. Where the potential is smooth over several rows, the polynomial interpolates its values at
-//! the rows, each of which is computed once. The part that a layer adds is singular beside the edges, at a distance not shorter than
-//! that of the edges.
+//! The potential is replaced by polynomials on panels, and the exponentials are integrated exactly. Panels are at most as long as their
+//! distance from the edges of the loaded element, where the potential is singular. With n points on a panel, the error is of the order
+//! ρ⁻ⁿ of the potential. ρ is the sum of the half axes of the ellipse around the panel that reaches the singularity (Bernstein): 6 for
+//! a panel next to it, 4 distance/length far away. Where the potential is smooth over several rows, the polynomial interpolates its
+//! values at the rows, each of which is computed once. The part that a layer adds is singular beside the edges, at a distance not
+//! shorter than that of the edges.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material", and "A track" for the start on a track.
 

@@ -19,8 +19,8 @@ use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
 
 use crate::{Base, BemError, Elastomer};
 
-/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, which has a finite influence radius;
-/// chosen, so small that 1 − e^(−rate s) is rate·s to rounding for any distance s that occurs.
+/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence radius is finite;
+/// chosen. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs.
 pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
@@ -280,8 +280,8 @@ impl SlidingCreep {
     /// Fraction of the friction that elements of the length Δx may miss, at a contact of the half length a.
     ///
     /// If the memory length λv of a retardation element is shorter than an element, slow friction falls by up to (4/π) λv/a under a
-    /// paraboloid, because the rear of the contact moves and its front does not. At a memory length of one or two elements some of that
-    /// remains, which falls faster than any power of Δx: cylinders on a Kelvin–Voigt solid err by up to the factor e^(−2.5 λv/Δx).
+    /// paraboloid. The rear of the contact moves then, and its front does not. At a memory length of one or two elements some of that
+    /// remains, which falls faster than any power of Δx. Cylinders on a Kelvin–Voigt solid err by up to the factor e^(−2.5 λv/Δx).
     ///
     /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements resolve ln(a/Δx).
     /// Under flat cones they miss up to the fraction e^(−x) ln(1 + 1/x) / ln(1 + a/Δx) with x = λv/(2Δx).

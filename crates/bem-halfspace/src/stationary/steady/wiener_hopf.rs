@@ -2,12 +2,12 @@
 //!
 //! Along x the kernel is a creep filter applied to the load potential, which is symmetric and positive. The filter is a running sum for the
 //! dashpot, the identity for a spring, and a sum of exponentials otherwise. For every wave number along y the potential factors into a
-//! filter that looks ahead only and its mirror image (by the cepstrum of its spectrum, Kolmogorov 1939), so that the kernel is the product
+//! filter that looks ahead only and its mirror image, by the cepstrum of its spectrum (Kolmogorov 1939). The kernel then is the product
 //! of a forward factor, which contains the creep filter, and a backward factor.
 //!
-//! On a contact that is infinite behind a straight front, the inverses of the factors, in the order backward, forward with the contact cut
-//! out in between, are the exact inverse (Wiener & Hopf 1931). On a contact that is infinite ahead of a straight rear, the other order is
-//! exact. The preconditioner blends the two along x in proportion to the distance from the two ends.
+//! On a contact that is infinite behind a straight front, the exact inverse consists of the inverses of the factors (Wiener & Hopf
+//! 1931). Their order is backward, forward, with the contact cut out in between. On a contact that is infinite ahead of a straight
+//! rear, the other order is exact. The preconditioner blends the two along x in proportion to the distance from the two ends.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Any linear viscoelastic material", "The preconditioner".
 

@@ -153,8 +153,8 @@ impl ContactDerivatives {
         unassembled.into_iter().map(assemble).collect()
     }
 
-    /// Derivatives by the logarithm λ of all lengths: of the body, the layer, the track and the sliding per time, with a force that
-    /// grows like λ², in plane strain like λ.
+    /// Derivatives by ln λ, with λ a factor on all lengths: of the body, the layer, the track and the sliding per time. The force grows
+    /// like λ², in plane strain like λ.
     fn by_dilation(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
         // Central differences by the heights of the body alone, and by all its lengths.
         let stretched = |width: f64, height: f64| {
@@ -327,8 +327,8 @@ impl ContactDerivatives {
         self.by(|gradient| gradient.unit * change(&gradient.basis))
     }
 
-    /// Adds the effect of the moving contact boundary to changes of all quantities on fixed elements: less the defects R of the scaling
-    /// identity times the change of the boundary weight over that by dilation.
+    /// Adds the effect of the moving contact boundary to changes of all quantities on fixed elements. It is −R times the change of the
+    /// boundary weight over that by dilation, with the defects R of the scaling identity.
     fn with_moving_boundary(&self, mut changes: Vec<f64>) -> Change<f64> {
         let measures = self.has_measures.then(|| pop_measures(&mut changes));
         let known = self.dilation.as_ref().zip(measures);

@@ -1,7 +1,7 @@
 //! Derivatives by the complex modulus at each frequency: a correlation contracted with the kernel as a sum of waves.
 //!
-//! Along x the kernel of an element is a sum of waves `e^(iqx)`, each of which oscillates at the frequency `ω = q v` in the
-//! material, so that the compliance `1/(G' − i G'')` is a factor of its amplitude. For a column of elements at the distance y
+//! Along x the kernel of an element is a sum of waves `e^(iqx)`. Each oscillates at the frequency `ω = q v` in the material, so that
+//! the compliance `1/(G' − i G'')` is a factor of its amplitude. For a column of elements at the distance y
 //!
 //! ```text
 //! k̂(q, y) = sin(q/2)/(q/2) ∫ dy' [2 K₀(q|y'|) + 2 ∫_0^∞ cos(q y' sinh u) (M(q t cosh u) − 1) du]

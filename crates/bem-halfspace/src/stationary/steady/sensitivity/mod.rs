@@ -11,8 +11,8 @@
 //! second order only. All derivatives then are sums: over the offsets between elements for the material, over the elements for the body.
 //!
 //! On a grid the contact boundary moves by whole elements, which is the largest part of the error. For a change of scale the exact
-//! derivative is known. If all lengths of the body, the layer and the sliding per time are multiplied by λ, and the force by λ², the
-//! friction does not change and the depth is multiplied by λ. The defect R of this scaling identity on fixed elements is the missing
+//! derivative is known. Multiply all lengths of the body, the layer and the sliding per time by λ, and the force by λ². Then the
+//! friction does not change, and the depth is multiplied by λ. The defect R of this scaling identity on fixed elements is the missing
 //! effect of the boundary when the contact grows by λ,
 //!
 //! ```text
@@ -290,8 +290,8 @@ impl SteadySensitivity {
         self.limit_of(ContactDerivatives::by_track)
     }
 
-    /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each
-    /// between two that follow each other: the change of a quantity if the modulus changes by one e-fold in the band only.
+    /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each between
+    /// two that follow each other. Each is the change of a quantity if the modulus changes by one e-fold in the band only.
     ///
     /// The sums of both over all frequencies from 0 on are the change by the unit of stress. Above about `π v/Δx` waves are
     /// shorter than two elements, and the derivatives are meaningless.
