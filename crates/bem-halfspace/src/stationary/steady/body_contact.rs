@@ -47,6 +47,8 @@ pub(super) fn solve(
     for (element, load) in guess {
         loads[element] = load;
     }
+
+    // Search the active set, then keep the loaded elements.
     let mut contact = ContactEquations::new(mesh, plans);
     let tolerance = mesh.options.tolerance;
     let mut search = Search::new(&mut contact, heights, inner_tolerance, tolerance, loads);

@@ -35,7 +35,7 @@ const WORK_EXPONENT: f64 = 2.0;
 /// Largest number of footprints; chosen. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
 /// Memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes].
-const BYTES_PER_ELEMENT: f64 = 900.0;
+const STEADY_BYTES_PER_ELEMENT: f64 = 900.0;
 
 /// Largest memory of [`steady`] for a number of elements along the contact, \[bytes]. Where the contact is longer than expected, its
 /// footprint grows, and takes 9/4 of the memory each time.
@@ -54,7 +54,7 @@ pub fn steady_memory(
     let options = grid(&plan, elements);
     // A mirror symmetry halves the unknowns, and saves less of the kernel.
     let solved_fraction = if surface.mirrors()[1] { 0.5 } else { 0.7 };
-    Ok(BYTES_PER_ELEMENT * solved_fraction * options.footprint.n_elements(options.spacing))
+    Ok(STEADY_BYTES_PER_ELEMENT * solved_fraction * options.footprint.n_elements(options.spacing))
 }
 
 /// Solves in the footprint of a plan, and in larger ones while the contact reaches the boundary. The length of the contact does not follow
@@ -213,6 +213,7 @@ fn with_elements_in(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
+    // Assume the order of the sharpest feature: an edge, the apex, or a smooth body.
     let has_peak = peak_has_limit(surface, elastomer);
     let mut resolution = resolution(request, load.control(), BODY_ORDER, has_peak);
     if plan.kinks > NEGLIGIBLE_KINKS || plan.shows_cells {
@@ -223,6 +224,8 @@ fn with_elements_in(
     } else {
         resolution.goal.order = bars::order_of_friction(plan.apex_exponent, BODY_ORDER);
     }
+
+    // Solve on the grids that the error estimate asks for.
     let creep = SlidingCreep::for_load(elastomer, load)?;
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = grid(plan, elements);

@@ -42,6 +42,7 @@ pub(super) fn depth_scale(
     max_length: f64,
     sliding_distance: f64,
 ) -> Result<f64, BemError> {
+    // On a dashpot D does not depend on the body, unless the sliding distance is shorter than the contact.
     if creep.only_flows() {
         let depth = 0.25 * normal_force * creep.flow_per_length();
         if sliding_distance >= max_length || height(sliding_distance) >= depth {

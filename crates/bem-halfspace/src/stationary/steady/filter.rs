@@ -58,6 +58,7 @@ impl PlaneTransform {
         let mut values = vec![0.0; width];
         let mut transformed = vec![ZERO; n_columns];
         let mut spectrum = vec![ZERO; n_columns * length];
+        // Mirror each row along y, and transform it.
         for row in 0..length {
             for column in 0..n_columns {
                 let value = kernel(row, column);
@@ -69,6 +70,7 @@ impl PlaneTransform {
                 spectrum[column * length + row] = *value;
             }
         }
+        // Transform along x, and normalise.
         let normalisation = self.normalisation();
         for column in spectrum.chunks_exact_mut(length) {
             self.column_forward(column);

@@ -239,18 +239,13 @@ impl Grids<'_> {
         quantity: impl Fn(&Refinement) -> Average,
     ) -> Estimate {
         let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
-        let scatter = refinements
-            .last()
-            .map_or(0.0, |last| quantity(last).scatter);
+        let last = refinements.last();
+        let scatter = last.map_or(0.0, |last| quantity(last).scatter);
         let limit = extrapolate(&values, order).widened(scatter);
         if self.problem.loading.has_edges {
-            let hides_edge = refinements.last().is_some_and(|last| last.hides_edge);
-            let powers = if hides_edge {
-                HIDDEN_EDGE_ORDERS
-            } else {
-                OBSERVED_ORDERS
-            };
-            return limit.widened(change_at_observed_order(&values, order, powers));
+            let hides_edge = last.is_some_and(|last| last.hides_edge);
+            let range = [OBSERVED_ORDERS, HIDDEN_EDGE_ORDERS][usize::from(hides_edge)];
+            return limit.widened(change_at_observed_order(&values, order, range));
         }
         limit
     }
@@ -291,9 +286,8 @@ impl Grids<'_> {
             return self.limit(refinements, self.order, friction);
         }
         let values: Vec<f64> = refinements.iter().map(|r| friction(r).value).collect();
-        let scatter = refinements
-            .last()
-            .map_or(0.0, |last| friction(last).scatter);
+        let last = refinements.last();
+        let scatter = last.map_or(0.0, |last| friction(last).scatter);
         extrapolate_faster(&values, self.order).widened(scatter)
     }
 
@@ -414,9 +408,8 @@ impl Grids<'_> {
     /// Largest number of elements of a footprint.
     fn max_elements(&self) -> f64 {
         let n_unknowns = self.options.max_unknowns as f64;
-        let large_grid_limit =
-            LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
-        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, large_grid_limit)
+        let on_large = LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
+        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, on_large)
     }
 
     /// Solves all shifted grids, each from the active set of the one before, and averages.
@@ -438,23 +431,21 @@ impl Grids<'_> {
         // Average. Forces and areas of a strip become those per unit length.
         let distance = self.problem.loading.sliding_distance;
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
-        let average =
-            |quantity: &dyn Fn(&SteadySliding) -> f64| Average::over_shifts(&states, quantity);
+        type Quantity<'q> = &'q dyn Fn(&SteadySliding) -> f64;
+        let over_pairs = |of: Quantity| Average::over_interleaved_shifts(&states, of);
+        let average = |of: Quantity| Average::over_shifts(&states, of);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
         let creep = &self.problem.loading.creep;
+        let kinks = self.problem.plan.kinks;
         let unresolved = states
             .iter()
-            .map(|state| state.subgrid_friction_fraction(creep, self.problem.plan.kinks));
+            .map(|one| one.subgrid_friction_fraction(creep, kinks));
         let edges = self.edges_of_body();
         let averages = Refinement {
             hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
             spacing: spacings.sum::<f64>() / states.len() as f64,
-            friction_coefficient: Average::over_interleaved_shifts(&states, |state| {
-                state.friction_coefficient
-            }),
-            friction_from_dissipation: Average::over_interleaved_shifts(&states, |state| {
-                state.friction_from_dissipation
-            }),
+            friction_coefficient: over_pairs(&|one| one.friction_coefficient),
+            friction_from_dissipation: over_pairs(&|one| one.friction_from_dissipation),
             unresolved: unresolved.fold(0.0, f64::max),
             normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at_distance(distance)),

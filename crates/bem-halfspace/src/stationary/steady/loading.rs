@@ -57,6 +57,7 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let [rear, front] = footprint.x;
+        // The unit of heights, and the distance to which a depth belongs.
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
                 let max_length = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);

@@ -228,9 +228,8 @@ impl Mesh {
 
     /// Influence coefficient at an offset along x.
     fn influence_at_offset(&self, rows: isize, to: &Element, from: &Element) -> f64 {
-        let direct = self
-            .table
-            .displacement(rows, to.column.abs_diff(from.column));
+        let columns = to.column.abs_diff(from.column);
+        let direct = self.table.displacement(rows, columns);
         if !self.has_image(from) {
             return direct;
         }
@@ -340,7 +339,7 @@ impl Mesh {
     }
 
     /// Load-weighted means of the slopes.
-    pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> MeanSlopes {
+    pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> LoadWeightedSlopes {
         let (mut sums, mut normal) = ([0.0; 3], 0.0);
         for &(element, load) in loads {
             let Element {
@@ -354,7 +353,7 @@ impl Mesh {
             normal += self.weight(element) * load;
         }
         let [slope, absolute_slope, dissipating_slope] = sums.map(|sum| sum / normal);
-        MeanSlopes {
+        LoadWeightedSlopes {
             slope,
             absolute_slope,
             dissipating_slope,
@@ -377,6 +376,7 @@ impl Mesh {
 
     /// Load-weighted mean of half the difference of the gaps ahead of and behind each element; gaps of loaded elements are 0.
     pub(super) fn mean_gap_difference(&self, loads: &[f64], gaps: &[f64]) -> f64 {
+        // Gap of a neighbour, 0 if it is loaded or no candidate.
         let gap = |row: usize, column: usize| {
             let neighbour = self.in_row(row, column..=column).next();
             let open = neighbour.filter(|one| loads[*one] <= 0.0);
@@ -428,7 +428,7 @@ impl Mesh {
 }
 
 /// Load-weighted means of the slopes of a body.
-pub(super) struct MeanSlopes {
+pub(super) struct LoadWeightedSlopes {
     /// Mean of ∂h/∂x.
     pub(super) slope: f64,
     /// Mean of |∂h/∂x|.

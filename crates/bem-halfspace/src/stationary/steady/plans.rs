@@ -28,6 +28,7 @@ impl Plans {
         aspect: f64,
         shape: [usize; 2],
     ) -> Arc<WakeTable> {
+        // Nothing of another creep or aspect ratio can be used again.
         let is_other = self.table.aspect.total_cmp(&aspect).is_ne();
         if is_other || self.table.creep != *creep {
             *self = Self::default();

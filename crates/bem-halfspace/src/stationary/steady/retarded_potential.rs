@@ -60,7 +60,7 @@ const MAX_EXPONENT: f64 = 40.0;
 
 /// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
-struct Panel {
+struct PotentialPanel {
     start: f64,
     length: f64,
     /// Index of the rule of the panel in [`PANEL_RULES`].
@@ -177,7 +177,7 @@ impl RetardedPotential {
         let rule = PANEL_RULES.len() - 1;
         for pair in ends.windows(2).rev() {
             let (start, length) = (pair[0], pair[1] - pair[0]);
-            let panel = Panel {
+            let panel = PotentialPanel {
                 start,
                 length,
                 rule,
@@ -207,7 +207,7 @@ impl RetardedPotential {
     }
 
     /// Integrates the values of some columns from the front to the rear of a panel.
-    fn integrate_over_panel(&mut self, panel: &Panel, columns: Range<usize>) {
+    fn integrate_over_panel(&mut self, panel: &PotentialPanel, columns: Range<usize>) {
         let elements = self.retardations.iter();
         let steps: Vec<_> = elements.map(|one| self.panel_step(one, panel)).collect();
         for column in columns {
@@ -225,7 +225,11 @@ impl RetardedPotential {
     }
 
     /// Decay over a panel, and weights of the potentials at its nodes, times the compliance.
-    fn panel_step(&self, retardation: &RetardationRule, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
+    fn panel_step(
+        &self,
+        retardation: &RetardationRule,
+        panel: &PotentialPanel,
+    ) -> (f64, [f64; MAX_POINTS]) {
         let rate = retardation.rate * panel.length;
         let weights = self.rules[panel.rule]
             .weights(rate)
@@ -234,7 +238,7 @@ impl RetardedPotential {
     }
 
     /// Potentials at the nodes of a panel, 0 beyond their number.
-    fn potentials_at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {
+    fn potentials_at_nodes(&self, panel: &PotentialPanel, column: usize) -> [f64; MAX_POINTS] {
         let mut potentials = [0.0; MAX_POINTS];
         for (potential, node) in potentials.iter_mut().zip(&self.rules[panel.rule].nodes) {
             *potential = self.potential(panel.start + panel.length * node, column);
@@ -343,7 +347,7 @@ fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
 
 /// Panels of an interval along x: divided where the potential is singular, then halved until one of the rules is accurate on each.
 /// `clearance` is the distance from the loaded element along y.
-fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<Panel> {
+fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<PotentialPanel> {
     let mut ends = vec![start, -0.5, 0.5, end];
     ends.retain(|place| (start..=end).contains(place));
     ends.dedup();
@@ -355,13 +359,13 @@ fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<Panel> {
 }
 
 /// Appends the panels of an interval without a singularity inside.
-fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
+fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<PotentialPanel>) {
     let length = end - start;
     let distance = distance_from_edges([start, end], clearance);
     let rule = fewest_points(&PANEL_RULES, distance / length)
         .or((length <= MIN_PANEL_LENGTH).then_some(PANEL_RULES.len() - 1));
     if let Some(rule) = rule {
-        panels.push(Panel {
+        panels.push(PotentialPanel {
             start,
             length,
             rule,

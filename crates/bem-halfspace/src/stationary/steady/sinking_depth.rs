@@ -35,7 +35,7 @@ impl SinkingDepth {
     pub(super) fn new(mesh: &Mesh, solution: &Solution, contact_length: f64) -> Self {
         let spacing = mesh.options.spacing;
         let scale = mesh.loading.depth_scale;
-        // F_N/(4πηv) in units of D.
+        // F_N/(4πηv) in units of D, by which the depth grows per e-fold of the distance.
         let aspect = spacing[1] / spacing[0];
         let rate =
             mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());

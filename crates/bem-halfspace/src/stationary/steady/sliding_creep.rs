@@ -318,10 +318,6 @@ impl SlidingCreep {
 
 /// Sum of the contributions to the compliance.
 fn total_compliance(parts: &ElementCreep) -> f64 {
-    let delayed: f64 = parts
-        .retardations
-        .iter()
-        .map(|retardation| retardation.share)
-        .sum();
-    parts.instantaneous + parts.flow + delayed
+    let retarded: f64 = parts.retardations.iter().map(|one| one.share).sum();
+    parts.instantaneous + parts.flow + retarded
 }

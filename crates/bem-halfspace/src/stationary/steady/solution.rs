@@ -78,8 +78,8 @@ impl SteadySliding {
         options: SteadyOptions,
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
-        let subgrid_friction =
-            self.subgrid_friction_fraction(creep, kinks) * self.friction_coefficient.abs();
+        let fraction = self.subgrid_friction_fraction(creep, kinks);
+        let subgrid_friction = fraction * self.friction_coefficient.abs();
         OnGrid {
             quantities: Quantities {
                 friction_coefficient: self.friction_coefficient,

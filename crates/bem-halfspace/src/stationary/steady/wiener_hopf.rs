@@ -110,9 +110,9 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
         // 1 − e^{iα} without cancellation.
         let half_sine = (0.5 * angle).sin();
         let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
-        let denominator = |retardation: &RetardationElement| {
-            let kept = retardation.decay();
-            difference * kept + -(-retardation.rate).exp_m1()
+        let denominator = |element: &RetardationElement| {
+            let kept = element.decay();
+            difference * kept + -(-element.rate).exp_m1()
         };
         let retardations = creep.retardations.iter();
         // `finv`, because the square of the modulus underflows for memory lengths above 1e154 elements.

@@ -44,6 +44,7 @@ impl CollocationPoints {
             collocation_shift: on_grid.creep.collocation_shift,
             spacing: contact.mesh.options.spacing[0],
             depth_scale: loading.depth_scale,
+            // From slopes on a dashpot, and under edges on a material that is more of a fluid; otherwise from dissipation.
             slope: match loading.has_edges {
                 _ if loading.creep.only_flows() => FrictionSlope::Body,
                 true if is_solid => FrictionSlope::SurfaceAtCollocationPoints,

@@ -234,10 +234,7 @@ impl ContactDerivatives {
     ) -> Result<Change<f64>, BemError> {
         // With as many retardation elements as here the derivatives by them suffice; otherwise contract both whole kernels.
         let [from, to] = ends.map(SlidingCreep::over_distance);
-        if [&from, &to]
-            .iter()
-            .all(|end| self.has_same_retardations(end))
-        {
+        if self.has_same_retardations(&from) && self.has_same_retardations(&to) {
             return Ok(self.by_basis(|basis| basis.between_creeps(&from, &to)));
         }
         let [from, to] = ends.map(|end| Basis::to_elastomer(&self.bases(), end));
@@ -307,16 +304,12 @@ impl ContactDerivatives {
     }
 
     fn has_same_retardations(&self, creep: &CreepOverDistance) -> bool {
-        self.gradients
-            .iter()
-            .all(|gradient| gradient.basis.has_same_retardations(creep))
+        let mut gradients = self.gradients.iter();
+        gradients.all(|one| one.basis.has_same_retardations(creep))
     }
 
     fn bases(&self) -> Vec<&Basis> {
-        self.gradients
-            .iter()
-            .map(|gradient| &gradient.basis)
-            .collect()
+        self.gradients.iter().map(|one| &one.basis).collect()
     }
 
     fn by(&self, derivative: impl Fn(&QuantityGradient) -> f64) -> Change<f64> {
@@ -432,7 +425,7 @@ impl GradientAssembly<'_> {
             depth_scale,
             ..
         } = self.loading;
-        // Derivative of the total load by the depth.
+        // The quantities that depend on the depth, in terms of the derivative of the total load by the depth.
         let stiffness = self.contact.sum(&self.adjoint.depth);
         let other = match control {
             Control::NormalForce(_) => {
@@ -446,6 +439,8 @@ impl GradientAssembly<'_> {
                 Some(self.proportional_to_depth(unit, -1.0, stiffness / depth_scale))
             }
         };
+
+        // All gradients in their order.
         let mut gradients = vec![self.friction(stiffness)];
         gradients.extend(other);
         let measures = self.contact.measures().zip(&self.adjoint.measures);
@@ -483,6 +478,7 @@ impl GradientAssembly<'_> {
         stiffness: f64,
     ) -> UnassembledGradient {
         let by_depth = self.contact.sum(by_loads);
+        // Under a force the depth δ is a further unknown: add the constant that keeps the total load.
         let (constant, by_load) = match self.loading.control {
             Control::NormalForce(_) => (
                 by_depth / stiffness,

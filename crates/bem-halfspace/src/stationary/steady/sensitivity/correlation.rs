@@ -42,12 +42,8 @@ impl Correlation {
         // Accumulate by signed distance along y.
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
-        for (place, &value) in left
-            .values
-            .iter()
-            .enumerate()
-            .filter(|(_, value)| **value != 0.0)
-        {
+        let loaded = left.values.iter().enumerate();
+        for (place, &value) in loaded.filter(|(_, value)| **value != 0.0) {
             let (row, column) = (place / columns, place % columns);
             for (other, from) in right.values.chunks_exact(columns).enumerate() {
                 // By signed distance along y; the negative side is folded onto the positive one below.

@@ -212,9 +212,8 @@ impl SteadySensitivity {
         &self,
         derivative: impl Fn(&ContactDerivatives) -> Change<f64>,
     ) -> Change<Estimate> {
-        let [fine, coarse] =
-            [&self.fine, &self.coarse].map(|grids| grids.mean_over_grids(&derivative));
-        EXTRAPOLATION.limit(fine, coarse)
+        let mean = |grids: &SensitivityOnGrid| grids.mean_over_grids(&derivative);
+        EXTRAPOLATION.limit(mean(&self.fine), mean(&self.coarse))
     }
 
     /// The extrapolated limit of a change that may fail on a grid.
