@@ -1,4 +1,4 @@
-//! Stationary sliding, solved directly: single bodies and profiles ([`steady`]), and periodic surfaces ([`periodic`]).
+//! Stationary sliding, solved directly: single bodies and profiles ([`mod@steady`]), and periodic surfaces ([`periodic`]).
 //!
 //! Theory: docs/theory/stationary-half-space.md.
 

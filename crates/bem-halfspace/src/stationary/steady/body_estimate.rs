@@ -138,7 +138,7 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// [`BemError::GridTooLarge`] where a body is so steep that the grids allowed give no error estimate;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
 /// friction is infinite, or a surface that is low everywhere; on a track [`BemError::NoCycle`] for a material that flows, and
-/// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`](super::steady_on_grid).
+/// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`].
 pub fn steady<'w>(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,

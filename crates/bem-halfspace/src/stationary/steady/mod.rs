@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with the load potential w = (1/4π) ∬ P/r dA, whose kernel is translation-invariant and not symmetric. For a dashpot
-//! it is [`wake_influence`]; each retardation element adds an exponential sweep of the potential from ahead. Where the
+//! it is [`wake_influence()`]; each retardation element adds an exponential sweep of the potential from ahead. Where the
 //! material flows, the surface sinks like ln t, without limit. This constant is absorbed in d, which then has no meaning of
 //! its own; friction and contact do not depend on it.
 //!
