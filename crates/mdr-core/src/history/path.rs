@@ -265,7 +265,8 @@ impl Path {
 /// Loads of an element, and their rates, below this part of the terms that cancel in them count as rounding. Chosen,
 /// about 45 units in the last place.
 pub(super) const LOAD_ROUNDING: f64 = 1e-14;
-/// Relative changes of radii and depths below this count as rounding. Chosen.
+/// Relative changes of radii and depths below this count as rounding; in `approach.rs` also loads over a lone dashpot.
+/// Chosen.
 pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
 /// Decay of the branches between two times, and the stresses gained in between.

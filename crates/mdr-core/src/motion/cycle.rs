@@ -21,7 +21,7 @@ const CYCLES_AT_FULL_TOLERANCE: usize = 100;
 const LENIENT_TOLERANCE_FACTOR: f64 = 10.0;
 
 /// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as
-/// many cycles. Chosen.
+/// many cycles as the last one. Chosen.
 const TARGET_DEVIATION: f64 = 0.4;
 /// Smallest factor on the cycles that a step covers. Chosen.
 const MIN_CYCLES_FACTOR: f64 = 0.3;

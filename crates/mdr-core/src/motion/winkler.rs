@@ -68,7 +68,7 @@ pub(super) enum Prescribed {
 /// Time, position and depth of the line.
 #[derive(Debug, Clone, Copy, Default)]
 struct BodyState {
-    /// \[s].
+    /// Time, \[s].
     time: f64,
     /// Position of the lowest point along the surface, \[m].
     position: f64,

@@ -49,7 +49,7 @@ pub(super) struct LastStep<'a> {
     pub(super) loads: &'a [f64],
     /// Indentation depth, \[m].
     pub(super) depth: f64,
-    /// \[N].
+    /// Normal force F_N, \[N].
     pub(super) normal_force: f64,
     pub(super) moduli: &'a StepScaleModuli,
 }

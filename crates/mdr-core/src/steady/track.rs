@@ -22,7 +22,8 @@ use crate::MdrError;
 const MAX_PASSES: usize = 300;
 /// Remaining distance to the periodic state, in depths, at which the search ends.
 const PERIODICITY_TOLERANCE: f64 = 1e-11;
-/// Rounding of one pass, in depths, which bounds the tolerance from below where the modes recover slowly.
+/// Rounding of one pass, in depths. Multiplied by the number of passes that a mode needs to recover, it bounds the
+/// tolerance from below.
 const PERIODICITY_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// Refuses a track that is not longer than the part of the line below the surface.
