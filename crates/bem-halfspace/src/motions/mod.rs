@@ -2,10 +2,10 @@
 //!
 //! Theory: docs/theory/transient-half-space.md.
 
+pub(crate) mod along_surface;
 pub mod indent;
-pub(crate) mod move_along;
 pub mod slide;
 
+pub use along_surface::{move_along, move_along_memory};
 pub use indent::indent;
-pub use move_along::{move_along, move_along_memory};
 pub use slide::slide;

@@ -24,7 +24,7 @@ pub(super) struct MaterialHistory {
     load: Vec<f64>,
     /// 2 (1 − ν) α w of the present step; [`advance`](Self::advance) with history variables leaves 2 (1 − ν) w.
     increment: Vec<f64>,
-    /// History variables, [row][field][column]: rows that a step needs are contiguous.
+    /// History variables, `[row][field][column]`: rows that a step needs are contiguous.
     variables: Vec<f64>,
     /// History variables per element.
     pub(super) n_fields: usize,
@@ -68,7 +68,7 @@ impl MaterialHistory {
         &self.variables[rows.start * per_row..rows.end * per_row]
     }
 
-    /// All history variables, [row][field][column].
+    /// All history variables, `[row][field][column]`.
     pub(super) fn variables_mut(&mut self) -> &mut [f64] {
         &mut self.variables
     }

@@ -1,4 +1,4 @@
-//! Neither an iteration nor a whole solve allocates where the state is kept.
+//! Neither an iteration nor a whole solve allocates if the state is reused.
 
 use allocation_counter::measure;
 use bem_halfspace::{BemError, Contact, ContactOptions, ContactState, Control, Convolution, Grid};
@@ -15,12 +15,12 @@ fn solve(body: &Pressing, state: &mut ContactState) -> Result<Contact, BemError>
 
 #[test]
 fn a_solve_with_a_kept_state_does_not_allocate() {
-    // On the thread of a pool, because handing work to a pool allocates there.
+    // On a thread of the pool, because handing work to a pool from outside allocates.
     on_threads(1, solves_without_allocation);
 }
 
 fn solves_without_allocation() {
-    // Those in the middle have mirrors, between elements or through them.
+    // The cases in the middle have mirrors, between elements or through them.
     for (edge, middle) in [(96, [45.3, 50.8]), (96, [47.5; 2]), (97, [48.0; 2])] {
         // A paraboloid with ripples, under whose load the active set changes often before it is found.
         let height = |element: [f64; 2]| {

@@ -21,14 +21,14 @@ fn a_material_has_the_fields_that_it_needs() {
     let body = paraboloid(0.5);
     let load = after(under_force(0.5, 0.7), 10.0);
     let options = squares(0.25, 1.0);
-    // Of nine columns, those in front of the mirror through the fifth.
+    // Nine columns with a mirror through the fifth: five are followed.
     let columns = 5;
     for (name, material) in every_kind_of_material() {
         let march = March::sliding(&body, &material, &load, &options).expect("a march");
         let creep = material.creep();
         let fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
         assert_eq!(march.n_fields(), fields, "fields of the {name} material");
-        // A material without memory needs no elements outside the footprint of nine rows.
+        // Without history variables no elements outside the footprint of nine rows are needed.
         let rows = if fields == 0 { 9 } else { 9 + 39 };
         assert_eq!(march.n_elements(), rows * columns, "elements, {name}");
     }
@@ -55,7 +55,7 @@ fn an_elastic_half_space_has_no_friction_and_is_at_rest_at_once() {
     assert_near("skew", skew.last().friction_coefficient, 0.0, 1e-3);
 }
 
-/// Kelvin–Voigt with a vanishing spring is the dashpot, and so are Maxwell and the standard solid with a stiff one.
+/// Kelvin–Voigt with a vanishing spring is the dashpot, and so are Maxwell and the standard solid with a stiff spring.
 #[test]
 fn materials_that_tend_to_the_dashpot_have_its_friction() {
     let scene = Scene::unit(2.0);
@@ -133,8 +133,8 @@ fn a_march_stops_when_the_friction_is_stationary() {
     }
 }
 
-/// Half the friction of the line (FRI-05). In a step of a march an element creeps to its end, and lags far less than an
-/// element behind.
+/// Slow friction is half that of the line (FRI-05). Every retardation element relaxes within a step, and the pressure lags far less
+/// than the length of a boundary element.
 #[test]
 fn a_slow_march_has_the_exact_friction() {
     for case in group("FRI-05").iter().filter(|case| case.has_input("G1")) {

@@ -57,7 +57,7 @@ fn rough() -> impl Strategy<Value = Rough> {
     })
 }
 
-/// What a residual of 1e-13 leaves of the depth and the pressure on these small grids.
+/// Relative error of depth and pressure by a residual of 1e-13 on these small grids.
 const SAME: f64 = 1e-11;
 
 impl Rough {
@@ -73,7 +73,7 @@ impl Rough {
         }
     }
 
-    /// A field from the other side along x or y.
+    /// A field reversed along x or y.
     fn mirrored(&self, field: &[f64], along_y: bool) -> Vec<f64> {
         let rows = field.chunks(self.shape[1]);
         if along_y {
@@ -88,7 +88,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |top, value| value.abs().max(top))
 }
 
-/// The pressure is what the control asks for, nowhere tension, and the gap is zero under it and nowhere negative.
+/// The pressure satisfies the control and is nowhere tensile; the gap is zero under it and nowhere negative.
 #[track_caller]
 fn assert_solved(body: &Pressing, control: Control) {
     let (contact, state) = body.solve(control);
@@ -100,7 +100,7 @@ fn assert_solved(body: &Pressing, control: Control) {
         Control::IndentationDepth(asked) => (depth, asked),
     };
     assert_close(control, got, asked, 1e-12);
-    // What a pressure causes at its own element; a periodic half space moves as much, less the mean.
+    // Diagonal coefficient; on a periodic half space the same less the mean.
     let own = influence([0.0, 0.0], grid.spacing()) / (4.0 * PI);
     let own = body.compliance * own * largest(state.pressure());
     let allowed = body.options.tolerance * largest(state.displacement()).max(own);
@@ -109,7 +109,7 @@ fn assert_solved(body: &Pressing, control: Control) {
         let gap = height + displacement - depth;
         // Rounding of the three terms.
         let allowed = allowed + 8.0 * f64::EPSILON * depth.abs().max(*height);
-        // Nowhere tension.
+        // No tension.
         let free_or_touched = *pressure == 0.0 || gap <= allowed;
         let holds = *pressure >= 0.0 && gap >= -allowed && free_or_touched;
         assert!(holds, "{control:?}: gap {gap:e}, {pressure:e}, {allowed:e}");
@@ -146,7 +146,7 @@ fn one_element_a_full_box_and_slender_contacts_are_solved() {
     }
 }
 
-/// A carton of eggs of different heights, each of which touches.
+/// Summits of different heights on a lattice, all of which touch.
 #[test]
 fn up_to_4096_patches_are_solved() {
     for along in [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 45.0, 64.0] {
@@ -160,7 +160,7 @@ fn up_to_4096_patches_are_solved() {
     }
 }
 
-/// Rounding of the heights is all that can be seen of a gap.
+/// Gaps are known up to the rounding of the heights.
 #[test]
 fn heights_far_above_what_the_pressure_moves_are_solved() {
     for decade in 0..=12 {
@@ -213,7 +213,7 @@ proptest! {
     }
 }
 
-/// A power profile on a material that is not only a spring: the contact is about one long.
+/// A power profile on a viscoelastic material; the contact has a length of about 1.
 fn sliding() -> impl Strategy<Value = Scene<Compressible>> {
     let body = (0.9..3.0_f64, decades(2.0));
     let branches = prop::collection::vec((decades(1.0), decades(1.0)), 0..3);

@@ -66,7 +66,7 @@ fn by_parts(part: f64) -> [f64; 2] {
 fn friction_does_not_depend_on_the_parts_of_an_element_that_a_step_is() {
     let reference = by_parts(0.25);
     for part in [0.5, 1.0 / 3.0, 1.0, 2.0] {
-        // One step of an element is 1/20 of the contact, of which the error is a part.
+        // The error is a fraction of a step over the contact, 1/20 for steps of one element.
         assert_all_close(part, by_parts(part), reference, 0.02 * part.max(0.5));
     }
 }
@@ -84,7 +84,7 @@ fn assert_same_rows(rows: &[MotionRow], expected: &[MotionRow], sign: f64, toler
     }
 }
 
-/// There and back: a mirrored body that moves the other path has the opposite force.
+/// A mirrored body on the mirrored path has the opposite force, also after a turn.
 #[test]
 fn motion_to_the_other_side_is_the_mirror_image() {
     let there = (1..=30).map(|k| 0.03 * f64::from(k));
@@ -101,8 +101,7 @@ fn motion_to_the_other_side_is_the_mirror_image() {
     assert!(before > 0.0 && after < 0.0, "{before} and then {after}");
 }
 
-/// Room around the path of the contact changes nothing: nothing is lost behind, and what enters ahead has been moved by
-/// all past pressure.
+/// The size of the footprint does not change the result: rows ahead that enter it are displaced by all past pressure.
 #[test]
 fn the_footprint_does_not_matter() {
     let material = prony([0.1, 0.3], &[(2.0, 0.5)]);
@@ -114,8 +113,7 @@ fn the_footprint_does_not_matter() {
     assert_same_rows(&small, &large, 1.0, 1e-9);
 }
 
-/// The rows that a body leaves for good are not followed any more, those to which it comes back are: with the same steps
-/// before.
+/// A return at the end does not change the steps before it, although rows to which the body returns are followed longer.
 #[test]
 fn a_return_at_the_end_changes_nothing_before() {
     let path = (1..=24).map(|k| 0.1 * f64::from(k)).map(|x| (x, x));
@@ -125,7 +123,7 @@ fn a_return_at_the_end_changes_nothing_before() {
     assert_same_rows(&away, &back, 1.0, 1e-9);
 }
 
-/// Waiting at a place is pressing: the depth is that of a body that never moved, if it was lifted meanwhile.
+/// A body that is lifted, moved and pressed again has the depth of a body that never moved.
 #[test]
 fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
     let far = 40.0;

@@ -37,7 +37,7 @@ fn assert_bad<T>(bad: f64, result: Result<T, BemError>, name: &str) {
     assert_refused(bad, result, name);
 }
 
-/// Slides the unit paraboloid over so many contact lengths, on eight elements along the contact but for a change.
+/// Slides the unit paraboloid over a number of contact lengths, on eight elements along the contact with changed options.
 fn slid(lengths: f64, change: impl FnOnce(&mut GridOptions)) -> Result<Transient, BemError> {
     let scene = Scene::unit(2.0);
     let mut options = scene.options(8.0);
@@ -46,7 +46,7 @@ fn slid(lengths: f64, change: impl FnOnce(&mut GridOptions)) -> Result<Transient
     slide_on_grid(&scene.body, &scene.material, &load, &options)
 }
 
-/// The stationary state of a body under the load of the unit paraboloid, on its grid but for a change.
+/// Stationary state of a body under the load of the unit paraboloid, on its grid with changed options.
 fn steady_with(
     body: &impl Surface,
     change: impl FnOnce(&mut SteadyOptions),
@@ -57,7 +57,7 @@ fn steady_with(
     steady_on_grid(body, &scene.material, &scene.load, &options)
 }
 
-/// On square elements in a square footprint.
+/// Options of square elements in a square footprint.
 fn steady_in(body: &impl Surface, spacing: f64, end: f64) -> Result<SteadySliding, BemError> {
     steady_with(body, |options| {
         *options = SteadyOptions::new([spacing; 2], Footprint::square(end));
@@ -175,7 +175,7 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
     }
 }
 
-/// Two runners on either side of the lowest point, of which the footprint holds one.
+/// Two runners on either side of the lowest point; the footprint covers only one of them.
 #[test]
 fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
     let sledge = Formula::new([true; 2], |[x, y]| {
@@ -218,7 +218,7 @@ fn what_never_comes_to_rest_is_refused() {
     }
 }
 
-/// Speeds at which a length over a speed, or the compliance over it, leaves the numbers.
+/// Speeds at which a length over a speed, or the compliance after that time, overflows or underflows.
 #[test]
 fn speeds_beyond_all_numbers_are_refused_or_not_reached() {
     for velocity in [1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300] {

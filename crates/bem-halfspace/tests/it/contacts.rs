@@ -55,7 +55,7 @@ fn the_force_follows_from_the_flat_punch() {
     }
 }
 
-/// Of a body with these heights on unit elements.
+/// Contact problem of a body with these heights on unit elements.
 fn contact(shape: [usize; 2], heights: &[f64], control: Control) -> (Contact, ContactState) {
     let grid = Grid::new(shape, [1.0; 2]).expect("a valid grid");
     let mut body = Pressing::new(Convolution::new(&grid), |_| 0.0);
@@ -171,7 +171,7 @@ fn the_surface_outside_the_contact_moves_as_it_should() {
     let cases = group("BEM-01").into_iter();
     for case in cases.filter(|case| case.expected("u").is_some()) {
         let (shape, radius) = (case.input_text("shape"), case.input("r"));
-        // The surface beside the punch is infinitely steep.
+        // The surface outside the punch is infinitely steep at its edge.
         if shape == "flat punch" && (1.0..1.1).contains(&radius) {
             continue;
         }

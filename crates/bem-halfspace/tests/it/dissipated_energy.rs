@@ -1,4 +1,4 @@
-//! What a cycle costs is what the material dissipates, which is known from the pressures alone.
+//! The work of a cycle equals the energy that the material dissipates, which follows from the pressures alone.
 //!
 //! A retardation element is a spring and a dashpot side by side, both half spaces that move alike. With the pressure p on both the
 //! spring carries s and the dashpot p − s,
@@ -24,7 +24,7 @@ use crate::support::assert_bars_agree;
 
 const FORCE: f64 = 2.0;
 const ELEMENTS: usize = 10;
-/// Retardation times of the slowest element after which it has forgotten the first touch, but for a thousandth.
+/// Duration of the motion over the largest retardation time: e^−7, a thousandth, of the first touch remains.
 const MEMORIES: f64 = 7.0;
 
 fn ball() -> Sphere {
@@ -61,7 +61,7 @@ impl Springs {
         }
     }
 
-    /// What each spring does not carry of a pressure.
+    /// Part p − s of a pressure that each dashpot carries.
     fn on_dashpots(&self, pressure: &[f64]) -> impl Iterator<Item = Vec<f64>> {
         let rest = |springs: &Vec<f64>| {
             let pairs = pressure.iter().zip(springs);
@@ -70,7 +70,7 @@ impl Springs {
         self.carried.iter().map(rest)
     }
 
-    /// What the dashpots dissipate while a pressure is held for a time, \[J].
+    /// Energy that the dashpots dissipate while a pressure is held for a time, \[J].
     fn heat(&self, elastomer: &impl Elastomer, pressure: &[f64], time: f64) -> f64 {
         let material = elastomer.material();
         let per_compliance = material.half_space_factor() / (4.0 * PI) * self.grid.element_area();
@@ -89,7 +89,7 @@ impl Springs {
         energy
     }
 
-    /// Lets the springs take over.
+    /// Relaxes the springs towards the pressure for a time.
     fn hold(&mut self, elastomer: &impl Elastomer, pressure: &[f64], time: f64) {
         let dashpots: Vec<Vec<f64>> = self.on_dashpots(pressure).collect();
         let creep = elastomer.material().creep();
@@ -103,7 +103,7 @@ impl Springs {
     }
 }
 
-/// The motion from rest until the slowest element has forgotten the first touch, and the number of steps of its last cycle.
+/// Motion from rest until the first touch is relaxed, and the number of steps of its last cycle.
 fn cycles(
     layer: &impl Elastomer,
     load: &MovingLoad,
@@ -131,7 +131,7 @@ fn cycles(
     (motions.collect(), steps.len())
 }
 
-/// What the dashpots take in the last cycle, \[J].
+/// Energy that the dashpots dissipate in the last cycle, \[J].
 fn heat_of_cycle(layer: &impl Elastomer, load: &MovingLoad, grids: Grids) -> f64 {
     let (elements, spacing) = grids;
     let (motions, per_cycle) = cycles(layer, load, grids);

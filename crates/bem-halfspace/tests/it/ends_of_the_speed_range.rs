@@ -6,8 +6,8 @@ use numerics::Estimate;
 
 use crate::support::{Scene, assert_bars_agree, power, three_elements, under_force};
 
-/// A body whose contact has the radius 1 where the solid of three elements is slow, and the speed at which the surface
-/// remembers so many radii.
+/// A body whose contact has the radius 1 on the relaxed three-element solid, and the speed at which the memory length is `radii`
+/// radii.
 fn scene(
     exponent: f64,
     gamma: f64,
@@ -85,7 +85,7 @@ fn the_ends_of_the_speed_range_are_reached_to_the_error_asked_for() {
     }
 }
 
-/// Elements that are longer than the surface remembers do not see that the rear moves and the front stays.
+/// Elements longer than the memory length do not resolve the asymmetry between front and rear.
 #[test]
 fn what_elements_are_too_long_for_is_in_the_bar() {
     for exponent in [1.0, 2.0, 3.0] {

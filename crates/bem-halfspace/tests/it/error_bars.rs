@@ -57,7 +57,7 @@ fn the_bars_of_an_elastic_contact_hold() {
                 assert_bar(what, got.normal_force, force, 0.2);
                 let got_depth = got.indentation_depth.expect("a depth");
                 assert_bar(what, got_depth, depth, 0.2);
-                // Of sixteen elements along the contact some touch or not by chance.
+                // On sixteen elements along the contact it is by chance whether elements at the boundary touch.
                 assert_bar(what, got.contact_area, PI * radius * radius, 1.0);
                 let ends = [got.finest.contact_x, got.finest.contact_y];
                 assert_ends(what, ends, [[-radius, radius]; 2], got.contact_box_error);
@@ -118,7 +118,7 @@ fn pressing_for_a_time_scales_an_elastic_contact() {
     assert_eq!(pressure, None, "under a force");
 }
 
-/// A march and the direct solution, with nothing in common but the elements.
+/// A march and the direct solution, which share only the elements.
 #[test]
 fn marches_and_stationary_solutions_agree_within_their_bars() {
     let scene = Scene::unit(2.0);
@@ -290,7 +290,7 @@ fn force_and_depth_control_agree_on_one_grid() {
     }
 }
 
-/// Refuses to refine beyond some unknowns, and returns what was reached.
+/// The estimate that was reached when the unknowns do not suffice.
 fn reached(scene: &Scene<impl Material>, relative_error: f64, max_unknowns: usize) -> Estimate {
     let mut options = RefinementOptions {
         relative_error,

@@ -5,7 +5,7 @@ use bem_halfspace::{Contact, ContactProblem, ContactState, Control, Convolution,
 
 use crate::support::{Pressing, assert_close, assert_near, assert_refused, paraboloid};
 
-/// A rough periodic or free surface with the largest pressure times this of what it is without.
+/// A rough periodic or free surface whose largest pressure is limited to a fraction of the unlimited one.
 fn rough(is_periodic: bool, n: usize) -> Pressing {
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a valid grid");
     let convolution = if is_periodic {
@@ -165,7 +165,7 @@ fn the_limit_decides_what_is_borne() {
     }
 }
 
-/// Two elements of which the lower one yields: the other bears what is left, and the depth follows from it.
+/// If the lower of two elements is at the limit, the other one bears the remaining force, and the depth follows from it.
 #[test]
 fn two_elements_share_what_one_does_not_bear() {
     let grid = Grid::new([1, 2], [1.0; 2]).expect("a valid grid");

@@ -15,12 +15,12 @@ use crate::support::{
 
 const TIMES: [f64; 5] = [1e-6, 0.05, 0.2, 0.9, 3.0];
 
-/// So many elements along a radius, with room around it.
+/// Grid with a number of elements along a radius, and a margin around the contact.
 fn options(radius: f64, elements: f64) -> GridOptions {
     squares(radius / elements, 1.3 * radius)
 }
 
-/// How much more the surface yields after a time than an incompressible half space of modulus 1.
+/// Compliance after a time over that of an incompressible half space of modulus 1.
 fn yielded(material: &dyn Material, time: f64) -> f64 {
     material.half_space_factor() * material.creep_compliance(time).expect("a compliance")
 }
@@ -40,7 +40,7 @@ fn a_constant_force_makes_the_depth_of_the_elastic_body_of_compliance_j() {
     }
 }
 
-/// The same with a rising depth: F_e(d_n) = Σ [J(t_n − t_(k−1)) − J(t_n − t_k)] F_k, in any steps, on any grid.
+/// Under a rising depth the discrete elastic contacts give the force: F_e(d_n) = Σ [J(t_n − t_(k−1)) − J(t_n − t_k)] F_k, in any steps, on any grid.
 #[test]
 fn a_rising_depth_has_the_force_that_its_elastic_contacts_make() {
     let body = cone(0.5);
@@ -77,7 +77,7 @@ fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2]) -> IndentCurve {
     indent_along(&body, &case.material(), &history, Accuracy::Elements(32)).expect("a history")
 }
 
-/// After the turn the contact shrinks faster than the depth, and is lost before the depth is zero.
+/// After the turn the contact shrinks faster than the depth, and ends before the depth is zero.
 #[test]
 fn a_falling_depth_has_the_force_of_ting() {
     let mut n_lost = 0;

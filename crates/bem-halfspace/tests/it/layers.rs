@@ -61,7 +61,7 @@ fn the_factor_is_known_to_rounding_for_all_waves() {
     for nu in [-0.9, 0.0, 0.3, 0.4999, 0.499_999, 0.5] {
         for decade in -6..=6 {
             let s = 10.0_f64.powi(decade);
-            // Both terms of the numerator, of which one dominates unless s² is about 1 − 2ν.
+            // Both terms of the numerator; one dominates unless s² is about 1 − 2ν.
             let long =
                 s * (0.5 * (1.0 - 2.0 * nu) + (3.0 - 4.0 * nu) * s * s / 6.0) / (1.0 - nu).powi(2);
             let expected = if s < 1.0 { long } else { 1.0 };
@@ -156,7 +156,7 @@ fn what_slides_over_an_elastic_layer_is_pressed_into_it() {
     assert_bar("cylinder", rough, fine.value, 1e-3);
 }
 
-/// Also of a layer that flows, under which a body does not sink without limit.
+/// A march also reaches the stationary state on a layer that flows, into which a body does not sink without limit.
 #[test]
 fn a_march_comes_to_the_stationary_state() {
     let body = paraboloid(0.5);
@@ -194,7 +194,7 @@ fn a_march_over_a_liquid_layer_goes_on_until_it_is_stationary() {
     assert_bars_agree("friction", frictions[0], frictions[1]);
 }
 
-/// What is missing to the half space falls like a/t: to the depth on a solid, and to the friction on a dashpot, on which the
+/// The difference from the half space falls like a/t: to the depth on a solid, and to the friction on a dashpot, on which the
 /// depth grows by F/(4πηv) ln 2.
 #[test]
 fn a_thick_layer_is_a_half_space() {
@@ -245,7 +245,7 @@ fn a_periodic_layer_moves_by_its_factor() {
     assert_close("friction", state.friction_coefficient, friction, 1e-9);
     let mean = thickness * 0.4 / (2.0 * 0.25 * 0.7);
     assert_close("depth", state.mean_depth, mean, 1e-9);
-    // The same by a convolution.
+    // The displacement by a convolution.
     let convolution = Convolution::periodic_for_elastomer(&layer, &grid);
     let pressure: Vec<f64> = heights.iter().map(|height| 1.0 + height).collect();
     let (mut moved, mut workspace) = (heights.clone(), convolution.workspace());

@@ -94,7 +94,7 @@ fn a_kept_state_finds_the_contact_of_a_new_one() {
 
 const SQUARE: Footprint = Footprint::square(1.5);
 
-/// Pressed, slid by parts of elements, lifted off, and pressed again where the half space remembers.
+/// Path: pressed, slid by parts of elements, lifted off, and pressed again where the surface has not recovered.
 const PATH: [(f64, f64, Control); 6] = [
     (0.1, 0.0, Control::NormalForce(0.3)),
     (0.3, 0.2, Control::NormalForce(0.5)),
@@ -104,8 +104,8 @@ const PATH: [(f64, f64, Control); 6] = [
     (0.9, 0.61, Control::NormalForce(0.2)),
 ];
 
-/// Compares all steps with those without mirrors; of the elements that are followed, which are the numbers in front of
-/// the mirrors and without them, the first are one of so many parts: those through which a mirror passes count in each.
+/// Compares all steps with those without mirrors. The followed elements are a half or a quarter of all, where elements through which
+/// a mirror passes count in each part.
 fn compare(
     surface: &impl Surface,
     material: &dyn Material,

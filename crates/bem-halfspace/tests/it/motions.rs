@@ -131,7 +131,7 @@ fn assert_holds(got: Estimate, expected: Estimate) {
     assert!(got.error < 0.02 * expected.value, "{got:?}");
 }
 
-/// A memory of many cycles under a stroke as long as the contact.
+/// Memory length of many cycles under a stroke as long as the contact.
 #[test]
 fn a_long_memory_needs_few_elements() {
     let paraboloid = PowerProfile::new(100.0, 2.0).expect("a paraboloid");

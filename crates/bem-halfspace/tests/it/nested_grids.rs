@@ -43,8 +43,7 @@ fn iterations_hardly_depend_on_the_grid() {
     assert!(contact.residual <= 1e-13, "{contact:?}");
 }
 
-/// Guesses that are wrong: one that lies elsewhere, numbers that are no pressures beside the contact, and one where
-/// there is no body.
+/// Wrong guesses: one that lies elsewhere, one with negative or infinite numbers outside the contact, and one where there is no body.
 #[test]
 fn the_guess_does_not_matter() {
     let mut body = hertz(96);
@@ -119,7 +118,7 @@ fn iterations_hardly_depend_on_the_number_of_patches() {
         assert!((0.05..0.08).contains(&part), "{n}: {part} in contact");
         contact.iterations
     });
-    // An inverse without the loads on other patches needs 18, 22, 26, 34.
+    // A preconditioner without the coarse-space correction needs 18, 22, 26, 34.
     let [coarse, .., fine] = iterations;
     assert!(5 * fine <= 8 * coarse, "iterations {iterations:?}");
 }

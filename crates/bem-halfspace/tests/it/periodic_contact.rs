@@ -276,8 +276,8 @@ fn bars_hold_areas_of_grooves_in_any_direction() {
     }
 }
 
-/// Of surfaces whose areas change little from grid to grid by chance, on the fourth and the sixteenth part of the elements of an
-/// edge.
+/// Bars hold the areas of surfaces that change little from grid to grid by chance, on a quarter and a sixteenth of the elements
+/// along an edge.
 #[cfg(feature = "rough")]
 #[test]
 fn bars_hold_what_the_outline_leaves_unknown_of_an_area() {
@@ -298,7 +298,7 @@ fn bars_hold_what_the_outline_leaves_unknown_of_an_area() {
     }
 }
 
-/// Four elements per shortest wave tell whether a contact is full, as what is between them follows from the waves.
+/// Four elements per shortest wave suffice to find whether a contact is full: the gap between them follows from the waves.
 #[cfg(feature = "rough")]
 #[test]
 fn a_contact_that_is_hardly_full_has_no_gaps_in_its_bars() {

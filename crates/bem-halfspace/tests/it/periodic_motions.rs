@@ -166,7 +166,7 @@ fn the_middle_of_a_long_stroke_is_steady_sliding() {
     let steady = periodic::steady(&surface, &rubber, &load, 1e-2).expect("a stationary state");
     let force = mean_pressure * PERIOD[0] * PERIOD[1];
     let expected = steady.friction_coefficient * force;
-    // Forth and back; the surface is not its own mirror image, but here its friction nearly is.
+    // Both directions; the surface is not its own mirror image, but here its friction nearly is.
     let forth = points[points.len() / 4];
     assert!((forth.position).abs() < 0.05, "{forth:?}");
     assert_bars_agree("forth", forth.tangential_force, expected);

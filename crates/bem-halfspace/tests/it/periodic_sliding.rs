@@ -77,7 +77,7 @@ fn friction_and_area_are_those_of_the_casebook() {
         let (best, difference) = (off[0].min(off[1]), (frictions[0] - frictions[1]) / exact);
         let holds = best < 5e-3 && best < difference.abs() + 1e-3;
         assert!(holds && solved.products < 60, "{}: {solved:?}", case.id);
-        // Five elements per shortest asperity in contact, of which the counted area is 15 % too large.
+        // On five elements per shortest asperity in contact the counted area is 15 % too large.
         assert_close(&case.id, solved.area_fraction, case.area, 0.065);
     }
 }
@@ -203,7 +203,7 @@ fn what_has_no_stationary_state_is_refused() {
     }
 }
 
-/// Twenty branches over six decades of time, of which the slowest are a thousand times stiffer than the fastest, from 2 to
+/// Twenty branches over six decades of time, the slowest a thousand times stiffer than the fastest, from 2 to
 /// 60 per cent of the area; and one branch a thousand times stiffer than the spring beside it, in contact on 70 per cent,
 /// whose softest waves answer every change of the pressures.
 #[test]

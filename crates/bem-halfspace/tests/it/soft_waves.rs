@@ -12,8 +12,10 @@ fn standard_solid(ratio: f64) -> Prony {
     prony([1.0, 0.0], &[(ratio - 1.0, 1.0)])
 }
 
-/// Asserts that a contact under a mean pressure is found in so many products, of a surface with waves from a longest one to one that fits
-/// so many times into the period, sliding at a speed on a solid, on so many elements along each edge.
+/// Asserts that a contact is found within a number of operator applications.
+///
+/// The surface has waves from a longest to a shortest one, slides on a solid under a mean pressure, and has the given number of elements
+/// along each edge.
 fn assert_found(
     (surface, n): ((f64, f64, f64, u64), usize),
     (material, mean_pressure, velocity): (&Prony, f64, f64),
@@ -41,8 +43,8 @@ fn assert_found(
     assert!(solved.is_ok(), "{solved:?}");
 }
 
-/// Waves along the motion are so soft that the tension that is taken from a contact moves all others by more than they penetrate;
-/// whether a search goes astray by it depends on all digits.
+/// Waves along the motion are so soft that removing tension from a contact displaces all others by more than they penetrate. Whether a
+/// search fails by this depends on all digits.
 #[test]
 fn what_is_taken_from_a_contact_brings_no_others_in() {
     assert_found(
@@ -56,7 +58,7 @@ fn what_is_taken_from_a_contact_brings_no_others_in() {
     );
 }
 
-/// The equations of a contact without many gaps take a hundred steps and more of which none may be forgotten.
+/// The equations of a contact with few gaps need a Krylov basis of a hundred directions and more without truncation.
 #[test]
 fn a_dense_contact_is_found_with_all_directions() {
     assert_found(
@@ -66,7 +68,7 @@ fn a_dense_contact_is_found_with_all_directions() {
     );
 }
 
-/// Beside few open elements the equations are solved by elimination.
+/// With few open elements the complement is solved directly.
 #[test]
 fn a_contact_with_few_gaps_is_found() {
     assert_found(
@@ -80,7 +82,7 @@ fn a_contact_with_few_gaps_is_found() {
     );
 }
 
-/// A light contact, whose patches are found at the same time and not one after the other.
+/// A light contact of many patches, which the exchange rule must find together and not one after the other.
 #[test]
 fn one_element_of_each_patch_changes_where_many_are_in_vain() {
     let dashpot = prony([1.0, 0.05], &[]);

@@ -1,5 +1,5 @@
 //! How the stationary state is approached, and how friction converges with the grid; the march in time and the direct
-//! solution, two methods with nothing in common but the elements, arrive at the same friction, outline and depth.
+//! solution, two methods that share only the elements, arrive at the same friction, outline and depth.
 
 use bem_halfspace::slide::Transient;
 use bem_halfspace::steady::{
@@ -50,7 +50,7 @@ fn extrapolation_in_the_distance_agrees_with_a_longer_run() {
         assert_near(what, short.friction_coefficient, limit, allowed);
         let is_small = short.distance_error < 2e-2 * short.friction_coefficient;
         assert!(is_small, "{what:?}: {short:?}");
-        // The drift is, to leading order, the distance that is left to the limit.
+        // To leading order the drift is the remaining difference from the limit.
         let left = 1.0 - marches[0].last().friction_coefficient / limit;
         assert_near((what, "drift"), left / short.drift, 1.0, 0.35);
     }

@@ -155,15 +155,15 @@ fn coatings_have_the_half_spaces_and_the_layer_for_limits() {
         pressed(&Layer::on(&material, coated).expect("a coating"))
     };
     let half_space = pressed(&material);
-    // Of the same material below, but for other elements.
+    // The half space of the same material, up to the difference of the elements.
     assert_close("alike", coated(0.2, 1.0), half_space, 2e-4);
-    // Of a thick coating the half space is left up to the radius of the contact over the thickness.
+    // A thick coating is a half space up to the contact radius over the thickness.
     assert_close("thick", coated(1e4, 3.0), half_space, 3e-4);
-    // A thin one leaves the other half space, 1.2 times as soft.
+    // A thin coating is negligible: the other half space is 1.2 times as compliant.
     let below = Elastic::new(1.0 / 1.2).expect("a modulus");
     let below = Compressible::new(&below, 0.4).expect("ν");
     assert_close("thin", coated(0.01, 1.2), pressed(&below), 1e-2);
-    // On one that is far stiffer it is a layer on a rigid base.
+    // A coating on a far stiffer half space is a layer on a rigid base.
     let rigid = pressed(&Layer::new(&material, 0.2).expect("a layer"));
     assert_close("rigid", coated(0.2, 1e-9), rigid, 1e-7);
     // Between, a stiff base leaves less depth than the half space, and a soft one more.
@@ -196,7 +196,7 @@ fn friction_on_a_coating_is_that_on_a_layer_where_its_base_is_stiff() -> Result<
     Ok(())
 }
 
-/// M, with what is wrong about it.
+/// A compliance ratio M that [`Substrate`] does not allow, and the reason.
 #[derive(Debug)]
 struct Wrong(f64, fn(f64) -> f64);
 
@@ -232,7 +232,7 @@ fn substrates_without_meaning_are_refused() {
         let base = Wrong(1.0, ratio).base();
         assert_refused("M", base, "compliance ratio of a wave");
     }
-    // What flows on another half space is not known.
+    // A flowing coating on another half space is refused.
     let fluid = Viscous::new(1.0).expect("a viscosity");
     let soft = Layer::on(&fluid, Wrong(1.0, |s| 1.0 + (-3.0 * s).exp())).expect("a base");
     let load = SlidingLoad::new(1.0, 1.0).expect("a load");

@@ -112,7 +112,7 @@ pub(crate) fn assert_all_close<const N: usize>(
     }
 }
 
-/// The expected value lies within the bar, which is at most so wide a part of it.
+/// Asserts that the expected value lies within the bar, and that the bar is at most a given fraction of it.
 #[track_caller]
 pub(crate) fn assert_bar(what: impl Debug, got: Estimate, expected: f64, widest: f64) {
     assert_near(&what, got.value, expected, got.error);
@@ -193,7 +193,7 @@ pub(crate) fn carried(field: &PressureField) -> f64 {
     pressure.iter().sum::<f64>() * field.grid.element_area()
 }
 
-/// Works on so many threads.
+/// Runs work on a pool of a given number of threads.
 pub(crate) fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("a pool").install(work)
@@ -246,7 +246,7 @@ pub(crate) fn squares(spacing: f64, half_width: f64) -> GridOptions {
     GridOptions::new([spacing; 2], Footprint::square(half_width))
 }
 
-/// The same, solved tightly.
+/// Square elements in a square footprint, with contacts solved to a tight tolerance.
 pub(crate) fn tight(options: GridOptions) -> GridOptions {
     GridOptions {
         contact: TIGHT,
@@ -417,7 +417,7 @@ pub(crate) fn every_kind_of_material() -> Vec<(&'static str, Box<dyn Material>)>
 }
 
 #[cfg(feature = "rough")]
-/// A relative error, sought with at most so many elements along the length that is resolved.
+/// Request of a relative error with at most a number of elements along the resolved length.
 pub(crate) fn within(relative_error: f64, elements: &MaxElements) -> Request<'_> {
     Request {
         accuracy: relative_error.into(),

@@ -10,7 +10,7 @@ use crate::support::{
 #[test]
 fn one_to_four_threads_find_the_same_contact() {
     let grid = Grid::new([200; 2], [1.0; 2]).expect("a valid grid");
-    // The second has mirrors.
+    // The second problem has mirrors.
     let middles = [[90.3, 110.8], [99.5; 2]];
     let kinds = [Convolution::new, Convolution::periodic].into_iter();
     for (new, middle) in kinds.flat_map(|new| middles.map(|middle| (new, middle))) {

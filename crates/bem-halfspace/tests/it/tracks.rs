@@ -19,7 +19,7 @@ fn ball() -> Sphere {
     Sphere::new(RADIUS).expect("a sphere")
 }
 
-/// The moduli at rest and at once differ by a factor.
+/// A solid whose instantaneous modulus is a multiple of its equilibrium modulus.
 fn rubber(factor: f64) -> StandardSolid {
     let parameters = StandardSolidParameters {
         equilibrium_modulus: 1e6,
@@ -96,7 +96,7 @@ fn on_a_short_track_the_slow_element_carries_the_mean_load() {
     let straight = under_force(FORCE, 1e3);
     let options = steady_grid(&ball(), &glass, &straight, 24).expect("a grid");
     let glassy = on_grid(&glass, &straight, &options).depth.reference_depth;
-    // Both loads by the midpoints of so many strips.
+    // Both loads by the midpoint rule on strips.
     let strips = 400;
     let place = |index: i32| (f64::from(index) + 0.5) * 2.0 / f64::from(strips) - 1.0;
     let (mut mean, mut weights) = (0.0, 0.0);

@@ -12,9 +12,9 @@ use crate::transform::plane_transform::{COLUMNS_PER_TILE, PlaneTransform, ROWS_P
 pub(crate) struct Workspace<T = f64> {
     /// Rows and columns of the fields.
     pub(crate) shape: [usize; 2],
-    /// Transformed rows, [strip][tile][row of the strip].
+    /// Transformed rows, `[strip][tile][row of the strip]`.
     pub(super) strips: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
-    /// Columns after the product in Fourier space, [tile][row].
+    /// Columns after the product in Fourier space, `[tile][row]`.
     pub(super) tiles: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
     pub(super) buffers: PerThread<Buffers<T>>,
 }

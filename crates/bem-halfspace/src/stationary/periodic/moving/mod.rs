@@ -17,7 +17,7 @@ use numerics::{Accuracy, ErrorParts, Goal, MAX_STORED_STATES, Request, refine};
 use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
-use crate::motions::move_along::{
+use crate::motions::along_surface::{
     LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, cycle_tolerance, moved_if_reached,
     slowest_retardation_time,
 };
