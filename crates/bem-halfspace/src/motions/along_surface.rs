@@ -146,11 +146,13 @@ pub fn move_along_memory(
     let n_steps = load.n_steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?;
     // History variables: retardation elements, free flow, and the last load.
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0) + 1;
+    // Elements of the footprint, and of the rows that it passes.
     let [rear, front] = load.range();
     let across = (options.footprint.y[1] - options.footprint.y[0]) / dy;
     let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
     let passed = (front - rear) / dx * across;
     let n_elements = followed * (options.footprint.n_elements(options.spacing) + passed);
+    // The fixed-point iteration stores several states of the history variables.
     let copies = if load.is_cycle() {
         MAX_STORED_STATES
     } else {
@@ -291,10 +293,12 @@ impl MotionPass<'_> {
         first: Option<&MotionRow>,
     ) -> Result<MotionRecord, BemError> {
         let mut rows = Vec::with_capacity(self.steps.len());
+        // Solve all steps.
         while let Some(row) = march.step()? {
             rows.push((row, march.time_level()));
             (self.report)(march.fraction_done());
         }
+        // Sum the work from the state before the first step, which in a cycle is that of the last one.
         let mut record = MotionRecord {
             spacing: self.spacing,
             ..MotionRecord::default()

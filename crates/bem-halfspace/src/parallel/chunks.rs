@@ -58,6 +58,7 @@ fn split<'a, T, const N: usize>(
     first: usize,
     middle: usize,
 ) -> (Chunked<'a, T, N>, Chunked<'a, T, N>) {
+    // `map` cannot return two arrays, so the second one is filled on the way.
     let mut behind = [(); N].map(|()| (<&mut [T]>::default(), Starts::Every(0)));
     let mut slots = behind.iter_mut();
     let before = fields.map(|(field, starts)| {

@@ -16,6 +16,7 @@ pub(crate) fn reduce<const N: usize, T: Copy>(
 ) -> T {
     let length = lists.first().map_or(0, |list| list.len());
     let parts = lists.map(|list| list[..length].as_chunks::<ACCUMULATORS>());
+    // Index i goes to accumulator i mod 8; the remainder of the vectors is added at the end.
     let mut accumulators = [start; ACCUMULATORS];
     for chunk in 0..length / ACCUMULATORS {
         let chunks = parts.map(|(whole, _)| &whole[chunk]);

@@ -38,6 +38,7 @@ impl<'a> March<'a> {
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
+        // Durations are differences of the times.
         let mut before = 0.0;
         let timed = motions.iter().map(|&motion| {
             let time_step = motion.time - before;
@@ -88,6 +89,7 @@ impl<'a> March<'a> {
             .ok_or(BemError::SlidingDistanceMissing {
                 why: DISTANCE_NEEDED,
             })?;
+        // Equal steps, and a last one that ends at the distance.
         let (n_steps, last) = divide_into_steps(distance, length)?;
         let motions = (1..=n_steps).map(|step| {
             let [position, length] = if step == n_steps {
@@ -190,6 +192,7 @@ fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemErro
             limit: MAX_STEPS,
         });
     }
+    // The last step takes up the remainder of half an element to one and a half.
     let before = (steps - 0.5).ceil().max(1.0) - 1.0;
     let rest = steps - before;
     // A whole step must not become another one by rounding, or results would depend on the unit of length.

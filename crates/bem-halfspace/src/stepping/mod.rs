@@ -190,6 +190,7 @@ impl<'a> March<'a> {
     /// # Errors
     /// None after a step that succeeded.
     pub fn pressure(&self) -> Result<PressureField, BemError> {
+        // From scaled loads α P/(4π), in units of the height scale over Δx, to pressure.
         let unit = 4.0 * PI * self.height_scale / self.options.spacing[0] / self.compliance();
         let bounds = self.contact_bounds();
         let spacing = self.options.spacing;
@@ -197,6 +198,7 @@ impl<'a> March<'a> {
             self.x_in_elements(bounds.lower[0], self.sampled_offset) * spacing[0],
             self.y_of_column(bounds.lower[1]),
         ];
+        // Elements behind the mirrors have the pressure of their images.
         let images = |(element, load)| {
             let images = self.layout.images_of(element);
             images.map(move |image| (image, load * unit))

@@ -47,6 +47,7 @@ impl Schedule {
         let (mut cell_before, mut offset_before) = (0.0, 0.0);
         for (end, time_step) in motions {
             let time_step = positive("time step", time_step)?;
+            // Position on the grid, as an element and the offset from its centre.
             let [cell, offset] = place(end.position, spacing)?;
             check_control(end.control)?;
             steps.push(ScheduledStep {

@@ -43,6 +43,7 @@ impl MeanSlopes {
             time_level,
             ..Self::default()
         };
+        // Sums over the loaded elements, weighted with their loads.
         let mut normal = 0.0;
         // Images fore and aft have the opposite slope.
         let has_image = !march.layout.mirrors[0].is_none();
@@ -78,6 +79,7 @@ fn slopes_at(
     let here = march.x_in_elements(row, march.sampled_offset);
     let y = march.y_of_column(column);
     let height = |x: f64| march.surface.height([x * spacing, y]);
+    // The chord at the time level, and the gradient at the end of the step.
     let met = chord.rise(here, height) / spacing;
     let x = here * spacing;
     if !met.is_finite() {
@@ -101,6 +103,7 @@ fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> 
 fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let (creep, advance, time_step) = (&march.creep, step.advance, step.time_step);
     let mut elastic = creep.instantaneous_compliance();
+    // ω = 2πv/L with the length L of the present contact, and E as the sum over retardation elements.
     let n_rows = march.contact_bounds().shape()[0];
     let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);
     for element in creep.elements() {

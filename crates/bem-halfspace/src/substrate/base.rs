@@ -291,7 +291,7 @@ impl Base {
         } = &*layered.shared;
         let table = correction.get_or_init(|| Correction::new(&**substrate, *poisson_ratio));
         let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
-        let smooth = integrate_smooth(SINGULARITY_DISTANCE, (offset, edges), &|x, y| {
+        let smooth = integrate_smooth(SINGULARITY_DISTANCE, offset, edges, &|x, y| {
             table.value((x * x + y * y).sqrt())
         });
         influence(centre, seen) + unit * smooth

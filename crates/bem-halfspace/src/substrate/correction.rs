@@ -67,6 +67,7 @@ pub(super) struct Correction {
 impl Correction {
     /// Tabulates c for a substrate and a Poisson ratio.
     pub(super) fn new(substrate: &dyn Substrate, poisson_ratio: f64) -> Self {
+        // Quadrature of the integral over s.
         let waves: Vec<[f64; 2]> = wave_rule(NEAR_WAVE_PANELS, MAX_WAVE_NUMBER)
             .map(|[s, weight]| [s, weight * substrate.compliance_excess(s, poisson_ratio)])
             .collect();
@@ -168,6 +169,7 @@ impl<const N: usize> Panel<N> {
     fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
         let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
         let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
+        // Values at the Chebyshev points, and their Chebyshev coefficients.
         let values: [f64; N] = std::array::from_fn(value);
         let coefficient = |order: usize| {
             let terms = values
@@ -176,6 +178,7 @@ impl<const N: usize> Panel<N> {
                 .map(|(index, value)| value * (order as f64 * angle(index)).cos());
             terms.sum::<f64>() / N as f64
         };
+        // Clenshaw's recurrence b_k = c_k + 2 x b_(k+1) − b_(k+2) on polynomials instead of numbers.
         let [mut last, mut coefficients] = [[0.0; N]; 2];
         for order in (0..N).rev() {
             let twice = if order == 0 { 1.0 } else { 2.0 };

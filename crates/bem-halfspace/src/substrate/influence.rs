@@ -21,6 +21,7 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     // Lengths in units of the longer edge neither overflow nor underflow when they are squared.
     let unit = edges[0].max(edges[1]);
     let [offset, edges] = [offset, edges].map(|lengths| lengths.map(|length| length.abs() / unit));
+    // Far away the multipole expansion, near the rectangle closed form or Gauss rule.
     let [x, y] = offset;
     if x * x + y * y >= MULTIPOLE_DISTANCE * MULTIPOLE_DISTANCE {
         return unit * multipoles(offset, edges);

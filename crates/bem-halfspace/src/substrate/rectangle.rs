@@ -100,11 +100,11 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         rule(&SINGULAR_KERNEL_RULES, clearance[0], a),
         rule(&SINGULAR_KERNEL_RULES, clearance[1], b),
     ) {
-        (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
-            gauss((along_y, y, b), |y| K::value(x, y))
-        }),
-        (Some(along_x), None) => gauss((along_x, x, a), |x| K::strip_along_y(x, y, b)),
-        (None, Some(along_y)) => gauss((along_y, y, b), |y| K::strip_along_x(x, a, y)),
+        (Some(along_x), Some(along_y)) => {
+            gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| K::value(x, y)))
+        }
+        (Some(along_x), None) => gauss(along_x, x, a, |x| K::strip_along_y(x, y, b)),
+        (None, Some(along_y)) => gauss(along_y, y, b, |y| K::strip_along_x(x, a, y)),
         // Near in both directions: the closed form.
         (None, None) => {
             let [left, right, lower, upper] = [x - 0.5 * a, x + 0.5 * a, y - 0.5 * b, y + 0.5 * b];
@@ -118,19 +118,22 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
 /// singular at r = ±i `singular`. Rectangles that are too large for all rules are halved.
 pub(crate) fn integrate_smooth(
     singular: f64,
-    ([x, y], [a, b]): ([f64; 2], [f64; 2]),
+    [x, y]: [f64; 2],
+    [a, b]: [f64; 2],
     function: &impl Fn(f64, f64) -> f64,
 ) -> f64 {
+    // Distance from the rectangle to the singularities.
     let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
     let clearance = (beside * beside + above * above + singular * singular).sqrt();
-    let part = |centre, edges| integrate_smooth(singular, (centre, edges), function);
+    let part = |centre, edges| integrate_smooth(singular, centre, edges, function);
     match (
         rule(&SMOOTH_KERNEL_RULES, clearance, a),
         rule(&SMOOTH_KERNEL_RULES, clearance, b),
     ) {
-        (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
-            gauss((along_y, y, b), |y| function(x, y))
-        }),
+        (Some(along_x), Some(along_y)) => {
+            gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| function(x, y)))
+        }
+        // Too long for all rules: halve along x, and then along y.
         (None, _) => {
             let halves = [x - 0.25 * a, x + 0.25 * a];
             halves.into_iter().map(|x| part([x, y], [0.5 * a, b])).sum()
@@ -149,7 +152,7 @@ fn rule(rules: &[(f64, Rule)], clearance: f64, edge: f64) -> Option<Rule> {
 }
 
 /// Integral of a function by a Gauss rule over the interval of the length `edge` around `centre`.
-fn gauss(((middle, nodes), centre, edge): (Rule, f64, f64), function: impl Fn(f64) -> f64) -> f64 {
+fn gauss((middle, nodes): Rule, centre: f64, edge: f64, function: impl Fn(f64) -> f64) -> f64 {
     let half = 0.5 * edge;
     let pair = |&(node, weight): &(f64, f64)| {
         weight * (function(centre - half * node) + function(centre + half * node))

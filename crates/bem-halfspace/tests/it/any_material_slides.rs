@@ -35,7 +35,7 @@ fn a_material_has_the_fields_that_it_needs() {
 }
 
 #[test]
-fn an_elastic_half_space_has_no_friction_and_is_at_rest_at_once() {
+fn an_elastic_half_space_has_no_friction_and_is_at_rest_immediately() {
     let load = after(under_force(0.5, 0.7), 0.4);
     let options = tight(squares(0.05, 1.2));
     let rows = slid(&cone(0.5), &elastic(1.5), &load, &options).rows;

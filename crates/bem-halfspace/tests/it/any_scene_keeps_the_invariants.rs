@@ -58,7 +58,7 @@ fn rough() -> impl Strategy<Value = Rough> {
 }
 
 /// Relative error of depth and pressure by a residual of 1e-13 on these small grids.
-const SAME: f64 = 1e-11;
+const RELATIVE_ERROR: f64 = 1e-11;
 
 impl Rough {
     fn body(&self, [length, stress]: Units) -> Pressing {
@@ -187,7 +187,7 @@ proptest! {
         let again = body.solve_from(&mut state, Control::NormalForce(scene.force));
         let scale = largest(&scene.heights).max(depths[0].abs());
         let depth = again.expect("a contact").indentation_depth;
-        assert_near("from above", depth, depths[0], SAME * scale);
+        assert_near("from above", depth, depths[0], RELATIVE_ERROR * scale);
     }
 
     #[test]
@@ -203,12 +203,12 @@ proptest! {
         let (from_behind, mirrored) = behind.solve(Control::NormalForce(scene.force));
         let scale = largest(&scene.heights).max(contact.indentation_depth.abs());
         for depth in [other.indentation_depth / length, from_behind.indentation_depth] {
-            assert_near("depth", depth, contact.indentation_depth, SAME * scale);
+            assert_near("depth", depth, contact.indentation_depth, RELATIVE_ERROR * scale);
         }
         let in_units: Vec<f64> = scaled.pressure().iter().map(|p| p / stress).collect();
         for same in [in_units, scene.mirrored(mirrored.pressure(), along_y)] {
             let error = difference(&same, state.pressure());
-            prop_assert!(error <= SAME, "pressures differ by {error:e}");
+            prop_assert!(error <= RELATIVE_ERROR, "pressures differ by {error:e}");
         }
     }
 }

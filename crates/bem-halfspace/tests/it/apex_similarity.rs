@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::support::{assert_near, power};
 
 /// Angular elements between −π/2 and π/2.
-const N: usize = 200;
+const ANGULAR_ELEMENTS: usize = 200;
 
 /// Complete elliptic integral K of the complementary parameter, by the arithmetic-geometric mean.
 fn elliptic_k(complementary_parameter: f64) -> f64 {
@@ -37,9 +37,9 @@ fn influence(steps: usize, width: f64) -> f64 {
 
 /// θ and f(θ) ≥ 0 with ∫ k f dθ' = 2π cos θ where f > 0, on the elements of the wedge that is left.
 fn wedge() -> Vec<(f64, f64)> {
-    let width = PI / N as f64;
+    let width = PI / ANGULAR_ELEMENTS as f64;
     let angle = |element: usize| (element as f64 + 0.5) * width - FRAC_PI_2;
-    let mut contact: Vec<usize> = (0..N).collect();
+    let mut contact: Vec<usize> = (0..ANGULAR_ELEMENTS).collect();
     loop {
         let n = contact.len();
         let steps = |row: usize, column: usize| contact[row].abs_diff(contact[column]);
@@ -58,7 +58,7 @@ fn wedge() -> Vec<(f64, f64)> {
 
 #[test]
 fn the_scaling_factor_of_sharp_cusps_follows_from_the_apex() {
-    let (wedge, width) = (wedge(), PI / N as f64);
+    let (wedge, width) = (wedge(), PI / ANGULAR_ELEMENTS as f64);
     let integral: f64 = wedge.iter().map(|(angle, f)| f * angle.cos()).sum();
     // h̃ = κ c |x|^p, Eq. (9).
     let stretch = power(1.0, 0.5).stretch();

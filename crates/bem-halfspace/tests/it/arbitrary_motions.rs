@@ -63,7 +63,7 @@ fn by_parts(part: f64) -> [f64; 2] {
 
 /// Steps of half, a third or a quarter of an element, and of two: the same friction to first order in their length.
 #[test]
-fn friction_does_not_depend_on_the_parts_of_an_element_that_a_step_is() {
+fn friction_does_not_depend_on_the_length_of_a_step_in_elements() {
     let reference = by_parts(0.25);
     for part in [0.5, 1.0 / 3.0, 1.0, 2.0] {
         // The error is a fraction of a step over the contact, 1/20 for steps of one element.

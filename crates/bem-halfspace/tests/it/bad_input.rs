@@ -18,7 +18,7 @@ use crate::support::{
     squares, three_elements, under_force, viscous,
 };
 
-const BAD: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];
+const NOT_POSITIVE_AND_FINITE: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];
 
 const FORCE: Control = Control::NormalForce(1.0);
 const MAY_TOUCH: &str = "number of elements of the footprint that may touch";
@@ -74,7 +74,7 @@ fn options_out_of_range_are_refused() {
         ("footprint along y", |_, area, bad| area.y[0] = -bad),
     ];
     let body = paraboloid(0.3);
-    for bad in BAD {
+    for bad in NOT_POSITIVE_AND_FINITE {
         for (name, change) in of_elements {
             let moved = slid(1.0, |to| change(&mut to.spacing, &mut to.footprint, bad));
             assert_bad(bad, moved, name);
@@ -195,7 +195,7 @@ fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
 }
 
 #[test]
-fn what_never_comes_to_rest_is_refused() {
+fn scenes_without_a_state_at_rest_are_refused() {
     let (grid, held) = (Accuracy::Elements(16), Control::IndentationDepth(0.01));
     let pressed = press(&paraboloid(0.5), &viscous(1.0), held, grid);
     assert_refused("a dashpot", pressed, "NoEquilibrium");
@@ -253,7 +253,7 @@ fn contacts_out_of_range_are_refused() {
         let broken = solve(&[0.0, bad, 0.0, 0.0, 0.0, 0.0], 1.0, FORCE);
         assert_refused(bad, broken, "InvalidHeight");
     }
-    for bad in BAD {
+    for bad in NOT_POSITIVE_AND_FINITE {
         assert_bad(bad, solve(&[0.0; 6], bad, FORCE), "compliance");
         let grid = Grid::new([4, 4], [1.0, bad]);
         assert_bad(bad, grid, "spacing along y");

@@ -25,7 +25,7 @@ use crate::support::assert_bars_agree;
 const FORCE: f64 = 2.0;
 const ELEMENTS: usize = 10;
 /// Duration of the motion over the largest retardation time: e^−7, a thousandth, of the first touch remains.
-const MEMORIES: f64 = 7.0;
+const DURATION_OVER_RETARDATION_TIME: f64 = 7.0;
 
 fn ball() -> Sphere {
     Sphere::new(5e-3).expect("a sphere")
@@ -121,7 +121,7 @@ fn cycles(
     let times = creep.elements().iter();
     let times = times.map(|element| element.retardation_time);
     let slowest = times.fold(0.0, f64::max);
-    let count = whole_part(MEMORIES * slowest / load.duration()) + 2;
+    let count = whole_part(DURATION_OVER_RETARDATION_TIME * slowest / load.duration()) + 2;
     let all = (0..count).flat_map(|cycle| {
         let before = cycle as f64 * load.duration();
         let steps = steps.iter();
@@ -171,7 +171,7 @@ fn heat_of_cycle(layer: &impl Elastomer, load: &MovingLoad, grids: Grids) -> f64
 /// That the front of the contact moves by elements costs both energies something of the first order in their length. The bar of
 /// the work is that of the motion; that of the dashpots what half the elements change.
 #[test]
-fn the_work_of_a_cycle_is_what_the_dashpots_take() {
+fn the_work_of_a_cycle_is_dissipated_by_the_dashpots() {
     let solid = rubber();
     for (length, frequency, shape, thickness) in [
         (4e-3, 10.0, Shape::Sinusoidal, f64::INFINITY),

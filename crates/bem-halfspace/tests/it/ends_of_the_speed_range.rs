@@ -6,7 +6,7 @@ use numerics::Estimate;
 
 use crate::support::{Scene, assert_bars_agree, power, three_elements, under_force};
 
-/// A body whose contact has the radius 1 on the relaxed three-element solid, and the speed at which the memory length is `radii`
+/// A body whose contact has the radius 1 on the relaxed three-element solid, and the speed at which the memory length is `memory`
 /// radii.
 fn scene(
     exponent: f64,
@@ -87,7 +87,7 @@ fn the_ends_of_the_speed_range_are_reached_to_the_error_asked_for() {
 
 /// Elements longer than the memory length do not resolve the asymmetry between front and rear.
 #[test]
-fn what_elements_are_too_long_for_is_in_the_bar() {
+fn the_bar_covers_memory_lengths_below_an_element() {
     for exponent in [1.0, 2.0, 3.0] {
         for memory in [1e-3, 3e-3, 1e-2] {
             let (scene, contact) = scene(exponent, 0.1, memory);

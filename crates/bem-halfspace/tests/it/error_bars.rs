@@ -290,7 +290,7 @@ fn force_and_depth_control_agree_on_one_grid() {
     }
 }
 
-/// The estimate that was reached when the unknowns do not suffice.
+/// The estimate that is reached if `max_unknowns` do not suffice for the error asked for.
 fn reached(scene: &Scene<impl Material>, relative_error: f64, max_unknowns: usize) -> Estimate {
     let mut options = RefinementOptions {
         relative_error,

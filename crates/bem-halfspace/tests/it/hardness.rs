@@ -5,7 +5,7 @@ use bem_halfspace::{Contact, ContactProblem, ContactState, Control, Convolution,
 
 use crate::support::{Pressing, assert_close, assert_near, assert_refused, paraboloid};
 
-/// A rough periodic or free surface whose largest pressure is limited to a fraction of the unlimited one.
+/// A rough periodic or free surface on `n` × `n` elements of the unit square.
 fn rough(is_periodic: bool, n: usize) -> Pressing {
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a valid grid");
     let convolution = if is_periodic {
@@ -185,7 +185,7 @@ fn two_elements_share_what_one_does_not_bear() {
 
 /// A wave has one crest per period, which on a periodic grid hangs together across the boundary.
 #[test]
-fn patches_hang_together_across_a_period() {
+fn patches_connect_across_a_period() {
     let n = 32;
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a valid grid");
     let height = |[row, column]: [f64; 2]| {

@@ -144,7 +144,7 @@ fn compare(
 }
 
 #[test]
-fn one_half_tells_all_of_a_motion_and_one_quarter_all_of_an_indenter_that_stays() {
+fn a_moving_indenter_needs_one_half_and_a_resting_one_a_quarter() {
     let (moving, staying) = (motions(PATH), motions(PATH.map(|(t, _, c)| (t, 0.0, c))));
     for (_, material) in every_kind_of_material() {
         compare(&cone(0.4), &*material, (&moving, SQUARE), 2);

@@ -43,7 +43,8 @@ fn iterations_hardly_depend_on_the_grid() {
     assert!(contact.residual <= 1e-13, "{contact:?}");
 }
 
-/// Wrong guesses: one that lies elsewhere, one with negative or infinite numbers outside the contact, and one where there is no body.
+/// Wrong guesses: one that lies elsewhere, one with numbers outside the contact that are negative, infinite or NaN, and one where
+/// there is no body.
 #[test]
 fn the_guess_does_not_matter() {
     let mut body = hertz(96);

@@ -203,7 +203,7 @@ fn areas_of_two_decades_of_waves_are_those_of_zhou() {
 
 /// Without their excess at edges the areas hardly depend on the elements, on as few as four per shortest wave.
 #[test]
-fn areas_without_their_excess_hardly_depend_on_the_elements() {
+fn corrected_areas_hardly_depend_on_the_elements() {
     let [few, many] = [400, 800].map(|edge| areas_of_two_decades(edge, 0.04, 1));
     assert!(few[0] > 1.025 * many[0], "{few:?} {many:?}");
     assert_close("area", few[1], many[1], 0.004);
@@ -280,7 +280,7 @@ fn bars_hold_areas_of_grooves_in_any_direction() {
 /// along an edge.
 #[cfg(feature = "rough")]
 #[test]
-fn bars_hold_what_the_outline_leaves_unknown_of_an_area() {
+fn bars_hold_the_staircase_error_of_an_area() {
     use bem_halfspace::numerics::Accuracy;
     use bem_halfspace::periodic::steady;
 

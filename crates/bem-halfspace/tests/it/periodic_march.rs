@@ -138,7 +138,7 @@ fn a_march_ends_at_its_distance() {
 }
 
 #[test]
-fn what_does_not_march_is_refused() {
+fn unsupported_marches_are_refused() {
     let wave = [[1.0, 0.0, 0.1, 0.0]];
     let march = |scene| slide(&wave, 16, &elastic(1.0), scene);
     for (scene, name) in [

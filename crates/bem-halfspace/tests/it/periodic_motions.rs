@@ -240,7 +240,7 @@ fn paths_are_followed_on_fluids_and_lifted() {
 }
 
 #[test]
-fn what_no_motion_of_waves_serves_is_refused() {
+fn unsupported_motions_of_waves_are_refused() {
     let stroke = |length| Stroke {
         length,
         frequency: 1.0,

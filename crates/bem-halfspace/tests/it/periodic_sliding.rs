@@ -398,7 +398,7 @@ fn the_bars_of_the_casebook_hold() {
 /// A compressible layer is pressed as deep by its mean pressure as it says, and carries as much there; deeper than touch.
 #[cfg(feature = "rough")]
 #[test]
-fn a_layer_carries_at_a_depth_what_makes_it() {
+fn depth_and_pressure_agree_on_a_layer() {
     use bem_halfspace::Layer;
     use bem_halfspace::periodic::steady;
     use indenters::rough::{PeriodicSurface, Wave};

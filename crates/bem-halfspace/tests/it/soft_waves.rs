@@ -46,7 +46,7 @@ fn assert_found(
 /// Waves along the motion are so soft that removing tension from a contact displaces all others by more than they penetrate. Whether a
 /// search fails by this depends on all digits.
 #[test]
-fn what_is_taken_from_a_contact_brings_no_others_in() {
+fn removed_tension_activates_no_other_elements() {
     assert_found(
         ((0.5, 11.0, 0.477_496_675_541_850_16, 93), 256),
         (
@@ -60,7 +60,7 @@ fn what_is_taken_from_a_contact_brings_no_others_in() {
 
 /// The equations of a contact with few gaps need a Krylov basis of a hundred directions and more without truncation.
 #[test]
-fn a_dense_contact_is_found_with_all_directions() {
+fn a_dense_contact_needs_an_untruncated_basis() {
     assert_found(
         ((1.0, 7.0, 0.684, 187), 256),
         (&standard_solid(87_593.0), 22_092.0, 0.316_23),
@@ -84,7 +84,7 @@ fn a_contact_with_few_gaps_is_found() {
 
 /// A light contact of many patches, which the exchange rule must find together and not one after the other.
 #[test]
-fn one_element_of_each_patch_changes_where_many_are_in_vain() {
+fn isolated_exchanges_follow_non_improving_ones() {
     let dashpot = prony([1.0, 0.05], &[]);
     assert_found(
         ((0.5, 8.0, 0.458, 11), 256),

@@ -82,7 +82,7 @@ fn by_elasticity(s: f64, nu: f64, coated: &Coated) -> f64 {
 }
 
 #[test]
-fn the_coating_gives_way_as_elasticity_has_it() {
+fn a_coating_has_the_compliance_of_elasticity() {
     for (contrast, below, nu) in [(0.1, 0.3, 0.45), (1.0, 0.2, 0.4), (7.0, 0.45, 0.1)] {
         let coated = Coated {
             thickness: 1.0,
@@ -104,7 +104,7 @@ fn the_coating_gives_way_as_elasticity_has_it() {
 /// Under the pressure e^(−r²), whose transform is π e^(−q²/4), the potential in the middle is π ∫ e^(−q²/4) M(qt) dq, to
 /// second order in the elements.
 #[test]
-fn a_coating_moves_under_a_smooth_pressure_as_quadrature_has_it() {
+fn a_coating_has_the_displacement_of_quadrature_under_a_smooth_pressure() {
     let material = Compressible::new(&Elastic::new(1.0).expect("a modulus"), 0.4).expect("ν");
     for (thickness, contrast) in [(0.4, 0.2), (0.7, 0.01), (0.7, 30.0), (4.0, 5.0)] {
         let coated = Coated {
@@ -196,7 +196,7 @@ fn friction_on_a_coating_is_that_on_a_layer_where_its_base_is_stiff() -> Result<
     Ok(())
 }
 
-/// A compliance ratio M that [`Substrate`] does not allow, and the reason.
+/// A substrate with the given thickness and compliance ratio M, at least one of which is not allowed.
 #[derive(Debug)]
 struct Wrong(f64, fn(f64) -> f64);
 

@@ -50,7 +50,7 @@ fn on_grid(
 /// behind it. What a retardation element of the memory l has of it decays until it is under the load: the change is in
 /// proportion to e^(−L/2l) (l V' + l³ V''' + …) half a track ahead, where V is that of a point load.
 #[test]
-fn a_long_track_is_a_straight_one_but_for_what_half_of_it_has_forgotten() {
+fn a_long_track_differs_from_a_straight_one_by_the_memory_of_half_of_it() {
     let (solid, straight) = (rubber(4.0), under_force(FORCE, 0.5));
     let memory = 0.5 * solid.creep().elements()[0].retardation_time;
     let options = steady_grid(&ball(), &solid, &straight, 12).expect("a grid");
@@ -176,7 +176,7 @@ fn cylinders_meet_their_tracks_too() {
 }
 
 #[test]
-fn nothing_is_left_on_the_track_of_a_spring() {
+fn a_track_on_a_spring_has_no_memory() {
     let glass = Elastic::new(1e6).expect("a modulus");
     let straight = under_force(FORCE, 1.0);
     let options = steady_grid(&ball(), &glass, &straight, 16).expect("a grid");

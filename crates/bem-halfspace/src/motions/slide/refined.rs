@@ -150,6 +150,7 @@ impl PlannedDistance {
                 step: length,
             };
         };
+        // Divide the distance evenly into parts of about a contact length; elements follow unless the distance is short.
         let step = distance / (distance / length).round().max(1.0);
         let length = if step < MIN_DISTANCE_FOR_WHOLE_ELEMENTS * length {
             length
@@ -391,6 +392,7 @@ fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
 /// contact, and the friction by the same fraction of the mean modulus of the slope.
 fn iteration_error(surface: &dyn Surface, field: &PressureField) -> f64 {
     let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
+    // Pressure-weighted mean of |∂h/∂x|, by chords over elements.
     let [mut load, mut rise] = [0.0; 2];
     for (index, pressure) in field.pressure.iter().enumerate() {
         let x = field.origin[0] + (index / columns) as f64 * dx;

@@ -172,10 +172,12 @@ pub(super) fn slide_until_stationary(
     while let Some(row) = march.step()? {
         rows.extend(SlideRow::in_contact(&row));
         report(march.fraction_done());
+        // Changes below the error of the solver count as zero.
         let noise = PRESSURE_ERROR_OVER_TOLERANCE * march.tolerance() * march.mean_slope_modulus();
         limits.push(&rows, flows);
         change = limits.largest_change(stationary.over_distance, noise);
         if change <= stationary.tolerance {
+            // Stationary: the remaining change follows from that over the second half of the distance.
             let friction_coefficient = limits.last();
             let transient = Transient::from_march(&march, load, rows)?;
             return Ok(StationarySlide {
@@ -211,6 +213,7 @@ impl ExtrapolatedFriction {
         let Some(last) = rows.last() else {
             return;
         };
+        // The extrapolation in 1/S needs four steps.
         let limit = match rows.len() {
             4.. if flows => extrapolate_to_zero(&halving_points(rows)),
             _ => last.friction_coefficient,

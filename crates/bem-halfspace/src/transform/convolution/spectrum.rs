@@ -80,6 +80,7 @@ impl Convolution {
     ///
     /// The kernel is even and its transform real, so that two columns are transformed as real and imaginary part of one.
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
+        // Transform the kernel along y, then two columns at a time along x.
         let rows = self.transformed_kernel_rows();
         let length = self.transform.padded[0] / 2 + 1;
         let mut spectrum = copies(0.0, self.transform.n_columns() * length);

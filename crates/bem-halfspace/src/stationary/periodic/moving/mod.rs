@@ -595,7 +595,7 @@ mod tests {
 
     /// The bar of the work is that of the motion, that of the dashpots what half the elements change.
     #[test]
-    fn the_work_of_a_cycle_is_what_the_dashpots_take() {
+    fn the_work_of_a_cycle_is_dissipated_by_the_dashpots() {
         for (length, frequency, shape) in [
             (0.3, 2.0, Shape::Sinusoidal),
             (0.02, 5.0, Shape::Sinusoidal),
