@@ -9,8 +9,8 @@
 //! M v = ⟨k (v − d)⟩ over the cycle in contact,   Σ k (v − d) = 0 under a force,   d = 0 at a depth
 //! ```
 //! k is the mean modulus over the time for which an element is in contact without interruption, and M v the change of the
-//! mean load by the change v of the mean free displacement. M is symmetric and positive semidefinite: an element that has recovered
-//! less carries less load.
+//! mean load by the change v of the mean free displacement. M is symmetric and positive semidefinite: an element that has
+//! recovered less carries less load.
 
 use crate::steady::{Foundation, Mode};
 

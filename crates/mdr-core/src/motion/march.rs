@@ -136,7 +136,7 @@ impl<'a> MotionProblem<'a> {
             1.0
         };
         let per_element = copies * (n_history * size_of::<f64>()) as f64 + MOTION_BYTES_PER_ELEMENT;
-        // Values on four resolutions, of which a list that grows by doubling.
+        // The values on four resolutions; a list grows by doubling.
         let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }

@@ -5,7 +5,7 @@
 //! w = 0,   u = u₀ + Σ β_k (1 − e^(−ξ/L_k)),   L_k = v λ_k                                   behind it
 //! ```
 //! Displacements are in units of the depth, moduli and w in a unit of the material. ξ is the distance by which the line has
-//! moved on. The stresses e_i decompose into the modes of free surface as into eigenvectors: both directions are sums over
+//! moved on. The stresses e_i decompose into the modes of free recovery as into eigenvectors: both directions are sums over
 //! 1/(L_k − l_i).
 //!
 //! Theory: docs/theory/line-viscoelastic.md, "One law".
@@ -45,7 +45,7 @@ pub(crate) struct Branch {
     ratios: Vec<f64>,
 }
 
-/// A mode of free surface.
+/// A mode of free recovery.
 #[derive(Debug)]
 pub(crate) struct Mode {
     /// J_k times the unit.
@@ -313,7 +313,7 @@ impl Foundation {
             .collect()
     }
 
-    /// The longest distance of surface, \[m]; 0 for an elastic foundation.
+    /// The longest distance of recovery, \[m]; 0 for an elastic foundation.
     pub(super) fn longest_recovery(&self) -> f64 {
         self.modes
             .iter()
