@@ -149,7 +149,7 @@ pub fn persson_of_waves(
     load: RoughLoad,
 ) -> Result<PerssonSliding, FrictionError> {
     positive("number of waves", waves.len() as f64)?;
-    let material = LoadedMaterial::new(material, load)?;
+    let loaded = LoadedMaterial::new(material, load)?;
     // Contributions of the waves, by increasing wave number.
     let mut contributions = Vec::with_capacity(waves.len());
     for wave in waves {
@@ -157,7 +157,7 @@ pub fn persson_of_waves(
         let wave_number = positive("length of a wave vector", along.hypot(across))?;
         let amplitude = numerics::finite("amplitude", wave.amplitude)?;
         let steepness = (0.5 * amplitude * wave_number) * (amplitude * wave_number);
-        let response = material.response(along.abs() / wave_number, wave_number);
+        let response = loaded.response(along.abs() / wave_number, wave_number);
         contributions.push((wave_number, response.map(|rate| steepness * rate)));
     }
     contributions.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -188,14 +188,14 @@ pub fn persson_of_spectrum(
     in_range("relative_error", relative_error, holds, allowed)?;
     // Check the spectrum and the load.
     spectrum.validate()?;
-    let material = LoadedMaterial::new(material, load)?;
+    let loaded = LoadedMaterial::new(material, load)?;
     let mut steps = MIN_STEPS;
-    let mut coarse = material.integrate(spectrum, steps, &mut 0.0);
+    let mut coarse = loaded.integrate(spectrum, steps, &mut 0.0);
     loop {
         // Integrate with half the step; the change is the error, with that of the integrals over the angle.
         steps *= 2;
         let mut angular_error = 0.0;
-        let fine = material.integrate(spectrum, steps, &mut angular_error);
+        let fine = loaded.integrate(spectrum, steps, &mut angular_error);
         // P⁵ changes at most with the power 5/2 of G.
         let error = |index: usize| {
             (fine[index] - coarse[index]).abs() + 4.0 * angular_error * fine[index].abs()

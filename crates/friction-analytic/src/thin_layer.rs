@@ -82,8 +82,8 @@ impl ThinLayer {
 
     /// Contact of a profile h = c r^p with an incompressible layer, a film, at an `indentation_depth` d > 0 \[m].
     ///
-    /// The layer is squeezed aside: `u = −t³/(3G) ∇²p` with p = ∂p/∂r = 0 at r = a (Johnson 1985, § 5.8). The surface rises at
-    /// the contact boundary, h(a) = (1 + p/2) d with the exponent p, and `F = 3π G d a⁴ p/(8 (p + 4) t³)`.
+    /// The layer is squeezed aside: `u = −t³/(3G) ∇²P` with the pressure P = ∂P/∂r = 0 at r = a (Johnson 1985, § 5.8). The
+    /// surface rises at the contact boundary, h(a) = (1 + p/2) d, and `F = 3π G d a⁴ p/(8 (p + 4) t³)`.
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for other numbers and a compressible layer; [`FrictionError::OutOfRange`].
@@ -114,7 +114,8 @@ impl ThinLayer {
 /// Line load on the one-dimensional model that is equivalent to the line load F' on a thin layer: `F' (1 − 2ν) t/(1 − ν)²`,
 /// \[N/m].
 ///
-/// Both are of the same `material`, and the layer is in plane strain. A profile h(x) has the same contact, depth and friction on both, because both are Winkler foundations.
+/// Both are of the same `material`, and the layer is in plane strain. A profile h(x) has the same contact, depth and friction
+/// on both, because both are Winkler foundations.
 ///
 /// # Errors
 /// [`InvalidParameter`] for numbers that are not positive and an incompressible material.
