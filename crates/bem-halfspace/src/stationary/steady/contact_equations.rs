@@ -153,6 +153,7 @@ impl<'mesh> ContactEquations<'mesh> {
         let (mesh, active) = (self.mesh, &self.active);
         let n = active.len();
         let control = mesh.loading.control;
+        // Gaps of the active set, then the control.
         let entry = |row, column| match (row < n, column < n) {
             (true, true) => mesh.influence(active[row], active[column]),
             (true, false) => -1.0,
@@ -238,10 +239,12 @@ impl<'a> Directions<'a> {
     /// depth.
     fn write(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
+        // Preconditioned loads, and the depth that restores the control.
         let mut loads = self.preconditioner.loads(gaps, self.region);
         let stiffness = control.depth + control.load * self.total(&self.unit_depth_response);
         let depth = -control.load * self.total(&loads) / stiffness;
         add_scaled(&mut loads, depth, &self.unit_depth_response);
+        // The gaps that these loads add.
         let displacements = self.operator.apply(0, &loads, self.region);
         for (gap, displacement) in image.iter_mut().zip(displacements) {
             *gap = displacement - depth;

@@ -34,6 +34,7 @@ impl ExponentialRule {
         let LobattoRule { nodes, weights } = lobatto_rule(n_points);
         let mut projection = vec![[0.0; MAX_POINTS]; n_points];
         for (index, (&x, weight)) in nodes.iter().zip(weights).enumerate() {
+            // Coefficients are (n + 1/2) ∫ f P_n, by the Gauss–Lobatto rule.
             let values: [f64; MAX_POINTS] = legendre_values(x);
             for (order, coefficients) in projection.iter_mut().enumerate() {
                 // The Gauss–Lobatto rule integrates the square of the highest Legendre polynomial wrongly; its discrete norm is used.

@@ -28,10 +28,12 @@ const ELIMINATION_WEIGHT: f64 = 0.25;
 /// factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second one reduces the error to less than
 /// half.
 pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
+    // Limits after one and after two eliminations.
     let once = eliminate_order(values, order);
     let twice = eliminate_order(&once, next_order(order));
     let value = values.last().copied().unwrap_or(f64::MAX);
     let unknown = Estimate::new(value, value.abs());
+    // Below order 1 one elimination is never enough.
     let first = estimate_limit(&once, values).filter(|_| order >= 1.0);
     match (first, estimate_limit(&twice, &once)) {
         (Some(first), Some(second)) if second.error >= ACCEPTED_ERROR_RATIO * first.error => first,
@@ -65,6 +67,7 @@ pub(super) fn change_at_observed_order(values: &[f64], order: f64, range: [f64; 
         if last == 0.0 {
             return 0.0;
         }
+        // Observed ratio of successive changes, 2^order.
         let ratio = (before / last).clamp(min_ratio, max_ratio);
         (last / (ratio - 1.0) - last / (order.exp2() - 1.0)).abs()
     };

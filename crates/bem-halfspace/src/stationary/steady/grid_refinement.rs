@@ -222,6 +222,7 @@ fn refinement_work(refinements: Range<i32>) -> f64 {
 impl Grids<'_> {
     /// Reports the work that remains until the error is smaller by the factor `excess`, if it falls with the order of the averages.
     fn predict_work(&mut self, index: i32, excess: f64, last: &Refinement) {
+        // Refinements until the error is small enough, at most those that the limit of unknowns allows.
         let max_ahead = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
         let needed = 2.0 * excess.log2() / self.order;
         let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(max_ahead)));
@@ -256,12 +257,14 @@ impl Grids<'_> {
         if !self.problem.loading.creep.only_flows() {
             let dissipated =
                 self.extrapolate_friction(refinements, |r| r.friction_from_dissipation);
+            // Under edges the slopes of the elements miss the dissipation at the edge.
             let has_edges = self.problem.loading.has_edges;
             if has_edges || dissipated.error < MAX_DISSIPATION_ERROR_RATIO * friction.error {
                 friction = dissipated;
             }
             friction = Estimate::new(friction.value, SAFETY_FACTOR_CREEPING * friction.error);
         }
+        // Friction within an element of the grid.
         let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
         friction.widened(unresolved * friction.value.abs())
     }
@@ -294,6 +297,7 @@ impl Grids<'_> {
     /// Friction from the slopes. On a dashpot its scatter is not added, because it falls as fast as the rest of the error.
     fn friction_from_slopes(&self, refinements: &[Refinement]) -> Estimate {
         let Loading { creep, strip, .. } = &self.problem.loading;
+        // Number of last refinements whose scatter is added.
         let scatter_window = match strip {
             _ if creep.only_flows() => 0,
             Some(_) => STRIP_SCATTER_WINDOW,
@@ -359,6 +363,7 @@ impl Grids<'_> {
     /// [`BemError::GridTooLarge`] if too few of the refinements that follow are within the limits for an error estimate.
     fn coarsest(&mut self, mut index: i32) -> Result<(i32, SolvedRefinement), BemError> {
         loop {
+            // All refinements that an error estimate needs must be within the limits.
             let elements = self.n_elements(index + MIN_REFINEMENTS - 1);
             if elements > self.max_elements() {
                 return Err(BemError::GridTooLarge {
@@ -453,6 +458,7 @@ impl Grids<'_> {
             peak_pressure: average(&|state| state.pressure.largest()),
             unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
         };
+        // Keep the last state, with the spacing that was solved.
         let state = states.swap_remove(states.len() - 1);
         options.spacing = state.pressure.grid.spacing();
         Ok(SolvedRefinement {

@@ -256,6 +256,7 @@ fn with_elements(
 ) -> Result<SteadyEstimate, BemError> {
     let (loading, plan) = (&problem.loading, &problem.plan);
     let length = COARSEST_PER_CONTACT * plan.coarsest_spacing;
+    // Solve on the grids that the error estimate asks for.
     let resolution = resolution(request, loading.control, PROFILE_ORDER, problem.has_peak);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
@@ -263,6 +264,7 @@ fn with_elements(
         Ok(state.on_grid(&loading.creep, 0.0, options, None))
     };
     let mut estimate = bars::resolve(&resolution, solve, Ok)?;
+    // Per unit length along y.
     let area = estimate.contact_area;
     // A width of whole elements has an error of at least one element.
     let error = (area.error / strip).max(estimate.options.spacing[0]);

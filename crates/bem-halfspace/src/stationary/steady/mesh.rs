@@ -161,6 +161,7 @@ impl Mesh {
                 let positions = [-0.5, self.loading.creep.collocation_shift, 0.5];
                 let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
                 let [rear, height, front] = heights;
+                // A body may end, with infinite height, but not be undefined.
                 let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
                 if let Some(value) = heights.into_iter().find(invalid) {
                     return Err(BemError::InvalidHeight { row, column, value });
@@ -271,6 +272,7 @@ impl Mesh {
 
     /// Some candidates and those that have an edge or a corner in common with one of them.
     pub(super) fn with_neighbours(&self, elements: &[usize]) -> Vec<usize> {
+        // Neighbours in three rows, without duplicates.
         let around = elements.iter().flat_map(|element| {
             let Element { row, column, .. } = self.elements[*element];
             let columns = column.saturating_sub(1)..=column + 1;

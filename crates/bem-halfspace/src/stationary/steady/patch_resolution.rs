@@ -22,6 +22,7 @@ type Loaded = ([usize; 2], f64);
 pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), BemError> {
     let total: f64 = loaded.iter().map(|(_, load)| load).sum();
     for patch in connected_patches(loaded, bounds) {
+        // Skip patches with a negligible load.
         let load: f64 = patch.iter().map(|(_, load)| load).sum();
         if load < NEGLIGIBLE_LOAD_FRACTION * total {
             continue;

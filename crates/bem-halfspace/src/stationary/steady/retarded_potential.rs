@@ -348,6 +348,7 @@ fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
 /// Panels of an interval along x: divided where the potential is singular, then halved until one of the rules is accurate on each.
 /// `clearance` is the distance from the loaded element along y.
 fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<PotentialPanel> {
+    // Divide at the edges of the loaded element.
     let mut ends = vec![start, -0.5, 0.5, end];
     ends.retain(|place| (start..=end).contains(place));
     ends.dedup();
@@ -372,6 +373,7 @@ fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<PotentialP
         });
         return;
     }
+    // Halve it otherwise.
     let middle = 0.5 * (start + end);
     subdivide([start, middle], clearance, panels);
     subdivide([middle, end], clearance, panels);

@@ -297,6 +297,7 @@ impl SlidingCreep {
             let ratio = memory_length / half_length;
             // The friction of an element is largest where its memory length equals the half length of the contact.
             let friction = element.compliance * ratio.min(ratio.recip());
+            // Memory length over two elements.
             let x = 0.5 * memory_length / spacing;
             let around_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
             // Rear and front of the contact, then kinks of the body.

@@ -177,6 +177,7 @@ impl SteadySliding {
 /// Refuses a vertical wall in contact. Mirror images are not checked: by rounding, an image may lie beyond the end of a surface, its element
 /// not.
 fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
+    // Elements next to a wall.
     let mut places = loads.iter().map(|(element, _)| mesh.places(*element)[0]);
     match places.find(|place| mesh.faces_wall(*place)) {
         Some([row, column]) => Err(BemError::VerticalWall {
@@ -204,6 +205,7 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, B
     if bounds != Bounds::EMPTY && !mesh.contains_inside(&bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }
+    // Along x, and across it unless a strip has one element only.
     let [rows, columns] = bounds.shape();
     let is_strip = mesh.loading.is_strip;
     check_contact_elements(if is_strip { rows } else { rows.min(columns) })?;

@@ -125,6 +125,7 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
             recovered.inv()
         }
     };
+    // The filter depends on the wave number along x only; the spectrum is stored by column.
     let inverses: Vec<Complex<f64>> = (0..length).map(inverse).collect();
     let pairs = inverses.iter().cycle().zip(factors);
     let products = pairs.map(|(inverse, factor)| inverse * factor.conj());

@@ -326,12 +326,14 @@ impl ContactDerivatives {
         let measures = self.has_measures.then(|| pop_measures(&mut changes));
         let known = self.dilation.as_ref().zip(measures);
         let contact_area = known.map(|(dilation, measures)| {
+            // Growth of the contact in units of ln λ.
             let growth = measures.boundary_weight / dilation.boundary_weight;
             for (change, defect) in changes.iter_mut().zip(&dilation.defects) {
                 *change -= growth * defect;
             }
             dilation.area_exponent * measures.area / dilation.area
         });
+        // The quantities in their order.
         let mut changes = changes.into_iter();
         let friction_coefficient = changes.next().unwrap_or(f64::NAN);
         let other = changes.next();
@@ -379,6 +381,7 @@ impl UnassembledState {
     ) -> Result<Self, BemError> {
         let (mesh, solution) = solve_on_mesh(surface, loading, &options, reuse)?;
         reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
+        // Slopes whose mean under the load is the friction.
         let contact = LoadedContact::new(&mesh, &solution, &mut reuse.plans)?;
         let points = CollocationPoints::new(&contact, loading);
         let slope_terms = points.explicit_slope_terms(&|point| surface.height(point))?;
@@ -386,6 +389,7 @@ impl UnassembledState {
             FrictionSlope::Body => contact.slopes_of_body(slope_terms),
             _ => contact.slopes_of_surface(&slope_terms, &mut reuse.plans),
         };
+        // Adjoint loads of all quantities.
         let (mean_slope, adjoint) = contact.adjoint(&slopes, &mut reuse.plans)?;
         let loads = contact.elements.iter().zip(&contact.loads);
         let load_fractions =

@@ -90,6 +90,7 @@ impl Correlation {
     /// Adds multiples of the second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
     pub(super) fn with_second_difference(mut self, [along_x, along_y]: [f64; 2]) -> Self {
         let columns = self.max_offsets[1] + 1;
+        // Offset 0, and its neighbours along x and y.
         let here = self.max_offsets[0] * columns;
         let weights = &mut self.weights;
         weights[here] += along_x + along_y;
@@ -121,6 +122,7 @@ impl Correlation {
             let Some([rows, columns]) = max_offsets else {
                 return;
             };
+            // Rows of zeros before and after, columns of zeros after.
             let before = rows - one.max_offsets[0];
             let mut weights = vec![0.0; (2 * rows + 1) * (columns + 1)];
             let wide = weights.chunks_exact_mut(columns + 1).skip(before);

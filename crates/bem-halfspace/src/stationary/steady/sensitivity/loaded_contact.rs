@@ -53,6 +53,7 @@ impl<'mesh> LoadedContact<'mesh> {
         let boundary = (!mesh.loading.has_edges)
             .then(|| BoundaryMeasures::new(mesh, plans, &elements, &loads, solution.depth))
             .transpose()?;
+        // The elements outside carry no load.
         elements.extend(boundary.iter().flat_map(|boundary| &boundary.outside));
         loads.resize(elements.len(), 0.0);
         let places = elements.iter().flat_map(|&element| mesh.places(element));
