@@ -295,8 +295,8 @@ impl<M: Material> Scene<M> {
         Footprint::sliding(&self.body, &self.material, &self.load).expect("a footprint")
     }
 
-    /// Elements twice as long as wide, about so many along the contact: a paraboloid is at √3 of its contact as high as
-    /// at the end of the footprint.
+    /// Elements twice as long as wide, about `elements` of them along the contact: a paraboloid is at √3 of its contact as high
+    /// as at the end of the footprint.
     pub(crate) fn steady_options(&self, elements: f64) -> SteadyOptions {
         let footprint = self.footprint();
         let spacing = footprint.x[1] / (3.0_f64.sqrt() * elements);

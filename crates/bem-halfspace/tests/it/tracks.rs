@@ -47,8 +47,8 @@ fn on_grid(
 }
 
 /// The potential V of the nearest image has a kink half a track ahead, where its slope turns from that ahead of a load to that
-/// behind it. What a retardation element of the memory l has of it decays until it is under the load: the change is in
-/// proportion to e^(−L/2l) (l V' + l³ V''' + …) half a track ahead, where V is that of a point load.
+/// behind it. The part of it in a retardation element of the memory length l decays until it is under the load: the change is
+/// proportional to e^(−L/2l) (l V' + l³ V''' + …) half a track ahead, where V is that of a point load.
 #[test]
 fn a_long_track_differs_from_a_straight_one_by_the_memory_of_half_of_it() {
     let (solid, straight) = (rubber(4.0), under_force(FORCE, 0.5));
@@ -83,7 +83,7 @@ fn a_long_track_differs_from_a_straight_one_by_the_memory_of_half_of_it() {
     }
 }
 
-/// With l ≫ L the element carries the mean load of the whole track: the contact is that of Hertz with the modulus at once, on a
+/// With l ≫ L the retardation element carries the mean load of the whole track: a Hertz contact with the instantaneous modulus, on a
 /// groove under the line load F/L, whose depth differs by J₁ F/(2π L) ln|y/y'| between two places across. To first order the
 /// depth of the body is the mean of the groove under the load of Hertz, `¾ (1 − y²)` across, with the load of a flat punch,
 /// which is even across. Friction is that of what still changes, in proportion to 1/l.
