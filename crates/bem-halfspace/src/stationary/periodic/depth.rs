@@ -1,4 +1,4 @@
-//! The mean pressure under which the mean plane of a surface has a given depth.
+//! Control of a stationary periodic contact: a prescribed mean pressure, or the mean pressure for a prescribed depth.
 
 use std::cell::RefCell;
 
@@ -9,23 +9,25 @@ use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions, PeriodicSliding};
 use crate::{BemError, Grid};
 
-/// Steps of the logarithm of the pressure until the depth lies between two of them, and the longest of them.
-const MOST_STEPS_OF_PRESSURE: usize = 200;
-const LONGEST_STEP: f64 = 4.0;
+/// Maximum number of steps of the pressure until two of them bracket the depth; chosen.
+const MAX_BRACKETING_STEPS: usize = 200;
+/// Largest step of the logarithm of the pressure; chosen.
+const MAX_LOG_PRESSURE_STEP: f64 = 4.0;
 
-/// Tolerance of a depth that is given, as a part of the root mean square of the heights, over that of the contact.
-const DEPTH_TOLERANCE: f64 = 3.0;
+/// Tolerance of a prescribed depth, relative to the root mean square of the heights, over the tolerance of the contact; chosen.
+const DEPTH_TOLERANCE_RATIO: f64 = 3.0;
 
-/// A surface on a grid whose mean pressure is not known yet.
-pub(super) struct Surface<'a> {
+/// A sliding surface on a grid, without its mean pressure.
+pub(super) struct SlidingSurface<'a> {
     pub(super) sliding: &'a Sliding,
     pub(super) grid: &'a Grid,
-    /// At the centres of the elements, \[m].
+    /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
     pub(super) options: PeriodicOptions,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> SlidingSurface<'a> {
+    /// The contact problem under a mean pressure \[Pa].
     const fn under(&self, mean_pressure: f64) -> PeriodicContact<'a> {
         PeriodicContact {
             sliding: self.sliding,
@@ -38,7 +40,7 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// A contact that was solved for a control.
+/// The contact for a prescribed pressure or depth.
 #[cfg_attr(
     not(feature = "rough"),
     expect(
@@ -50,14 +52,17 @@ pub(super) struct Held {
     /// \[Pa].
     pub(super) mean_pressure: f64,
     pub(super) state: PeriodicSliding,
-    /// Part of the roughness by which a given depth is missed.
-    pub(super) missed: f64,
+    /// Error of a prescribed depth, relative to the root mean square of the heights.
+    pub(super) depth_error: f64,
 }
 
-/// Holds a mean pressure, or finds that of a depth, near `start` \[Pa] if that is known.
+/// Solves for a prescribed mean pressure, or finds the mean pressure of a prescribed depth.
+///
+/// The search for the pressure begins at `start` \[Pa]; without it, at the pressure that displaces a half space by the roughness
+/// along one period.
 pub(super) fn hold(
     control: PeriodicControl,
-    surface: &Surface,
+    surface: &SlidingSurface,
     start: Option<f64>,
     solve: impl Fn(PeriodicContact) -> Result<PeriodicSliding, BemError>,
 ) -> Result<Held, BemError> {
@@ -66,21 +71,24 @@ pub(super) fn hold(
         PeriodicControl::MeanPressure(mean_pressure) => Ok(Held {
             mean_pressure,
             state: under(mean_pressure)?,
-            missed: 0.0,
+            depth_error: 0.0,
         }),
         PeriodicControl::MeanDepth(depth) => {
             let roughness = check_depth(depth, surface)?;
             let length = surface.grid.shape()[0] as f64 * surface.grid.spacing()[0];
-            let first = || surface.sliding.pressure_of(length, roughness);
-            let start = start.map_or_else(first, Ok)?;
-            let tolerance = DEPTH_TOLERANCE * surface.options.tolerance;
-            at_depth([depth, roughness, tolerance], start, under)
+            let estimated = || surface.sliding.pressure_of(length, roughness);
+            let target = DepthTarget {
+                depth,
+                roughness,
+                tolerance: DEPTH_TOLERANCE_RATIO * surface.options.tolerance,
+            };
+            find_pressure(&target, start.map_or_else(estimated, Ok)?, under)
         }
     }
 }
 
-/// The root mean square of the heights, if their mean plane can have the depth.
-fn check_depth(depth: f64, surface: &Surface) -> Result<f64, BemError> {
+/// Checks that the mean plane can have the depth, and returns the root mean square of the heights, \[m].
+fn check_depth(depth: f64, surface: &SlidingSurface) -> Result<f64, BemError> {
     let heights = surface.heights;
     let n = heights.len() as f64;
     let mean = heights.iter().sum::<f64>() / n;
@@ -97,52 +105,77 @@ fn check_depth(depth: f64, surface: &Surface) -> Result<f64, BemError> {
     Ok((squares.sum::<f64>() / n).sqrt())
 }
 
-/// The mean pressure under which the mean plane has a depth, the contact, and by which part of the roughness the depth is
-/// missed. The pressure grows about like the exponential function of the depth over the roughness (Persson 2007).
-fn at_depth(
-    [depth, roughness, tolerance]: [f64; 3],
+/// A prescribed depth of the mean plane.
+struct DepthTarget {
+    /// \[m].
+    depth: f64,
+    /// Root mean square of the heights, \[m].
+    roughness: f64,
+    /// Tolerance of the depth, relative to `roughness`.
+    tolerance: f64,
+}
+
+/// A contact on the way to a prescribed depth.
+struct Trial {
+    log_pressure: f64,
+    state: PeriodicSliding,
+    /// Excess of the depth, relative to the roughness.
+    excess: f64,
+}
+
+/// The contact whose mean plane has a depth, by bracketing and root finding over the logarithm of the mean pressure.
+///
+/// The pressure grows about like the exponential function of the depth over the roughness (Persson 2007).
+fn find_pressure(
+    target: &DepthTarget,
     start: f64,
     under: impl Fn(f64) -> Result<PeriodicSliding, BemError>,
 ) -> Result<Held, BemError> {
-    let at = |logarithm: f64| -> Result<(f64, PeriodicSliding, f64), BemError> {
-        let state = under(logarithm.exp())?;
-        let missing = (state.mean_depth - depth) / roughness;
-        Ok((logarithm, state, missing))
+    let try_at = |log_pressure: f64| -> Result<Trial, BemError> {
+        let state = under(log_pressure.exp())?;
+        let excess = (state.mean_depth - target.depth) / target.roughness;
+        Ok(Trial {
+            log_pressure,
+            state,
+            excess,
+        })
     };
-    let mut first = at(start.ln())?;
-    for _ in 0..MOST_STEPS_OF_PRESSURE {
-        if first.2.abs() <= tolerance {
+    let mut trial = try_at(start.ln())?;
+    for _ in 0..MAX_BRACKETING_STEPS {
+        if trial.excess.abs() <= target.tolerance {
             break;
         }
-        let step = (2.0 * first.2).clamp(-LONGEST_STEP, LONGEST_STEP);
-        let second = at(first.0 - step)?;
-        if first.2 * second.2 < 0.0 {
-            let ends = [(first.0, first.2), (second.0, second.2)];
-            let last = RefCell::new(second);
-            let missing = |logarithm: f64| -> Result<f64, BemError> {
-                let is_known = |end: &&(f64, f64)| end.0.total_cmp(&logarithm).is_eq();
-                if let Some((_, missing)) = ends.iter().find(is_known) {
-                    return Ok(*missing);
+
+        // Step towards the depth until two trials bracket it.
+        let step = (2.0 * trial.excess).clamp(-MAX_LOG_PRESSURE_STEP, MAX_LOG_PRESSURE_STEP);
+        let next = try_at(trial.log_pressure - step)?;
+        if trial.excess * next.excess < 0.0 {
+            // Find the root in between; an excess within the tolerance counts as zero.
+            let ends = [&trial, &next].map(|end| (end.log_pressure, end.excess));
+            let last = RefCell::new(next);
+            let excess = |log_pressure: f64| -> Result<f64, BemError> {
+                let is_known = |end: &&(f64, f64)| end.0.total_cmp(&log_pressure).is_eq();
+                if let Some((_, excess)) = ends.iter().find(is_known) {
+                    return Ok(*excess);
                 }
-                let found = at(logarithm)?;
-                let missing = found.2;
+                let found = try_at(log_pressure)?;
+                let excess = found.excess;
                 *last.borrow_mut() = found;
-                Ok(if missing.abs() <= tolerance {
+                Ok(if excess.abs() <= target.tolerance {
                     0.0
                 } else {
-                    missing
+                    excess
                 })
             };
-            try_bracketed_root(missing, ends.map(|end| end.0))?;
-            first = last.into_inner();
+            try_bracketed_root(excess, ends.map(|end| end.0))?;
+            trial = last.into_inner();
             break;
         }
-        first = second;
+        trial = next;
     }
-    let (logarithm, state, missing) = first;
     Ok(Held {
-        mean_pressure: logarithm.exp(),
-        state,
-        missed: missing.abs(),
+        mean_pressure: trial.log_pressure.exp(),
+        state: trial.state,
+        depth_error: trial.excess.abs(),
     })
 }

@@ -1,4 +1,4 @@
-//! Periodic surfaces with error bars, from finer and finer grids of the same surface.
+//! Periodic surfaces with error bars: stationary sliding, pressing, and sliding from rest, refined to a relative error.
 
 use std::cell::RefCell;
 
@@ -6,9 +6,9 @@ use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, Request, positive};
 
 use crate::stationary::periodic::contact::PeriodicContact;
-use crate::stationary::periodic::depth::{Surface, hold};
+use crate::stationary::periodic::depth::{SlidingSurface, hold};
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::periodic::march::{Steps, slide_along};
+use crate::stationary::periodic::march::{Steps, slide_with};
 use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::stationary::periodic::refinement::{
     AREA_RATE, FIRST_ORDER_RATE, FIRST_TOLERANCE, FRICTION_RATE, GridResult, RefinementGoal,
@@ -20,35 +20,40 @@ use crate::stationary::periodic::{
 };
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
-/// Any error asks for the same first grid.
-const FIRST_GRID: f64 = 0.1;
-/// Fewest steps of a march on the first grid.
-const FEWEST_STEPS: f64 = 4.0;
+/// Relative error of a request for the first grid, which is the same for any error.
+const ANY_RELATIVE_ERROR: f64 = 0.1;
+/// Fewest steps of a march on the first grid; chosen.
+const MIN_FIRST_STEPS: f64 = 4.0;
 
-/// A periodic surface with error bars for the surface that is given: waves that it lacks may change everything.
+/// Results for a periodic surface with error bars.
+///
+/// The bars are those of the given surface; waves that it lacks may change the results by more.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 #[non_exhaustive]
 pub struct PeriodicEstimate<S> {
-    /// Friction coefficient; of a stationary state the mean of that from slopes and that from the dissipated power, weighted by
-    /// how little the last refinements changed them. Each bar reaches to that of the other.
+    /// Friction coefficient.
+    ///
+    /// In a stationary state it is the mean of that from slopes and that from the dissipated power, weighted by the inverse of
+    /// their error bars. The bars of both reach each other.
     pub friction_coefficient: Estimate,
-    /// That of a stationary state from the dissipated power alone; none on the way there.
+    /// Friction coefficient from the dissipated power alone; `None` for a transient state.
     pub friction_from_dissipation: Option<Estimate>,
-    /// Part of the period in contact.
+    /// Fraction of the period in contact.
     pub area_fraction: Estimate,
-    /// Mean pressure, \[Pa]; without an error where it is given.
+    /// Mean pressure, \[Pa]; exact if it is prescribed.
     pub mean_pressure: Estimate,
-    /// Depth of the mean plane, \[m]; without an error where it is given.
+    /// Depth of the mean plane, \[m]; exact if it is prescribed.
     pub mean_depth: Estimate,
-    /// What was found on the finest grid.
+    /// Result on the finest grid.
     pub finest: S,
 }
 
-/// Solves the stationary sliding of a sum of waves, to a relative error of the friction, of the area where nothing rubs, and of
-/// the mean pressure where a depth is held; or with a number of elements along the edge of the period that has more of them,
-/// and whatever error that has.
+/// Solves the stationary sliding of a sum of waves to a relative error, or with a number of elements.
+///
+/// The relative error is that of the friction, or of the area without friction, and at a prescribed depth also of the mean
+/// pressure. The number of elements is that along the edge of the period that has more of them.
 ///
 /// ```
 /// use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
@@ -69,8 +74,8 @@ pub struct PeriodicEstimate<S> {
 /// ```
 ///
 /// # Errors
-/// [`BemError::NotReached`] with the best that was reached where the largest grids are too coarse, or the contact is so small
-/// that they have too few elements in it; [`BemError::GridTooLarge`] where not even three grids have so few;
+/// [`BemError::NotReached`] with the best result if the largest grids are too coarse, or have too few elements in a small contact;
+/// [`BemError::GridTooLarge`] if not even the coarsest three grids are small enough;
 /// [`BemError::PeriodTooCoarse`] for too few elements; [`BemError::Indenter`] for a load with a sliding distance;
 /// [`BemError::InvalidParameter`] for a depth at which nothing touches, or all of a half space; and those of
 /// [`steady_on_grid`](super::steady_on_grid).
@@ -85,14 +90,14 @@ pub fn steady<'w>(
     solve(surface, &sliding, control, request.into())
 }
 
-/// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s]: the area, to a
-/// relative error, and the depth; or with a number of elements, as in [`steady`].
+/// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s].
 ///
-/// The contact grows everywhere, so that it is that of a spring of the compliance J(t) (Lee & Radok 1960); so is the pressure
-/// of [`finest`](PeriodicEstimate::finest), which on a material that creeps is not its own.
+/// The relative error of the request is that of the area; a number of elements is that of [`steady`]. The contact grows
+/// everywhere, so that it is that of a spring with the compliance J(t) (Lee & Radok 1960). The pressure of
+/// [`finest`](PeriodicEstimate::finest) is that of the spring too, and differs from the pressure on a material that creeps.
 ///
 /// # Errors
-/// As of [`steady`].
+/// Those of [`steady`].
 pub fn indent<'w>(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,
@@ -105,8 +110,9 @@ pub fn indent<'w>(
     solve(surface, &spring, control, request.into())
 }
 
-/// What [`steady`] finds on the first of its grids, or on one with `finer` times the elements along both axes; without an error bar,
-/// which a single grid does not know. It is for differences between surfaces: how much two of them differ coarse grids tell well.
+/// The result of [`steady`] on its first grid, or on one with `finer` times the elements along both axes, without an error bar.
+///
+/// It is meant for differences between surfaces, which coarse grids resolve well.
 ///
 /// # Errors
 /// Those of [`steady`] but [`BemError::NotReached`].
@@ -120,7 +126,8 @@ pub fn steady_on_coarse_grid(
     on_coarse_grid(surface, &sliding, load.require_stationary()?, finer)
 }
 
-/// What [`indent`] finds on the first of its grids, or on a finer one, as [`steady_on_coarse_grid`].
+/// The result of [`indent`] on its first grid, or on one with `finer` times the elements along both axes, as
+/// [`steady_on_coarse_grid`].
 ///
 /// # Errors
 /// Those of [`indent`] but [`BemError::NotReached`].
@@ -142,10 +149,10 @@ fn on_coarse_grid(
     control: PeriodicControl,
     finer: usize,
 ) -> Result<PeriodicSliding, BemError> {
-    let first = first_shape(surface, &Request::from(FIRST_GRID))?;
-    let SampledSurface { grid, heights, .. } =
-        SampledSurface::of(surface, first.map(|edge| finer * edge))?;
-    let on_grid = Surface {
+    let first = first_shape(surface, &Request::from(ANY_RELATIVE_ERROR))?;
+    let shape = first.map(|edge| finer * edge);
+    let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;
+    let on_grid = SlidingSurface {
         sliding,
         grid: &grid,
         heights: &heights,
@@ -159,15 +166,14 @@ fn on_coarse_grid(
     Ok(hold(control, &on_grid, None, solve)?.state)
 }
 
-/// Slides a sum of waves from rest over the sliding distance of the load, to a relative error of the friction at its end; or
-/// with a number of elements, as in [`steady`].
+/// Slides a sum of waves from rest over the sliding distance of the load.
 ///
-/// The error is of the first order in the edge of an element, and the work grows with its third power: less than some per
-/// cent take long.
+/// The relative error of the request is that of the friction at the end; a number of elements is that of [`steady`]. The error is of
+/// the first order in the spacing, and the work grows with its inverse third power, so that errors below some per cent take long.
 ///
 /// # Errors
-/// Those of [`slide_on_grid`](super::slide_on_grid) and, as of [`steady`], [`BemError::NotReached`] and
-/// [`BemError::GridTooLarge`]: also where a march that is fine enough would take longer than about half an hour.
+/// Those of [`slide_on_grid`](super::slide_on_grid), and [`BemError::NotReached`] and [`BemError::GridTooLarge`] as for [`steady`],
+/// also if a march that is fine enough would take longer than about half an hour.
 pub fn slide<'w>(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,
@@ -178,8 +184,8 @@ pub fn slide<'w>(
     let request = request.into();
     let period = surface.period()[0];
     let edge = period / first_shape(surface, &request)?[0] as f64;
-    // The steps are halved with the elements, so that the bars see their errors too.
-    let per_element = (FEWEST_STEPS * edge / distance).ceil();
+    // The steps are halved with the elements, so that the bars contain their errors too.
+    let per_element = (MIN_FIRST_STEPS * edge / distance).ceil();
     let goal = RefinementGoal {
         request,
         control: load.control(),
@@ -195,9 +201,9 @@ pub fn slide<'w>(
         let steps = Steps {
             per_element,
             options,
-            tell,
+            report: tell,
         };
-        let state = slide_along(grid, heights, elastomer, load, &steps)?;
+        let state = slide_with(grid, heights, elastomer, load, &steps)?;
         let last = state.rows[state.rows.len() - 1];
         let found = GridResult {
             friction: last.friction_coefficient,
@@ -214,6 +220,7 @@ pub fn slide<'w>(
     })
 }
 
+/// Refines the stationary state of a surface.
 fn solve(
     surface: &PeriodicSurface,
     sliding: &Sliding,
@@ -230,7 +237,7 @@ fn solve(
     let guess = RefCell::new(Vec::new());
     let mut pressure_before = None;
     refine(surface, &goal, |grid, heights, tolerance, _| {
-        let on_grid = Surface {
+        let on_grid = SlidingSurface {
             sliding,
             grid,
             heights,
@@ -253,7 +260,7 @@ fn solve(
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
             mean_pressure: held.mean_pressure,
             mean_depth: state.mean_depth,
-            residual: state.residual.max(held.missed),
+            residual: state.residual.max(held.depth_error),
         };
         Ok((found, state))
     })

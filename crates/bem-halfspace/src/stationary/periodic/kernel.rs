@@ -1,12 +1,14 @@
-//! How a sliding material answers waves of pressure.
+//! Compliance kernel of a sliding material for waves of pressure.
 //!
 //! ```text
 //! û(q) = 2 p̂(q) M / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) M / |q|,        q_x ≥ 0
 //! ```
 //!
-//! In the frame that moves with the surface a wave passes with the angular frequency −q_x v. The gap of an element is
-//! evaluated at the fraction θ = −δ/π of it, with the loss angle δ at the shortest wave along x: there displacement and
-//! pressure are in phase, and less than a quarter period apart for all other waves.
+//! In the frame that moves with the surface a wave has the angular frequency −q_x v. The gap of an element is evaluated at the
+//! distance θ Δx from its centre, θ = −δ/π, with the loss angle δ of the shortest wave along x. There displacement and pressure of
+//! this wave are in phase, and those of all other waves differ by less than a quarter period.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces" and "Where the gap is evaluated".
 
 use std::f64::consts::PI;
 
@@ -21,7 +23,7 @@ use crate::{Base, BemError, Elastomer, Grid};
 #[derive(Debug, Clone)]
 pub(super) struct Sliding {
     pub(super) creep: CreepSpectrum,
-    /// 1 − ν.
+    /// 1 − ν, for the Poisson ratio ν.
     pub(super) factor: f64,
     velocity: f64,
     base: Base,
@@ -46,7 +48,7 @@ impl Sliding {
         })
     }
 
-    /// At rest, a time \[s] after a pressure was laid on: as on a spring of the compliance at that time.
+    /// The material at rest, a `time` \[s] after a step of pressure: a spring with its creep compliance at that time.
     #[cfg(feature = "rough")]
     pub(super) fn at_rest(elastomer: &dyn Elastomer, time: f64) -> Result<Self, BemError> {
         let creep = elastomer.material().creep();
@@ -73,23 +75,23 @@ impl Sliding {
         self.velocity
     }
 
-    /// Angular frequency of what passes with a wave number along x, \[rad/s].
+    /// Angular frequency of waves with the wave number q_x \[rad/m], \[rad/s].
     pub(super) fn frequency(&self, q_x: f64) -> f64 {
         (q_x * self.velocity).abs()
     }
 
-    /// Largest pressure of a wave along x of this length that lifts a half space by an amplitude, \[Pa].
+    /// Amplitude of the pressure wave along x of a `length` that displaces a half space by an `amplitude`, \[Pa].
     pub(super) fn pressure_of(&self, length: f64, amplitude: f64) -> Result<f64, BemError> {
         let wave_number = 2.0 * PI / length;
         Ok(amplitude * wave_number / self.compliances(&[wave_number])?[0].norm())
     }
 
-    /// How deep the mean pressure 1 \[Pa] presses a layer that is given time, \[m/Pa].
+    /// Displacement of a layer at rest per mean pressure, \[m/Pa]; 0 for a half space.
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
         Ok(self.compliances(&[0.0])?[0].re * self.base.uniform_compliance())
     }
 
-    /// (1 − ν) [J' + i J''] of every row, before any shift.
+    /// (1 − ν) (J' + i J'') for each q_x \[rad/m], \[1/Pa].
     pub(super) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
         let compliance = |q_x: &f64| {
             let compliance = self.creep.complex_compliance(self.frequency(*q_x))?;
@@ -101,15 +103,15 @@ impl Sliding {
     }
 }
 
-/// Products with the waves of one grid and symbols by row of the transform.
+/// The kernel K on one grid, with symbols by row of the transform.
 pub(super) struct PeriodicKernel {
     waves: FourierMultiplier,
-    /// |q| û/p̂ at the centre of an element.
+    /// |q| û/(p̂ M) at the centre of an element, \[1/Pa].
     at_centre: Vec<Complex<f64>>,
-    /// The shift to the point at which the gap is evaluated.
+    /// Phase shift from the centre to the point at which the gap is evaluated.
     shift: Vec<Complex<f64>>,
-    /// Their product.
-    factors: Vec<Complex<f64>>,
+    /// Product of both: |q| û/(p̂ M) at that point.
+    at_gap: Vec<Complex<f64>>,
 }
 
 impl PeriodicKernel {
@@ -122,12 +124,12 @@ impl PeriodicKernel {
         let theta = -shortest.arg() / PI;
         let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
         let mut shift: Vec<_> = along_x.iter().map(turn).collect();
-        let mut factors: Vec<_> = at_centre.iter().zip(&shift).map(|(c, s)| c * s).collect();
+        let mut at_gap: Vec<_> = at_centre.iter().zip(&shift).map(|(c, s)| c * s).collect();
         let rows = along_x.len();
         if rows.is_multiple_of(2) {
             // The shortest wave stands for both directions, so that its symbols are real.
             let middle = rows / 2;
-            factors[middle] = Complex::from(factors[middle].norm());
+            at_gap[middle] = Complex::from(at_gap[middle].norm());
             for symbols in [&mut at_centre, &mut shift] {
                 symbols[middle] = Complex::from(symbols[middle].re);
             }
@@ -136,36 +138,36 @@ impl PeriodicKernel {
             waves,
             at_centre,
             shift,
-            factors,
+            at_gap,
         })
     }
 
-    /// Displacements where the gaps are evaluated.
+    /// Displacements at the points where the gaps are evaluated.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row] / q;
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row] / q;
         self.waves.apply(pressure, result, symbol);
     }
 
-    /// Displacements of the centres.
+    /// Displacements at the centres of the elements.
     #[cfg(feature = "rough")]
     pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row] / q;
         self.waves.apply(pressure, result, symbol);
     }
 
-    /// The symbols of displacements in units of that of an element under its own unit pressure, and of the inverse on the whole
-    /// grid, for [`apply_single_precision`](Self::apply_single_precision).
+    /// Symbols of K over `self_influence`, and of the inverse of that, for
+    /// [`apply_single_precision`](Self::apply_single_precision).
     pub(super) fn symbols(&self, self_influence: f64) -> [Vec<Complex<f32>>; 2] {
-        let factor = |row: usize, q: f64| self.factors[row] / (q * self_influence);
+        let factor = |row: usize, q: f64| self.at_gap[row] / (q * self_influence);
         [
             self.waves.symbols(factor),
             self.waves.symbols(|row, q| factor(row, q).inv()),
         ]
     }
 
-    /// The pressure without mean that displaces all points where the gaps are evaluated by a field, but for its mean.
+    /// The pressure without mean that displaces all points where the gaps are evaluated by a field less its mean.
     pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row].inv() * q;
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row].inv() * q;
         self.waves.apply(field, result, symbol);
         let mean = result.iter().sum::<f64>() / result.len() as f64;
         result.iter_mut().for_each(|pressure| *pressure -= mean);
@@ -177,8 +179,7 @@ impl PeriodicKernel {
         self.waves.apply(field, result, symbol);
     }
 
-    /// The symbols that make of r the displacements K z of the centres for (1 + w K) z = r with one weight w for all elements, in
-    /// the same unit.
+    /// Symbols of K (1 + w K)⁻¹ at the centres, with one weight w for all elements, for K over `self_influence`.
     pub(super) fn relaxation(&self, weight: f64, self_influence: f64) -> Vec<Complex<f32>> {
         self.waves.symbols(|row, q| {
             let kernel = self.at_centre[row] / self_influence;
@@ -186,7 +187,7 @@ impl PeriodicKernel {
         })
     }
 
-    /// Multiplies every wave by a symbol of its own, with seven digits.
+    /// Multiplies every wave by its symbol, in single precision.
     pub(super) fn apply_single_precision(
         &mut self,
         symbols: &[Complex<f32>],
@@ -201,7 +202,7 @@ impl PeriodicKernel {
         self.waves.apply(heights, result, |row, _| self.shift[row]);
     }
 
-    /// Slopes ∂h/∂x at the centres.
+    /// Slopes ∂h/∂x at the centres of the elements.
     pub(super) fn slopes(&mut self, heights: &[f64], result: &mut [f64]) {
         let rows = self.shift.len();
         self.waves.apply(heights, result, |row, [q_x, _]| {
@@ -210,7 +211,7 @@ impl PeriodicKernel {
         });
     }
 
-    /// The field whose mean product with the pressure is the power dissipated per area and velocity.
+    /// The field whose mean product with the pressure is the dissipated power per area and velocity.
     pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol =
             |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);

@@ -1,11 +1,11 @@
-//! How a periodic surface is pressed and moved.
+//! Load of a periodic surface: mean pressure or depth, velocity and sliding distance.
 
 use indenters::IndenterError;
 use numerics::{InvalidParameter, in_range, not_negative, positive};
 
 use crate::BemError;
 
-/// What is held while a periodic surface touches.
+/// The prescribed quantity of a periodic contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PeriodicControl {
@@ -26,21 +26,19 @@ pub struct PeriodicLoad {
 }
 
 impl PeriodicLoad {
-    /// A mean pressure > 0 \[Pa] over the whole period, and a velocity ≥ 0 \[m/s] towards positive x, for so long that the state
-    /// is stationary.
+    /// The stationary state under a mean pressure > 0 \[Pa] over the whole period, at a velocity ≥ 0 \[m/s] towards positive x.
     ///
     /// # Errors
-    /// [`InvalidParameter`] for other numbers.
+    /// [`InvalidParameter`] for numbers out of these ranges.
     pub fn new(mean_pressure: f64, velocity: f64) -> Result<Self, InvalidParameter> {
         let pressure = positive("mean_pressure", mean_pressure)?;
         Self::with(PeriodicControl::MeanPressure(pressure), velocity)
     }
 
-    /// The mean plane held at a depth \[m], and a velocity ≥ 0 \[m/s] towards positive x, for so long that the state is
-    /// stationary.
+    /// The stationary state with the mean plane at a depth \[m], at a velocity ≥ 0 \[m/s] towards positive x.
     ///
-    /// On a half space the depth is below the mean of the deformed surface, and hence between minus the height of the mean
-    /// plane above the lowest point, at touch, and 0, at which all gaps are closed under any pressure.
+    /// On a half space the depth is measured from the mean of the deformed surface. It lies between minus the height of the mean
+    /// plane above the lowest point, at first touch, and 0, where all gaps are closed under any pressure.
     ///
     /// # Errors
     /// [`InvalidParameter`] for numbers that are not finite, and a negative velocity.
@@ -57,10 +55,10 @@ impl PeriodicLoad {
         })
     }
 
-    /// The same load, seen when the surface has slid a distance > 0 \[m] from rest.
+    /// This load after the surface has slid a distance > 0 \[m] from rest.
     ///
     /// # Errors
-    /// [`InvalidParameter`] for another distance.
+    /// [`InvalidParameter`] for a distance out of this range.
     pub fn after(self, sliding_distance: f64) -> Result<Self, InvalidParameter> {
         Ok(Self {
             sliding_distance: Some(positive("sliding_distance", sliding_distance)?),
@@ -68,7 +66,7 @@ impl PeriodicLoad {
         })
     }
 
-    /// Mean pressure or depth.
+    /// Prescribed mean pressure or depth.
     pub const fn control(&self) -> PeriodicControl {
         self.control
     }
@@ -78,12 +76,12 @@ impl PeriodicLoad {
         self.velocity
     }
 
-    /// Sliding distance from rest, \[m]; none for the stationary state.
+    /// Sliding distance from rest, \[m]; `None` for the stationary state.
     pub const fn sliding_distance(&self) -> Option<f64> {
         self.sliding_distance
     }
 
-    /// Mean pressure or depth, of the stationary state.
+    /// Prescribed mean pressure or depth; fails for a load with a sliding distance.
     pub(super) fn require_stationary(&self) -> Result<PeriodicControl, BemError> {
         let distance = |sliding_distance| IndenterError::OnlyStationary { sliding_distance };
         match self.sliding_distance {
@@ -92,15 +90,16 @@ impl PeriodicLoad {
         }
     }
 
-    /// Mean pressure and sliding distance, of what is followed from rest.
+    /// Mean pressure \[Pa] and sliding distance \[m] of a march from rest; fails if one of them is missing.
     pub(super) fn require_march(&self) -> Result<(f64, f64), BemError> {
         let PeriodicControl::MeanPressure(pressure) = self.control else {
             return Err(BemError::DepthFromRest);
         };
         positive("velocity", self.velocity)?;
         let why = "from rest a periodic surface slides over a distance";
-        let distance = self.sliding_distance;
-        let distance = distance.ok_or(BemError::SlidingDistanceMissing { why })?;
+        let distance = self
+            .sliding_distance
+            .ok_or(BemError::SlidingDistanceMissing { why })?;
         Ok((pressure, distance))
     }
 }

@@ -1,16 +1,18 @@
-//! Sliding of a periodic surface from rest, one step after the other.
+//! Sliding of a periodic surface from rest, step by step in time.
 //!
-//! The elements go with the surface, and the material passes them by one element in a step, or by a part of one, over which the
-//! pressure of a point of the material is held:
+//! The elements move with the surface, and the material passes them by one element per step, or by a fraction of one. Over a step
+//! the pressure of a material point is constant:
 //!
 //! ```text
 //! u = 2 (1 − ν) α w + history,        w = K p / (4π)        at the end of the step
 //! ```
 //!
-//! A wave that passes with the frequency ω = q_x v meets the compliance J_Δ of inputs that are held instead of J. So the
-//! contact is that of a surface of which every wave is multiplied by J_Δ/J, about half a step behind where much flows: in
-//! full contact the pressure of the stationary state is then exact. The first step is as short as it must be for the last to end
-//! at the distance; between whole elements the waves of the surface are shifted.
+//! A wave with the frequency ω = q_x v therefore has the compliance J_Δ of piecewise constant inputs instead of J. The march takes
+//! a surface whose waves are multiplied by J_Δ/J, a shift by about half a step if the material flows much; in full contact the
+//! pressure of the stationary state is then exact. The first step is shorter, so that the last one ends at the distance. Between
+//! whole elements the waves of the surface are shifted.
+//!
+//! Theory: docs/theory/transient-half-space.md.
 
 use std::f64::consts::PI;
 
@@ -57,11 +59,11 @@ pub struct PeriodicTransient {
     pub pressure: PressureField,
 }
 
-/// Presses a periodic surface into a material at rest and slides it from there over the sliding distance of the load, in steps of
-/// one element, of which the first is shorter where the distance has no whole number of them.
+/// Presses a periodic surface into a material at rest and slides it over the sliding distance of the load, in steps of one element.
 ///
-/// `heights` as in [`steady_on_grid`](super::steady_on_grid), whose state it comes to after some contact
-/// lengths, once the slowest relaxation that matters is over.
+/// The first step is shorter if the distance is not a multiple of an element. `heights` are those of
+/// [`steady_on_grid`](super::steady_on_grid), whose state is reached after some contact lengths, once the slowest relevant
+/// relaxation is over.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a velocity of 0; [`BemError::SlidingDistanceMissing`]; [`BemError::DepthFromRest`];
@@ -77,21 +79,22 @@ pub fn slide_on_grid(
     let steps = Steps {
         per_element: 1.0,
         options: *options,
-        tell: &|_| (),
+        report: &|_| (),
     };
-    slide_along(grid, heights, elastomer, load, &steps)
+    slide_with(grid, heights, elastomer, load, &steps)
 }
 
-/// How a march is made.
+/// Options of a march.
 pub(super) struct Steps<'a> {
-    /// How many are taken for each element of the distance, a whole number.
+    /// Number of steps per element of the distance, an integer.
     pub(super) per_element: f64,
     pub(super) options: ContactOptions,
-    /// Is told of the progress.
-    pub(super) tell: &'a dyn Fn(f64),
+    /// Reports the finished fraction of the march.
+    pub(super) report: &'a dyn Fn(f64),
 }
 
-pub(super) fn slide_along(
+/// [`slide_on_grid`] with options of the march.
+pub(super) fn slide_with(
     grid: &Grid,
     heights: &[f64],
     elastomer: &dyn Elastomer,
@@ -110,15 +113,16 @@ pub(super) fn slide_along(
         let slid = distance - to_go * whole_step;
         let behind = to_go % in_element;
         if is_first {
-            march.prepare(&sliding, [slid, behind * whole_step])?;
+            march.set_sliding_step(&sliding, slid, behind * whole_step)?;
         } else if left + 2 == n_steps || in_element > 1.0 {
-            march.prepare(&sliding, [whole_step, behind * whole_step])?;
+            march.set_sliding_step(&sliding, whole_step, behind * whole_step)?;
         }
+        // The material passes an element in the last step of each.
         if behind + 1.0 >= in_element {
-            march.pass_element();
+            march.shift_history();
         }
         let state = march.step(mean_pressure, &steps.options)?;
-        (steps.tell)(slid / distance);
+        (steps.report)(slid / distance);
         Ok(PeriodicRow {
             sliding_distance: slid,
             time: slid / velocity,
@@ -135,15 +139,16 @@ pub(super) fn slide_along(
     })
 }
 
-/// The elements of a period and what the material under them remembers.
+/// The elements of a period, with the history variables of the material under them.
 pub(super) struct PeriodicMarch<'a> {
+    /// Heights of the surface at the centres of the elements, as given, \[m].
     given: &'a [f64],
     creep: CreepSpectrum,
     waves: FourierMultiplier,
-    /// Of the surface with the symbols of [`place`](Self::place), \[m].
+    /// Heights with the symbols of [`set_step`](Self::set_step), \[m].
     heights: Vec<f64>,
     mean_height: f64,
-    /// ∂h/∂x.
+    /// Slopes ∂h/∂x at the end of the step.
     slopes: Vec<f64>,
     convolution: Convolution,
     workspace: ConvolutionWorkspace,
@@ -151,16 +156,16 @@ pub(super) struct PeriodicMarch<'a> {
     step: ExponentialStep,
     /// 2 (1 − ν).
     factor: f64,
-    /// Field after field.
+    /// History variables, field after field.
     pub(super) memory: Vec<f64>,
-    /// Heights plus displacement without load.
+    /// Heights plus displacement by the history, without load, \[m].
     separation: Vec<f64>,
-    /// 2 (1 − ν) w.
+    /// 2 (1 − ν) w, the input of the history variables.
     input: Vec<f64>,
 }
 
 impl<'a> PeriodicMarch<'a> {
-    /// On a material at rest.
+    /// A march that begins on a material at rest.
     pub(super) fn new(
         grid: &Grid,
         heights: &'a [f64],
@@ -196,9 +201,9 @@ impl<'a> PeriodicMarch<'a> {
         self.convolution.grid().shape()[0]
     }
 
-    /// Takes steps of a duration \[s] at the end of which the waves of the surface are multiplied by the first symbol of their
-    /// row, and the slopes are those of the waves times the second.
-    pub(super) fn place(
+    /// Sets the duration \[s] of the next steps, and the surface at their end: by row of the transform, the waves of the heights
+    /// are multiplied by the first symbol, and those of the slopes by the second.
+    pub(super) fn set_step(
         &mut self,
         time_step: f64,
         symbols: impl Fn(usize) -> [Complex<f64>; 2] + Sync,
@@ -210,9 +215,14 @@ impl<'a> PeriodicMarch<'a> {
         Ok(())
     }
 
-    /// Takes steps of a length \[m] with a constant speed, after which the material is a part of an element \[m] behind the
-    /// points of the surface that it passes.
-    fn prepare(&mut self, sliding: &Sliding, [length, behind]: [f64; 2]) -> Result<(), BemError> {
+    /// Sets steps of a `length` \[m] at constant speed, at whose end the material lags by `lag` \[m] behind a whole number of
+    /// elements.
+    fn set_sliding_step(
+        &mut self,
+        sliding: &Sliding,
+        length: f64,
+        lag: f64,
+    ) -> Result<(), BemError> {
         let time_step = length / sliding.velocity();
         let step = ExponentialStep::creep(&self.creep, time_step)?;
         let (along_x, factor) = (&self.waves.along_x, sliding.factor);
@@ -226,16 +236,16 @@ impl<'a> PeriodicMarch<'a> {
             if 2 * row == rows {
                 [held.norm().into(), ZERO]
             } else {
-                let turn = Complex::from_polar(1.0, q_x * behind);
+                let turn = Complex::from_polar(1.0, q_x * lag);
                 [held * turn, Complex::i() * q_x * turn]
             }
         };
         let symbols: Vec<_> = compliances.enumerate().map(symbol).collect();
-        self.place(time_step, |row| symbols[row])
+        self.set_step(time_step, |row| symbols[row])
     }
 
-    /// Passes one element of the material.
-    fn pass_element(&mut self) {
+    /// Shifts the history variables by one element.
+    fn shift_history(&mut self) {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
         for field in self.memory.chunks_exact_mut(n) {
             field.rotate_left(columns);
@@ -260,7 +270,7 @@ impl<'a> PeriodicMarch<'a> {
             control: Control::NormalForce(mean_pressure * area),
         };
         let contact = solve_contact(&problem, &mut self.state, options)?;
-        self.remember();
+        self.advance_history();
         let pressure = self.state.pressure();
         Ok(PeriodicRow {
             sliding_distance: 0.0,
@@ -271,7 +281,8 @@ impl<'a> PeriodicMarch<'a> {
         })
     }
 
-    fn remember(&mut self) {
+    /// Advances the history variables by the step under the present pressure.
+    fn advance_history(&mut self) {
         let pressure = self.state.pressure();
         self.convolution
             .apply(&mut self.workspace, pressure, &mut self.input);
@@ -292,7 +303,7 @@ mod tests {
     use super::*;
 
     const EDGE: usize = 16;
-    /// Of every part of a history.
+    /// Number of steps of each part of a history.
     const STEPS: usize = 4;
     const STILL: [Complex<f64>; 2] = [Complex::new(1.0, 0.0); 2];
 
@@ -332,7 +343,7 @@ mod tests {
         let mut before = parts[parts.len() - 1].1;
         for (duration, end) in parts {
             march
-                .place(duration / STEPS as f64, |_| STILL)
+                .set_step(duration / STEPS as f64, |_| STILL)
                 .expect("a step");
             for step in 1..=STEPS {
                 let pressure = before + step as f64 / STEPS as f64 * (end - before);
@@ -358,8 +369,11 @@ mod tests {
             left in 0.0..1.0,
         ) {
             let last = 1e-2 * last;
-            let above = above.into_iter().map(|(duration, times)| (duration, times * last));
-            let parts: Vec<(f64, f64)> = above.chain([(left, last)]).collect();
+            let parts: Vec<(f64, f64)> = above
+                .into_iter()
+                .map(|(duration, times)| (duration, times * last))
+                .chain([(left, last)])
+                .collect();
             let duration = parts.iter().map(|part| part.0).sum();
             let after = in_contact(&heights, &material, &parts);
             let held = in_contact(&heights, &material, &[(duration, last)]);

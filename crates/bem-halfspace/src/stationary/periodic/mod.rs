@@ -7,15 +7,17 @@
 //! gap = h + u − d ≥ 0,  p ≥ 0,  p · gap = 0,  mean of p given,      û(q) = 2 p̂(q) / (|q| E*(−q_x v))
 //! ```
 //!
-//! with a kernel that is translation-invariant and not symmetric. It is solved on grids of half the elements along both
-//! axes, of a quarter and so on, from the coarsest to that asked for. The friction is found in two ways,
+//! with a kernel that is translation-invariant and not symmetric. It is solved by nested iteration on grids of twice the spacing,
+//! four times and so on, from the coarsest to the one asked for. The friction is computed in two ways,
 //!
 //! ```text
 //! μ ⟨p⟩ = ⟨p ∂h/∂x⟩ = Σ_q 2 |p̂|² (|q_x|/|q|) Im E*(|q_x| v)/|E*|².
 //! ```
 //!
-//! The search of the active set, which bodies share, is in `stationary/search.rs`, the equations of a given contact in
+//! The active-set search is shared with single bodies (`stationary/search.rs`); the equations on a given active set are in
 //! `equations.rs`.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
 
 mod block_correction;
 mod contact;
@@ -49,7 +51,7 @@ use crate::elements::area;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
-use depth::{Surface, hold};
+use depth::{SlidingSurface, hold};
 use equations::Equations;
 #[cfg(feature = "rough")]
 pub use estimate::{
@@ -63,14 +65,14 @@ pub use moving::{elements_of_motion, move_along, move_along_memory};
 #[cfg(feature = "rough")]
 pub use refinement::{elements_for_bars, fewest_elements, largest_grid, memory};
 
-/// When the solver stops.
+/// Stopping criteria of the solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodicOptions {
     /// Largest |gap| in the contact and largest penetration outside, relative to the largest displacement from the mean;
     /// between 0 and 1.
     pub tolerance: f64,
-    /// Products with the kernel on the finest grid after which the solver gives up.
+    /// Maximum number of operator applications on the finest grid.
     pub max_products: usize,
 }
 
@@ -92,28 +94,29 @@ impl Default for PeriodicOptions {
 pub struct PeriodicSliding {
     /// Friction coefficient ⟨p ∂h/∂x⟩/⟨p⟩, with the slope of the trigonometric polynomial through the heights.
     pub friction_coefficient: f64,
-    /// The same from the power that the material dissipates. On a finer grid both are the same; their difference says how
-    /// well this one resolves the contact.
+    /// Friction coefficient from the power that the material dissipates. Both converge to the same value; their difference
+    /// measures how well this grid resolves the contact.
     pub friction_from_dissipation: f64,
-    /// Part of the period in contact: the elements in contact, less their mean excess at their edges to others (Yastrebov,
-    /// Anciaux & Molinari 2017).
+    /// Fraction of the period in contact, with the perimeter correction of Yastrebov, Anciaux & Molinari (2017).
     pub area_fraction: f64,
-    /// Depth of the mean plane of the surface, \[m]: below the mean of the deformed half space, which the mean pressure moves
-    /// without limit, or below the surface of a layer at rest; negative in light contact.
+    /// Depth of the mean plane of the surface, \[m]; negative in light contact.
+    ///
+    /// It is measured from the mean of the deformed half space, which the mean pressure moves without limit, or from the
+    /// undeformed surface of a layer.
     pub mean_depth: f64,
-    /// Products with the kernel on this grid.
+    /// Operator applications on this grid.
     pub products: usize,
-    /// Residual reached, in the sense of [`PeriodicOptions::tolerance`].
+    /// Final residual, in the sense of [`PeriodicOptions::tolerance`].
     pub residual: f64,
-    /// Pressure of the elements; the first height is at the origin.
+    /// Pressure of the elements; the origin is the centre of the first element.
     pub pressure: PressureField,
 }
 
 /// Solves the stationary sliding of a periodic surface on a linear viscoelastic solid.
 ///
-/// `heights` \[m] has the height at the centre of every element of the grid, whose edges are the periods; between
-/// them the surface is the trigonometric polynomial. The lowest points touch first; the surface slides towards positive x.
-/// At the velocity 0 the contact is the elastic one long after pressing.
+/// `heights` \[m] has the height at the centre of every element of the grid, whose edges are the periods; in between the surface
+/// is the trigonometric polynomial through them. The lowest points touch first, and the surface slides towards positive x. At the
+/// velocity 0 the contact is the elastic one with the equilibrium modulus.
 ///
 /// # Errors
 /// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for options out of range, one
@@ -128,7 +131,7 @@ pub fn steady_on_grid(
 ) -> Result<PeriodicSliding, BemError> {
     options.validate()?;
     check_surface(grid, heights)?;
-    let surface = Surface {
+    let surface = SlidingSurface {
         sliding: &Sliding::new(elastomer, load.velocity())?,
         grid,
         heights,
@@ -139,15 +142,15 @@ pub fn steady_on_grid(
     Ok(hold(load.require_stationary()?, &surface, None, solve)?.state)
 }
 
-/// From a guess of the pressure on this grid or on elements of twice the edges, or from none; it becomes the pressure of this grid.
+/// Solves a problem from a guess of the pressure, see [`nested::solve`], which is replaced by the pressure on this grid.
 fn solve_from(
     guess: &mut Vec<f64>,
     problem: contact::PeriodicContact,
 ) -> Result<PeriodicSliding, BemError> {
-    in_pool(problem.grid.n_elements(), || solve_here(guess, problem))
+    in_pool(problem.grid.n_elements(), || solve_in_pool(guess, problem))
 }
 
-fn solve_here(
+fn solve_in_pool(
     guess: &mut Vec<f64>,
     problem: contact::PeriodicContact,
 ) -> Result<PeriodicSliding, BemError> {
@@ -155,18 +158,19 @@ fn solve_here(
     let solved = nested::solve(problem, &mut equations, guess)?;
     let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();
     let mut field = vec![0.0; pressure.len()];
-    let mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
+    let weighted_mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
     equations.kernel.slopes(problem.heights, &mut field);
-    let from_slopes = mean(&field);
+    let from_slopes = weighted_mean(&field);
     equations.kernel.dissipate(&pressure, &mut field);
-    let from_dissipation = mean(&field);
-    let squeezed = problem.mean_pressure * problem.sliding.mean_compliance()?;
+    let from_dissipation = weighted_mean(&field);
+    // A layer is also compressed by the mean pressure.
+    let mean_displacement = problem.mean_pressure * problem.sliding.mean_compliance()?;
     let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,
         friction_from_dissipation: from_dissipation,
         area_fraction: area::area_fraction(problem.grid.shape()[1], &pressure).area,
-        mean_depth: solved.depth - mean_height + squeezed,
+        mean_depth: solved.depth - mean_height + mean_displacement,
         products: solved.products,
         residual: solved.residual,
         pressure: PressureField {

@@ -1,4 +1,6 @@
-//! Finer and finer grids of one periodic surface, and the error bars from the last three.
+//! Refinement of one periodic surface, with error bars from the last three grids.
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces"; how often the bars hold is in docs/rough-surfaces.md.
 
 use std::borrow::Cow;
 
@@ -13,133 +15,146 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surfa
 use crate::transform::fast_length::fast_length;
 use crate::{BemError, Grid, Reached};
 
-/// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
-const FIRST: usize = 4;
-const FEWEST: usize = 32;
-/// Where three grids from there on have more elements than this, the first has one per shortest wave instead, in a fast multiple of
-/// this many, and only the waves that it tells; docs/rough-surfaces.md says how well the bars hold on four elements per wave.
-const USUAL_GRID: f64 = 4_194_304.0;
-const MULTIPLE: usize = 8;
-/// The error of each stationary friction, and of the area, is at most what the last refinement changed, or a part of what the one
-/// before did, which counts where the last one changed little by chance; that of all others twice as much, at the first order. The
-/// factor is for which elements touch, which jumps from grid to grid: docs/rough-surfaces.md says how often bars hold.
+/// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
+const FIRST_ELEMENTS_PER_WAVE: usize = 4;
+/// Fewest elements along an edge with waves; chosen.
+const MIN_EDGE_ELEMENTS: usize = 32;
+/// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]; chosen.
+///
+/// Above it the first grid has one element per shortest wave, and contains only the modes that it resolves.
+const MAX_USUAL_GRID: f64 = 4_194_304.0;
+/// The edges of such a first grid are multiples of this number of elements; chosen.
+const COARSE_EDGE_MULTIPLE: usize = 8;
+/// Convergence rate of each stationary friction: the error is at most the last change, or a fraction of the change before it, in
+/// case the last one is small by chance.
+///
+/// The fraction covers the active set, which jumps from grid to grid; how often the bars hold is in docs/rough-surfaces.md.
 pub(super) const FRICTION_RATE: ConvergenceRate = ConvergenceRate {
     safety: 1.0,
     min_reduction: 0.15,
     expected_reduction: 0.25,
 };
+/// Convergence rate of the stationary area.
 pub(super) const AREA_RATE: ConvergenceRate = ConvergenceRate {
     min_reduction: 0.3,
     ..FRICTION_RATE
 };
+/// Convergence rate of all other quantities: the first order, with a safety factor of 2.
 pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
     safety: 2.0,
     min_reduction: 0.5,
     expected_reduction: 0.5,
 };
-/// The least error of a friction that is mostly that from slopes, as a part of what both are apart: of 1135 results the worst
-/// erred by 4.2 bars without it, and by 2.6 with it.
-const PART_OF_DIFFERENCE: f64 = 0.25;
-/// Fewest elements in contact on the coarsest of the three grids of which the bars are made: with fewer, their number may jump
-/// to the same one, and the friction with it.
-const FEWEST_IN_CONTACT: usize = 30;
-/// Tolerance of the contact on the first grid, which is halved on each of the next, whatever error is asked for; ten residuals are
-/// added to the bars.
+/// Floor of the error of a friction that is mostly that from slopes, as a fraction of the difference of both frictions.
+///
+/// Of 1135 results the worst erred by 4.2 bars without it, and by 2.6 with it.
+const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
+/// Fewest elements in contact on the coarsest of three grids for the bars to be trusted; chosen. With fewer, two grids may agree by
+/// chance.
+const MIN_CONTACT_ELEMENTS: usize = 30;
+/// Tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for; chosen.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
-const RESIDUALS: f64 = 10.0;
-/// Rounding of what is known in closed form.
-const ROUNDING: f64 = 1e-12;
-/// Elements times steps of a march that are not exceeded: about half an hour of one thread.
-const MOST_STEPS: f64 = 2e9;
+/// Relative error of a result per relative residual of the contact; chosen.
+const RESIDUAL_AMPLIFICATION: f64 = 10.0;
+/// Relative rounding error of results in closed form; chosen.
+const CLOSED_FORM_ROUNDING: f64 = 1e-12;
+/// Maximum number of elements times steps of a march: about half an hour of one thread.
+const MAX_ELEMENT_STEPS: f64 = 2e9;
 
-/// Elements of the largest grid at all, and memory that one of them takes at most, \[bytes].
-const LARGEST_GRID: f64 = 268_435_456.0;
+/// Maximum number of elements of any grid: 2^28, as of [`Grid`].
+const MAX_GRID_ELEMENTS: f64 = 268_435_456.0;
+/// Memory per element without the GCR basis, at most, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 186.0;
-/// What directions take besides, so much for each element; no less than elimination may take, and no more than is kept on a small
-/// grid, \[bytes].
-const BYTES_OF_FEW: f64 = (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
-const BYTES_BESIDE: [f64; 2] = [
-    33_554_432.0,
-    (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64,
-];
-/// The bars are made of three grids, of which the last has so many times the elements of the first along an edge.
-const THREE_GRIDS: usize = 4;
+/// Memory of the GCR basis per element on a small grid, \[bytes].
+const BASIS_BYTES_PER_ELEMENT: f64 =
+    (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
+/// Memory that a direct solve may take besides, \[bytes].
+const DIRECT_SOLVE_BYTES: f64 = 33_554_432.0;
+/// Largest memory of the GCR basis on a small grid, \[bytes].
+const MAX_SMALL_BASIS_BYTES: f64 = (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64;
+/// Ratio of the elements along an edge on the last of three grids to those on the first.
+const FINEST_OVER_COARSEST: usize = 4;
 
-/// How an error falls from grid to grid.
+/// Assumed convergence of a quantity from grid to grid.
 #[derive(Clone, Copy)]
 pub(super) struct ConvergenceRate {
+    /// Factor from the change to the error bar.
     safety: f64,
-    /// Part of a change that the next one is at least.
+    /// Lower bound of the ratio of two successive changes.
     min_reduction: f64,
-    /// Part of an error that the next grid leaves as a rule.
+    /// Expected ratio of the errors on two successive grids.
     expected_reduction: f64,
 }
 
-/// What is asked, and how errors fall.
+/// Accuracy asked for, control, and assumed convergence.
 pub(super) struct RefinementGoal<'w> {
     pub(super) request: Request<'w>,
     pub(super) control: PeriodicControl,
     pub(super) friction: ConvergenceRate,
     pub(super) area: ConvergenceRate,
-    /// Steps of a march for each row of the grid.
+    /// Steps of a march per row of the grid; `None` for a stationary state.
     pub(super) steps_per_row: Option<f64>,
 }
 
-/// What is known from one grid.
+/// Results on one grid.
 pub(super) struct GridResult {
     pub(super) friction: f64,
     pub(super) from_dissipation: Option<f64>,
-    /// With what its outline leaves unknown.
+    /// Area fraction with the error of its perimeter correction.
     pub(super) area_fraction: Estimate,
-    /// Number of elements.
+    /// Number of elements in contact.
     pub(super) in_contact: usize,
-    /// Whether the grid tells all waves of the surface.
+    /// True if the grid resolves all waves of the surface.
     pub(super) has_all_waves: bool,
-    /// What is between elements that are all in contact.
+    /// Bound of the effect of gaps between elements that are all in contact.
     pub(super) subgrid_gaps: SubgridGapBound,
     pub(super) mean_pressure: f64,
     pub(super) mean_depth: f64,
-    /// Of the contact.
+    /// Relative residual of the contact.
     pub(super) residual: f64,
 }
 
-/// The shape of the first grid.
+/// The shape of the first grid. For a number of elements it is proportional to the smallest first grid of the surface.
 pub(super) fn first_shape(
     surface: &PeriodicSurface,
     request: &Request,
 ) -> Result<[usize; 2], BemError> {
     let usual = surface.largest_numbers().map(first_elements);
-    let along = |first: [usize; 2]| THREE_GRIDS * first[0].max(first[1]);
+    let finest_edge = |first: [usize; 2]| FINEST_OVER_COARSEST * first[0].max(first[1]);
     let fits = match request.accuracy {
         Accuracy::RelativeError(_) => {
-            last_elements(usual) <= USUAL_GRID && request.watch.may_refine(along(usual))
+            finest_elements(usual) <= MAX_USUAL_GRID && request.watch.may_refine(finest_edge(usual))
         }
-        Accuracy::Elements(elements) => elements >= along(usual),
+        Accuracy::Elements(elements) => elements >= finest_edge(usual),
     };
     let first = if fits { usual } else { coarsest(surface) };
     let Accuracy::Elements(elements) = request.accuracy else {
         return Ok(first);
     };
-    let needed = along(first);
+    let needed = finest_edge(first);
     if elements < needed {
         return Err(BemError::PeriodTooCoarse { elements, needed });
     }
-    // In proportion; what is too large to be multiplied is too large for a grid.
+    // A product that overflows is too large for a grid anyway.
     Ok(first.map(|edge| edge.saturating_mul(elements).div_ceil(needed)))
 }
 
+/// Elements along an edge of the usual first grid, for the largest number of waves along it.
 fn first_elements(number: usize) -> usize {
     match number {
         0 => 2,
-        _ => (FIRST * number).next_power_of_two().max(FEWEST),
+        _ => (FIRST_ELEMENTS_PER_WAVE * number)
+            .next_power_of_two()
+            .max(MIN_EDGE_ELEMENTS),
     }
 }
 
-/// The first grid whose double tells all waves, or that double where it has no wave itself.
+/// The coarsest first grid: its refinement resolves all waves. If it resolves no wave itself, that refinement.
 fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
     let first = surface.largest_numbers().map(|number| match number {
         0 => 2,
-        _ => (MULTIPLE * fast_length((number + 1).div_ceil(MULTIPLE))).max(FEWEST),
+        _ => (COARSE_EDGE_MULTIPLE * fast_length((number + 1).div_ceil(COARSE_EDGE_MULTIPLE)))
+            .max(MIN_EDGE_ELEMENTS),
     });
     match surface.told_by(first) {
         Some(_) => first,
@@ -147,59 +162,63 @@ fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
     }
 }
 
-/// Elements of the last of the three grids without which there are no error bars.
+/// Smallest number of elements of the finest grid for an error bar.
 pub fn elements_for_bars(surface: &PeriodicSurface) -> f64 {
-    last_elements(coarsest(surface))
+    finest_elements(coarsest(surface))
 }
 
-/// Elements of a grid without which no surface with waves of these largest numbers along x and y is solved.
+/// Smallest number of elements of the finest grid for a surface with waves of these largest numbers along x and y.
 pub fn fewest_elements(largest_numbers: [usize; 2]) -> f64 {
-    last_elements(largest_numbers.map(|number| number.max(1)))
+    finest_elements(largest_numbers.map(|number| number.max(1)))
 }
 
-fn last_elements(first: [usize; 2]) -> f64 {
-    let edges = first.map(|edge| (THREE_GRIDS * edge) as f64);
+/// Number of elements of the last of three grids that begin with the shape `first`.
+fn finest_elements(first: [usize; 2]) -> f64 {
+    let edges = first.map(|edge| (FINEST_OVER_COARSEST * edge) as f64);
     edges[0] * edges[1]
 }
 
-/// Elements of the largest grid that a memory \[bytes] allows; without it of the largest one at all.
+/// Number of elements of the largest grid that fits into a memory \[bytes]; of the largest grid of all for `None`.
 pub fn largest_grid(memory: Option<f64>) -> f64 {
-    memory.map_or(LARGEST_GRID, |bytes| {
-        let beside = BYTES_BESIDE.map(|beside| (bytes - beside) / BYTES_PER_ELEMENT);
-        let all = bytes / (BYTES_PER_ELEMENT + BYTES_OF_FEW);
-        all.max(beside[1])
-            .min(beside[0])
+    memory.map_or(MAX_GRID_ELEMENTS, |bytes| {
+        // The basis grows with the grid between the memory of a direct solve and that of the largest basis of a small grid.
+        let with_direct_solve = (bytes - DIRECT_SOLVE_BYTES) / BYTES_PER_ELEMENT;
+        let with_largest_basis = (bytes - MAX_SMALL_BASIS_BYTES) / BYTES_PER_ELEMENT;
+        let with_growing_basis = bytes / (BYTES_PER_ELEMENT + BASIS_BYTES_PER_ELEMENT);
+        with_growing_basis
+            .max(with_largest_basis)
+            .min(with_direct_solve)
             .floor()
-            .clamp(0.0, LARGEST_GRID)
+            .clamp(0.0, MAX_GRID_ELEMENTS)
     })
 }
 
-/// Memory that a grid of so many elements takes at most, \[bytes].
+/// Upper bound of the memory of a grid with a number of elements, \[bytes].
 fn bytes_on(elements: f64) -> f64 {
-    let beside = (BYTES_OF_FEW * elements).clamp(BYTES_BESIDE[0], BYTES_BESIDE[1]);
-    beside + BYTES_PER_ELEMENT * elements
+    let basis = BASIS_BYTES_PER_ELEMENT * elements;
+    basis.clamp(DIRECT_SOLVE_BYTES, MAX_SMALL_BASIS_BYTES) + BYTES_PER_ELEMENT * elements
 }
 
-/// Memory that [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide) take at most on a grid with so
-/// many elements along the edge that has more of them, \[bytes].
+/// Upper bound of the memory of [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide), \[bytes], for a
+/// number of elements along the edge of the period that has more of them.
 ///
 /// # Errors
 /// [`BemError::PeriodTooCoarse`].
 pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemError> {
     let first = first_shape(surface, &Accuracy::Elements(elements).into())?;
-    Ok(bytes_on(last_elements(first)))
+    Ok(bytes_on(finest_elements(first)))
 }
 
-/// A surface on one of the grids.
+/// A surface sampled on one grid.
 pub(super) struct SampledSurface {
     pub(super) grid: Grid,
-    /// Of the waves that the grid tells, at the centres of its elements, \[m].
+    /// Heights of the resolved modes at the centres of the elements, \[m].
     pub(super) heights: Vec<f64>,
     has_all_waves: bool,
 }
 
 impl SampledSurface {
-    pub(super) fn of(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
+    pub(super) fn new(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let grid = Grid::new(shape, spacing)?;
         let told = surface.told_by(shape);
@@ -213,9 +232,10 @@ impl SampledSurface {
     }
 }
 
-/// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact; `solve` is told
-/// the grid, its heights, the tolerance, and what is to be told of its progress. The grids do not depend on the error asked for, so
-/// that a smaller one is answered by what follows on the answer to a larger one.
+/// Solves on one grid after the other, each with twice the elements along both axes, until the error asked for is reached.
+///
+/// `solve` gets the grid, its heights, the tolerance of the contact, and a function that reports its progress. The grids do not
+/// depend on the error asked for, so that a smaller error continues the sequence of a larger one.
 pub(super) fn refine<S>(
     surface: &PeriodicSurface,
     goal: &RefinementGoal,
@@ -229,24 +249,26 @@ where
         Accuracy::Elements(_) => None,
     };
     let mut shape = first_shape(surface, &goal.request)?;
-    goal.check_size(shape, THREE_GRIDS as f64)?;
-    let first = goal.work_on(shape);
-    let all = first + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
-    let mut progress = WorkProgress::new(goal.request.watch, all);
+    goal.check_size(shape, FINEST_OVER_COARSEST as f64)?;
+    let first_work = goal.work_on(shape);
+    let total_work =
+        first_work + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
+    let mut progress = WorkProgress::new(goal.request.watch, total_work);
     let (mut grids, mut tolerance) = (Vec::new(), FIRST_TOLERANCE);
     let mut best: Option<(TargetEstimate, PeriodicEstimate<S>)> = None;
     loop {
+        // Solve on the next grid. If that does not converge, the best estimate so far is the answer.
         let SampledSurface {
             grid,
             heights,
             has_all_waves,
-        } = SampledSurface::of(surface, shape)?;
+        } = SampledSurface::new(surface, shape)?;
         let solved = progress.run(goal.work_on(shape), |tell| {
             solve(&grid, &heights, tolerance, tell)
         });
-        let is_lost = matches!(solved, Err(BemError::ContactNotConverged { .. }));
-        if let Some(((known, bars), asked)) = best.take_if(|_| is_lost).zip(asked) {
-            return Err(known.missed(asked, bars.into()));
+        let failed = matches!(solved, Err(BemError::ContactNotConverged { .. }));
+        if let Some(((target, estimate), asked)) = best.take_if(|_| failed).zip(asked) {
+            return Err(target.not_reached(asked, estimate.into()));
         }
         let (found, state) = solved?;
         grids.push(GridResult {
@@ -254,29 +276,32 @@ where
             ..found
         });
         let finer = shape.map(|n| 2 * n);
-        if let Some(bars) = goal.bars(&grids, state) {
-            let known = bars.asked();
-            let Some(missed) = asked.filter(|asked| !known.estimate.is_within(*asked)) else {
-                return Ok(bars);
+        if let Some(estimate) = goal.estimate(&grids, state) {
+            // Stop if the error asked for is reached.
+            let target = estimate.target();
+            let Some(missed) = asked.filter(|asked| !target.estimate.is_within(*asked)) else {
+                return Ok(estimate);
             };
-            let better =
-                |(best, _): &(TargetEstimate, _)| best.relative_error() <= known.relative_error();
-            if !best.as_ref().is_some_and(better) {
-                best = Some((known, bars));
+            let is_better =
+                |(best, _): &(TargetEstimate, _)| best.relative_error() <= target.relative_error();
+            if !best.as_ref().is_some_and(is_better) {
+                best = Some((target, estimate));
             }
-            let excess = known.relative_error() / missed;
-            if let Some((known, bars)) = best.take_if(|_| !goal.may_go_on(finer, excess)) {
-                return Err(known.missed(missed, bars.into()));
+
+            // Give up if the next grid is too large, or too large for what it may reach.
+            let excess = target.relative_error() / missed;
+            if let Some((target, estimate)) = best.take_if(|_| !goal.may_refine_to(finer, excess)) {
+                return Err(target.not_reached(missed, estimate.into()));
             }
             goal.check_march(excess, finer)?;
-            progress.set_remaining_work(goal.work_after(excess, finer));
+            progress.set_remaining_work(goal.remaining_work(excess, finer));
         }
         shape = finer;
         tolerance *= 0.5;
     }
 }
 
-/// What the relative error is of.
+/// The quantity whose relative error is asked for.
 #[derive(Clone, Copy)]
 struct TargetEstimate {
     quantity: &'static str,
@@ -288,7 +313,7 @@ impl TargetEstimate {
         self.estimate.error / self.estimate.value.abs()
     }
 
-    fn missed(self, relative_error: f64, reached: Reached) -> BemError {
+    fn not_reached(self, relative_error: f64, reached: Reached) -> BemError {
         BemError::NotReached {
             quantity: self.quantity,
             value: self.estimate.value,
@@ -300,14 +325,15 @@ impl TargetEstimate {
 }
 
 impl RefinementGoal<'_> {
-    /// Elements, or elements times steps.
+    /// Work on a grid: elements, or elements times steps of a march.
     fn work_on(&self, shape: [usize; 2]) -> f64 {
         let [rows, columns] = shape.map(|n| n as f64);
         rows * columns * self.steps_per_row.map_or(1.0, |steps| steps * rows)
     }
 
-    /// Of the grids from this one on that are needed if the error is too large by a factor and falls as it is assumed to.
-    fn work_after(&self, excess: f64, shape: [usize; 2]) -> f64 {
+    /// Work on the grids from this one on that are needed if the error is too large by the factor `excess` and converges as
+    /// expected.
+    fn remaining_work(&self, excess: f64, shape: [usize; 2]) -> f64 {
         let grids = (excess.log2() / -self.friction.expected_reduction.log2())
             .ceil()
             .max(1.0);
@@ -319,13 +345,13 @@ impl RefinementGoal<'_> {
         self.work_on(shape) * (growth.powf(grids) - 1.0) / (growth - 1.0)
     }
 
-    /// Refuses a grid that is finer by a factor and too large.
+    /// Fails if a grid with `finer` times the elements of a shape along both axes is too large.
     fn check_size(&self, shape: [usize; 2], finer: f64) -> Result<(), BemError> {
         let [rows, columns] = shape.map(|n| n as f64);
         let elements = finer.powi(2) * rows * columns;
         let limit = match self.steps_per_row {
-            None => LARGEST_GRID,
-            Some(steps) => USUAL_GRID.min(MOST_STEPS / (steps * finer * rows)),
+            None => MAX_GRID_ELEMENTS,
+            Some(steps) => MAX_USUAL_GRID.min(MAX_ELEMENT_STEPS / (steps * finer * rows)),
         };
         if elements <= limit {
             return Ok(());
@@ -333,17 +359,17 @@ impl RefinementGoal<'_> {
         Err(BemError::GridTooLarge { elements, limit })
     }
 
-    /// Whether a grid that is finer than needed for bars may be begun, where the error is too large by a factor: a large one only if
-    /// that and the next may be fine enough.
-    fn may_go_on(&self, shape: [usize; 2], excess: f64) -> bool {
-        let is_usual = (shape[0] * shape[1]) as f64 <= USUAL_GRID;
+    /// True if a grid beyond the first three is allowed while the error is too large by the factor `excess`. A large grid is allowed
+    /// only if it or the next one can be expected to reach the error.
+    fn may_refine_to(&self, shape: [usize; 2], excess: f64) -> bool {
+        let is_usual = (shape[0] * shape[1]) as f64 <= MAX_USUAL_GRID;
         let may_reach = is_usual || excess <= self.friction.expected_reduction.powi(-2);
         may_reach
             && self.check_size(shape, 1.0).is_ok()
             && self.request.watch.may_refine(shape[0].max(shape[1]))
     }
 
-    /// Half an hour is not spent on a march in vain: no error falls faster than with the second order.
+    /// Fails if a march that reaches the error would take too long even at the second order, which no error exceeds.
     fn check_march(&self, excess: f64, shape: [usize; 2]) -> Result<(), BemError> {
         if self.steps_per_row.is_none() {
             return Ok(());
@@ -352,119 +378,113 @@ impl RefinementGoal<'_> {
         self.check_size(shape, finer)
     }
 
-    /// From three grids or more.
-    fn bars<S>(&self, grids: &[GridResult], finest: S) -> Option<PeriodicEstimate<S>> {
+    /// The results on the finest grid with error bars from the last three; `None` with fewer grids.
+    fn estimate<S>(&self, grids: &[GridResult], finest: S) -> Option<PeriodicEstimate<S>> {
         let [.., coarse, middle, fine] = grids else {
             return None;
         };
-        let of = |quantity: &dyn Fn(&GridResult) -> f64,
-                  ConvergenceRate {
-                      safety,
-                      min_reduction,
-                      ..
-                  }: ConvergenceRate| {
+        let with_error = |quantity: &dyn Fn(&GridResult) -> f64, rate: ConvergenceRate| {
             let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
+            let previous_change = (middle - coarse).abs();
             let change = (value - middle)
                 .abs()
-                .max(min_reduction * (middle - coarse).abs());
-            let solved = RESIDUALS * fine.residual + ROUNDING;
-            Estimate::new(value, safety * change + solved * value.abs())
+                .max(rate.min_reduction * previous_change);
+            let solver_error = RESIDUAL_AMPLIFICATION * fine.residual + CLOSED_FORM_ROUNDING;
+            Estimate::new(value, rate.safety * change + solver_error * value.abs())
         };
-        let mut slopes = of(&|found| found.friction, self.friction);
+
+        // Both frictions are the same quantity, so that each bar has to reach the other one; without loss there is none.
+        let mut slopes = with_error(&|found| found.friction, self.friction);
         let dissipated = |found: &GridResult| found.from_dissipation.unwrap_or(f64::NAN);
         let mut dissipation = fine
             .from_dissipation
-            .map(|_| of(&dissipated, self.friction));
+            .map(|_| with_error(&dissipated, self.friction));
         if let Some(dissipation) = &mut dissipation
             && dissipation.value > 0.0
         {
-            // Both are the same friction; without loss there is none.
-            let apart = (slopes.value - dissipation.value).abs();
-            let missing = (apart - slopes.error - dissipation.error).max(0.0);
+            let difference = (slopes.value - dissipation.value).abs();
+            let missing = (difference - slopes.error - dissipation.error).max(0.0);
             slopes = slopes.widened(missing);
             *dissipation = dissipation.widened(missing);
         }
-        // Shorter waves make a contact smaller by more than finer elements do.
+        let friction = dissipation.map_or(slopes, |other| weighted_mean(slopes, other));
+
+        // Newly resolved waves reduce the area more than finer elements do, so that the change before does not count then.
         let min_reduction = if coarse.has_all_waves {
             self.area.min_reduction
         } else {
             0.0
         };
-        let area = of(
-            &|found| found.area_fraction.value,
-            ConvergenceRate {
-                min_reduction,
-                ..self.area
-            },
-        );
-        let bars = PeriodicEstimate {
-            friction_coefficient: dissipation.map_or(slopes, |other| mean_of(slopes, other)),
-            friction_from_dissipation: dissipation,
-            area_fraction: area.widened(fine.area_fraction.error),
+        let area_rate = ConvergenceRate {
+            min_reduction,
+            ..self.area
+        };
+        let area = with_error(&|found| found.area_fraction.value, area_rate);
+
+        // Add the bounds of sub-grid gaps, except to what is prescribed.
+        let gaps = fine.subgrid_gaps;
+        let mut estimate = PeriodicEstimate {
+            friction_coefficient: friction.widened(gaps.friction),
+            friction_from_dissipation: dissipation.map(|friction| friction.widened(gaps.friction)),
+            area_fraction: area
+                .widened(fine.area_fraction.error)
+                .widened(gaps.area_fraction),
             mean_pressure: match self.control {
                 PeriodicControl::MeanPressure(pressure) => Estimate::exact(pressure),
-                PeriodicControl::MeanDepth(_) => of(&|found| found.mean_pressure, FIRST_ORDER_RATE),
+                PeriodicControl::MeanDepth(_) => {
+                    with_error(&|found| found.mean_pressure, FIRST_ORDER_RATE)
+                        .widened(gaps.mean_pressure)
+                }
             },
             mean_depth: match self.control {
-                PeriodicControl::MeanPressure(_) => of(&|found| found.mean_depth, FIRST_ORDER_RATE),
+                PeriodicControl::MeanPressure(_) => {
+                    with_error(&|found| found.mean_depth, FIRST_ORDER_RATE).widened(gaps.mean_depth)
+                }
                 PeriodicControl::MeanDepth(depth) => Estimate::exact(depth),
             },
             finest,
         };
-        let bars = bars.with_gaps(fine.subgrid_gaps, self.control);
-        let is_resolved = coarse.in_contact >= FEWEST_IN_CONTACT;
-        Some(if is_resolved { bars } else { bars.unresolved() })
+
+        // With few elements in contact the active set decides the values: let the bars reach to 0.
+        if coarse.in_contact < MIN_CONTACT_ELEMENTS {
+            let dissipation = estimate.friction_from_dissipation.as_mut();
+            let values = [
+                &mut estimate.friction_coefficient,
+                &mut estimate.area_fraction,
+            ];
+            for value in values.into_iter().chain(dissipation) {
+                *value = value.widened(value.value.abs());
+            }
+        }
+        Some(estimate)
     }
 }
 
-/// The mean of two frictions that err by different things, each with the weight of the inverse of its bar: where one of them is
-/// much sharper, that one, and where both are alike, with half their bar. A friction below 0 says nothing.
-fn mean_of(slopes: Estimate, dissipation: Estimate) -> Estimate {
+/// The mean of both frictions, which err by different things, weighted by the inverse of their bars.
+///
+/// If one of them is much sharper, it is that one; if both are alike, the bar is halved. A negative friction from slopes is ignored.
+fn weighted_mean(slopes: Estimate, dissipation: Estimate) -> Estimate {
     if slopes.value < 0.0 || dissipation.error == 0.0 {
         return dissipation;
     }
-    let part = dissipation.error / (slopes.error + dissipation.error);
-    let apart = slopes.value - dissipation.value;
+    let weight = dissipation.error / (slopes.error + dissipation.error);
+    let difference = slopes.value - dissipation.value;
     // Slopes change little by chance more often than the power, which is the better one of a contact that is nearly elastic.
-    let least = if slopes.error < dissipation.error {
-        PART_OF_DIFFERENCE * apart.abs()
+    let floor = if slopes.error < dissipation.error {
+        MIN_ERROR_OVER_DIFFERENCE * difference.abs()
     } else {
         0.0
     };
     Estimate::new(
-        dissipation.value + part * apart,
-        (part * slopes.error).max(least),
+        dissipation.value + weight * difference,
+        (weight * slopes.error).max(floor),
     )
 }
 
 impl<S> PeriodicEstimate<S> {
-    /// With bars that reach to 0, because so few elements touch that which of them do decides the values.
-    fn unresolved(mut self) -> Self {
-        let friction = self.friction_from_dissipation.as_mut();
-        let known = [&mut self.friction_coefficient, &mut self.area_fraction];
-        for known in known.into_iter().chain(friction) {
-            *known = known.widened(known.value.abs());
-        }
-        self
-    }
-
-    /// With bars that reach to what gaps between elements may change; what is given keeps none.
-    fn with_gaps(mut self, subgrid_gaps: SubgridGapBound, control: PeriodicControl) -> Self {
-        let (found, change) = match control {
-            PeriodicControl::MeanPressure(_) => (&mut self.mean_depth, subgrid_gaps.mean_depth),
-            PeriodicControl::MeanDepth(_) => (&mut self.mean_pressure, subgrid_gaps.mean_pressure),
-        };
-        *found = found.widened(change);
-        let friction = self.friction_from_dissipation.as_mut();
-        for friction in friction.into_iter().chain([&mut self.friction_coefficient]) {
-            *friction = friction.widened(subgrid_gaps.friction);
-        }
-        self.area_fraction = self.area_fraction.widened(subgrid_gaps.area_fraction);
-        self
-    }
-
-    /// What the relative error is of.
-    fn asked(&self) -> TargetEstimate {
+    /// The quantity whose relative error is asked for: the friction, or the area without friction, or the mean pressure if its
+    /// relative error is larger.
+    fn target(&self) -> TargetEstimate {
         let first = if self.friction_coefficient.value == 0.0 {
             ("area fraction", self.area_fraction)
         } else {
@@ -513,8 +533,8 @@ mod tests {
 
     /// Slopes and dissipation on three grids, and what follows.
     fn bars_of(frictions: [(f64, f64); 3]) -> PeriodicEstimate<()> {
-        let bars = goal().bars(&frictions.map(found), ());
-        bars.expect("three grids")
+        let estimate = goal().estimate(&frictions.map(found), ());
+        estimate.expect("three grids")
     }
 
     /// The memory of the largest grid that fits is no more than is allowed, and that of the next one is.

@@ -1,4 +1,4 @@
-//! A cycle in full contact, in closed form.
+//! A reciprocating cycle in full contact, in closed form.
 //!
 //! ```text
 //! p(q, t) = p̄ δ_q0 − |q| ĥ(q) σ(q_x, t)/((1 − ν) M),      force/area = Σ_q |q| |ĥ|² Re(i q_x σ u*)/((1 − ν) M)
@@ -14,21 +14,21 @@ use crate::parallel::reductions::dot;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::transform::plane_transform::ZERO;
 
-/// A surface whose gaps may all be closed.
+/// A surface on a grid, for the test whether its contact is full and for its closed form.
 pub(super) struct Closed<'a> {
     pub(super) grid: &'a Grid,
-    /// \[m].
+    /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
     pub(super) waves: FourierMultiplier,
-    /// 1 − ν.
+    /// 1 − ν, for the Poisson ratio ν.
     pub(super) factor: f64,
     /// \[Pa].
     pub(super) mean_pressure: f64,
-    /// The largest numbers of waves in the period.
+    /// Largest numbers of waves in the period along both axes.
     pub(super) largest_numbers: [usize; 2],
 }
 
-/// What a cycle in full contact takes.
+/// Forces and work of a cycle in full contact.
 pub(super) struct FullContact {
     /// Force along −x over the area at the end of every step, \[Pa].
     pub(super) stresses: Vec<f64>,
@@ -37,23 +37,25 @@ pub(super) struct FullContact {
 }
 
 impl Closed<'_> {
-    /// Part of the largest value of a sum of waves that one of the elements has, at least: cos(πn/N) for n waves along N of them
-    /// (Ehlich & Zeller 1964), and once more along x, because steps are as long as an element.
-    fn between(&self) -> f64 {
+    /// Lower bound of the ratio of the largest value at the centres of the elements to the maximum of a band-limited field.
+    ///
+    /// It is cos(πn/N) for n waves along N elements (Ehlich & Zeller 1964), and once more along x, because steps are as long as an
+    /// element.
+    fn sampling_ratio(&self) -> f64 {
         let (numbers, shape) = (self.largest_numbers, self.grid.shape());
         let [x, y] = [0, 1].map(|axis| (PI * numbers[axis] as f64 / shape[axis] as f64).cos());
         x * x * y
     }
 
-    /// Whether no pressure falls to 0, between elements and steps either.
+    /// True if the pressure is positive everywhere, also between elements and between steps.
     pub(super) fn is_full(&mut self, motion: &WaveMotion) -> bool {
         let n = self.grid.n_elements() as f64;
         let rows = self.grid.shape()[0];
-        let allowed = self.between() * self.mean_pressure;
+        let allowed = self.sampling_ratio() * self.mean_pressure;
         let mut field = vec![0.0; self.heights.len()];
         motion.states[1..].iter().all(|state| {
             let (heights, factor) = (self.heights, self.factor);
-            let stress = |row: usize| of_row(&state.stress, row, rows);
+            let stress = |row: usize| value_of_row(&state.stress, row, rows);
             let symbol = |row: usize, [_, q]: [f64; 2]| -stress(row) * q / factor;
             self.waves.apply(heights, &mut field, symbol);
             let mean = field.iter().sum::<f64>() / n;
@@ -61,12 +63,13 @@ impl Closed<'_> {
         })
     }
 
-    /// The cycle in full contact.
+    /// Forces and work of the cycle, from the waves of the motion.
     pub(super) fn cycle(mut self, motion: &WaveMotion, wave_numbers: &[f64]) -> FullContact {
         let ends = &motion.states[1..];
         let n = self.grid.n_elements() as f64;
         let rows = self.grid.shape()[0];
         let mut field = vec![0.0; self.heights.len()];
+        // Σ |q| |ĥ|²/((1 − ν) M) over the waves with the same number along x.
         let weights: Vec<f64> = (0..wave_numbers.len())
             .map(|number| {
                 let is_own = |row: usize| row.min(rows - row) == number;
@@ -91,8 +94,9 @@ impl Closed<'_> {
     }
 }
 
-/// The value of the waves of a row of a transform, of values by the number of waves in the period; 0 of waves without one.
-pub(super) fn of_row(values: &[Complex<f64>], row: usize, rows: usize) -> Complex<f64> {
+/// The value for a row of a transform, from values by the number of waves in the period; conjugate for negative q_x, and 0 for waves
+/// beyond the values.
+pub(super) fn value_of_row(values: &[Complex<f64>], row: usize, rows: usize) -> Complex<f64> {
     let number = row.min(rows - row);
     let value = values.get(number).copied().unwrap_or(ZERO);
     if 2 * row > rows { value.conj() } else { value }

@@ -1,9 +1,11 @@
-//! Any motion of a periodic surface with its error bars: to and fro until two cycles are alike, or through points.
+//! Motions of a periodic surface with error bars: reciprocating up to the limit cycle, or along a path through points.
 //!
-//! The elements stay where they are in the material, and the waves of the surface are shifted over them, by any distance: the
-//! grids tell all waves. Steps hold the pressure, as in [marches](super::march), and in full contact the pressure is exact; a
-//! cycle in full contact is known in closed form. The error of a contact that is not full is of the first order in the edge of
-//! an element, and so is that of the steps, which become shorter with the elements.
+//! The elements are fixed in the material, and the surface is shifted over them by any distance, since the grids resolve all its
+//! waves. The pressure is constant in each step, as in [marches](super::march), and exact in full contact; a cycle in full contact
+//! has a closed form. In partial contact the error is of the first order in the spacing, and so is that of the steps, which are
+//! refined with the elements.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions".
 
 mod full_contact;
 mod stresses;
@@ -26,31 +28,33 @@ use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::nested::interpolated;
 use crate::stepping::{MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, ContactOptions, Elastomer, Grid};
-use full_contact::{Closed, of_row};
+use full_contact::{Closed, value_of_row};
 use stresses::{Spectra, WaveMotion, WaveStates};
 
-/// Elements per shortest wave with which an error is first sought, and the fewest of them along an edge that is not level;
-/// three eighths of them are the coarsest grid.
+/// Elements per shortest wave for the first error estimate, whose coarsest grid has three eighths of them; chosen.
 const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
+/// Fewest elements along an edge with waves; chosen.
 const MIN_EDGE_ELEMENTS: usize = 32;
-/// Elements times steps of a cycle or path that are not exceeded; a minute or some.
+/// Maximum number of elements times steps of a cycle or path: a few minutes.
 const MAX_ELEMENT_STEPS: f64 = 6e7;
-/// Elements in contact below which, on half the elements, the number of those that touch decides the friction.
+/// Fewest elements in contact, on half the elements along both axes, for the error bars to be trusted; chosen. With fewer, the active
+/// set decides the friction.
 const FEWEST_IN_CONTACT: usize = 30;
-/// Tolerance of the contact of a step, which times the slope is a part of the error of the friction of a cycle.
+/// Tolerance of the contact of a step; chosen. Times the slope it is a part of the error of the friction of a cycle.
 const CONTACT_TOLERANCE: f64 = 1e-8;
-/// Memory for an element but for what it remembers, and for each wave along x in a step, \[bytes].
+/// Memory per element without its history variables, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 170.0;
+/// Memory per wave along x and step, \[bytes].
 const BYTES_PER_WAVE: f64 = 80.0;
 
-/// Moves a sum of waves over a material at rest, through the points of a motion, or to and fro until two cycles are alike; to an
-/// error of the mean friction coefficient relative to its value, or with a number of elements along the edge of the period
-/// that has more of them.
+/// Moves a sum of waves over a material at rest, along a path through points, or reciprocating up to the limit cycle.
+///
+/// The relative error of the request is that of the mean friction coefficient of a cycle, or that of the friction force of a path
+/// relative to its largest value. A number of elements is that along the edge of the period that has more of them.
 ///
 /// Forces and energies are those of one period, and so is the normal force of the load, the mean pressure times the area. At the
-/// beginning the surface is pressed at once. The depth is that of the mean plane, as in
-/// [`PeriodicSliding`](crate::PeriodicSliding). The friction force of a motion through points has the error asked for relative to
-/// its largest value. In full contact a cycle is answered in closed form.
+/// beginning the surface is pressed instantaneously. The depth is that of the mean plane, as in
+/// [`PeriodicSliding`](crate::PeriodicSliding). In full contact a cycle is computed in closed form.
 ///
 /// ```
 /// use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
@@ -74,8 +78,8 @@ const BYTES_PER_WAVE: f64 = 80.0;
 /// ```
 ///
 /// # Errors
-/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::NoCycle`] to and fro on a material
-/// that flows; [`BemError::NotPeriodic`]; [`BemError::DepthFromRest`]; [`BemError::Indenter`] for a path that is too long
+/// [`BemError::NotReached`] with the result on the finest grid allowed; [`BemError::NoCycle`] for reciprocation on a material that
+/// flows; [`BemError::NotPeriodic`]; [`BemError::DepthFromRest`]; [`BemError::Indenter`] for a path that is too long
 /// for the elements that the shortest waves need; [`BemError::PeriodTooCoarse`] for too few elements; otherwise like
 /// [`slide`](super::slide).
 pub fn move_along<'w>(
@@ -110,7 +114,8 @@ pub fn move_along<'w>(
     moved_if_reached(&view, refined)
 }
 
-/// Memory that [`move_along`] takes at most for a number of elements along the edge of the period that has more of them, \[bytes].
+/// Upper bound of the memory of [`move_along`] for a number of elements along the edge of the period that has more of them,
+/// \[bytes].
 ///
 /// # Errors
 /// As for [`move_along`], before anything is followed.
@@ -137,13 +142,13 @@ pub fn move_along_memory(
     Ok(per_element * n_elements + BYTES_PER_WAVE * waves * n_steps)
 }
 
-/// Elements along the edge of the period that has more of them with which [`move_along`] first seeks an error.
+/// Number of elements, along the edge of the period that has more of them, of the first error estimate of [`move_along`].
 pub fn elements_of_motion(surface: &PeriodicSurface) -> usize {
     let [x, y] = edges(surface);
     x.max(y)
 }
 
-/// Elements along both edges in proportion to the waves.
+/// Elements along both edges for the first error estimate, in proportion to the waves.
 fn edges(surface: &PeriodicSurface) -> [usize; 2] {
     surface.largest_numbers().map(|number| match number {
         0 => 2,
@@ -151,7 +156,8 @@ fn edges(surface: &PeriodicSurface) -> [usize; 2] {
     })
 }
 
-/// What is left to the cycle; and all of the values where too few elements touch.
+/// Errors besides that of the elements: the distance to the limit cycle and the contact tolerance; the whole value if too few
+/// elements are in contact.
 fn extra_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
     let pressed = record.steps.iter().filter(|step| step.normal_force > 0.0);
     let fewest = pressed
@@ -174,6 +180,7 @@ fn extra_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         .collect()
 }
 
+/// A motion of a surface over a material.
 struct Moving<'a> {
     surface: &'a PeriodicSurface,
     elastomer: &'a dyn Elastomer,
@@ -181,16 +188,16 @@ struct Moving<'a> {
     spectra: Spectra,
     /// q_x by the number of waves in the period, \[rad/m].
     wave_numbers: Vec<f64>,
-    /// Relative error by which cycles may differ.
+    /// Relative tolerance of the limit cycle.
     tolerance: f64,
-    /// Rows and columns of the grid whose cycle was found last, and what its elements remember at the end.
+    /// Shape of the last grid with a limit cycle, and the history variables at its end.
     limit_cycle: RefCell<Option<([usize; 2], Vec<f64>)>>,
 }
 
 /// A motion on one grid.
 struct MotionOnGrid {
     grid: Grid,
-    /// \[m].
+    /// Heights at the centres of the elements, \[m].
     heights: Vec<f64>,
     steps: Vec<MovingStep>,
     waves: WaveMotion,
@@ -241,7 +248,7 @@ impl<'a> Moving<'a> {
         Ok(problem)
     }
 
-    /// Refuses a number of elements of which three eighths do not tell all waves.
+    /// Fails for a number of elements whose coarsest grid, with three eighths of them, does not resolve all waves.
     fn check_coarsest(&self, elements: usize) -> Result<(), BemError> {
         let tells = |elements: usize| {
             let coarsest = (3 * elements).div_ceil(8);
@@ -258,14 +265,14 @@ impl<'a> Moving<'a> {
         Err(BemError::PeriodTooCoarse { elements, needed })
     }
 
-    /// Even numbers of elements.
+    /// Shape of a grid for a number of elements along its longer edge; both numbers are even.
     fn shape(&self, elements: usize) -> [usize; 2] {
         let edges = edges(self.surface);
         let longest = edges[0].max(edges[1]);
         edges.map(|edge| 2 * edge.saturating_mul(elements).div_ceil(2 * longest))
     }
 
-    /// The steps of an element, if they and the elements are not too many.
+    /// The steps on a grid; fails if elements times steps are too many.
     fn steps(&self, elements: usize, shape: [usize; 2]) -> Result<Vec<MovingStep>, BemError> {
         let [spacing, allowed] = self.spacing_and_most_steps(shape);
         Ok(self.load.steps(elements, spacing, allowed)?)
@@ -283,7 +290,7 @@ impl<'a> Moving<'a> {
         [spacing, MAX_STEPS.min(MAX_ELEMENT_STEPS / n_elements)]
     }
 
-    /// The largest number of elements in the sequence of twice as many that has not too many steps.
+    /// The largest number of elements in the sequence of doublings whose elements times steps are not too many.
     fn largest(&self, first: usize) -> usize {
         let mut elements = first;
         while self.n_steps(2 * elements, self.shape(2 * elements)).is_ok() {
@@ -309,7 +316,7 @@ impl<'a> Moving<'a> {
         })
     }
 
-    /// Whether a cycle has no gaps, on elements that tell what is between them.
+    /// True for a cycle in full contact, tested on a grid fine enough to exclude gaps between its elements.
     fn is_full(&self) -> bool {
         let elements = 2 * elements_of_motion(self.surface);
         let fine = || self.on_grid(elements).ok();
@@ -397,8 +404,8 @@ impl<'a> Moving<'a> {
         Ok(record)
     }
 
-    /// What elements remember before the first cycle on a grid: as much as at the end of that on another one, from which a material
-    /// that forgets slowly is nearly settled; on the first grid what is left of the first touch.
+    /// History variables before the first cycle on a grid: those interpolated from the limit cycle of the previous grid, so that a
+    /// slow material has nearly reached its limit cycle; on the first grid those of the first touch.
     fn before_cycles(&self, touched: &[f64], shape: [usize; 2]) -> Vec<f64> {
         let limit_cycle = self.limit_cycle.borrow();
         let Some((from, memory)) = &*limit_cycle else {
@@ -410,7 +417,7 @@ impl<'a> Moving<'a> {
             .collect()
     }
 
-    /// All steps once.
+    /// All steps of one cycle or of the path.
     fn pass(
         &self,
         march: &mut PeriodicMarch<'_>,
@@ -434,8 +441,8 @@ impl<'a> Moving<'a> {
         let rows = march.rows();
         let waves = state.displacement.iter().zip(&self.wave_numbers);
         let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
-        march.place(duration, |row| {
-            [&state.held, &slopes].map(|values| of_row(values, row, rows))
+        march.set_step(duration, |row| {
+            [&state.held, &slopes].map(|values| value_of_row(values, row, rows))
         })?;
         let options = ContactOptions {
             tolerance: CONTACT_TOLERANCE,
@@ -489,7 +496,7 @@ mod tests {
 
     use super::*;
 
-    /// Retardation times of the slowest element after which it has forgotten the first touch.
+    /// Retardation times of the slowest element after which the first touch has relaxed.
     const MEMORIES: f64 = 8.0;
 
     fn surface() -> PeriodicSurface {
@@ -516,7 +523,7 @@ mod tests {
             .expect("a solid")
     }
 
-    /// Also between the elements that it asks, and between its steps.
+    /// The test also covers the points between its elements and between its steps.
     #[test]
     fn a_cycle_is_full_where_none_of_its_pressures_is_a_tension() {
         let (surface, rubber) = (surface(), rubber());

@@ -1,12 +1,12 @@
-//! What material feels that a wave of a moving surface never leaves, as in full contact.
+//! Stress and work of a material under the waves of a moving surface in full contact.
 //!
 //! ```text
 //! u(t) = e^(−i q x(t)),      σ(t) = ∫ G(t − s) du(s),      work = ∮ Re(σ du*/dt) dt = Σ_n T |c_n|² n ω G''(n ω)
 //! ```
 //!
-//! for the wave number q along x and u = Σ c_n e^(i n ω t), by Jacobi and Anger's expansion a sum of Bessel functions where x is
-//! a cosine. Paths that are straight between points are integrated in closed form, branch by branch. Steps that hold the
-//! pressure turn σ into another displacement than u; a surface with this one has exactly the pressure σ in full contact.
+//! for the wave number q along x and u = Σ c_n e^(i n ω t), by the Jacobi–Anger expansion a sum of Bessel functions if x is a
+//! cosine. Paths that are straight between points are integrated in closed form, branch by branch. Steps with constant pressure
+//! turn σ into a displacement other than u; a surface with this displacement has exactly the pressure σ in full contact.
 
 use std::f64::consts::TAU;
 
@@ -19,40 +19,46 @@ use rustfft::num_complex::Complex;
 use crate::BemError;
 use crate::transform::plane_transform::ZERO;
 
-/// Times of a cycle for each radian of the phase of the shortest wave, and besides: harmonics beyond are below rounding.
-const TIMES_PER_RADIAN: f64 = 4.0;
-const TIMES_BESIDES: f64 = 96.0;
+/// Time samples of a cycle per radian of the phase of the shortest wave; chosen, so that harmonics beyond are below rounding.
+const SAMPLES_PER_RADIAN: f64 = 4.0;
+/// Time samples of a cycle in addition to [`SAMPLES_PER_RADIAN`]; chosen.
+const ADDITIONAL_SAMPLES: f64 = 96.0;
 
-/// All waves along x at the end of a step, by their number in the period.
+/// Displacement and stress of all waves along x at the end of a step, by their number in the period.
 #[derive(Debug, Clone)]
 pub(super) struct WaveStates {
-    /// u.
+    /// Displacement u of a unit wave.
     pub(super) displacement: Vec<Complex<f64>>,
-    /// σ, \[Pa].
+    /// Stress σ of a unit wave, \[Pa].
     pub(super) stress: Vec<Complex<f64>>,
-    /// The displacement under σ where that is held over every step.
+    /// Displacement under stresses that are constant in each step.
     pub(super) held: Vec<Complex<f64>>,
 }
 
-/// A motion as waves see it.
+/// The waves over all steps of a motion.
 #[derive(Debug)]
 pub(super) struct WaveMotion {
     /// Before the first step, and at the end of each.
     pub(super) states: Vec<WaveStates>,
-    /// Work on unit waves by their number, \[Pa].
+    /// Work on unit waves over the whole motion, by their number, \[Pa].
     pub(super) work: Vec<f64>,
 }
 
-/// The material, in both forms.
+/// Relaxation and creep spectrum of a material.
 pub(super) struct Spectra {
     pub(super) relaxation: RelaxationSpectrum,
     pub(super) creep: CreepSpectrum,
 }
 
-/// Stresses of a unit wave \[Pa], before the first step and at the end of each, and the work on it \[Pa].
-type Stressed = (Vec<Complex<f64>>, f64);
+/// Response of a unit wave to a motion.
+struct WaveResponse {
+    /// Before the first step and at the end of each, \[Pa].
+    stresses: Vec<Complex<f64>>,
+    /// Work over all steps, \[Pa].
+    work: f64,
+}
 
-/// A step of a path: how long it takes, and where it begins and ends.
+/// A step of a path at constant velocity: duration \[s], ends \[m] and velocity \[m/s].
 struct Leg {
     duration: f64,
     ends: [f64; 2],
@@ -60,8 +66,8 @@ struct Leg {
 }
 
 impl WaveMotion {
-    /// FourierMultiplier of some numbers along x \[rad/m]; in a cycle all that came before was the same, and before a path the surface has
-    /// been at its beginning without end.
+    /// The waves with some wave numbers along x \[rad/m]. A cycle is the limit cycle; before a path the surface has always been at
+    /// its beginning.
     pub(super) fn new(
         load: &MovingLoad,
         steps: &[MovingStep],
@@ -73,13 +79,13 @@ impl WaveMotion {
             .stages()
             .iter()
             .all(|stage| stage.shape() == Shape::Triangular);
-        let stresses = if is_straight {
+        let responses = if is_straight {
             let relaxation = &spectra.relaxation;
             let period = load.is_cycle().then(|| load.duration());
-            let stress = |q: &f64| straight(*q, &legs, relaxation, period);
-            wave_numbers.iter().map(stress).collect()
+            let response = |q: &f64| piecewise_linear_response(*q, &legs, relaxation, period);
+            wave_numbers.iter().map(response).collect()
         } else {
-            harmonic(load, steps.len(), wave_numbers, &spectra.relaxation)?
+            harmonic_responses(load, steps.len(), wave_numbers, &spectra.relaxation)?
         };
         let places = std::iter::once(0.0).chain(legs.iter().map(|leg| leg.ends[1]));
         let state = |(index, place): (usize, f64)| WaveStates {
@@ -87,25 +93,31 @@ impl WaveMotion {
                 .iter()
                 .map(|q| Complex::from_polar(1.0, -q * place))
                 .collect(),
-            stress: stresses.iter().map(|(stress, _)| stress[index]).collect(),
+            stress: responses.iter().map(|one| one.stresses[index]).collect(),
             held: Vec::new(),
         };
         let mut motion = Self {
             states: places.enumerate().map(state).collect(),
-            work: stresses.iter().map(|(_, work)| *work).collect(),
+            work: responses.iter().map(|one| one.work).collect(),
         };
-        motion.hold(load, &legs, spectra)?;
+        motion.update_held(load, &legs, spectra)?;
         Ok(motion)
     }
 
-    /// Finds the displacements under stresses that are held.
-    fn hold(&mut self, load: &MovingLoad, legs: &[Leg], spectra: &Spectra) -> Result<(), BemError> {
+    /// Computes the displacements under stresses that are constant in each step.
+    fn update_held(
+        &mut self,
+        load: &MovingLoad,
+        legs: &[Leg],
+        spectra: &Spectra,
+    ) -> Result<(), BemError> {
         let creep = &spectra.creep;
         let n_values = 2 * self.work.len();
         let step_of = |leg: &Leg| ExponentialStep::creep(creep, leg.duration);
         let n_fields = step_of(&legs[0])?.n_fields();
         let mut memory = vec![0.0; n_fields * n_values];
         let elements = creep.elements();
+        // History variables at the start: those of the limit cycle, or of a surface that has always been at its beginning.
         if load.is_cycle() {
             for (leg, state) in legs.iter().zip(&self.states[1..]) {
                 step_of(leg)?.advance(&parts(&state.stress), &mut memory);
@@ -119,7 +131,7 @@ impl WaveMotion {
             let first = &self.states[0];
             let [stress, displacement] = [&first.stress, &first.displacement].map(|v| parts(v));
             for (index, field) in memory.chunks_exact_mut(n_values).enumerate() {
-                // What flows has given way until nothing presses any more.
+                // The dashpot of a material that flows has yielded until the stress vanishes.
                 let (values, factor) = match elements.get(index) {
                     Some(element) => (&stress, element.compliance),
                     None => (&displacement, 1.0),
@@ -130,6 +142,7 @@ impl WaveMotion {
             }
         }
         self.states[0].held = self.states[0].displacement.clone();
+        // March over the steps.
         let mut displaced = vec![0.0; n_values];
         for (leg, state) in legs.iter().zip(&mut self.states[1..]) {
             let (step, stress) = (step_of(leg)?, parts(&state.stress));
@@ -149,13 +162,13 @@ impl WaveMotion {
     }
 }
 
-/// Real and imaginary parts, one after the other.
+/// All real parts, then all imaginary parts.
 fn parts(values: &[Complex<f64>]) -> Vec<f64> {
     let real = values.iter().map(|value| value.re);
     real.chain(values.iter().map(|value| value.im)).collect()
 }
 
-/// Positions from the beginning on.
+/// The steps of a motion, with positions relative to its beginning.
 fn legs(load: &MovingLoad, steps: &[MovingStep]) -> Vec<Leg> {
     let start = load.stages()[0].start.position;
     let mut before = 0.0;
@@ -172,19 +185,19 @@ fn legs(load: &MovingLoad, steps: &[MovingStep]) -> Vec<Leg> {
     steps.iter().map(leg).collect()
 }
 
-/// Stresses and work of a wave along a path that is straight between its points; it has a period \[s] or none.
-fn straight(
+/// Response of a wave along a piecewise linear path, with a `period` \[s] for a limit cycle, and `None` for a path from rest.
+fn piecewise_linear_response(
     q: f64,
     legs: &[Leg],
     relaxation: &RelaxationSpectrum,
     period: Option<f64>,
-) -> Stressed {
+) -> WaveResponse {
     let at = |place: f64| Complex::from_polar(1.0, -q * place);
     let first = relaxation.equilibrium_modulus() * at(0.0);
     let mut work = 0.0;
     let mut stresses = vec![first];
     for leg in legs {
-        // Of spring and dashpot; the spring gives back what it takes in a cycle.
+        // Spring and dashpot; the work on the spring vanishes over a cycle.
         let frequency = q * leg.velocity;
         let modulus = Complex::new(
             relaxation.equilibrium_modulus(),
@@ -206,10 +219,10 @@ fn straight(
     if let (Some(_), Some(last)) = (period, stresses.last().copied()) {
         stresses[0] = last;
     }
-    (stresses, work)
+    WaveResponse { stresses, work }
 }
 
-/// The stress of a branch at the end of a path, and the work on it; `each` is told that at the end of every leg.
+/// Stress of a branch at the end of a path, and the work on it; `each` gets the index of each step and the stress at its end.
 fn branch_stress(
     q: f64,
     legs: &[Leg],
@@ -222,7 +235,7 @@ fn branch_stress(
         let [from, to] = leg.ends.map(|place| Complex::from_polar(1.0, -q * place));
         let turning = Complex::new(0.0, -q * leg.velocity);
         let rate = turning + branch.relaxation_time.recip();
-        // The part of the stress that turns with the wave, and the one that relaxes.
+        // The forced part of the stress turns with the wave, the free part relaxes.
         let forced = turning * branch.modulus / rate;
         let free = stress - forced * from;
         let passed = -exp_m1(-rate * leg.duration) / rate;
@@ -242,17 +255,17 @@ fn exp_m1(z: Complex<f64>) -> Complex<f64> {
     )
 }
 
-/// Stresses and work of waves under a surface whose position is a cosine of time, from their harmonics.
-fn harmonic(
+/// Responses of waves under a surface whose position is a cosine of time, from their harmonics.
+fn harmonic_responses(
     load: &MovingLoad,
     n_steps: usize,
     wave_numbers: &[f64],
     relaxation: &RelaxationSpectrum,
-) -> Result<Vec<Stressed>, BemError> {
+) -> Result<Vec<WaveResponse>, BemError> {
     let [rear, front] = load.range();
     let (half, period) = (0.5 * (front - rear), load.duration());
     let shortest = wave_numbers.iter().copied().fold(0.0, f64::max);
-    let needed = TIMES_PER_RADIAN * shortest * half + TIMES_BESIDES;
+    let needed = SAMPLES_PER_RADIAN * shortest * half + ADDITIONAL_SAMPLES;
     let finer = whole_part((needed / n_steps as f64).ceil()).max(1);
     let count = finer * n_steps;
     let order = |index: usize| index.min(count - index);
@@ -279,7 +292,10 @@ fn harmonic(
         }
         inverse.process(&mut values);
         let ends = (0..=n_steps).map(|step| values[step * finer % count]);
-        (ends.collect(), work)
+        WaveResponse {
+            stresses: ends.collect(),
+            work,
+        }
     };
     Ok(wave_numbers.iter().map(of_wave).collect())
 }

@@ -1,17 +1,20 @@
-//! How the stationary contact of a periodic surface changes with what it was solved for, to first order.
+//! Sensitivity of the stationary contact of a periodic surface: first-order changes with surface, material, layer and load.
 //!
-//! As for [single bodies](crate::steady::sensitivity) one adjoint solution for each quantity serves all derivatives: with the
-//! pressures p in contact, the adjoint loads λ solve
+//! As for [single bodies](crate::steady::sensitivity), one adjoint solution per quantity J gives all derivatives. With the pressures
+//! p on the active set, the adjoint loads λ solve
 //!
 //! ```text
 //! Kᵀ λ = η − ∂J/∂p in the contact,      Σ λ = 0,      dJ/dθ = ∂J/∂θ + λᵀ (∂K/∂θ p + ∂h/∂θ),      dJ/dΣp = η
 //! ```
 //!
-//! and Σ λ = 1 with J = 0 for the depth. The transposed kernel is that of a surface that slides the other way, so that the
-//! equations of the contact, turned about, are those of its adjoint loads. The kernel is a factor for each q_x, and what a material
-//! changes is a sum over them.
+//! and Σ λ = 1 with J = 0 for the depth. The transposed kernel is that of a surface that slides the other way. Reversed along x,
+//! the equations on the active set are therefore those of the adjoint loads. The kernel is a factor for each q_x, and the change by
+//! a material is a sum over them.
 //!
-//! The contact moves by whole elements, of which many are at edges, and others on every grid: the bars are made of two grids.
+//! The contact changes by whole elements, many of them at its boundary, and different ones on each grid. Hence the error bars come
+//! from two grids.
+//!
+//! Theory: docs/sensitivity.md.
 
 mod adjoint;
 
@@ -25,17 +28,17 @@ use rustfft::num_complex::Complex;
 use crate::contact::check_length;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::{add_scaled, dot};
-use crate::stationary::periodic::depth::{Surface, hold};
+use crate::stationary::periodic::depth::{SlidingSurface, hold};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation, bands};
 use crate::{BemError, Elastomer, Grid, PressureField};
-use adjoint::{Adjoint, Gradient, Gradients, first_of, turned};
+use adjoint::{Adjoint, Gradient, Gradients, reversed, unit_pressure};
 
-/// Part of a period up to which two are the same.
-const SAME: f64 = 1e-9;
+/// Largest relative difference of two periods that count as equal; chosen.
+const PERIOD_TOLERANCE: f64 = 1e-9;
 /// The elements at edges scatter.
 const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {
     correction: 0.0,
@@ -43,9 +46,9 @@ const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {
     error: 2.5,
 };
 
-/// A stationary contact of a periodic surface with its adjoint loads, on two grids whose difference gives the bars.
+/// A stationary contact of a periodic surface with its adjoint loads, on two grids whose difference gives the error bars.
 ///
-/// Depths are those of the mean plane, and forces those on one period.
+/// Depths are those of the mean plane, and forces are those of one period.
 #[derive(Debug)]
 #[must_use]
 pub struct PeriodicSensitivity {
@@ -53,7 +56,7 @@ pub struct PeriodicSensitivity {
     coarse: State,
 }
 
-/// One contact, and what each of its quantities asks of a change under the same mean pressure.
+/// The contact on one grid, with the gradients of its quantities under a constant mean pressure.
 #[derive(Debug)]
 struct State {
     grid: Grid,
@@ -61,19 +64,20 @@ struct State {
     control: PeriodicControl,
     /// \[Pa].
     mean_pressure: f64,
-    /// Without its mean, \[Pa].
+    /// Pressure of the elements less its mean, \[Pa].
     pressure: Vec<f64>,
     /// q_x of the rows of a transformed field, \[rad/m].
     along_x: Vec<f64>,
     gradients: Gradients,
 }
 
-/// The quantities in this order, and their derivatives.
+/// Friction, depth, and logarithm of the area, or their changes.
 type Quantities = [f64; 3];
 
 impl PeriodicSensitivity {
-    /// Around the stationary state on the grid of a pressure, which is that of the state or near it, such as that of
-    /// [an estimate](super::steady), and on one of half as many elements along each axis.
+    /// Linearises around the stationary state on the grid of `pressure`, and on one of half as many elements along each axis.
+    ///
+    /// `pressure` is the first guess, such as that of [an estimate](super::steady).
     ///
     /// ```
     /// use bem_halfspace::indenters::rough::{PeriodicSurface, Wave};
@@ -154,7 +158,8 @@ impl PeriodicSensitivity {
         self.change(|state| state.between_materials(ends.each_ref()))
     }
 
-    /// The same with a base each, as layers of other thicknesses or Poisson ratios have.
+    /// The change from one elastomer and velocity to another, including their bases, such as layers of different thickness or
+    /// Poisson ratio.
     ///
     /// # Errors
     /// As for [`between_materials`](Self::between_materials).
@@ -168,14 +173,14 @@ impl PeriodicSensitivity {
         self.change(|state| state.between_elastomers(ends.each_ref()))
     }
 
-    /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is given.
+    /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is prescribed.
     pub fn by_load(&self) -> Change<Estimate> {
         LIMIT.limit_of_single(self.fine.by_load(), self.coarse.by_load())
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
-    /// [of single bodies](crate::steady::sensitivity::SteadySensitivity::by_moduli). FourierMultiplier along x pass with the multiples of one
-    /// frequency, 2π v/L_x, and what lies between two of them says nothing.
+    /// [of single bodies](crate::steady::sensitivity::SteadySensitivity::by_moduli). Waves along x have the multiples of one frequency,
+    /// 2π v/L_x; moduli between two of them have no effect.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and [`BemError::Material`] where the
@@ -208,7 +213,7 @@ impl State {
         control: PeriodicControl,
         guess: Vec<f64>,
     ) -> Result<Self, BemError> {
-        let surface = Surface {
+        let surface = SlidingSurface {
             sliding,
             grid,
             heights,
@@ -223,7 +228,7 @@ impl State {
         let waves = FourierMultiplier::new(grid, sliding.base());
         let mut adjoint = Adjoint {
             equations: Equations::new(sliding, grid)?,
-            contact: turned(&pressure, grid).iter().map(|p| *p > 0.0).collect(),
+            contact: reversed(&pressure, grid).iter().map(|p| *p > 0.0).collect(),
             waves,
             sliding,
             grid,
@@ -309,7 +314,7 @@ impl State {
             // At the centres of the elements.
             kernel.displace_centres(&self.pressure, &mut field);
             add_scaled(&mut moved, sign, &field);
-            kernel.displace_centres(&first_of(n), &mut field);
+            kernel.displace_centres(&unit_pressure(n), &mut field);
             add_scaled(&mut under_one, sign, &field);
             kernel.dissipate(&self.pressure, &mut field);
             add_scaled(&mut dissipated, sign, &field);
@@ -318,7 +323,7 @@ impl State {
         let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &moved));
         quantities[0] += dot(&self.pressure, &dissipated) / self.total();
         quantities[1] += depth;
-        quantities[2] += dot(&self.gradients.area_by_bend, &under_one);
+        quantities[2] += dot(&self.gradients.area_by_unit_response, &under_one);
         Ok(quantities)
     }
 
@@ -398,7 +403,7 @@ fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError>
     let edges = grid.shape().into_iter().zip(grid.spacing());
     for (period, (edge, spacing)) in surface.period().into_iter().zip(edges) {
         let own = edge as f64 * spacing;
-        let is_own = (period - own).abs() <= SAME * own;
+        let is_own = (period - own).abs() <= PERIOD_TOLERANCE * own;
         in_range("period", period, is_own, "that of the grid")?;
     }
     Ok(())
