@@ -1,4 +1,4 @@
-//! Contact with a largest pressure, the hardness (perfectly plastic asperities).
+//! Contact with a largest pressure, the hardness.
 //!
 //! ```text
 //! g = s + K x − d,      0 ≤ x ≤ X,      g ≥ 0 where x = 0,      g = 0 between,      g ≤ 0 where x = X

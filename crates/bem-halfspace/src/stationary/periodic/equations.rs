@@ -41,7 +41,7 @@ const MAX_STEPS: usize = 400;
 /// With 57 per cent of 2048² elements in contact and moduli that differ by 1000 there are 146 operator applications, with 12
 /// numbers 274 and with 24 of them 136.
 const BASIS_FLOATS_PER_ELEMENT: usize = 16;
-/// The same budget on a small grid, up to [`MAX_BASIS_FLOATS_ON_SMALL_GRID`]; chosen.
+/// Memory budget of the basis on a small grid, in single-precision numbers per element, up to [`MAX_BASIS_FLOATS_ON_SMALL_GRID`]; chosen.
 pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
 /// Largest basis that may exceed [`BASIS_FLOATS_PER_ELEMENT`], in single-precision numbers: 64 MiB; chosen.
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
@@ -52,7 +52,7 @@ const DIRECT_SOLVE_MAX_UNKNOWNS: f64 = 1000.0;
 /// Cost of a direct solve with n unknowns on a grid of N elements, in steps, over n³/N; measured on one thread from 16² to 64²
 /// elements.
 const DIRECT_SOLVE_COST: f64 = 0.005;
-/// Operator applications on one grid, in direct solves of the present cost, after which active sets are solved directly at once.
+/// Operator applications on one grid, in direct solves of the present cost, beyond which active sets are solved directly.
 ///
 /// Of 5000 contacts and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000
 /// operator applications without it.
@@ -90,7 +90,7 @@ pub(super) struct Equations {
     image: Vec<f32>,
     /// Diagonal coefficient of K: displacement of an element under its own unit pressure, \[m/Pa].
     pub(super) self_influence: f64,
-    /// Largest cost of a direct solve so far, in steps; active sets that cost no more are solved directly at once.
+    /// Largest cost of a direct solve so far, in steps; active sets that cost less are solved directly.
     largest_direct_cost: f64,
     /// Operator applications on this grid so far.
     pub(super) products: usize,

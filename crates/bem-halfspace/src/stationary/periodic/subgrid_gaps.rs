@@ -1,6 +1,6 @@
 //! Bound of sub-grid gaps: gaps between the centres of elements that are all in contact.
 //!
-//! Theory: docs/rough-surfaces.md.
+//! Docs: docs/rough-surfaces.md, "What comes back".
 
 use std::f64::consts::PI;
 

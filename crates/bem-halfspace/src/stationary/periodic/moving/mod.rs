@@ -107,7 +107,7 @@ pub fn move_along<'w>(
     };
     let refined = refine(
         &goal,
-        |elements, tell: &dyn Fn(f64)| problem.on(elements, is_full, tell),
+        |elements, tell: &dyn Fn(f64)| problem.run_on(elements, is_full, tell),
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(extra_errors(&view, record)),
     )?;
@@ -261,8 +261,10 @@ impl<'a> Moving<'a> {
         }
         let most = elements_of_motion(self.surface);
         let needed = (elements..=most).find(|elements| tells(*elements));
-        let needed = needed.unwrap_or(most);
-        Err(BemError::PeriodTooCoarse { elements, needed })
+        Err(BemError::PeriodTooCoarse {
+            elements,
+            needed: needed.unwrap_or(most),
+        })
     }
 
     /// Shape of a grid for a number of elements along its longer edge; both numbers are even.
@@ -324,7 +326,8 @@ impl<'a> Moving<'a> {
         found.is_some_and(|fine| self.closed_on(&fine).is_full(&fine.waves))
     }
 
-    fn on(
+    /// The record of the motion on a grid, in closed form or by a march.
+    fn run_on(
         &self,
         elements: usize,
         is_full: bool,
@@ -382,7 +385,7 @@ impl<'a> Moving<'a> {
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
-        let first = self.step(&mut march, (touch, start), &on_grid.waves.states[0])?;
+        let first = self.step(&mut march, touch, start, &on_grid.waves.states[0])?;
         if !self.load.is_cycle() {
             let ends = self.pass(&mut march, on_grid, tell)?;
             return Ok(self.record(first, &ends, steps));
@@ -427,7 +430,7 @@ impl<'a> Moving<'a> {
         let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
         let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
             tell(index as f64 / steps.len() as f64);
-            self.step(march, (step.duration, step.end.control), state)
+            self.step(march, step.duration, step.end.control, state)
         };
         pairs.map(end).collect()
     }
@@ -435,7 +438,8 @@ impl<'a> Moving<'a> {
     fn step(
         &self,
         march: &mut PeriodicMarch<'_>,
-        (duration, control): (f64, Control),
+        duration: f64,
+        control: Control,
         state: &WaveStates,
     ) -> Result<StepEnd, BemError> {
         let rows = march.rows();
@@ -579,8 +583,9 @@ mod tests {
         for _ in 0..numerics::whole_part(count) {
             heat = 0.0;
             for (step, state) in steps.iter().zip(&waves.states[1..]) {
-                let motion = (step.duration, step.end.control);
-                let _end = problem.step(&mut march, motion, state).expect("a contact");
+                let _end = problem
+                    .step(&mut march, step.duration, step.end.control, state)
+                    .expect("a contact");
                 let pressure = march.state.pressure();
                 for (element, springs) in creep.elements().iter().zip(&mut springs) {
                     let pairs = pressure.iter().zip(springs.iter());

@@ -112,8 +112,8 @@ impl Adjoint<'_> {
         let inside: Vec<bool> = self.pressure.iter().map(|p| *p > 0.0).collect();
         let touching = gaps.iter().zip(&inside).filter(|(_, inside)| **inside);
         let (sum, n) = touching.fold((0.0, 0.0), |(sum, n), (gap, _)| (sum + gap, n + 1.0));
-        let values = gaps.iter().zip(&self.pressure);
-        let values = values.map(|(gap, &pressure)| match pressure {
+        let pairs = gaps.iter().zip(&self.pressure);
+        let values = pairs.map(|(gap, &pressure)| match pressure {
             pressure if pressure > 0.0 => pressure,
             _ => gap - sum / n,
         });

@@ -122,7 +122,7 @@ impl PeriodicSensitivity {
             check_periods(surface, grid)?;
             let heights = surface.heights(grid.shape())?;
             in_pool(grid.n_elements(), || {
-                State::new(&sliding, (grid, &heights), control, guess)
+                State::new(&sliding, grid, &heights, control, guess)
             })
         };
         Ok(Self {
@@ -209,7 +209,8 @@ impl PeriodicSensitivity {
 impl State {
     fn new(
         sliding: &Sliding,
-        (grid, heights): (&Grid, &[f64]),
+        grid: &Grid,
+        heights: &[f64],
         control: PeriodicControl,
         guess: Vec<f64>,
     ) -> Result<Self, BemError> {
@@ -265,7 +266,7 @@ impl State {
         if (0..2).all(|axis| from[axis].total_cmp(&to[axis]).is_eq()) {
             return Ok(self.of_all(quantities));
         }
-        // Stretched elements have another kernel; the heights and pressures of the elements stay.
+        // Stretched elements have another kernel, with the same heights and pressures.
         let [from, to] = [from, to].map(|period| self.stretched_grid(period));
         let (from, to) = (from?, to?);
         let stretched = self.between_kernels([(&self.sliding, &from), (&self.sliding, &to)])?;
@@ -302,8 +303,8 @@ impl State {
         Ok(self.of_all(quantities))
     }
 
-    /// The changes under the same mean pressure from one kernel to another: those of two materials, or of two grids of the shape
-    /// of this one.
+    /// The changes under constant mean pressure from one kernel to another, of two materials or of two grids with the shape of
+    /// this one.
     fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<Quantities, BemError> {
         let n = self.pressure.len();
         let [mut moved, mut dissipated, mut under_one] = [0; 3].map(|_| vec![0.0; n]);
@@ -332,7 +333,7 @@ impl State {
             PeriodicControl::MeanPressure(_) => {
                 self.of_all(self.of_each(|gradient| gradient.by_pressure))
             }
-            // A depth that is not given is one that has changed by itself.
+            // A change of the prescribed depth acts like the opposite change of the depth at constant pressure.
             PeriodicControl::MeanDepth(_) => self.of_all([0.0, -1.0, 0.0]),
         }
     }
@@ -359,7 +360,7 @@ impl State {
         ])
     }
 
-    /// How deep the mean pressure presses a layer with another compliance at rest.
+    /// Displacement of a layer by the mean pressure, for a change of the compliance at rest, \[m].
     fn sunk(&self, compliance: Complex<f64>) -> f64 {
         compliance.re * self.sliding.base().uniform_compliance() * self.mean_pressure
     }
@@ -368,7 +369,7 @@ impl State {
         self.gradients.all.each_ref().map(of)
     }
 
-    /// Of changes under the same mean pressure.
+    /// The change of all results, from the changes under constant mean pressure. At a prescribed depth the mean pressure follows.
     fn of_all(&self, changes: Quantities) -> Change<f64> {
         let [friction, depth, area] = match self.control {
             PeriodicControl::MeanPressure(_) => changes,
@@ -409,7 +410,7 @@ fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError>
     Ok(())
 }
 
-/// The mean pressures of elements of twice the edges.
+/// Restriction of a pressure field: means over two by two elements.
 fn of_blocks(field: &PressureField) -> Vec<f64> {
     let columns = field.grid.shape()[1];
     let pairs = field.pressure.chunks_exact(2 * columns);
