@@ -93,6 +93,8 @@ pub struct Quantity {
     pub rounding_error: f64,
     /// Smallest discretisation error that is stated, absolute; 0 unless all resolutions may agree by chance.
     pub error_floor: f64,
+    /// Convergence order q > 0 of this quantity; `None` if it is that of the [goal](Goal::order).
+    pub order: Option<f64>,
     /// True if the refinement continues until this quantity has the requested error; otherwise its error is only estimated.
     pub controls_refinement: bool,
 }
@@ -105,6 +107,7 @@ impl From<f64> for Quantity {
             scale: value.abs(),
             rounding_error: 0.0,
             error_floor: 0.0,
+            order: None,
             controls_refinement: true,
         }
     }
@@ -228,7 +231,7 @@ pub fn refine<T, E>(
             let floor = fine[index].error_floor;
             // An error floor already covers the scatter between resolutions.
             let factor = if floor > 0.0 { 1.0 } else { selection_factor };
-            let error = factor * values.error(goal.order);
+            let error = factor * values.error(fine[index].order.unwrap_or(goal.order));
             ErrorParts::discretisation_only(error.max(floor))
         };
         let mut parts: Vec<ErrorParts> = (0..fine.len()).map(part).collect();

@@ -174,6 +174,11 @@ impl ContactBox {
         area::in_elements(&self.state.load, &self.bounds, mirrors)
     }
 
+    /// What the elements leave unknown of that area, in elements.
+    pub(crate) fn area_uncertainty(&self, mirrors: [Mirror; 2]) -> f64 {
+        area::outline_uncertainty(&self.state.load, &self.bounds, mirrors)
+    }
+
     /// The loaded elements, as [row, column] of the field in which the box lies, with their loads.
     pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let (lower, columns) = (self.bounds.lower, self.bounds.shape()[1]);

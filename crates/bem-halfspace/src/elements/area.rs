@@ -84,6 +84,59 @@ const fn pairs(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }
 
+/// What the elements leave unknown of the area of a contact, in elements: √(Σ L²) over all straight runs of L edges of its outline.
+///
+/// Along a run the true outline lies within half an element of the counted one, so that the area is off by at most L/2. Runs err
+/// independently, except where they are images of each other: four sides of L edges that are displaced alike make 2 L, which is
+/// the root of 4 L².
+pub(crate) fn outline_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
+    let lower = bounds.lower.map(usize::cast_signed);
+    let shape = bounds.shape();
+    let upper = [0, 1].map(|axis| lower[axis] + shape[axis].cast_signed());
+    // The whole field, whose rows and columns behind a mirror have negative numbers.
+    let range = |axis: usize| match mirrors[axis] {
+        Mirror::None => lower[axis]..upper[axis],
+        Mirror::Centre => 1 - upper[axis]..upper[axis],
+        Mirror::Edge => -upper[axis]..upper[axis],
+    };
+    let has_load = |place: [isize; 2]| {
+        let [row, column] = [0, 1].map(|axis| {
+            let folded = match mirrors[axis] {
+                Mirror::Centre => place[axis].abs(),
+                Mirror::Edge if place[axis] < 0 => -1 - place[axis],
+                _ => place[axis],
+            };
+            // Beyond either end of the box this is no index.
+            (folded - lower[axis]).cast_unsigned()
+        });
+        row < shape[0] && column < shape[1] && loads[row * shape[1] + column] > 0.0
+    };
+    let mut sum_of_squares = 0.0;
+    for axis in 0..2 {
+        let at = |across: isize, along: isize| {
+            has_load(if axis == 0 {
+                [across, along]
+            } else {
+                [along, across]
+            })
+        };
+        // Each line of edges, with the elements before and behind it.
+        for line in range(axis).start..=range(axis).end {
+            let (mut side, mut length) = (0, 0.0);
+            for along in range(1 - axis) {
+                let step = i8::from(at(line, along)) - i8::from(at(line - 1, along));
+                if step != side {
+                    sum_of_squares += length * length;
+                    (side, length) = (step, 0.0);
+                }
+                length += f64::from(side.abs());
+            }
+            sum_of_squares += length * length;
+        }
+    }
+    sum_of_squares.sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,6 +164,12 @@ mod tests {
             };
             let area = in_elements(&loads, &bounds, mirrors);
             assert!((area - expected).abs() < 1e-12, "{mirrors:?}: {area}");
+            // Two sides of 5 and of 7 edges, and four edges of the hole.
+            let uncertainty = outline_uncertainty(&loads, &bounds, mirrors);
+            assert!(
+                (uncertainty - 152_f64.sqrt()).abs() < 1e-12,
+                "{mirrors:?}: {uncertainty}"
+            );
         }
         // About edges, in a box that does not begin at the mirror along y: two bars of 8 × 2 elements.
         let bounds = Bounds {
@@ -119,5 +178,8 @@ mod tests {
         };
         let area = in_elements(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
         assert!((area - corrected_area(32, 40)).abs() < 1e-12, "{area}");
+        let uncertainty = outline_uncertainty(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
+        let expected = (4.0_f64 * (64.0 + 4.0)).sqrt();
+        assert!((uncertainty - expected).abs() < 1e-12, "{uncertainty}");
     }
 }

@@ -64,6 +64,10 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) common_error: ErrorParts,
     /// Floor of the relative discretisation error of the target, because some grids agree by chance.
     pub(crate) min_relative_error: f64,
+    /// What the elements leave unknown of the contact area, \[m²].
+    pub(crate) area_uncertainty: f64,
+    /// Convergence order of the contact area; `None` if it is that of the target.
+    pub(crate) area_order: Option<f64>,
     /// Edge of an element, the longer one of two, \[m].
     pub(crate) spacing: f64,
     pub(crate) state: S,
@@ -75,11 +79,12 @@ impl<S, O> OnGrid<S, O> {
     fn quantities_driven_by(&self, driven: Name) -> Vec<Quantity> {
         let quantity = |(name, value): (Name, f64)| Quantity {
             controls_refinement: name == driven || name == Name::Force,
-            error_floor: if name == driven {
-                self.min_relative_error * value.abs()
-            } else {
-                0.0
+            error_floor: match name {
+                Name::Area => self.area_uncertainty,
+                _ if name == driven => self.min_relative_error * value.abs(),
+                _ => 0.0,
             },
+            order: self.area_order.filter(|_| name == Name::Area),
             ..Quantity::from(value)
         };
         let dissipated = self.dissipated.map(|value| Quantity {

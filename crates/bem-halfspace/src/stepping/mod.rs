@@ -277,6 +277,9 @@ impl<'a> March<'a> {
             tangential_force: 0.0,
             tangential_force_end_of_step: 0.0,
             contact_area: self.contact_box.area(self.layout.mirrors) * dx * dy,
+            contact_area_uncertainty: self.contact_box.area_uncertainty(self.layout.mirrors)
+                * dx
+                * dy,
             contact_x: edges.map(|[x, _]| x),
             contact_y: edges.map(|[_, y]| y),
             n_contact,

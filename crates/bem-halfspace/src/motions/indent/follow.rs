@@ -6,7 +6,7 @@ use numerics::{in_range, not_negative, positive, refine};
 use rheology::Material as _;
 
 use super::history::refined;
-use super::press::{BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
+use super::press::{AREA_ORDER, BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
 use crate::estimate::bars::{has_instantaneous_compliance, reached_or_error};
@@ -255,20 +255,26 @@ impl Path {
 
     /// Those of all rows, one row after the other; what is sought must have the error asked for, relative to its largest value.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
-        let rows: Vec<_> = found.rows.iter().map(of_row).collect();
         let largest = |name| {
-            let values = rows.iter().map(|row| row.get(name).abs());
+            let values = found.rows.iter().map(|row| of_row(row).get(name).abs());
             values.fold(0.0, f64::max)
         };
         let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
-        let quantity = |(name, value): (Name, f64)| Quantity {
-            scale: sizes[name.index()],
-            controls_refinement: name == sought,
-            ..Quantity::from(value)
+        let of_one_row = |row: &MotionRow| {
+            let area_uncertainty = row.contact_area_uncertainty;
+            let quantity = move |(name, value): (Name, f64)| {
+                let is_area = name == Name::Area;
+                Quantity {
+                    scale: sizes[name.index()],
+                    error_floor: if is_area { area_uncertainty } else { 0.0 },
+                    order: is_area.then_some(AREA_ORDER),
+                    controls_refinement: name == sought,
+                    ..Quantity::from(value)
+                }
+            };
+            of_row(row).iter().map(quantity).collect::<Vec<_>>()
         };
-        rows.iter()
-            .flat_map(|row| row.iter().map(quantity))
-            .collect()
+        found.rows.iter().flat_map(of_one_row).collect()
     }
 
     /// The points of a history with the errors of area, force and depth.

@@ -22,6 +22,9 @@ use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 const LARGEST_GRID: usize = 512;
 /// Depth and force converge faster than that, cusps or not.
 const ORDER: f64 = 1.0;
+/// Convergence order of the counted contact area where nothing slides: the straight runs of a smooth outline of n elements are √n
+/// edges long, and are displaced by up to half an element, of n² elements in all.
+pub(super) const AREA_ORDER: f64 = 1.5;
 /// Least relative error of n elements in contact, over n^(−3/4): near the outline the pressure grows with the root of the
 /// distance, so that the outermost elements carry such a part of the force, and are in contact or not as wholes. Grids may
 /// have this error in common by chance. It is twice what half of the random scenes of docs/calibration.md deviate by.
@@ -49,6 +52,8 @@ pub struct PressSolution {
     pub normal_force: f64,
     /// [Area](PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
+    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    pub contact_area_uncertainty: f64,
     /// Ends of the contact along x relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
     /// Ends of the contact along y relative to the lowest point, \[m].
@@ -294,6 +299,7 @@ impl Spring {
                 Control::IndentationDepth(_) => row.normal_force / self.compliance,
             },
             contact_area: row.contact_area,
+            contact_area_uncertainty: row.contact_area_uncertainty,
             contact_x,
             contact_y,
             n_contact: row.n_contact,
@@ -344,6 +350,7 @@ fn estimate(
             options.spacing = [spacing; 2];
             let mut state = spring.solve(&FlatPunch::new(wider)?, control, &options)?;
             state.contact_area = PI * radius * radius;
+            state.contact_area_uncertainty = 0.0;
             state
         } else {
             spring.solve(surface, control, &options)?
@@ -412,6 +419,8 @@ impl PressSolution {
                 ..ErrorParts::NONE
             },
             min_relative_error: LEAST * (self.n_contact as f64).powf(-0.75),
+            area_uncertainty: self.contact_area_uncertainty,
+            area_order: Some(AREA_ORDER),
             spacing: options.spacing[0],
             state: self,
             options,

@@ -291,6 +291,8 @@ impl<'a> PlannedSlide<'a> {
                 ..ErrorParts::NONE
             },
             min_relative_error: 0.0,
+            area_uncertainty: last.contact_area_uncertainty,
+            area_order: None,
             spacing: options.spacing[0],
             state: transient,
             options,

@@ -27,6 +27,8 @@ pub struct SlideRow {
     pub friction_coefficient_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
+    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    pub contact_area_uncertainty: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
     /// Sides of the contact relative to the lowest point, \[m].
@@ -51,6 +53,7 @@ impl SlideRow {
             friction_coefficient: row.tangential_force / row.normal_force,
             friction_coefficient_end_of_step: row.tangential_force_end_of_step / row.normal_force,
             contact_area: row.contact_area,
+            contact_area_uncertainty: row.contact_area_uncertainty,
             contact_x,
             contact_y,
             n_contact: row.n_contact,

@@ -94,6 +94,9 @@ impl SteadySliding {
                 ..ErrorParts::discretisation_only(subgrid_friction)
             },
             min_relative_error: 0.0,
+            // The differences between grids hold it.
+            area_uncertainty: 0.0,
+            area_order: None,
             spacing: options.spacing[0],
             state: self,
             options,
