@@ -29,11 +29,11 @@ def program() -> Callable[..., str]:
     """Runs the program of this repository and returns what it prints."""
     environment = os.environ | {"CARGO_TARGET_DIR": str(ROOT / "target")}
     # With xtask, which has the features of the whole workspace, so that its tests take what is compiled here.
-    build = ["cargo", "build", "--quiet", "--release", "--package", "viscofriction-cli", "--package", "xtask"]
+    build = ["cargo", "build", "--quiet", "--profile", "ci", "--package", "viscofriction-cli", "--package", "xtask"]
     subprocess.run(build, check=True, cwd=ROOT, env=environment)
 
     def run(*arguments: object) -> str:
-        command = [ROOT / "target/release/viscofriction", *map(str, arguments)]
+        command = [ROOT / "target/ci/viscofriction", *map(str, arguments)]
         done = subprocess.run(command, check=True, capture_output=True, text=True)
         return done.stdout
 

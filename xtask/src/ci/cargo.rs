@@ -61,12 +61,12 @@ impl Cargo {
     pub(super) fn test(&mut self, scope: &str) -> Result<()> {
         let scope = format!("--no-fail-fast {scope}");
         if cargo_output("nextest --version").is_err() {
-            return self.run(&format!("test --release {scope}"));
+            return self.run(&format!("test --profile ci {scope}"));
         }
         let nextest = self.run(&format!(
-            "nextest run --cargo-profile release --no-tests pass {scope}"
+            "nextest run --cargo-profile ci --no-tests pass {scope}"
         ));
-        self.run(&format!("test --release --doc {scope}"))?;
+        self.run(&format!("test --profile ci --doc {scope}"))?;
         nextest
     }
 

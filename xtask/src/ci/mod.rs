@@ -1,6 +1,6 @@
 //! `ci`: everything that CI checks, one step after the other.
 //!
-//! All builds use the release profile, so that everything is compiled once.
+//! All builds use the profile `ci`, so that everything is compiled once.
 
 mod cargo;
 mod dependencies;
@@ -31,7 +31,7 @@ pub(crate) fn run() -> Result<()> {
 
 fn steps(cargo: &mut Cargo) -> Result<()> {
     let workspace = Workspace::read()?;
-    let all = "--release --workspace --all-features";
+    let all = "--profile ci --workspace --all-features";
     step("format", || cargo.run("fmt --all --check"))?;
     step("dependencies", || dependencies::check(&workspace))?;
     step("clippy", || {
@@ -49,7 +49,7 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
         // Crates that are built together unite their features.
         workspace.libraries().try_for_each(|library| {
             cargo.run(&format!(
-                "check --release --no-default-features --all-targets --package {library}"
+                "check --profile ci --no-default-features --all-targets --package {library}"
             ))
         })
     })?;

@@ -55,11 +55,11 @@ impl Workspace {
         libraries.map(|package| &*package.name)
     }
 
-    /// All examples, as a release build compiles them.
+    /// All examples, as the profile `ci` compiles them.
     pub(super) fn example_files(&self) -> impl Iterator<Item = PathBuf> {
         let packages = self.packages.iter();
         let examples = packages.flat_map(|package| package.targets("example"));
-        let folder = self.target_directory.join("release/examples");
+        let folder = self.target_directory.join("ci/examples");
         examples.map(move |name| folder.join(name))
     }
 }
