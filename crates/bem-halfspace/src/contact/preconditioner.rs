@@ -208,3 +208,98 @@ impl Preconditioner {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::*;
+    use crate::elements::mirror::NO_MIRRORS;
+    use crate::{BemError, Grid};
+
+    /// Active sets with many diagonal neighbours, ends and gaps: a checkerboard, one of larger blocks, stripes, crosses, separate blocks,
+    /// and an irregular one.
+    fn patterns([rows, columns]: [usize; 2]) -> Vec<Vec<bool>> {
+        let kinds: [fn(usize, usize) -> bool; 6] = [
+            |row, column| (row + column) % 2 == 0,
+            |row, column| (row / 2 + column / 2) % 2 == 0,
+            |row, column| (row + 2 * column) % 5 < 2,
+            |row, column| row % 6 == 2 || column % 6 == 3,
+            |row, column| row % 9 < 3 && column % 9 < 3,
+            |row, column| (row * row * 7 + column * 13 + row * column * 5) % 11 < 4,
+        ];
+        let pattern = |is_active: fn(usize, usize) -> bool| {
+            let elements = 0..rows * columns;
+            elements
+                .map(|element| is_active(element / columns, element % columns))
+                .collect()
+        };
+        kinds.map(pattern).to_vec()
+    }
+
+    /// The preconditioner as a matrix over an active set.
+    fn matrix(preconditioner: &mut Preconditioner, active: &ActiveSet, n: usize) -> DMatrix<f64> {
+        let [mut one, mut result] = [0, 1].map(|_| vec![0.0; active.len()]);
+        let mut field = vec![0.0; n];
+        preconditioner.prepare(active, &mut field, &mut one, &mut result);
+        let mut matrix = DMatrix::zeros(one.len(), one.len());
+        for column in 0..one.len() {
+            one.fill(0.0);
+            one[column] = 1.0;
+            preconditioner.apply(active, &one, &mut field, &mut result);
+            for (row, value) in result.iter().enumerate() {
+                matrix[(row, column)] = *value;
+            }
+        }
+        matrix
+    }
+
+    /// Checks the matrix on those rows of each pattern that are in the part, which keeps it small.
+    fn check(convolution: &Convolution, in_part: impl Fn(usize) -> bool + Sync) {
+        let (shape, mirrors) = (convolution.grid().shape(), convolution.mirrors);
+        for (number, pattern) in patterns(shape).into_iter().enumerate() {
+            let mut active = ActiveSet::new(shape);
+            active.assign(|element| pattern[element] && in_part(element / shape[1]));
+            active.find_runs();
+            let mut preconditioner = Preconditioner::new(convolution, Weights::DEFAULT);
+            let matrix = matrix(&mut preconditioner, &active, pattern.len());
+            let largest = matrix.amax();
+            let asymmetry = (&matrix - matrix.transpose()).amax() / largest;
+            assert!(asymmetry < 1e-13, "pattern {number}: {asymmetry:e}");
+            let smallest = matrix.symmetric_eigenvalues().min() / largest;
+            assert!(smallest > 1e-3, "pattern {number}, {mirrors:?}: {smallest}");
+        }
+    }
+
+    /// What docs/theory/contact.md says of the sum of its parts, in front of mirrors and over several row blocks too.
+    #[test]
+    fn on_any_contact_it_is_symmetric_and_positive() -> Result<(), BemError> {
+        for (shape, mirrors) in [
+            ([26, 24], NO_MIRRORS),
+            ([26, 24], [Mirror::None, Mirror::Edge]),
+            ([26, 24], [Mirror::Edge; 2]),
+            ([26, 23], [Mirror::Edge, Mirror::Centre]),
+            ([25, 23], [Mirror::None, Mirror::Centre]),
+            ([25, 23], [Mirror::Centre, Mirror::None]),
+            ([25, 23], [Mirror::Centre; 2]),
+        ] {
+            let grid = Grid::new(shape, [1.0, 0.7])?;
+            check(&Convolution::new(&grid).folded(mirrors), |_| true);
+            if shape == [26, 24] {
+                check(&Convolution::periodic(&grid).folded(mirrors), |_| true);
+            }
+        }
+        // Over several row blocks.
+        let whole = Convolution::new(&Grid::new([2000, 9], [1.0, 0.7])?);
+        for convolution in [&whole, &whole.folded([Mirror::None, Mirror::Centre])] {
+            let row_blocks = ActiveSet::new(convolution.grid().shape()).row_blocks;
+            let border = row_blocks.rows(1).start;
+            assert!(
+                (1..1988).contains(&border),
+                "two row blocks meet at {border}"
+            );
+            check(convolution, |row| (border - 12..border + 12).contains(&row));
+        }
+        Ok(())
+    }
+}
