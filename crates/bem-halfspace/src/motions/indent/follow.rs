@@ -6,21 +6,21 @@ use numerics::{in_range, not_negative, positive, refine};
 use rheology::Material as _;
 
 use super::history::refined;
-use super::press::{AREA_ORDER, BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
+use super::press::{PRESS_BYTES_PER_ELEMENT, PRESSED_AREA_ORDER, Spring, goal, grid, n_followed};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
 use crate::estimate::bars::{has_instantaneous_compliance, reached_or_error};
 use crate::estimate::quantities::{Name, Quantities};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Elements along the largest contact after which the error asked for is given up.
-const LARGEST_GRID: usize = 256;
-/// Steps in time on one grid after which the error asked for is given up; between two points they may always be halved
-/// three times.
-const MOST_STEPS: usize = 4096;
-const FEWEST_STEPS: usize = 8;
-/// Duration of a jump, as a part of that of the history.
-const JUMP: f64 = 1e-9;
+/// Elements along the largest contact on the finest grid of a history.
+const MAX_HISTORY_ELEMENTS: usize = 256;
+/// Most steps in time of a history on one grid, unless its points are so many that [`MIN_STEPS_PER_INTERVAL`] needs more.
+const MAX_HISTORY_STEPS: usize = 4096;
+/// Steps between two points that are always allowed: three halvings of one step.
+const MIN_STEPS_PER_INTERVAL: usize = 8;
+/// Duration of a jump, as a fraction of that of the history; a jump within it leaves the control elsewhere as it was.
+const JUMP_DURATION_FRACTION: f64 = 1e-9;
 
 /// The contact at one point of a history; an error of 0 says that a quantity is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,7 +82,7 @@ pub struct IndentCurve {
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for fewer than two points, times that decrease, force and depth in one history, a history
-/// that never presses, and a jump of the depth on a material that does not react at once; [`BemError::NotReached`] with what
+/// that never presses, and a jump of the depth on a material without instantaneous compliance; [`BemError::NotReached`] with what
 /// was reached on the finest grid allowed; otherwise like [`indent_history`].
 pub fn indent_along<'w>(
     surface: &dyn Surface,
@@ -96,9 +96,9 @@ pub fn indent_along<'w>(
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(grid(&plan, elements));
-        let most = MOST_STEPS / times.len();
-        options.max_steps = most.clamp(FEWEST_STEPS, options.max_steps);
-        let control = |time| path.at(time);
+        let most = MAX_HISTORY_STEPS / times.len();
+        options.max_steps = most.clamp(MIN_STEPS_PER_INTERVAL, options.max_steps);
+        let control = |time| path.control_at(time);
         let found = match request.accuracy {
             Accuracy::RelativeError(asked) => {
                 options.relative_error = 0.5 * asked;
@@ -117,7 +117,7 @@ pub fn indent_along<'w>(
         Ok(quantities.map(of_steps).collect())
     };
     let fine = refine(
-        &goal(request, LARGEST_GRID),
+        &goal(request, MAX_HISTORY_ELEMENTS),
         solve,
         |(found, _)| path.quantities(found),
         others,
@@ -153,12 +153,12 @@ pub fn indent_along_memory(
     let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let creep = elastomer.material().creep();
     let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
-    let per_element = BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    let per_element = PRESS_BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
     Ok(per_element * n_followed(surface, &grid(&plan, elements)))
 }
 
-/// Nothing slides, and the pressure has no limit that is known.
-const fn of_row(row: &MotionRow) -> Quantities<f64> {
+/// The quantities of one row: without sliding no friction, and a largest pressure without a known limit.
+const fn row_quantities(row: &MotionRow) -> Quantities<f64> {
     Quantities {
         friction_coefficient: 0.0,
         normal_force: row.normal_force,
@@ -176,13 +176,13 @@ struct Path {
 }
 
 impl Path {
-    fn new(history: &[HistoryPoint], reacts_at_once: bool) -> Result<Self, BemError> {
+    fn new(history: &[HistoryPoint], has_instantaneous_compliance: bool) -> Result<Self, BemError> {
         let allowed = "at least 2";
         let n_points = history.len() as f64;
         in_range("number of points", n_points, n_points >= 2.0, allowed)?;
         let is_force = |step: &HistoryPoint| matches!(step.control, Control::NormalForce(_));
         let (first, last) = (history[0], history[history.len() - 1]);
-        let shortest = JUMP * positive("duration", last.time - first.time)?;
+        let shortest = JUMP_DURATION_FRACTION * positive("duration", last.time - first.time)?;
         let is_forced = is_force(&first);
         let mut before = first.time;
         let mut points = vec![[0.0, check_control(first.control)?.min(0.0)]];
@@ -197,7 +197,7 @@ impl Path {
             }
             let [last, _] = points[points.len() - 1];
             let time = step.time - first.time;
-            if time < last + shortest && !is_forced && !reacts_at_once {
+            if time < last + shortest && !is_forced && !has_instantaneous_compliance {
                 // A lone dashpot holds against a jump with any force.
                 positive("time between two depths", time - last)?;
             }
@@ -235,8 +235,8 @@ impl Path {
         }
     }
 
-    /// Straight between two points.
-    fn at(&self, time: f64) -> Control {
+    /// Control at a time, linear between two points.
+    fn control_at(&self, time: f64) -> Control {
         let end = self.points.partition_point(|[before, _]| *before < time);
         let end = end.clamp(1, self.points.len() - 1);
         let [[start, from], [end, to]] = [self.points[end - 1], self.points[end]];
@@ -253,10 +253,14 @@ impl Path {
         }
     }
 
-    /// Those of all rows, one row after the other; what is sought must have the error asked for, relative to its largest value.
+    /// Quantities of all rows, one row after the other. The one that is sought must have the requested error, relative to its largest
+    /// value in the history.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
         let largest = |name| {
-            let values = found.rows.iter().map(|row| of_row(row).get(name).abs());
+            let values = found
+                .rows
+                .iter()
+                .map(|row| row_quantities(row).get(name).abs());
             values.fold(0.0, f64::max)
         };
         let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
@@ -267,12 +271,12 @@ impl Path {
                 Quantity {
                     scale: sizes[name.index()],
                     error_floor: if is_area { area_uncertainty } else { 0.0 },
-                    order: is_area.then_some(AREA_ORDER),
+                    order: is_area.then_some(PRESSED_AREA_ORDER),
                     controls_refinement: name == sought,
                     ..Quantity::from(value)
                 }
             };
-            of_row(row).iter().map(quantity).collect::<Vec<_>>()
+            row_quantities(row).iter().map(quantity).collect::<Vec<_>>()
         };
         found.rows.iter().flat_map(of_one_row).collect()
     }
@@ -304,7 +308,7 @@ impl Path {
             contact_area: 0.0,
             peak_pressure: 0.0,
         });
-        let contacts = free.into_iter().chain(rows.iter().map(of_row));
+        let contacts = free.into_iter().chain(rows.iter().map(row_quantities));
         history.iter().zip(contacts).map(point).collect()
     }
 }

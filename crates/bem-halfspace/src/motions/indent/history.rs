@@ -1,4 +1,4 @@
-//! Steps in time that become shorter until they do not matter.
+//! A history whose steps in time are halved until their error is the one that is asked for.
 //!
 //! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
 
@@ -9,13 +9,14 @@ use rheology::{CreepSpectrum, Material as _};
 use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Ratio of two changes by halving the steps where the error is of the first order in their length. Smaller ratios count as this
-/// one, because two changes may agree by chance.
-const RATIO_OF_FIRST_ORDER: f64 = 0.5;
-/// Ratio that is assumed where only one change is known; the error is then twice that change.
+/// Smallest ratio of two successive changes by halving the steps: that of an error of the first order in their length. Changes that
+/// fall faster count as such, because two of them may agree by chance.
+const FIRST_ORDER_RATIO: f64 = 0.5;
+/// Ratio of successive changes where only one is known, so that the error is twice that change. Chosen between the first order and
+/// [`LARGEST_RATIO`].
 const ASSUMED_RATIO: f64 = 2.0 / 3.0;
-/// Larger ratios count as this one; the error is then nine times the last change. Changes no longer fall where they are those that
-/// the tolerance of the contact leaves.
+/// Largest ratio of successive changes, with which the error is nine times the last one. Chosen: changes that the tolerance of the
+/// contact leaves no longer fall.
 const LARGEST_RATIO: f64 = 0.9;
 
 /// How exactly a history is followed.
@@ -83,7 +84,7 @@ pub fn indent_history(
     })
 }
 
-/// The same with the error that is reached with the steps allowed.
+/// Like [`indent_history`], with whatever error is reached within the allowed steps.
 pub(super) fn refined(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -97,6 +98,7 @@ pub(super) fn refined(
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
     let creep = elastomer.material().creep();
+    // The rows on n/2 steps, and those extrapolated from n/2 and n/4.
     let (mut coarse, mut before): (Option<Vec<MotionRow>>, Option<Vec<MotionRow>>) = (None, None);
     let (mut n, mut error, mut change_before) = (1, 1.0, None);
     loop {
@@ -106,7 +108,8 @@ pub(super) fn refined(
                 let rows = coarse.map(|coarse| extrapolated(&coarse, &fine));
                 if let Some((before, rows)) = before.zip(rows.as_ref()) {
                     let change = difference(&before, rows);
-                    error = still_to_come(change, change_before).max(unresolved(&creep, times, n)?);
+                    error = remaining_error(change, change_before)
+                        .max(unresolved_relaxation(&creep, times, n)?);
                     change_before = Some(change);
                 }
                 (before, coarse) = (rows, Some(fine));
@@ -131,18 +134,16 @@ pub(super) fn refined(
 ///
 /// Where a material relaxes over many decades within one interval, changes fall more slowly than the order of the steps says,
 /// until its fast elements are resolved.
-fn still_to_come(change: f64, before: Option<f64>) -> f64 {
+fn remaining_error(change: f64, before: Option<f64>) -> f64 {
     let ratio = match before {
-        Some(before) if before > 0.0 => {
-            (change / before).clamp(RATIO_OF_FIRST_ORDER, LARGEST_RATIO)
-        }
-        Some(_) => RATIO_OF_FIRST_ORDER,
+        Some(before) if before > 0.0 => (change / before).clamp(FIRST_ORDER_RATIO, LARGEST_RATIO),
+        Some(_) => FIRST_ORDER_RATIO,
         None => ASSUMED_RATIO,
     };
     change * ratio / (1.0 - ratio)
 }
 
-/// From each of the times, and zero, to the next.
+/// The intervals between successive times, of which the first begins at zero.
 fn intervals(times: &[f64]) -> impl Iterator<Item = [f64; 2]> {
     let starts = std::iter::once(&0.0).chain(times);
     starts.zip(times).map(|(&start, &end)| [start, end])
@@ -161,8 +162,8 @@ fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<
     ends.map(step).collect()
 }
 
-/// The contact is that of the finer rows, because elements touch or do not, and no force becomes a pull, because the
-/// contact is lost at a moment between steps.
+/// Force and depth extrapolated to steps of no length, 2 f_2n − f_n. The contact is that of the finer rows: elements are in contact or
+/// not. Forces stay above zero: the contact is lost at a moment between steps.
 fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
     let row = |(coarse, fine): (&MotionRow, &MotionRow)| MotionRow {
         indentation_depth: 2.0 * fine.indentation_depth - coarse.indentation_depth,
@@ -172,9 +173,9 @@ fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
     coarse.iter().zip(fine).map(row).collect()
 }
 
-/// The effect of elements that yield faster than a step: their time relative to that between two rows, by their part of
-/// the compliance. No comparison of steps that are all longer would show it.
-fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
+/// Largest relative error by retardation elements that are faster than a step: retardation time over the interval between two rows, times
+/// the fraction of the compliance. Steps that are all longer do not show it by their differences.
+fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
     let mut largest = 0.0_f64;
     for [start, end] in intervals(times) {
         let interval = end - start;
@@ -189,7 +190,7 @@ fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, Bem
     Ok(largest)
 }
 
-/// Largest difference of force and depth relative to the largest of each.
+/// Largest change of force and of depth, relative to the largest of each.
 fn difference(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
     let of = |value: fn(&MotionRow) -> f64| {
         let pairs = before.iter().zip(rows);
@@ -203,7 +204,7 @@ fn difference(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::still_to_come;
+    use super::remaining_error;
     use approx::assert_relative_eq;
 
     /// Changes of errors that are each the same part of the one before add up to the last error; those that fall faster than the
@@ -214,10 +215,10 @@ mod tests {
         for (part, expected) in [(0.7, 0.49), (0.5, 0.25), (0.3, 0.21)] {
             let [first, second, third] = errors(part);
             let changes = [first - second, second - third];
-            let rest = still_to_come(changes[1], Some(changes[0]));
+            let rest = remaining_error(changes[1], Some(changes[0]));
             assert_relative_eq!(rest, expected, max_relative = 1e-12);
         }
-        assert_relative_eq!(still_to_come(1.0, None), 2.0, max_relative = 1e-12);
-        assert_relative_eq!(still_to_come(1.0, Some(0.5)), 9.0, max_relative = 1e-12);
+        assert_relative_eq!(remaining_error(1.0, None), 2.0, max_relative = 1e-12);
+        assert_relative_eq!(remaining_error(1.0, Some(0.5)), 9.0, max_relative = 1e-12);
     }
 }

@@ -18,27 +18,31 @@ use crate::estimate::quantities::Quantities;
 use crate::stepping::{March, Motion};
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
-/// Elements along the contact after which the error asked for is given up.
-const LARGEST_GRID: usize = 512;
-/// Depth and force converge faster than that, cusps or not.
-const ORDER: f64 = 1.0;
+/// Elements along the contact on the finest grid of a pressed contact.
+const MAX_PRESS_ELEMENTS: usize = 512;
+/// Convergence order that is assumed of depth and force, which converge faster, under cusps too.
+const MIN_CONVERGENCE_ORDER: f64 = 1.0;
 /// Convergence order of the counted contact area where nothing slides: the straight runs of a smooth outline of n elements are √n
 /// edges long, and are displaced by up to half an element, of n² elements in all.
-pub(super) const AREA_ORDER: f64 = 1.5;
-/// Least relative error of n elements in contact, over n^(−3/4): near the outline the pressure grows with the root of the
-/// distance, so that the outermost elements carry such a part of the force, and are in contact or not as wholes. Grids may
-/// have this error in common by chance. It is twice what half of the random scenes of docs/calibration.md deviate by.
-const LEAST: f64 = 0.07;
-/// By so many edges of an element a disc of elements has to be wider than a flat punch to be as stiff: uniform pressures do not
-/// follow the singular one at the edge. On a half space, 160 to 512 elements along a disc err by 3e-5 to 5e-7 with it.
-const EDGE: f64 = 0.113;
-/// With fewer elements along a disc grids of different spacings have the same one.
-const FEWEST_OF_DISC: usize = 4;
-/// Of a transform of the elements along x and y, and of all steps of a history.
-const WORK: f64 = 2.0;
+pub(super) const PRESSED_AREA_ORDER: f64 = 1.5;
+/// Smallest relative error of depth or force on n elements in contact, times n^(3/4).
+///
+/// Near the outline the pressure grows with the root of the distance. The outermost elements carry a part n^(−3/4) of the force,
+/// and each of them is in contact or not as a whole, which different grids may have in common by chance. Measured: twice the median
+/// deviation of the random scenes of docs/calibration.md.
+const BOUNDARY_ERROR_FACTOR: f64 = 0.07;
+/// Edges of an element by which a disc of elements is wider than the flat punch that it stands for.
+///
+/// Uniform pressures do not follow the singular pressure at the edge of the punch; the wider disc is as stiff as the punch.
+/// Measured on a half space: 160 to 512 elements along a disc err by 3e-5 to 5e-7 with it.
+const PUNCH_WIDENING: f64 = 0.113;
+/// Fewest elements along a disc: with fewer, grids of different spacings have the same disc.
+const MIN_ELEMENTS_OF_DISC: usize = 4;
+/// Power of the elements along the contact with which the work grows: that of a Fourier transform in two dimensions.
+const GRID_WORK_EXPONENT: f64 = 2.0;
 
 /// Memory for an element in front of the mirrors, \[bytes].
-pub(super) const BYTES_PER_ELEMENT: f64 = 600.0;
+pub(super) const PRESS_BYTES_PER_ELEMENT: f64 = 600.0;
 
 /// A contact under a control that was constant, on one grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,7 +142,7 @@ pub fn indent_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let plan = Spring::after(elastomer, load)?.plan(surface, load.control())?;
-    Ok(BYTES_PER_ELEMENT * n_followed(surface, &grid(&plan, elements)))
+    Ok(PRESS_BYTES_PER_ELEMENT * n_followed(surface, &grid(&plan, elements)))
 }
 
 /// Elements in front of the mirrors.
@@ -192,7 +196,7 @@ pub(crate) fn footprint_after(
     Ok(plan.footprint)
 }
 
-/// The spring that stands for a material under a constant control.
+/// The spring that a material under a constant control is equivalent to (Lee & Radok 1960).
 pub(super) struct Spring {
     /// With the compliance 2 (1 − ν)/G = 1, and the Poisson ratio of the material.
     unit: Compressible,
@@ -309,14 +313,14 @@ impl Spring {
     }
 }
 
-/// On grids of up to so many elements along the contact.
+/// The refinement that meets a request on grids of at most `largest` elements along the contact.
 pub(super) const fn goal(request: Request, largest: usize) -> Goal {
     Goal {
         request,
         initial_elements: FIRST_ELEMENTS,
         max_elements: largest,
-        order: ORDER,
-        work_exponent: WORK,
+        order: MIN_CONVERGENCE_ORDER,
+        work_exponent: GRID_WORK_EXPONENT,
         extra_work: 0.0,
         selection_factor: 2.0,
     }
@@ -330,7 +334,7 @@ fn estimate(
 ) -> Result<PressEstimate, BemError> {
     let plan = spring.plan(surface, control)?;
     let resolution = Resolution {
-        goal: goal(request, LARGEST_GRID),
+        goal: goal(request, MAX_PRESS_ELEMENTS),
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
@@ -340,8 +344,8 @@ fn estimate(
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = grid(&plan, elements);
         let state = if let Some(radius) = punch {
-            if elements < FEWEST_OF_DISC {
-                let needed = FEWEST_OF_DISC;
+            if elements < MIN_ELEMENTS_OF_DISC {
+                let needed = MIN_ELEMENTS_OF_DISC;
                 return Err(BemError::GridTooCoarse { elements, needed });
             }
             // Refuses more than any grid has, which would take too long to count.
@@ -372,8 +376,10 @@ fn radius_of_punch(body: &dyn Axisymmetric) -> Option<f64> {
     (radius.is_finite() && body.profile_height(radius) <= 0.0).then_some(radius)
 }
 
-/// Spacing of about so many elements along a disc, and the radius of the disc, wider by [`EDGE`], whose elements are together
-/// exactly as large as it: with any spacing they may be larger or smaller by an element for each root of their number.
+/// Spacing of about `elements` elements along a disc, and the radius of a disc that is wider by [`PUNCH_WIDENING`], \[m].
+///
+/// The elements with their centres in the wider disc have exactly its area. On other spacings their area differs by about the root
+/// of their number.
 fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
     let within = |square: f64| {
         let row = |place: u32| (square - f64::from(place).powi(2)).sqrt().floor();
@@ -385,7 +391,7 @@ fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
         let squared_radius = within(square) * FRAC_1_PI;
         if (square..square + 1.0).contains(&squared_radius) {
             let wide = squared_radius.sqrt();
-            let spacing = radius / (wide - EDGE);
+            let spacing = radius / (wide - PUNCH_WIDENING);
             return [spacing, wide * spacing];
         }
         square += 1.0;
@@ -418,9 +424,9 @@ impl PressSolution {
                 iteration: Some(options.contact.tolerance * error),
                 ..ErrorParts::NONE
             },
-            min_relative_error: LEAST * (self.n_contact as f64).powf(-0.75),
+            min_relative_error: BOUNDARY_ERROR_FACTOR * (self.n_contact as f64).powf(-0.75),
             area_uncertainty: self.contact_area_uncertainty,
-            area_order: Some(AREA_ORDER),
+            area_order: Some(PRESSED_AREA_ORDER),
             spacing: options.spacing[0],
             state: self,
             options,

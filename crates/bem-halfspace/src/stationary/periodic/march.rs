@@ -302,9 +302,11 @@ mod tests {
 
     use super::*;
 
-    const EDGE: usize = 16;
+    /// Elements along an edge of the period.
+    const N_ALONG: usize = 16;
     /// Number of steps of each part of a history.
     const STEPS: usize = 4;
+    /// Phase factors of waves that have not moved.
     const STILL: [Complex<f64>; 2] = [Complex::new(1.0, 0.0); 2];
 
     fn heights() -> impl Strategy<Value = Vec<f64>> {
@@ -319,7 +321,7 @@ mod tests {
                 seed,
             };
             let surface = surface.surface().expect("a surface");
-            surface.heights([EDGE; 2]).expect("heights")
+            surface.heights([N_ALONG; 2]).expect("heights")
         };
         (any::<u64>(), 0.3..0.9, 3.0..8.0).prop_map(heights)
     }
@@ -334,7 +336,7 @@ mod tests {
 
     /// Elements in contact after parts of a history, each with a duration and the pressure at its end.
     fn in_contact(heights: &[f64], material: &Prony, parts: &[(f64, f64)]) -> usize {
-        let grid = Grid::new([EDGE; 2], [1.0 / EDGE as f64; 2]).expect("a grid");
+        let grid = Grid::new([N_ALONG; 2], [1.0 / N_ALONG as f64; 2]).expect("a grid");
         let mut march = PeriodicMarch::new(&grid, heights, material, 1.0).expect("a march");
         let options = ContactOptions {
             tolerance: 1e-9,
