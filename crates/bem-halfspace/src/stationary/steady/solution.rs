@@ -94,7 +94,7 @@ impl SteadySliding {
                 ..ErrorParts::discretisation_only(subgrid_friction)
             },
             min_relative_error: 0.0,
-            // The differences between grids hold it.
+            // Areas of stationary sliding have the error that differences between grids show.
             area_uncertainty: 0.0,
             area_order: None,
             spacing: options.spacing[0],
