@@ -2,13 +2,15 @@
 
 use std::fs;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use comfy_table::{Row, Table};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
+
+use crate::tasks::in_parallel;
 
 pub use viscofriction::WrongInput;
 
@@ -82,6 +84,48 @@ pub(crate) fn read_csv<R: DeserializeOwned>(path: &Path) -> Result<Vec<R>> {
         csv::Reader::from_path(path).with_context(|| format!("reading {}", path.display()))?;
     let rows = reader.deserialize().collect::<Result<Vec<R>, _>>();
     rows.with_context(|| format!("reading {}", path.display()))
+}
+
+/// Items whose rows are computed before they are written, of many that take seconds each.
+pub(crate) const ROWS_AT_ONCE: usize = 64;
+
+/// A table whose file is written as it grows, so that an interrupted run goes on where it was.
+pub(crate) struct GrowingTable<R> {
+    pub(crate) file: PathBuf,
+    pub(crate) rows: Vec<R>,
+}
+
+impl<R: Serialize + Send> GrowingTable<R> {
+    /// The rows of a file; none if it is not there.
+    pub(crate) fn open(file: PathBuf) -> Result<Self>
+    where
+        R: DeserializeOwned,
+    {
+        let rows = file.exists().then(|| read_csv(&file)).transpose()?;
+        let rows = rows.unwrap_or_default();
+        Ok(Self { file, rows })
+    }
+
+    /// Adds the rows of all items, and writes the file after so many of them.
+    pub(crate) fn extend<T: Sync>(
+        &mut self,
+        items: &[T],
+        at_once: usize,
+        run: impl Fn(&T) -> Result<Vec<R>> + Sync + Send,
+    ) -> Result<()> {
+        let name = self.file.file_stem().unwrap_or_default().display();
+        for (chunk, some) in items.chunks(at_once).enumerate() {
+            let task = format!("{name}, {} of {}", chunk * at_once, items.len());
+            let found = in_parallel(task, some, &run)?;
+            self.rows.extend(found.into_iter().flatten());
+            self.write()?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn write(&self) -> Result<()> {
+        write_atomically(&self.file, to_csv(&self.rows)?.as_bytes())
+    }
 }
 
 /// Four digits, or fewer if the error is larger than a unit of the last one.

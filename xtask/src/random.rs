@@ -1,5 +1,7 @@
 //! Numbers that look random and are the same every time.
 
+use std::f64::consts::TAU;
+
 /// A generator of 64 bits (Steele, Lea & Flood 2014).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Random {
@@ -29,6 +31,12 @@ impl Random {
     /// 10^x with x between −n and n.
     pub(crate) fn decades(&mut self, n: f64) -> f64 {
         10_f64.powf(self.between([-n, n]))
+    }
+
+    /// A number from the standard normal distribution (Box & Muller 1958).
+    pub(crate) fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
+        radius * (TAU * self.uniform()).cos()
     }
 
     /// One of the items, each as likely as any other.

@@ -33,7 +33,7 @@ pub(crate) fn in_turn<T, R>(
 }
 
 /// A bar over so many steps.
-pub(crate) fn bar(task: impl Into<Cow<'static, str>>, steps: usize) -> ProgressBar {
+fn bar(task: impl Into<Cow<'static, str>>, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
     let template = "{msg:24} {bar:32} {pos}/{len}  {elapsed}, {eta} left";
     if let Ok(style) = ProgressStyle::with_template(template) {

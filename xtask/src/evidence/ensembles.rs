@@ -1,17 +1,14 @@
 //! Do the standard errors of means over random surfaces hold? Two means over other surfaces of one spectrum are compared.
 
-use std::path::Path;
-
 use anyhow::Result;
 use numerics::{Estimate, MaxElements};
 use serde::Serialize;
 use viscofriction::scene::{Indenter, Scene};
 use viscofriction::solve::{Answer, Problem, Scatter, SolveError, plan};
 
-use super::sample::{Options, Source, sample};
-use super::{Report, Table};
+use super::sample::{Options, Source};
+use super::{Outcomes, Report, Share};
 use crate::output::markdown_table;
-use crate::random::Random;
 use crate::tasks::in_turn;
 
 const SCENES: [usize; 2] = [200, 6];
@@ -61,37 +58,24 @@ struct Refusal {
 /// Compares means over random surfaces of random scenes; fails where their standard errors hold too seldom.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let count = options.count(SCENES[usize::from(quick)])?;
-    let source = Source::new(RANGE)?;
-    let mut random = Random::new(options.seed());
-    let scenes = (1..=count).map(|number| {
-        let case = sample(&mut random, &source, Path::new(""))?;
-        Ok((number, case.scene))
-    });
-    let scenes: Vec<(usize, Scene)> = scenes.collect::<Result<_>>()?;
+    let scenes = Source::new(RANGE)?.scenes(options.seed(), count)?;
     let found = in_turn("ensembles", &scenes, |(number, scene)| {
-        Ok(compared(*number, scene))
+        let refusal = |why: anyhow::Error| Refusal {
+            scene: *number,
+            why: why.to_string(),
+        };
+        Ok(compared(*number, scene).map_err(refusal))
     })?;
-    let (mut rows, mut refusals): (Vec<Row>, Vec<Refusal>) = Default::default();
-    for (scene, found) in (1..).zip(found) {
-        match found {
-            Ok(some) => rows.extend(some),
-            Err(why) => refusals.push(Refusal {
-                scene,
-                why: why.to_string(),
-            }),
-        }
-    }
+    let found: Outcomes<Row, Refusal> = found.into_iter().collect();
     let failures = QUANTITIES
         .iter()
-        .filter_map(|(name, _)| failure(name, &rows));
+        .filter_map(|(name, _)| failure(name, &found.rows));
     let failures: Vec<String> = failures.collect();
+    let table = table(&found.rows);
     Ok(Report {
         name: "ensembles",
-        summary: format!("{}\n\nnot solved: {}", table(&rows), refusals.len()),
-        tables: vec![
-            Table::new("ensembles", &rows)?,
-            Table::new("ensembles_refused", &refusals)?,
-        ],
+        summary: format!("{table}\n\nnot solved: {}", found.refusals.len()),
+        tables: found.tables(["ensembles", "ensembles_refused"])?,
         failure: (!failures.is_empty()).then(|| failures.join("\n")),
         ..Report::default()
     })
@@ -159,18 +143,15 @@ fn of<'a>(quantity: &str, rows: &'a [Row]) -> Vec<&'a Row> {
 }
 
 /// How many deviate by no more than so many standard errors.
-fn within(rows: &[&Row], errors: f64) -> usize {
-    let within = |row: &&&Row| row.relative_deviation.abs() <= errors;
-    rows.iter().filter(within).count()
+fn within(rows: &[&Row], errors: f64) -> Share {
+    let within = |row: &&Row| row.relative_deviation.abs() <= errors;
+    rows.iter().map(within).collect()
 }
 
 fn failure(quantity: &str, rows: &[Row]) -> Option<String> {
-    let rows = of(quantity, rows);
-    let all = rows.len() as f64;
-    let chance = CHANCE * (HOLD * (1.0 - HOLD) / all.max(1.0)).sqrt();
-    let held = within(&rows, WITHIN);
-    let holds = held as f64 >= (HOLD - chance) * all && all > 0.0;
-    (!holds).then(|| {
+    let share = within(&of(quantity, rows), WITHIN);
+    let Share { held, all } = share;
+    (!share.may_be(HOLD, CHANCE)).then(|| {
         format!("ensembles: {held} of {all} of {quantity} are within {WITHIN} standard errors")
     })
 }
@@ -182,10 +163,7 @@ fn table(rows: &[Row]) -> comfy_table::Table {
         let coarse = all.iter().copied().filter(|row| row.on_coarse_grid > 0);
         let coarse: Vec<&Row> = coarse.collect();
         let line = |kind: &str, rows: &[&Row]| {
-            let part = |errors| {
-                let part = 100.0 * within(rows, errors) as f64 / rows.len().max(1) as f64;
-                format!("{part:.1} %")
-            };
+            let part = |errors| within(rows, errors).percentage();
             let [one, two, three] = [1.0, WITHIN, 3.0].map(part);
             let kind = format!("{}{kind}", quantity.replace('_', " "));
             [kind, rows.len().to_string(), one, two, three]

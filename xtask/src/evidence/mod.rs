@@ -8,13 +8,12 @@ mod derivatives;
 mod ensembles;
 mod fit;
 mod friction_fit;
-#[cfg(test)]
-mod kinds;
 mod material;
 mod report;
 mod request;
 mod rough;
 mod sample;
+mod share;
 mod speed_range;
 mod stability;
 mod stationary;
@@ -28,7 +27,8 @@ use clap::{Args, Subcommand};
 use strum::{EnumIter, IntoEnumIterator as _};
 
 use crate::output::{make_folder, print_line};
-use report::{Report, Table};
+use report::{Outcomes, Report, Table, extent};
+use share::Share;
 
 /// Which experiment, how much of it, and where the results go.
 #[derive(Debug, Args)]

@@ -1,13 +1,14 @@
 //! What an experiment found, and how it is written.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use viscofriction_plot::Figure;
 
 use crate::output::{known_digits, markdown_table, to_csv, write_atomically, write_figure};
-use crate::tasks::in_parallel;
 
 /// What an experiment found.
 #[derive(Debug, Default)]
@@ -22,24 +23,40 @@ pub(super) struct Report {
     pub(super) failure: Option<String>,
 }
 
-/// Items whose rows are computed before they are written.
-const AT_ONCE: usize = 64;
+/// Rows of the cases that were solved, and why the others were not.
+pub(super) struct Outcomes<R, F> {
+    pub(super) rows: Vec<R>,
+    pub(super) refusals: Vec<F>,
+}
 
-/// Adds the rows of all missing items to a table, and writes it after some items each, so that an interrupted run goes on where
-/// it was.
-pub(super) fn resume<T: Sync, R: Serialize + Send>(
-    (file, rows): (&Path, &mut Vec<R>),
-    missing: &[T],
-    run: impl Fn(&T) -> Result<Vec<R>> + Sync + Send,
-) -> Result<()> {
-    let name = file.file_stem().unwrap_or_default().display();
-    for (chunk, some) in missing.chunks(AT_ONCE).enumerate() {
-        let task = format!("{name}, {} of {}", chunk * AT_ONCE, missing.len());
-        let found = in_parallel(task, some, &run)?;
-        rows.extend(found.into_iter().flatten());
-        write_atomically(file, to_csv(rows)?.as_bytes())?;
+impl<R, F> FromIterator<Result<Vec<R>, F>> for Outcomes<R, F> {
+    fn from_iter<I: IntoIterator<Item = Result<Vec<R>, F>>>(cases: I) -> Self {
+        let (mut rows, mut refusals) = (Vec::new(), Vec::new());
+        for case in cases {
+            match case {
+                Ok(found) => rows.extend(found),
+                Err(refusal) => refusals.push(refusal),
+            }
+        }
+        Self { rows, refusals }
     }
-    Ok(())
+}
+
+impl<R: Serialize, F: Serialize> Outcomes<R, F> {
+    /// Both tables.
+    pub(super) fn tables(&self, [rows, refusals]: [&'static str; 2]) -> Result<Vec<Table>> {
+        Ok(vec![
+            Table::new(rows, &self.rows)?,
+            Table::new(refusals, &self.refusals)?,
+        ])
+    }
+}
+
+/// How much is computed, of a file that says it of a quick run and of a full one.
+pub(super) fn extent<T: DeserializeOwned>(file: &str, quick: bool) -> Result<T> {
+    let mut extents: BTreeMap<String, T> = toml::from_str(file)?;
+    let name = if quick { "quick" } else { "full" };
+    extents.remove(name).context("an extent")
 }
 
 /// A file of comma-separated values.

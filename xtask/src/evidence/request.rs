@@ -1,9 +1,15 @@
 //! A scene file, solved by one method after the other, and the reference that they are compared with.
 
+use std::path::Path;
+
 use anyhow::{Result, anyhow};
-use viscofriction::Estimate;
+use numerics::SilentProgress;
+use toml::Value;
 use viscofriction::scene::{Accuracy, Method, Model, Scene};
-use viscofriction::solve::{Answer, Problem, plan, solve};
+use viscofriction::solve::{
+    Answer, Problem, Sensitivity, SolveError, plan, solve, with_sensitivity,
+};
+use viscofriction::{Estimate, WrongInput};
 
 /// A method of one model, and how accurate its result is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,6 +87,47 @@ impl Request {
         };
         let error = known.error.max(rounding * known.value.abs());
         Ok(Reference::new(known.value, error, &source))
+    }
+}
+
+/// An answer with its derivatives by the numbers of its scene, which names no file.
+pub(super) fn differentiated(
+    scene: &Scene,
+    problem: &Problem,
+    answer: Answer,
+) -> Result<Answer, SolveError> {
+    let files = (Path::new(""), no_file as _);
+    with_sensitivity(scene, files, problem, answer, &SilentProgress)
+}
+
+/// The derivatives of an answer by the numbers of its scene; none where its method knows none.
+pub(super) fn derivatives(
+    scene: &Scene,
+    problem: &Problem,
+    answer: Answer,
+) -> Result<Vec<Sensitivity>, SolveError> {
+    match differentiated(scene, problem, answer) {
+        Ok(answer) => Ok(answer.sensitivity),
+        Err(SolveError::NoSensitivity { .. }) => Ok(Vec::new()),
+        Err(error) => Err(error),
+    }
+}
+
+/// Refuses every file.
+pub(super) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+    Err(WrongInput(format!("{}: no file", path.display())))
+}
+
+/// The number of a scene at a path such as `material.prony.branches[0].modulus`.
+pub(super) fn number_at<'a>(scene: &'a mut Value, path: &str) -> Option<&'a mut f64> {
+    let mut steps = path.split(['.', '[', ']']).filter(|step| !step.is_empty());
+    let place = steps.try_fold(scene, |place, step| match step.parse::<usize>() {
+        Ok(index) => place.get_mut(index),
+        Err(_) => place.get_mut(step),
+    });
+    match place? {
+        Value::Float(number) => Some(number),
+        _ => None,
     }
 }
 

@@ -4,12 +4,10 @@ use std::path::Path;
 
 use anyhow::Result;
 use numerics::Estimate;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::output::{read_csv, to_csv, write_atomically};
+use crate::output::GrowingTable;
 use crate::scaling::scaling_factor;
-use crate::tasks;
 
 /// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
 /// p = 1/2.
@@ -46,26 +44,20 @@ impl Node {
     }
 }
 
-/// Computes all nodes that are not in `out` yet, and adds them to the table there.
+/// Computes all nodes that are not in `out` yet, and adds them to the table there; in the end they are sorted.
 pub(crate) fn generate(out: &Path) -> Result<()> {
-    let finished = out.join(TABLE);
-    let nodes = finished.exists().then(|| read_csv(&finished)).transpose()?;
-    let mut nodes: Vec<Node> = nodes.unwrap_or_default();
+    let mut table: GrowingTable<Node> = GrowingTable::open(out.join(TABLE))?;
     let is_node = |p: f64| move |node: &Node| (node.exponent / p - 1.0).abs() < SAME;
     let mut missing: Vec<f64> = (0..N_NODES).map(exponent).collect();
-    missing.retain(|p| !nodes.iter().any(is_node(*p)));
-    let bar = tasks::bar("scaling table", missing.len());
-    // Two at a time, cheap ones first, so that much is saved early.
+    missing.retain(|p| !table.rows.iter().any(is_node(*p)));
+    // Few at a time, cheap ones first, so that much is saved early.
     missing.sort_by(|left, right| left.ln().abs().total_cmp(&right.ln().abs()));
-    for pair in missing.chunks(rayon::current_num_threads()) {
-        let found: Vec<Node> = pair.par_iter().map(|&p| node(p)).collect::<Result<_>>()?;
-        bar.inc(found.len() as u64);
-        nodes.extend(found);
-        nodes.sort_by(|left, right| left.exponent.total_cmp(&right.exponent));
-        write_atomically(&finished, to_csv(&nodes)?.as_bytes())?;
-    }
-    bar.finish_and_clear();
-    Ok(())
+    let at_once = rayon::current_num_threads();
+    table.extend(&missing, at_once, |&p| Ok(vec![node(p)?]))?;
+    table
+        .rows
+        .sort_by(|left, right| left.exponent.total_cmp(&right.exponent));
+    table.write()
 }
 
 fn exponent(index: usize) -> f64 {

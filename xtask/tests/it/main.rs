@@ -3,6 +3,7 @@
 mod agreement;
 mod calibration;
 mod commands;
+mod kinds;
 mod pages;
 mod rough;
 mod speed_range;

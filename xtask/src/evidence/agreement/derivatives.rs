@@ -1,19 +1,16 @@
 //! Derivatives of an answer by all numbers of its scene must add up to nothing: in other units of length, stress or time the
 //! scene and its answer are the same.
 
-use std::path::Path;
-
 use anyhow::{Context as _, Result};
-use numerics::SilentProgress;
 use toml::Value;
 use viscofriction::Estimate;
-use viscofriction::WrongInput;
 use viscofriction::scene::Indenter;
-use viscofriction::solve::{Answer, Sensitivity, SolveError, with_sensitivity};
+use viscofriction::solve::{Answer, Sensitivity};
 
 use super::judge::quantities;
 use super::relation::Answered;
 use super::units::Powers;
+use crate::evidence::request::{derivatives, number_at};
 
 /// Rounding of the sums, relative to that of their moduli.
 const ROUNDING: f64 = 1e-6;
@@ -35,12 +32,7 @@ pub(super) fn sums(first: Answered) -> Result<Vec<Sum>> {
     }
     let problem = case.problem(first.folder)?;
     let answer = first.answer.clone();
-    let files = (Path::new(""), no_file as _);
-    let known = match with_sensitivity(&case.scene, files, &problem, answer, &SilentProgress) {
-        Ok(answer) => answer.sensitivity,
-        Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
-        Err(error) => return Err(error.into()),
-    };
+    let known = derivatives(&case.scene, &problem, answer)?;
     let one = Powers::default();
     let units = [
         Powers { length: 1, ..one },
@@ -63,13 +55,9 @@ pub(super) fn sums(first: Answered) -> Result<Vec<Sum>> {
     Ok(sums)
 }
 
-fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
-    Err(WrongInput(format!("{}: no file", path.display())))
-}
-
 fn sums_in(
     known: &[Sensitivity],
-    [here, there]: [Value; 2],
+    mut scenes: [Value; 2],
     unit: Powers,
     answer: &Answer,
 ) -> Result<Vec<Sum>> {
@@ -84,8 +72,10 @@ fn sums_in(
             let Some(derivative) = derivative.and_then(|(_, known)| *known) else {
                 continue;
             };
-            let [from, to] = [&here, &there].map(|scene| number(scene, &one.parameter));
-            let change = (to.context("no number")? / from.context("no number")?).ln();
+            let numbers = scenes.each_mut();
+            let numbers = numbers.map(|scene| number_at(scene, &one.parameter).copied());
+            let [from, to] = numbers.map(|number| number.context("no number"));
+            let change = (to? / from?).ln();
             sum = Estimate::new(
                 sum.value + derivative.value * change,
                 sum.error + derivative.error * change.abs(),
@@ -106,16 +96,4 @@ fn sums_in(
         }
     }
     Ok(sums)
-}
-
-/// The number at a path such as `material.prony.branches[0].modulus`.
-fn number(scene: &Value, path: &str) -> Option<f64> {
-    let mut steps = path.split(['.', '[']);
-    let place = steps.try_fold(scene, |place, step| {
-        match step.strip_suffix(']').map(str::parse::<usize>) {
-            Some(index) => place.get(index.ok()?),
-            None => place.get(step),
-        }
-    });
-    place?.as_float()
 }

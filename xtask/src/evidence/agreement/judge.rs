@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, Result};
+use bem_halfspace::BemError;
+use mdr_core::MdrError;
 use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
 use viscofriction::scene::Method;
@@ -119,10 +121,7 @@ fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
     row.seconds = cost.seconds;
     let answer = match answer {
         Ok(answer) => answer,
-        Err(message) => {
-            row.verdict = Verdict::refusal(&message);
-            return Ok(vec![Row { message, ..row }]);
-        }
+        Err(failure) => return Ok(vec![row.failed(failure)]),
     };
     row.method = answer.method.name().to_owned();
     if let Some(problem) = problem_of(&answer) {
@@ -159,6 +158,15 @@ impl Row {
         }
     }
 
+    /// The row of a scene without an answer.
+    fn failed(self, failure: Failure) -> Self {
+        Self {
+            verdict: failure.verdict(),
+            message: failure.message,
+            ..self
+        }
+    }
+
     /// Whether its body has one of the names between blanks.
     pub(super) fn is_of(&self, bodies: &str) -> bool {
         bodies.split(' ').any(|body| body == self.indenter)
@@ -180,21 +188,71 @@ impl Verdict {
     pub(super) const fn contradicts(self) -> bool {
         matches!(self, Self::Differs | Self::Wrong)
     }
+}
 
-    fn refusal(message: &str) -> Self {
-        let is_bad = |bad: &&str| message.contains(bad);
-        if [PANIC, "NaN", "inf "].iter().any(is_bad) {
-            Self::Wrong
-        } else if message.starts_with(UNFINISHED) {
-            Self::Unfinished
+/// Why a scene has no answer, and the sentence that says it.
+struct Failure {
+    cause: Cause,
+    message: String,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    /// The scene is wrong, or no method answers it.
+    Refused,
+    /// An answer was found that is less exact than asked.
+    NotReached,
+    /// The search did not wait for the next grid.
+    Unfinished,
+    Panicked,
+}
+
+impl Failure {
+    fn new(cause: Cause, message: impl ToString) -> Self {
+        let message = message.to_string();
+        Self { cause, message }
+    }
+
+    /// Of a problem that was not solved.
+    fn of(error: &SolveError) -> Self {
+        let cause = if misses(error) {
+            Cause::NotReached
         } else {
-            Self::Refused
+            Cause::Refused
+        };
+        Self::new(cause, error)
+    }
+
+    /// No message may show what is no number.
+    fn verdict(&self) -> Verdict {
+        let shows = |text| self.message.contains(text);
+        match self.cause {
+            _ if shows("NaN") || shows("inf ") => Verdict::Wrong,
+            Cause::Panicked => Verdict::Wrong,
+            Cause::Unfinished => Verdict::Unfinished,
+            Cause::Refused | Cause::NotReached => Verdict::Refused,
         }
     }
 }
 
-const PANIC: &str = "panicked: ";
-const UNFINISHED: &str = "not finished: ";
+/// Whether an answer was found that is less exact than asked.
+fn misses(error: &SolveError) -> bool {
+    match error {
+        SolveError::MemoryReached { reached, .. } => misses(reached),
+        SolveError::NotReached { why, .. } => misses(why),
+        SolveError::SeriesTooCoarse { .. } | SolveError::TooFewSurfaces { .. } => true,
+        SolveError::HalfSpace(error) => matches!(error, BemError::NotReached { .. }),
+        SolveError::Line(error) => matches!(
+            error,
+            MdrError::NotConverged { .. }
+                | MdrError::WorkNotReached(_)
+                | MdrError::HistoryNotReached { .. }
+                | MdrError::SlidingNotReached { .. }
+                | MdrError::MotionNotReached { .. }
+        ),
+        _ => false,
+    }
+}
 
 /// Ends a refinement that takes too long.
 #[derive(Debug)]
@@ -213,17 +271,19 @@ impl Progress for Patience {
     fn report(&self, _: f64) {}
 }
 
-/// The answer, or the sentence that says why there is none.
+/// The answer, or why there is none.
 fn answer(
     case: &Case,
     folder: &Path,
     method: Option<Method>,
     threads: usize,
-) -> Result<Answer, String> {
+) -> Result<Answer, Failure> {
     let mut case = case.clone();
     case.scene.solve.method = method;
     let solved = || {
-        let problem = case.problem(folder).map_err(|error| format!("{error:#}"))?;
+        let problem = case.problem(folder);
+        let problem =
+            problem.map_err(|error| Failure::new(Cause::Refused, format!("{error:#}")))?;
         let patience = Patience {
             until: Instant::now() + PATIENCE,
             has_ended: AtomicBool::new(false),
@@ -231,20 +291,21 @@ fn answer(
         let plan = plan(&problem).map_err(SolveError::from);
         let solved = plan.and_then(|plan| plan.solve(&patience));
         solved.map_err(|error| match patience.has_ended.into_inner() {
-            true => format!("{UNFINISHED}{error}"),
-            false => error.to_string(),
+            true => Failure::new(Cause::Unfinished, format!("not finished: {error}")),
+            false => Failure::of(&error),
         })
     };
     let said = |panic: Box<dyn Any + Send>| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-        Err(format!("{PANIC}{}", text.unwrap_or_default()))
+        let message = format!("panicked: {}", text.unwrap_or_default());
+        Err(Failure::new(Cause::Panicked, message))
     };
     let solved = || catch_unwind(AssertUnwindSafe(solved)).unwrap_or_else(said);
     // Of scenes that are solved at the same time none takes the threads of another; and a worker of the search that waited
     // for a pool would begin further scenes meanwhile, a thread that is not one of its workers does not.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| error.to_string())?;
+    let pool = pool.map_err(|error| Failure::new(Cause::Refused, error))?;
     let solved = std::thread::scope(|scope| scope.spawn(|| pool.install(solved)).join());
     solved.unwrap_or_else(said)
 }
@@ -302,13 +363,10 @@ fn added_up(first: Answered) -> Result<Option<Row>> {
     let mut row = Row::of(Relation::Derivatives.into());
     row.method = first.answer.method.name().to_owned();
     row.seconds = cost.seconds;
-    let sums = match sums {
-        Err(error) if error.is::<SolveError>() => {
-            let message = format!("{error:#}");
-            row.verdict = Verdict::refusal(&message);
-            return Ok(Some(Row { message, ..row }));
-        }
-        known => known?,
+    let sums = match sums.map_err(anyhow::Error::downcast::<SolveError>) {
+        Ok(sums) => sums,
+        Err(Ok(error)) => return Ok(Some(row.failed(Failure::of(&error)))),
+        Err(Err(error)) => return Err(error),
     };
     for sum in sums {
         let part = (sum.value - sum.expected).abs() / sum.allowed;
@@ -346,14 +404,13 @@ fn compared(relation: Relation, first: Answered, derived: &Derived) -> Result<Ro
             };
             pair.compare(&mut row)?;
         }
-        Err(message) => {
+        Err(failure) => {
             // On other elements an error may be missed by little.
-            let may_be_missed = !relation.is_exact() && message.contains("not reached");
-            row.verdict = match Verdict::refusal(&message) {
-                Verdict::Refused if relation.is_same() && !may_be_missed => Verdict::Wrong,
-                verdict => verdict,
-            };
-            row.message = message;
+            let may_be_missed = !relation.is_exact() && failure.cause == Cause::NotReached;
+            row = row.failed(failure);
+            if row.verdict == Verdict::Refused && relation.is_same() && !may_be_missed {
+                row.verdict = Verdict::Wrong;
+            }
         }
     }
     if row.verdict.contradicts() {

@@ -13,10 +13,9 @@ use anyhow::{Context as _, Result};
 use strum::IntoEnumIterator as _;
 
 use super::Report;
-use super::report::resume;
 use super::sample::{Options, Source};
 use crate::meter::median;
-use crate::output::{markdown_table, read_csv};
+use crate::output::{GrowingTable, ROWS_AT_ONCE, markdown_table};
 use judge::{Row, Verdict, judge};
 use relation::Relation;
 
@@ -44,21 +43,21 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
         source.range.errors = QUICK_ERRORS.into();
         QUICK_MEMORY.clone_into(&mut source.range.memory);
     }
-    let file = out.join("agreement.csv");
-    let rows = file.exists().then(|| read_csv(&file)).transpose()?;
-    let mut rows: Vec<Row> = rows.unwrap_or_default();
+    let mut table = GrowingTable::open(out.join("agreement.csv"))?;
+    let rows: &[Row] = &table.rows;
     let of_seed = rows.iter().filter(|row| row.seed == seed);
     let done: BTreeSet<usize> = of_seed.map(|row| row.scene).collect();
     let all: BTreeSet<usize> = (1..=count).collect();
     let missing: Vec<usize> = all.difference(&done).copied().collect();
-    resume((&file, &mut rows), &missing, |number| {
+    table.extend(&missing, ROWS_AT_ONCE, |number| {
         judge(seed, *number, &source, out).with_context(|| format!("agreement-{seed}-{number}"))
     })?;
-    let tables = format!("{}\n\n{}", table(&rows), calibration(&rows));
+    let rows = &table.rows;
+    let tables = format!("{}\n\n{}", relation_table(rows), calibration(rows));
     Ok(Report {
         name: "agreement",
-        summary: format!("{tables}\n\n{}", contradictions(&rows)),
-        failure: failure(&rows),
+        summary: format!("{tables}\n\n{}", contradictions(rows)),
+        failure: failure(rows),
         ..Report::default()
     })
 }
@@ -70,7 +69,7 @@ fn relations() -> impl Iterator<Item = (&'static str, bool)> {
 }
 
 /// One line per relation: what was tried, refused, and held.
-fn table(rows: &[Row]) -> comfy_table::Table {
+fn relation_table(rows: &[Row]) -> comfy_table::Table {
     use Verdict::{Differs, Holds, Refused, Unfinished, Wrong};
     let header = "relation|holds|scenes|refused|unfinished|hold|outside|wrong|worst deviation";
     let lines = relations().map(|(relation, is_exact)| {

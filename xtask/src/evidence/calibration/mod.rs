@@ -16,7 +16,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Shape};
 
 use super::request::{Reference, Request, presses};
 use super::sample::Options;
-use super::{Report, Table};
+use super::{Outcomes, Report, Share};
 use crate::meter::median;
 use crate::output::markdown_table;
 use crate::picture::{chart, guide, markers};
@@ -38,21 +38,12 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let judged = in_parallel("calibration", &scenes, |(scene, requests)| {
         judge(scene, requests)
     })?;
-    let (mut rows, mut refusals) = (Vec::new(), Vec::new());
-    for (label, bar) in judged.into_iter().flatten() {
-        match bar {
-            Ok(bar) => rows.push((label, bar)),
-            Err(reason) => refusals.push((label, reason)),
-        }
-    }
+    let judged: Outcomes<Row, Refusal> = judged.into_iter().flatten().collect();
     Ok(Report {
         name: "calibration",
-        tables: vec![
-            Table::new("calibration", &rows)?,
-            Table::new("calibration_refused", &refusals)?,
-        ],
-        pictures: vec![("calibration", figure(&rows))],
-        summary: table(&rows, &refusals).to_string(),
+        tables: judged.tables(["calibration", "calibration_refused"])?,
+        pictures: vec![("calibration", figure(&judged.rows))],
+        summary: table(&judged.rows, &judged.refusals).to_string(),
         failure: None,
     })
 }
@@ -93,7 +84,7 @@ struct Reason {
 }
 
 /// Solves a scene by every method that can.
-fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<(Label, Result<Bar, Reason>)>> {
+fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Result<Vec<Row>, Refusal>>> {
     let mut judged = Vec::new();
     for of_model in requests.chunk_by(|one, other| one.model == other.model) {
         // A model may also find that it cannot take what is given.
@@ -109,11 +100,17 @@ fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<(Label, Result<Bar, 
         let shared = LazyCell::new(|| numerical(scene, of_model[0].model, least));
         for (request, known) in solved {
             let bar = known.and_then(|known| bar(scene, request, known, &shared));
-            let bar = bar.map_err(|error| Reason {
-                method: name(request, scene),
-                reason: format!("{error:#}"),
+            let label = || scene.label.clone();
+            judged.push(match bar {
+                Ok(bar) => Ok(bar.map(|bar| (label(), bar)).into_iter().collect()),
+                Err(error) => {
+                    let reason = Reason {
+                        method: name(request, scene),
+                        reason: format!("{error:#}"),
+                    };
+                    Err((label(), reason))
+                }
             });
-            judged.extend(bar.transpose().map(|bar| (scene.label.clone(), bar)));
         }
     }
     Ok(judged)
@@ -192,11 +189,11 @@ fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
 }
 
 fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
-    let held = bars.iter().filter(|bar| bar.holds).count();
+    let held: Share = bars.iter().map(|bar| bar.holds).collect();
     // Whether the reference is much more exact than the bar says of the result.
     let is_sharp = |bar: &&&Bar| bar.reference_error <= SHARP * bar.error_bar;
-    let sharp: Vec<_> = bars.iter().filter(is_sharp).collect();
-    let held_alone = sharp.iter().filter(|bar| bar.holds_alone).count();
+    let sharp = bars.iter().filter(is_sharp);
+    let held_alone: Share = sharp.map(|bar| bar.holds_alone).collect();
     // A bar of zero holds for a deviation of zero only.
     let part_of_bar = |bar: &&Bar| match bar.deviation {
         deviation if deviation > 0.0 => deviation / bar.error_bar,
@@ -209,19 +206,14 @@ fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
     let middle = (!parts.is_empty()).then(|| 1.0 / median(parts));
     [
         method.to_owned(),
-        bars.len().to_string(),
-        percentage(held, bars.len()),
-        sharp.len().to_string(),
-        percentage(held_alone, sharp.len()),
+        held.all.to_string(),
+        held.percentage(),
+        held_alone.all.to_string(),
+        held_alone.percentage(),
         middle.map(short).unwrap_or_default(),
         worst.map(short).unwrap_or_default(),
         refused.to_string(),
     ]
-}
-
-fn percentage(held: usize, all: usize) -> String {
-    let percentage = || format!("{:.1} %", 100.0 * held as f64 / all as f64);
-    (all > 0).then(percentage).unwrap_or_default()
 }
 
 /// Two digits, or a power of ten.

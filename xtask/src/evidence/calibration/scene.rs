@@ -1,14 +1,14 @@
 //! Random scenes of which a reference is known, and what is asked of them.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 use viscofriction::scene::{self, Accuracy, Indenter, Method, Model};
 use viscofriction::solve::Problem;
 
+use crate::evidence::extent;
 use crate::evidence::request::{Request, presses};
 use crate::evidence::sample::{Source, sample};
 use crate::random::Random;
@@ -122,9 +122,7 @@ const CLOSED: f64 = 1e-2;
 
 impl Extent {
     pub(super) fn new(quick: bool) -> Result<Self> {
-        let mut extents: BTreeMap<String, Self> = toml::from_str(include_str!("requests.toml"))?;
-        let name = if quick { "quick" } else { "full" };
-        extents.remove(name).context("an extent")
+        extent(include_str!("requests.toml"), quick)
     }
 
     /// What is asked of a scene, by model.

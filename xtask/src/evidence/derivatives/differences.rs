@@ -1,17 +1,13 @@
 //! One scene: its derivatives, and differences of far more exact answers.
 
-use std::path::Path;
-
 use anyhow::{Context as _, Result};
-use numerics::SilentProgress;
 use serde::{Deserialize, Serialize};
 use toml::Value;
+use viscofriction::Estimate;
 use viscofriction::scene::{Method, Model, Scene};
-use viscofriction::solve::{
-    Answer, Problem, Sensitivity, SolveError, plan, solve, with_sensitivity,
-};
-use viscofriction::{Estimate, WrongInput};
+use viscofriction::solve::{Answer, Problem, Sensitivity, plan, solve};
 
+use crate::evidence::request::{derivatives, number_at};
 use crate::random::Random;
 
 /// Distances of the answers in steps with their weights: `12 f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`, to the fourth order.
@@ -104,10 +100,6 @@ fn quantity(answer: &Answer, name: &str) -> Option<Estimate> {
     }
 }
 
-fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
-    Err(WrongInput(format!("{}: no file", path.display())))
-}
-
 /// The derivatives of a scene by some of its numbers, or none where the method has none.
 pub(super) fn compared(
     (number, scene): (usize, &Scene),
@@ -119,15 +111,9 @@ pub(super) fn compared(
     if plan(&problem).is_err() {
         return Ok(Vec::new());
     }
-    let answer = solve(&problem)?;
-    let files = (Path::new(""), no_file as _);
-    let known = match with_sensitivity(&scene, files, &problem, answer, &SilentProgress) {
-        Ok(answer) => answer.sensitivity,
-        Err(SolveError::NoSensitivity { .. }) => return Ok(Vec::new()),
-        Err(error) => return Err(error.into()),
-    };
+    let known = derivatives(&scene, &problem, solve(&problem)?)?;
     let mut random = Random::new(number as u64);
-    let mut derivatives = Vec::new();
+    let mut rows = Vec::new();
     for one in chosen(&known, &scene, asked, (&mut random, count)) {
         let answers = asked.answers(&scene, &one.parameter)?;
         for (quantity, known_as) in one.named() {
@@ -136,7 +122,7 @@ pub(super) fn compared(
             else {
                 continue;
             };
-            derivatives.push(Derivative {
+            rows.push(Derivative {
                 scene: number,
                 group: asked.group(&scene),
                 indenter: scene.indenter.key(),
@@ -152,7 +138,7 @@ pub(super) fn compared(
             });
         }
     }
-    Ok(derivatives)
+    Ok(rows)
 }
 
 /// Some numbers of a scene that may be larger and smaller.
@@ -240,14 +226,7 @@ impl Asked {
     /// A scene with a number that is so many steps larger.
     fn changed(&self, scene: &Scene, path: &str, steps: f64) -> Result<Scene> {
         let mut value = Value::try_from(scene)?;
-        let mut keys = path.split(['.', '[']);
-        let place = keys.try_fold(&mut value, |place, key| match key.strip_suffix(']') {
-            Some(index) => place.get_mut(index.parse::<usize>().ok()?),
-            None => place.get_mut(key),
-        });
-        let Value::Float(number) = place.with_context(|| format!("no {path}"))? else {
-            anyhow::bail!("{path} is no number");
-        };
+        let number = number_at(&mut value, path).with_context(|| format!("no number {path}"))?;
         *number *= (steps * self.step).exp();
         Ok(value.try_into()?)
     }

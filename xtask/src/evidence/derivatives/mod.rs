@@ -3,17 +3,15 @@
 mod differences;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use anyhow::Result;
 use serde::Deserialize;
 use viscofriction::scene::Scene;
 
-use super::sample::{Options, Source, sample};
-use super::{Report, Table};
+use super::sample::{Options, Source};
+use super::{Outcomes, Report, Share};
 use crate::meter::median;
 use crate::output::markdown_table;
-use crate::random::Random;
 use crate::tasks::in_parallel;
 use differences::{Asked, Derivative, Refusal, compared};
 
@@ -40,52 +38,43 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let mut tasks: Vec<(usize, Scene, &Asked)> = Vec::new();
     for asked in &requests.method {
         let count = options.count(asked.scenes)?;
-        let source = Source::new(&asked.range)?;
-        let mut random = Random::new(options.seed());
-        for number in 1..=count.div_ceil(asked.one_scene_of) {
-            let scene = sample(&mut random, &source, Path::new(""))?.scene;
-            tasks.push((number, scene, asked));
-        }
+        let count = count.div_ceil(asked.one_scene_of);
+        let scenes = Source::new(&asked.range)?.scenes(options.seed(), count)?;
+        tasks.extend(
+            scenes
+                .into_iter()
+                .map(|(number, scene)| (number, scene, asked)),
+        );
     }
     let found = in_parallel("derivatives", &tasks, |(number, scene, asked)| {
         let compared = compared((*number, scene), asked, requests.numbers);
         Ok(compared.map_err(|error| Refusal::new(*number, asked, &error)))
     })?;
-    let (mut rows, mut refusals): (Vec<Derivative>, Vec<Refusal>) = Default::default();
-    for one in found {
-        match one {
-            Ok(some) => rows.extend(some),
-            Err(refusal) => refusals.push(refusal),
-        }
-    }
+    let found: Outcomes<Derivative, Refusal> = found.into_iter().collect();
+    let table = table(&found.rows);
     Ok(Report {
         name: "derivatives",
-        summary: format!("{}\n\nnot solved: {}", table(&rows), refusals.len()),
-        tables: vec![
-            Table::new("derivatives", &rows)?,
-            Table::new("derivatives_refused", &refusals)?,
-        ],
-        failure: failure(&rows),
+        summary: format!("{table}\n\nnot solved: {}", found.refusals.len()),
+        tables: found.tables(["derivatives", "derivatives_refused"])?,
+        failure: failure(&found.rows),
         ..Report::default()
     })
 }
 
 /// Each method for itself, so that none is outvoted by the others.
 fn failure(rows: &[Derivative]) -> Option<String> {
-    let mut methods: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
+    let mut methods: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
     for row in rows {
         let method = row.group.split(',').next().unwrap_or_default();
-        let [held, all] = methods.entry(method).or_default();
-        *held += usize::from(row.holds());
-        *all += 1;
+        methods.entry(method).or_default().push(row.holds());
     }
-    let missed = methods.iter().filter(|(_, [held, all])| {
-        let all = *all as f64;
-        let chance = CHANCE * (HOLD * (1.0 - HOLD) / all).sqrt();
-        (*held as f64) < (HOLD - chance) * all
-    });
+    let shares = methods.into_iter();
+    let shares = shares.map(|(method, holds)| (method, holds.into_iter().collect::<Share>()));
+    let missed = shares.filter(|(_, share)| !share.may_be(HOLD, CHANCE));
     let missed: Vec<String> = missed
-        .map(|(method, [held, all])| format!("{method}: {held} of {all} are within their bars"))
+        .map(|(method, Share { held, all })| {
+            format!("{method}: {held} of {all} are within their bars")
+        })
         .collect();
     match rows.is_empty() {
         true => Some("derivatives: there are none".to_owned()),
@@ -112,13 +101,13 @@ fn line(group: &str, rows: &[&Derivative]) -> [String; 8] {
     };
     let mut deviations = of(|row| row.deviation);
     deviations.sort_by(f64::total_cmp);
-    let held = rows.iter().filter(|row| row.holds()).count();
+    let held: Share = rows.iter().map(|row| row.holds()).collect();
     let below = |percent: usize| deviations[((rows.len() - 1) * percent).div_ceil(100)];
     let short = |value: f64| format!("{value:.1e}");
     [
         group.to_owned(),
-        rows.len().to_string(),
-        format!("{:.1} %", 100.0 * held as f64 / rows.len() as f64),
+        held.all.to_string(),
+        held.percentage(),
         short(median(of(|row| row.error_bar))),
         short(below(50)),
         short(below(95)),

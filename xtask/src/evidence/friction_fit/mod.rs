@@ -3,18 +3,17 @@
 //! Friction is computed with the material of each case, gets random errors, and is fitted from moduli that are off by a random
 //! factor each.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use measurements::Finding;
 use measurements::friction::FrictionPoint;
 use serde::{Deserialize, Serialize};
-use viscofriction::WrongInput;
 use viscofriction::friction_fit::{FrictionFitOptions, fit_friction};
 use viscofriction::scene::{Accuracy, Method, Model, Scene};
 use viscofriction::solve::{Problem, solve};
 
+use super::request::{no_file, number_at};
 use super::{Report, Table};
 use crate::random::Random;
 use crate::tasks::in_parallel;
@@ -118,8 +117,9 @@ impl Case {
         let first = first.with_context(|| format!("{}: no experiment has a fit", self.name))?;
         let quantities = first.iter().enumerate();
         let row = |(k, finding): (usize, &Finding)| -> Result<Row> {
-            let value = number_at(&self.scene, &finding.name)
-                .with_context(|| format!("{} is not in the scene", finding.name))?;
+            let path = format!("material.{}", finding.name);
+            let value = number_at(&mut self.scene.clone().into(), &path).copied();
+            let value = value.with_context(|| format!("{path} is not in the scene"))?;
             let intervals = || found.iter().flatten().map(|all| all[k].interval);
             let holds = |[lower, upper]: &[Option<f64>; 2]| {
                 lower.is_none_or(|lower| lower <= value) && upper.is_none_or(|upper| value <= upper)
@@ -179,7 +179,7 @@ impl Case {
             .map(|point| {
                 let error = self.noise * point.friction_coefficient;
                 FrictionPoint {
-                    friction_coefficient: point.friction_coefficient + error * normal(&mut random),
+                    friction_coefficient: point.friction_coefficient + error * random.normal(),
                     standard_error: self.is_known.then_some(error),
                     ..*point
                 }
@@ -189,11 +189,10 @@ impl Case {
         if let Some(material) = scene.get_mut("material") {
             move_moduli(material, &mut random);
         }
-        let no_files = |path: &Path, _| Err(WrongInput(path.display().to_string()));
         let options = FrictionFitOptions::default();
         let fit = fit_friction(
             &scene_of(&scene)?,
-            (Path::new(""), no_files),
+            (Path::new(""), no_file),
             &points,
             &options,
             &|_| (),
@@ -208,12 +207,6 @@ fn scene_of(table: &toml::Table) -> Result<Scene> {
         load.entry("velocity").or_insert(toml::Value::Float(1.0));
     }
     Ok(Scene::try_from(table)?)
-}
-
-/// A normal distribution of the standard deviation 1 (Box & Muller 1958).
-fn normal(random: &mut Random) -> f64 {
-    let radius = (-2.0 * (1.0 - random.uniform()).ln()).sqrt();
-    radius * (TAU * random.uniform()).cos()
 }
 
 /// Multiplies all moduli and viscosities below a value by random factors.
@@ -232,18 +225,6 @@ fn move_moduli(value: &mut toml::Value, random: &mut Random) {
         toml::Value::Array(list) => list.iter_mut().for_each(|one| move_moduli(one, random)),
         _ => {}
     }
-}
-
-/// The number of the material at a path such as `prony.branches[0].modulus`.
-fn number_at(scene: &toml::Table, path: &str) -> Option<f64> {
-    let mut value = scene.get("material")?;
-    for step in path.split(['.', '[', ']']).filter(|step| !step.is_empty()) {
-        value = match step.parse::<usize>() {
-            Ok(index) => value.get(index)?,
-            Err(_) => value.get(step)?,
-        };
-    }
-    value.as_float()
 }
 
 #[cfg(test)]

@@ -1,18 +1,16 @@
 //! One experiment: a material that is known, measured with errors, fitted, and slid over.
 
 use std::f64::consts::{LN_10, TAU};
-use std::path::Path;
 
 use anyhow::{Context as _, Result};
 use measurements::moduli::{Shifting, master_curve};
-use numerics::SilentProgress;
 use rheology::fit::{Identification, IdentifyOptions, Isotherm, ModulusPoint, identify};
 use rheology::{KELVIN_AT_ZERO_CELSIUS, RelaxationBranch, RelaxationSpectrum, WlfShift};
 use serde::{Deserialize, Serialize};
-use viscofriction::WrongInput;
 use viscofriction::scene::{Branch, Covariance, MaterialTable, Scene};
-use viscofriction::solve::{Answer, Problem, solve, with_sensitivity};
+use viscofriction::solve::{Answer, Problem, solve};
 
+use crate::evidence::request::differentiated;
 use crate::random::Random;
 
 /// What `experiments.toml` holds.
@@ -219,9 +217,9 @@ impl Experiments {
         let middle = (drawn.isotherms / 2) as f64;
         let isotherm = |place: usize| {
             let temperature = WANTED + step * (place as f64 - middle);
-            let own = temperature + drawn.temperature * normal(&mut drawn.random);
+            let own = temperature + drawn.temperature * drawn.random.normal();
             let log_factor = LN_10 * law.log10_factor(own)?;
-            let factor = 1.0 + drawn.factor * normal(&mut drawn.random);
+            let factor = 1.0 + drawn.factor * drawn.random.normal();
             let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
             let stiffer = if drawn.is_entropic {
                 kelvin(own) / kelvin(WANTED)
@@ -235,7 +233,7 @@ impl Experiments {
                 let modulus = truth.complex_modulus(omega * log_factor.exp())?;
                 let [storage, loss] = drawn
                     .noise
-                    .map(|noise| factor * (1.0 + noise * normal(&mut drawn.random)));
+                    .map(|noise| factor * (1.0 + noise * drawn.random.normal()));
                 Ok(ModulusPoint {
                     angular_frequency: omega,
                     storage: modulus.storage * storage,
@@ -282,12 +280,6 @@ fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
 /// Of the ball, \[m]; only for the speed.
 const RADIUS: f64 = 5e-3;
 
-/// A number from the standard normal distribution (Box & Muller 1958).
-fn normal(random: &mut Random) -> f64 {
-    let radius = (-2.0 * (1.0 - random.uniform()).ln()).sqrt();
-    radius * (TAU * random.uniform()).cos()
-}
-
 /// The material of a scene, measured in a window.
 fn series(
     spectrum: &RelaxationSpectrum,
@@ -320,12 +312,5 @@ fn answered(scene: &Scene, with_derivatives: bool) -> Result<Answer> {
     if !with_derivatives {
         return Ok(answer);
     }
-    let no_file = |path: &Path, _| Err(WrongInput(format!("{}: no file", path.display())));
-    Ok(with_sensitivity(
-        scene,
-        (Path::new(""), no_file),
-        &problem,
-        answer,
-        &SilentProgress,
-    )?)
+    Ok(differentiated(scene, &problem, answer)?)
 }

@@ -14,8 +14,8 @@ use viscofriction::sweep::{Plan, Vary, header};
 use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
 
 use super::Report;
-use super::report::{Table, resume};
-use crate::output::WrongInput;
+use super::report::Table;
+use crate::output::{GrowingTable, ROWS_AT_ONCE, WrongInput};
 use crate::picture::chart;
 
 /// Rows that were computed; an interrupted run goes on where it was.
@@ -100,7 +100,8 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
         }
     }
     let file = out.join(ROWS);
-    let mut rows = read(&file, &plans[0].1)?;
+    let rows = read(&file, &plans[0].1)?;
+    let mut table = GrowingTable { file, rows };
     // One surface after the other, so that what is there of a run that was interrupted is of all solids and spectra.
     let mut missing = Vec::new();
     for surface in 0..surfaces {
@@ -110,11 +111,11 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
             let points = points.map(|point| (*solid, plan, point));
             missing.extend(points.filter(|(_, plan, point)| {
                 let identity = plan.identity(*point);
-                !rows.iter().any(|row| row[1..].starts_with(&identity))
+                !table.rows.iter().any(|row| row[1..].starts_with(&identity))
             }));
         }
     }
-    resume((&file, &mut rows), &missing, |(solid, plan, point)| {
+    table.extend(&missing, ROWS_AT_ONCE, |(solid, plan, point)| {
         let mut row = vec![(*solid).to_owned()];
         row.extend(plan.solve(*point)?.fields);
         let theories = theories::solve(&plan.problem(*point)?)?;
@@ -122,7 +123,8 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
         row.extend(theories.map(Option::unwrap_or_default));
         Ok(vec![row])
     })?;
-    let points = points(&rows, surfaces);
+    let rows = &table.rows;
+    let points = points(rows, surfaces);
     Ok(Report {
         name: "rough",
         tables: vec![Table::new("rough_points", &pages::rows(&points))?],

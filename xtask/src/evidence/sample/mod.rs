@@ -209,6 +209,13 @@ impl Source {
         Ok(Self { range, recipes })
     }
 
+    /// So many numbered scenes of a seed, from a range that draws no files.
+    pub(super) fn scenes(&self, seed: u64, count: usize) -> Result<Vec<(usize, Scene)>> {
+        let mut random = Random::new(seed);
+        let scene = |number| Ok((number, sample(&mut random, self, Path::new(""))?.scene));
+        (1..=count).map(scene).collect()
+    }
+
     fn kinds<K: Into<&'static str>>(&self, all: impl Iterator<Item = K>) -> Vec<&'static str> {
         let Range { only, without, .. } = &self.range;
         let is_in = |list: &[String], kind: &str| list.iter().any(|one| one == kind);

@@ -5,14 +5,12 @@ mod border;
 mod pictures;
 mod sliding;
 
-use std::collections::BTreeMap;
-
-use anyhow::{Context, Result};
+use anyhow::Result;
 use friction_analytic::scaling_factor;
 use serde::{Deserialize, Serialize};
 use viscofriction::scene::Model;
 
-use super::{Report, Table};
+use super::{Report, Table, extent};
 use crate::tasks::in_parallel;
 use sliding::Sliding;
 
@@ -77,9 +75,7 @@ struct Law {
 
 /// Computes curves, map and border; a quick run takes fewer speeds and stiffness ratios, and wider error bars.
 pub(super) fn report(quick: bool) -> Result<Report> {
-    let mut extents: BTreeMap<String, Extent> = toml::from_str(include_str!("extent.toml"))?;
-    let extent = extents.remove(if quick { "quick" } else { "full" });
-    let extent = extent.context("an extent")?;
+    let extent: Extent = extent(include_str!("extent.toml"), quick)?;
     let problems = problems(extent.curve_ratios.iter().copied(), extent.curve_speeds);
     let curves = in_parallel("friction over speed", &problems, |&at| {
         Ok((at, Friction::of(at, extent.curve_error)?))

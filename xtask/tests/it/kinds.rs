@@ -9,8 +9,8 @@ use serde_json::Value;
 use toml::Table;
 
 const SCHEMA: &str = include_str!("../../../docs/scene.schema.json");
-const RECIPES: &str = include_str!("sample/recipes.toml");
-const UNITS: &str = include_str!("agreement/units.csv");
+const RECIPES: &str = include_str!("../../src/evidence/sample/recipes.toml");
+const UNITS: &str = include_str!("../../src/evidence/agreement/units.csv");
 const SCENES_PAGE: &str = include_str!("../../../docs/scenes.md");
 const MALFORMED: &str = include_str!("../../../crates/viscofriction/tests/data/malformed.txt");
 const AXIS_LABELS: &str = include_str!("../../../crates/viscofriction-cli/src/sweep/picture.rs");
