@@ -17,6 +17,7 @@ mod picture;
 mod random;
 mod scaling;
 mod scene;
+mod table;
 mod tasks;
 
 use std::path::PathBuf;

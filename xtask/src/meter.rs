@@ -4,13 +4,14 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 
-/// Most runs of one median, and most of what is too short for a single look at the clock.
-const REPEATS: f64 = 5.0;
-const SHORT_REPEATS: f64 = 101.0;
-/// Processor time of a short run \[s].
-const SHORT: f64 = 2e-3;
-/// Processor time that the repeats of one run may take together \[s].
-const REPEATED: f64 = 3.0;
+/// Most runs of one median.
+const MAX_RUNS: f64 = 5.0;
+/// Most runs of one median where a run is short.
+const MAX_SHORT_RUNS: f64 = 101.0;
+/// Processor time below which a run is short, \[s].
+const SHORT_RUN: f64 = 2e-3;
+/// Processor time that all runs of one median may take, \[s].
+const MAX_TOTAL: f64 = 3.0;
 
 /// Time that a computation took, \[s].
 #[derive(Debug, Clone, Copy)]
@@ -37,13 +38,13 @@ pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T
     let (value, first) = measure(&work);
     let value = value?;
     let seconds = first.processor_seconds.max(f64::MIN_POSITIVE);
-    let most = if seconds < SHORT {
-        SHORT_REPEATS
+    let most = if seconds < SHORT_RUN {
+        MAX_SHORT_RUNS
     } else {
-        REPEATS
+        MAX_RUNS
     };
     let mut costs = vec![first];
-    while costs.len() as f64 + 1.0 <= most.min(REPEATED / seconds) {
+    while costs.len() as f64 + 1.0 <= most.min(MAX_TOTAL / seconds) {
         costs.push(measure(&work).1);
     }
     let middle = |part: fn(&Cost) -> f64| median(costs.iter().map(part).collect());

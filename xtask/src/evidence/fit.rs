@@ -2,16 +2,16 @@
 
 use numerics::Estimate;
 
-/// A line needs more points than it has parameters.
-const FEWEST: usize = 3;
-/// Abscissae must span this factor before a power of them means anything.
-const LEAST_SPAN: f64 = 2.0;
+/// Fewest points of a fit, one more than its parameters.
+const MIN_POINTS: usize = 3;
+/// Smallest ratio of the largest abscissa to the smallest.
+const MIN_SPAN: f64 = 2.0;
 
 /// The exponent and its standard error, where there are points enough and they scatter by less than the line rises.
 pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Estimate> {
     let abscissae = || points.iter().map(|point| point[0]);
     let span = abscissae().fold(0.0, f64::max) / abscissae().fold(f64::INFINITY, f64::min);
-    if points.len() < FEWEST || span < LEAST_SPAN {
+    if points.len() < MIN_POINTS || span < MIN_SPAN {
         return None;
     }
     let exponent = exponent(points);

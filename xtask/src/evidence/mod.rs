@@ -27,7 +27,7 @@ use clap::{Args, Subcommand};
 use strum::{EnumIter, IntoEnumIterator as _};
 
 use crate::output::{make_folder, print_line};
-use report::{Outcomes, Report, Table, extent};
+use report::{Outcomes, Report, extent};
 use share::Share;
 
 /// Which experiment, how much of it, and where the results go.
@@ -44,7 +44,7 @@ pub(crate) struct Evidence {
         default_value = "target/evidence"
     )]
     out: PathBuf,
-    /// A few cheap cases only; of `stability` all.
+    /// A few cheap cases only; of `stability` all but a few that take long.
     #[arg(long, global = true)]
     quick: bool,
 }
@@ -99,7 +99,7 @@ impl Experiment {
     fn run(&self, out: &Path, quick: bool) -> Result<Report> {
         match self {
             Self::WorkPrecision => work_precision::report(quick),
-            Self::Stability(options) => stability::report(options),
+            Self::Stability(options) => stability::report(options, quick),
             Self::Agreement(options) => agreement::report(options, out, quick),
             Self::Calibration(options) => calibration::report(options, quick),
             Self::FrictionFit => friction_fit::report(quick),

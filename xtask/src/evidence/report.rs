@@ -8,7 +8,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use viscofriction_plot::Figure;
 
-use crate::output::{known_digits, markdown_table, to_csv, write_atomically, write_figure};
+use crate::output::{write_atomically, write_figure};
+use crate::table::Table;
 
 /// What an experiment found.
 #[derive(Debug, Default)]
@@ -59,13 +60,6 @@ pub(super) fn extent<T: DeserializeOwned>(file: &str, quick: bool) -> Result<T> 
     extents.remove(name).context("an extent")
 }
 
-/// A file of comma-separated values.
-#[derive(Debug)]
-pub(super) struct Table {
-    name: &'static str,
-    contents: String,
-}
-
 impl Report {
     /// The page: summary, tables and pictures.
     pub(super) fn page(&self, out: &Path) -> PathBuf {
@@ -74,47 +68,14 @@ impl Report {
 
     pub(super) fn write(&self, out: &Path) -> Result<()> {
         let mut page = format!("{}\n", self.summary);
-        for Table { name, contents } in &self.tables {
-            let file = format!("{name}.csv");
-            page += &format!("\n[{file}]({file})\n");
-            write_atomically(&out.join(file), contents.as_bytes())?;
+        for table in &self.tables {
+            page += &format!("\n[{0}.csv]({0}.csv)\n", table.name);
+            table.write(out)?;
         }
         for (name, figure) in &self.pictures {
             page += &format!("\n![{name}]({name}.svg)\n");
             write_figure(out, name, figure)?;
         }
         write_atomically(&self.page(out), page.as_bytes())
-    }
-}
-
-impl Table {
-    pub(super) fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
-        let contents = to_csv(rows)?;
-        Ok(Self { name, contents })
-    }
-
-    /// Some columns, separated by blanks, in Markdown; numbers only as far as their `…_error` says that they are known.
-    pub(super) fn markdown(&self, columns: &str) -> Result<String> {
-        let columns = columns.split_whitespace();
-        let mut reader = csv::Reader::from_reader(self.contents.as_bytes());
-        let names = reader.headers()?.clone();
-        let place = |column: &str| names.iter().position(|name| name == column);
-        let mut lines = Vec::new();
-        for record in reader.records() {
-            let record = record?;
-            let number = |place: usize| record[place].parse::<f64>().ok();
-            let mut line = Vec::new();
-            for column in columns.clone() {
-                let cell = place(column).with_context(|| format!("no column {column}"))?;
-                let error = place(&format!("{column}_error")).and_then(number);
-                line.push(match number(cell) {
-                    Some(value) => known_digits(value, error),
-                    None => record[cell].to_owned(),
-                });
-            }
-            lines.push(line);
-        }
-        let header: Vec<String> = columns.map(|name| name.replace('_', " ")).collect();
-        Ok(markdown_table(&header, lines).to_string())
     }
 }

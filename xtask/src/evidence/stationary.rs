@@ -13,11 +13,12 @@ use serde::{Deserialize, Serialize};
 use viscofriction::scene::{self, Indenter};
 use viscofriction::solve::Problem;
 
+use super::Report;
 use super::fit::exponent;
-use super::{Report, Table};
 use crate::meter::{measure, median};
 use crate::output::{WrongInput, points};
 use crate::scene::{Scene, as_far_as_reached, refined_to};
+use crate::table::Table;
 use crate::tasks::in_turn;
 
 /// What is measured, and how far.
@@ -40,14 +41,12 @@ enum Part {
     ErrorBars,
 }
 
-/// Elements in contact on the largest grid, and on that of a quick run.
-const LARGEST: f64 = 1e5;
-const QUICK_LARGEST: f64 = 4e3;
+/// Elements in contact on the largest grid of a full run and of a quick one.
+const LARGEST: [f64; 2] = [1e5, 4e3];
 
 /// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
-    let usual = if quick { QUICK_LARGEST } else { LARGEST };
-    let largest = options.largest.unwrap_or(usual);
+    let largest = options.largest.unwrap_or(LARGEST[usize::from(quick)]);
     let wrong = format!("--largest must be between 2e3 and 1e7, but is {largest}");
     ensure!((2e3..=1e7).contains(&largest), WrongInput(wrong));
     let (mut tables, mut summaries) = (Vec::new(), Vec::new());
@@ -77,10 +76,10 @@ const SMALLEST: f64 = 1e3;
 const ASPECT: f64 = 0.5;
 /// Residual in contact relative to F_N/(4ηv), as the stationary solver has it for a relative error of 1e-3.
 const TOLERANCE: f64 = 1e-7;
-/// Smaller grids are left out of the exponent of growth where larger ones suffice for it.
-const FITTED_FROM: f64 = 9e3;
+/// Elements in contact from which grids count for the exponent of growth, where two of them are as large.
+const MIN_FITTED_ELEMENTS: f64 = 9e3;
 /// Elements along the contact length on the grid that the area of the contact is taken from.
-const COARSE: f64 = 40.0;
+const AREA_ELEMENTS: f64 = 40.0;
 /// Relative error of the friction coefficient that the others are compared with.
 const REFERENCE_ERROR: f64 = 1e-4;
 
@@ -106,7 +105,7 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     let solve = |spacing: f64| -> Result<SteadySliding> {
         scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };
-    let area = solve(scene.theory()?.contact_length() / COARSE)?.contact_area;
+    let area = solve(scene.theory()?.contact_length() / AREA_ELEMENTS)?.contact_area;
     let steps = (2.0 * (largest / SMALLEST).log10()).round().max(1.0);
     let ratio = (largest / SMALLEST).powf(1.0 / steps);
     let sizes = successors(Some(SMALLEST), |size| Some(size * ratio));
@@ -127,8 +126,13 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     })?;
     let elements = |row: &Grid| row.elements_in_contact;
     let mut points = points(&rows, elements, |row| row.processor_seconds);
-    if points.iter().filter(|point| point[0] > FITTED_FROM).count() > 1 {
-        points.retain(|point| point[0] > FITTED_FROM);
+    if points
+        .iter()
+        .filter(|point| point[0] > MIN_FITTED_ELEMENTS)
+        .count()
+        > 1
+    {
+        points.retain(|point| point[0] > MIN_FITTED_ELEMENTS);
     }
     let table = Table::new("growth", &rows)?;
     let columns = "elements_in_contact unknowns contact_sets seconds processor_seconds \
@@ -142,22 +146,26 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     Ok((table, summary))
 }
 
-/// From this exponent on the contact is a narrow crescent, for which narrow elements are no help.
-const CRESCENT: f64 = 4.0;
-/// Up to the first and from the second exponent on a small error costs a minute or more.
-const COSTLY: [f64; 2] = [0.7, 12.0];
-/// Relative errors asked for, and those of the references over them.
-const ASKED: f64 = 1e-3;
-const ASKED_WHERE_COSTLY: f64 = 3e-3;
-const FINER: f64 = 0.1;
-const FINER_WHERE_COSTLY: f64 = 0.2;
-/// Shapes of the elements.
+/// Exponent from which on the contact is a narrow crescent, for which narrow elements are no help.
+const CRESCENT_EXPONENT: f64 = 4.0;
+/// Exponents up to and from which a small error takes a minute or more.
+const COSTLY_EXPONENTS: [f64; 2] = [0.7, 12.0];
+/// Relative error requested of the solutions whose bars are judged.
+const REQUESTED_ERROR: f64 = 1e-3;
+/// The same at costly exponents and in a quick run.
+const COSTLY_REQUESTED_ERROR: f64 = 3e-3;
+/// Relative error requested of a reference over that of the judged solution.
+const REFERENCE_ERROR_RATIO: f64 = 0.1;
+/// The same at costly exponents.
+const COSTLY_REFERENCE_ERROR_RATIO: f64 = 0.2;
+/// Aspects Δy/Δx of the elements.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
-/// What is asked of the bars: the fraction that holds, and how much wider than needed they may be at the median.
-const NEEDED_FRACTION: f64 = 0.95;
-const WIDEST_MEDIAN: f64 = 30.0;
-/// Cases with the largest deviations that are printed even if their bars hold.
-const WORST: usize = 8;
+/// Fraction of the bars that must hold.
+const MIN_COVERAGE: f64 = 0.95;
+/// Largest median of bar over deviation.
+const MAX_MEDIAN_BAR: f64 = 30.0;
+/// Cases with the largest deviations that are listed even if their bars hold.
+const LISTED_CASES: usize = 8;
 
 /// What `stationary.toml` holds.
 #[derive(Deserialize)]
@@ -204,11 +212,23 @@ impl Case {
         let problem = Problem::try_from(&scene)?;
         let body = problem.body().surface().context("a body that ends")?;
         let is = |of: fn(f64) -> bool| self.exponent.is_some_and(of);
-        let is_costly = is(|p| p <= COSTLY[0] || p >= COSTLY[1]);
+        let is_costly = is(|p| p <= COSTLY_EXPONENTS[0] || p >= COSTLY_EXPONENTS[1]);
         let is_coarse = quick || is_costly;
-        let asked = if is_coarse { ASKED_WHERE_COSTLY } else { ASKED };
-        let finer = if is_costly { FINER_WHERE_COSTLY } else { FINER };
-        let aspect = if is(|p| p >= CRESCENT) { 1.0 } else { 0.5 };
+        let asked = if is_coarse {
+            COSTLY_REQUESTED_ERROR
+        } else {
+            REQUESTED_ERROR
+        };
+        let finer = if is_costly {
+            COSTLY_REFERENCE_ERROR_RATIO
+        } else {
+            REFERENCE_ERROR_RATIO
+        };
+        let aspect = if is(|p| p >= CRESCENT_EXPONENT) {
+            1.0
+        } else {
+            0.5
+        };
         let reference = self.solve(body, finer * asked, aspect)?;
         let bar = |aspect| {
             let friction = self.solve(body, asked, aspect)?;
@@ -252,14 +272,14 @@ fn error_bars(quick: bool) -> Result<(Table, String)> {
     let verdict = |good: bool| if good { "as asked" } else { "NOT as asked" };
     let mut worst: Vec<&Bar> = bars.iter().collect();
     worst.sort_by(|one, other| other.deviation_over_bar.total_cmp(&one.deviation_over_bar));
-    worst.truncate(WORST.max(all - held));
+    worst.truncate(LISTED_CASES.max(all - held));
     let columns = "case aspect relative_error_asked friction error_bar deviation \
                    deviation_over_bar holds";
     let summary = format!(
         "{held} of {all} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{}",
         100.0 * fraction,
-        verdict(fraction >= NEEDED_FRACTION),
-        verdict(width <= WIDEST_MEDIAN),
+        verdict(fraction >= MIN_COVERAGE),
+        verdict(width <= MAX_MEDIAN_BAR),
         Table::new("worst", &worst)?.markdown(columns)?
     );
     Ok((Table::new("error_bars", &bars)?, summary))

@@ -2,37 +2,51 @@
 
 use anyhow::{Context, Result};
 use bem_halfspace::slide::PressureField;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Series};
 
-use crate::figures::factors;
+use crate::figures::{Part, factors};
+use crate::output::points;
+use crate::picture::{chart, guide};
 use crate::scene::Scene;
 
 /// Sliding distance shown, in contact lengths of the one-dimensional model.
-pub(super) const LENGTHS: f64 = 16.0;
+const LENGTHS: f64 = 16.0;
 /// Elements along the contact length.
 const ELEMENTS: f64 = 24.0;
 
 /// One step; friction is relative to the stationary friction of the one-dimensional model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Row {
-    pub(super) exponent: f64,
-    pub(super) sliding_distance_over_contact_length: f64,
-    pub(super) chain: f64,
-    pub(super) half_space: f64,
+#[derive(Debug, Serialize)]
+struct Row {
+    exponent: f64,
+    sliding_distance_over_contact_length: f64,
+    chain: f64,
+    half_space: f64,
     /// In units of F_N/(4ηv).
-    pub(super) chain_depth: f64,
-    pub(super) half_space_depth: f64,
+    chain_depth: f64,
+    half_space_depth: f64,
 }
 
 /// The approach to stationarity of one profile, and the pressure at its end.
-pub(super) struct Approach {
-    pub(super) rows: Vec<Row>,
-    pub(super) pressure: PressureField,
-    pub(super) contact_length: f64,
-    pub(super) scaling_factor: f64,
+struct Approach {
+    rows: Vec<Row>,
+    pressure: PressureField,
+    contact_length: f64,
+    scaling_factor: f64,
 }
 
-pub(super) fn compute(factor: &factors::Row) -> Result<Approach> {
+/// Cone and paraboloid.
+pub(super) fn part(factors: &[factors::Row]) -> Result<Part> {
+    let approaches = factors.iter().map(approach).collect::<Result<Vec<_>>>()?;
+    let rows: Vec<&Row> = approaches.iter().flat_map(|one| &one.rows).collect();
+    let pictures = [
+        ("approach", Figure::single(approach_chart(&approaches))),
+        ("pressure", pressure_maps(&approaches)),
+    ];
+    Part::new("approach", &rows, pictures)
+}
+
+fn approach(factor: &factors::Row) -> Result<Approach> {
     let scene = Scene::unit(factor.exponent)?;
     let theory = scene.theory()?;
     let contact_length = theory.contact_length();
@@ -59,4 +73,63 @@ pub(super) fn compute(factor: &factors::Row) -> Result<Approach> {
         contact_length,
         scaling_factor: factor.converged,
     })
+}
+
+/// Names of the bodies, and how their curves are drawn.
+const INDENTERS: [(&str, Dash); 2] = [("cone", Dash::Solid), ("paraboloid", Dash::Dashed)];
+
+fn approach_chart(approaches: &[Approach]) -> Chart {
+    let along = "sliding distance / contact length (line model)";
+    let mut series = Vec::new();
+    for (approach, (name, dash)) in approaches.iter().zip(INDENTERS) {
+        let curve = |value: fn(&Row) -> f64, colour| {
+            let along = |row: &Row| row.sliding_distance_over_contact_length;
+            let points = points(&approach.rows, along, value);
+            Series::line(points, Line::thick(dash), colour)
+        };
+        let chain = curve(|row| row.chain, Colour::Blue);
+        let half_space = curve(|row| row.half_space, Colour::Red);
+        let limit = [0.0, LENGTHS].map(|length| [length, approach.scaling_factor]);
+        let limit = guide(limit, Dash::Dotted);
+        series.extend([
+            chain.labelled(format!("{name}, chain")),
+            half_space.labelled(format!("{name}, half space")),
+            limit,
+        ]);
+    }
+    let x = Axis::linear(along, [0.0, LENGTHS]);
+    let y = Axis::linear("μ / stationary μ of the line model", [0.0, 1.1]);
+    chart(x, y, series)
+}
+
+fn pressure_maps(approaches: &[Approach]) -> Figure {
+    let maps = approaches.iter().zip(INDENTERS);
+    let maps = maps.map(|(approach, (name, _))| pressure_map(approach, name));
+    Figure::new(maps, 2)
+}
+
+fn pressure_map(approach: &Approach, name: &str) -> Chart {
+    let field = &approach.pressure;
+    let axis = |axis: usize, label: &str| {
+        let (origin, spacing) = (field.origin[axis], field.grid.spacing()[axis]);
+        let ends = [-0.5, field.grid.shape()[axis] as f64 - 0.5];
+        let range = ends.map(|end| (origin + end * spacing) / approach.contact_length);
+        Axis::linear(label, range)
+    };
+    let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
+    let mean = loaded.clone().sum::<f64>() / loaded.clone().count() as f64;
+    let level = |pressure: f64| (pressure / mean).log10();
+    let lowest = -1.0;
+    let highest = loaded.map(|pressure| level(*pressure)).fold(0.0, f64::max);
+    let colours = Axis::linear("log₁₀ (P / mean P)", [lowest, highest]);
+    // Pressures below a tenth of the mean share a colour.
+    let field = Field::new(field.grid.shape(), colours, |x, y| {
+        let pressure = field.pressure[x * field.grid.shape()[1] + y];
+        (pressure > 0.0).then(|| level(pressure).max(lowest))
+    });
+    let [x, y] = [axis(0, "x / contact length"), axis(1, "y / contact length")];
+    Chart {
+        title: Some(name.to_owned()),
+        ..Chart::map(x, y, field)
+    }
 }

@@ -1,14 +1,15 @@
 //! `reproduce-figures --check`: recomputes a part of the committed data.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 
-use crate::figures::factors::{self, FILE, Row};
+use crate::figures::factors::{self, NAME, Row};
 use crate::figures::friction_over_speed::{self, CONE, Indenter, PARABOLOID, SPEEDS};
 use crate::figures::{loss_tangent, resolution, scaling_function, stationary};
-use crate::output::{read_csv, to_csv};
+use crate::table::{parse_csv, read_csv, to_csv};
 
 /// Closed forms differ by rounding only.
 const CLOSED_FORM: Tolerance = Tolerance::Relative(1e-12);
@@ -18,8 +19,8 @@ const SIMULATION: Tolerance = Tolerance::Relative(1e-6);
 const PAPER_TOLERANCE: f64 = 0.02;
 /// An error bar is a difference of numbers that round.
 const ERROR_BAR: Tolerance = Tolerance::Relative(1e-3);
-/// Elements by which the outline of a contact may move, and a little for rounding.
-const OUTLINE: f64 = 1.001;
+/// Elements by which the outline of a contact may move: one, and a little for rounding.
+const OUTLINE_TOLERANCE: f64 = 1.001;
 
 /// How much a recomputed number may differ.
 enum Tolerance {
@@ -31,53 +32,47 @@ enum Tolerance {
 
 pub(crate) fn check() -> Result<()> {
     let (tangents, function) = (loss_tangent::compute()?, scaling_function::compute()?);
-    let compared = compare(loss_tangent::FILE, None, &tangents, |_, _| CLOSED_FORM)?
+    let compared = compare(loss_tangent::NAME, None, &tangents, |_, _| CLOSED_FORM)?
         + check_friction(&CONE)?
         + check_friction(&PARABOLOID)?
         + check_factors()?
         + check_resolutions()?
-        + compare(scaling_function::FILE, None, &function, |_, _| CLOSED_FORM)?
+        + compare(scaling_function::NAME, None, &function, |_, _| CLOSED_FORM)?
         + scaling_function::check_against_the_half_space()?
         + check_outlines()?;
     println!("docs/figures: {compared} recomputed numbers agree");
     Ok(())
 }
 
-fn committed(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../docs/figures")
-        .join(file)
+/// The file of a committed table.
+fn committed(table: &str) -> PathBuf {
+    let figures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/figures");
+    figures.join(table).with_extension("csv")
 }
+
+/// A row of numbers by the names of their columns.
+type Numbers = BTreeMap<String, f64>;
 
 /// Compares recomputed rows with those of a committed table, or with the chosen ones; the tolerance is that of a column
 /// of a recomputed row.
 fn compare<R: Serialize>(
-    file: &str,
+    name: &str,
     chosen: Option<&[usize]>,
     recomputed: &[R],
     tolerance: impl Fn(&str, &R) -> Tolerance,
 ) -> Result<usize> {
-    let table = to_csv(recomputed)?;
-    let mut new = csv::Reader::from_reader(table.as_bytes());
-    let mut old = csv::Reader::from_path(committed(file)).with_context(|| file.to_owned())?;
-    let columns = new.headers()?.clone();
-    ensure!(*old.headers()? == columns, "{file}: other columns");
-    let mut rows = old.records().collect::<Result<Vec<_>, _>>()?;
+    let mut old: Vec<Numbers> = read_csv(&committed(name))?;
+    let new: Vec<Numbers> = parse_csv(to_csv(recomputed)?.as_bytes())?;
     if let Some(chosen) = chosen {
-        let count = rows.len();
-        let row = |&row: &usize| rows.get(row).cloned();
-        let rows_of = chosen.iter().map(row).collect::<Option<_>>();
-        rows = rows_of.with_context(|| format!("{file}: {count} rows"))?;
+        let rows = chosen.iter().map(|&row| old.get(row).cloned());
+        let rows: Option<Vec<Numbers>> = rows.collect();
+        old = rows.with_context(|| format!("{name}: {} rows", old.len()))?;
     }
-    let count = rows.len();
-    ensure!(count == recomputed.len(), "{file}: {count} rows");
+    ensure!(old.len() == new.len(), "{name}: {} rows", old.len());
     let mut compared = 0;
-    for ((old, new), row) in rows.iter().zip(new.records()).zip(recomputed) {
-        let new = new?;
-        for (column, (old, new)) in columns.iter().zip(old.iter().zip(&new)) {
-            let what = || format!("{file}: {column} of {old:?}");
-            let number = |text: &str| text.parse::<f64>().with_context(what);
-            let [old, new] = [number(old)?, number(new)?];
+    for ((old, new), row) in old.iter().zip(&new).zip(recomputed) {
+        ensure!(old.keys().eq(new.keys()), "{name}: other columns");
+        for ((column, old), new) in old.iter().zip(new.values()) {
             let allowed = match tolerance(column, row) {
                 Tolerance::Relative(part) => part * old.abs(),
                 Tolerance::Absolute(allowed) => allowed,
@@ -86,8 +81,7 @@ fn compare<R: Serialize>(
             let off = (new - old).abs();
             ensure!(
                 off <= allowed,
-                "{}, recomputed {new:e}, off by {off:e}, allowed {allowed:e}",
-                what()
+                "{name}: {column} of {old:?}, recomputed {new:e}, off by {off:e}, allowed {allowed:e}"
             );
             compared += 1;
         }
@@ -108,11 +102,11 @@ fn check_friction(indenter: &Indenter) -> Result<usize> {
         "half_space_distance_error" | "drift" => Tolerance::Any,
         _ => CLOSED_FORM,
     };
-    compare(indenter.file, Some(&chosen), &rows, tolerance)
+    compare(indenter.name, Some(&chosen), &rows, tolerance)
 }
 
 fn committed_factors() -> Result<Vec<Row>> {
-    read_csv(&committed(FILE))
+    read_csv(&committed(NAME))
 }
 
 fn of_exponent(factors: &[Row], exponent: f64) -> Option<&Row> {
@@ -130,10 +124,10 @@ fn check_factors() -> Result<usize> {
         let Row { plain, paper, .. } = row;
         ensure!(
             off <= PAPER_TOLERANCE,
-            "{FILE}: the plain simulation gives {plain}, the paper {paper}, off by {off}, allowed {PAPER_TOLERANCE}"
+            "{NAME}: the plain simulation gives {plain}, the paper {paper}, off by {off}, allowed {PAPER_TOLERANCE}"
         );
     }
-    compare(FILE, None, &new, |column, row| match column {
+    compare(NAME, None, &new, |column, row| match column {
         "exponent" | "paper" | "plain_elements" | "plain_lengths" => CLOSED_FORM,
         "plain" => SIMULATION,
         "time_level_bias" | "distance_bias" => Tolerance::Absolute(1e-6),
@@ -151,15 +145,14 @@ fn check_resolutions() -> Result<usize> {
     let rows = resolution::compute(RESOLUTIONS)?;
     let of_paraboloid = resolution::COUNT..resolution::COUNT + RESOLUTIONS;
     let chosen: Vec<usize> = (0..RESOLUTIONS).chain(of_paraboloid).collect();
-    compare(resolution::FILE, Some(&chosen), &rows, |_, _| SIMULATION)
+    compare(resolution::NAME, Some(&chosen), &rows, |_, _| SIMULATION)
 }
 
 /// All outlines. Rounding may decide about single elements, so each point may move by one.
 fn check_outlines() -> Result<usize> {
     let contacts = stationary::compute()?;
-    let outlines = contacts.iter().flat_map(|contact| &contact.outline);
-    let outlines: Vec<&stationary::Row> = outlines.collect();
-    compare(stationary::FILE, None, &outlines, |_, row| {
-        Tolerance::Absolute(OUTLINE * row.element)
+    let outlines = stationary::outlines(&contacts);
+    compare(stationary::NAME, None, &outlines, |_, row| {
+        Tolerance::Absolute(OUTLINE_TOLERANCE * row.element)
     })
 }

@@ -5,12 +5,12 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker,
 
 /// Window of every panel, in contact lengths of the one-dimensional model.
 const WINDOW: [[f64; 2]; 2] = [[-0.2, 1.8], [-1.4, 1.4]];
-/// Pressures above this many times the mean share a colour: along the front edge they have no limit.
-const BRIGHTEST: f64 = 3.0;
-/// Elements that share a cell of the map, along x and along y.
-const SHARE: usize = 2;
+/// Pressure over the mean from which on all share a colour: along the front edge there is no limit.
+const MAX_DRAWN_PRESSURE: f64 = 3.0;
+/// Elements along each edge of a cell of the map.
+const ELEMENTS_PER_CELL: usize = 2;
 /// Steps of the circle from one end to the other.
-const ARC: u32 = 90;
+const CIRCLE_STEPS: u32 = 90;
 
 pub(super) fn figure(contacts: &[Contact]) -> Figure {
     Figure::new(contacts.iter().map(map), 2)
@@ -18,8 +18,8 @@ pub(super) fn figure(contacts: &[Contact]) -> Figure {
 
 fn map(contact: &Contact) -> Chart {
     // The window is two contact lengths long and 2.8 wide.
-    let cells = [10, 14].map(|fifths| fifths * contact.elements / 5 / SHARE);
-    let colours = Axis::linear("P / mean P", [0.0, BRIGHTEST]);
+    let cells = [10, 14].map(|fifths| fifths * contact.elements / 5 / ELEMENTS_PER_CELL);
+    let colours = Axis::linear("P / mean P", [0.0, MAX_DRAWN_PRESSURE]);
     let field = Field::new(cells, colours, |column, row| {
         pressure(contact, [column, row])
     });
@@ -36,19 +36,23 @@ fn map(contact: &Contact) -> Chart {
 /// Mean over the elements of a cell; none where half of them or more are free.
 fn pressure(contact: &Contact, cell: [usize; 2]) -> Option<f64> {
     let centre = |axis: usize, step: usize| {
-        let element = (cell[axis] * SHARE + step) as f64 + 0.5;
+        let element = (cell[axis] * ELEMENTS_PER_CELL + step) as f64 + 0.5;
         WINDOW[axis][0] + element / contact.elements as f64
     };
-    let pressures = (0..SHARE * SHARE)
-        .map(|index| contact.pressure([centre(0, index / SHARE), centre(1, index % SHARE)]));
+    let pressures = (0..ELEMENTS_PER_CELL * ELEMENTS_PER_CELL).map(|index| {
+        contact.pressure([
+            centre(0, index / ELEMENTS_PER_CELL),
+            centre(1, index % ELEMENTS_PER_CELL),
+        ])
+    });
     let loads: Vec<f64> = pressures.filter(|pressure| *pressure > 0.0).collect();
     let mean = loads.iter().sum::<f64>() / loads.len() as f64;
-    (2 * loads.len() > SHARE * SHARE).then(|| mean.min(BRIGHTEST))
+    (2 * loads.len() > ELEMENTS_PER_CELL * ELEMENTS_PER_CELL).then(|| mean.min(MAX_DRAWN_PRESSURE))
 }
 
 /// Along the front from right to left, and back along the rear.
 fn outline(contact: &Contact) -> Series {
-    let rows = || contact.outline.iter().step_by(SHARE);
+    let rows = || contact.outline.iter().step_by(ELEMENTS_PER_CELL);
     let front = rows().map(|row| [row.front, row.y]);
     let rear = rows().map(|row| [row.rear, row.y]);
     let mut points: Vec<[f64; 2]> = front.chain(rear.rev()).collect();
@@ -59,7 +63,7 @@ fn outline(contact: &Contact) -> Series {
 /// Points at one contact length from the lowest point, as far as the window shows them.
 fn circle() -> Series {
     let last = WINDOW[0][0].acos();
-    let angle = |step: u32| last * (2.0 * f64::from(step) / f64::from(ARC) - 1.0);
-    let points = (0..=ARC).map(|step| [angle(step).cos(), angle(step).sin()]);
+    let angle = |step: u32| last * (2.0 * f64::from(step) / f64::from(CIRCLE_STEPS) - 1.0);
+    let points = (0..=CIRCLE_STEPS).map(|step| [angle(step).cos(), angle(step).sin()]);
     Series::line(points.collect(), Line::thin(Dash::Dotted), Colour::Black)
 }

@@ -8,7 +8,7 @@ use crate::scaling::{MAX_UNKNOWNS, scaling_factor};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
-pub(super) const FILE: &str = "scaling_factors.csv";
+pub(super) const NAME: &str = "scaling_factors";
 
 /// What the paper prints.
 pub(super) const PAPER: [(f64, f64); 2] = [(1.0, 0.55), (2.0, 0.67)];
@@ -44,7 +44,7 @@ pub(super) struct Row {
 
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
-        let converged = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?.value;
+        let converged = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?.value();
         let plain = Plain::new(exponent, PLAIN_ELEMENTS)?;
         let stationary = plain.transient.stationary(DRIFT_TOLERANCE)?;
         let mean_slope = plain.transient.last().friction_coefficient / plain.theory;

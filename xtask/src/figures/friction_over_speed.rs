@@ -3,9 +3,11 @@
 use anyhow::Result;
 use indenters::{IndenterError, PowerProfile, SlidingLoad};
 use rheology::Viscous;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-use crate::figures::factors;
+use crate::figures::{Part, factors};
+use crate::output::points;
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
@@ -22,54 +24,79 @@ const SLIDING_LENGTHS: f64 = 32.0;
 /// At least so many elements lie along the contact length.
 const MIN_ELEMENTS: f64 = 12.0;
 const DRIFT_TOLERANCE: f64 = 0.03;
+/// Label of the ordinate.
+const FRICTION: &str = "coefficient of friction μ";
 
 /// The indenter of a figure.
 pub(super) struct Indenter {
-    name: &'static str,
-    pub(super) file: &'static str,
+    title: &'static str,
+    /// Name of the table and of the first picture.
+    pub(super) name: &'static str,
     /// Exponent p of the profile.
     pub(super) exponent: f64,
     body: fn() -> Result<PowerProfile, IndenterError>,
 }
 
 pub(super) const CONE: Indenter = Indenter {
-    name: "Fig. 7, cone",
-    file: "fig7_cone.csv",
+    title: "Fig. 7, cone",
+    name: "fig7_cone",
     exponent: 1.0,
     body: || PowerProfile::cone(CONE_SLOPE),
 };
 pub(super) const PARABOLOID: Indenter = Indenter {
-    name: "Fig. 8, paraboloid",
-    file: "fig8_paraboloid.csv",
+    title: "Fig. 8, paraboloid",
+    name: "fig8_paraboloid",
     exponent: 2.0,
     body: || PowerProfile::paraboloid(CURVATURE),
 };
 
 /// One speed. Units stand in the names where there is one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Row {
-    pub(super) velocity_m_per_s: f64,
+    velocity_m_per_s: f64,
     /// Eqs. (21) and (22).
-    pub(super) theory: f64,
-    pub(super) chain: f64,
+    theory: f64,
+    chain: f64,
     /// Extrapolated to an infinite sliding distance, with the error of that.
-    pub(super) half_space: f64,
-    pub(super) half_space_distance_error: f64,
+    half_space: f64,
+    half_space_distance_error: f64,
     /// At the end of the run, with the slope at the end of the step: the plain reading of the paper.
-    pub(super) half_space_plain: f64,
+    half_space_plain: f64,
     /// Theory times the converged scaling factor.
-    pub(super) scaled_theory: f64,
-    pub(super) spacing_m: f64,
-    pub(super) elements_along_contact: f64,
-    pub(super) sliding_distance_m: f64,
+    scaled_theory: f64,
+    spacing_m: f64,
+    elements_along_contact: f64,
+    sliding_distance_m: f64,
     /// Relative change of the half space's friction over the second half of the distance.
-    pub(super) drift: f64,
+    drift: f64,
+}
+
+/// Fig. 7.
+pub(super) fn cone(factor: &factors::Row) -> Result<Part> {
+    let rows = compute(&CONE, factor)?;
+    let figure = Figure::single(chart(
+        &rows,
+        factor.paper,
+        Axis::linear(FRICTION, [0.0, 0.2]),
+    ));
+    Part::new(CONE.name, &rows, [(CONE.name, figure)])
+}
+
+/// Fig. 8, and the same on logarithmic axes.
+pub(super) fn paraboloid(factor: &factors::Row) -> Result<Part> {
+    let rows = compute(&PARABOLOID, factor)?;
+    let axes = [
+        (PARABOLOID.name, Axis::linear(FRICTION, [0.0, 0.35])),
+        ("fig8_paraboloid_log", Axis::log10(FRICTION, [0.01, 1.0])),
+    ];
+    let figure = |(name, axis)| (name, Figure::single(chart(&rows, factor.paper, axis)));
+    Part::new(PARABOLOID.name, &rows, axes.map(figure))
 }
 
 /// Computes every speed anew; similarity is not used.
-pub(super) fn compute(indenter: &Indenter, factor: &factors::Row) -> Result<Vec<Row>> {
+fn compute(indenter: &Indenter, factor: &factors::Row) -> Result<Vec<Row>> {
     let speeds: Vec<u32> = (0..SPEEDS).collect();
-    in_parallel(indenter.name, &speeds, |&speed| {
+    in_parallel(indenter.title, &speeds, |&speed| {
         row(indenter, speed, factor.converged)
     })
 }
@@ -109,4 +136,34 @@ fn spacing(contact_length: f64) -> f64 {
     let millimetre = 1e-3;
     let steps = (contact_length / MIN_ELEMENTS / millimetre).log2().floor();
     millimetre * steps.exp2()
+}
+
+/// Friction over the speed, with the paper's factor of the body.
+fn chart(rows: &[Row], paper: f64, y: Axis) -> Chart {
+    let points = |value: fn(&Row) -> f64| points(rows, |row| row.velocity_m_per_s, value);
+    let [squares, circles] = [Shape::Square, Shape::Circle].map(Marker::open);
+    let crosses = Marker::filled(Shape::Plus);
+    let line = Line::thick(Dash::Solid);
+    let theory = Series::line(points(|row| row.theory), line, Colour::Blue);
+    let chain = Series::markers(points(|row| row.chain), squares, Colour::Blue);
+    let scaled = Series::markers(points(|row| row.scaled_theory), circles, Colour::Black);
+    let of_paper = points(|row| row.theory).into_iter();
+    let of_paper = of_paper.map(|[speed, theory]| [speed, paper * theory]);
+    let dashed = Line::thin(Dash::Dashed);
+    let of_paper = Series::line(of_paper.collect(), dashed, Colour::Black);
+    let errors = rows.iter().map(|row| row.half_space_distance_error);
+    let half_space = Series {
+        errors: errors.collect(),
+        ..Series::markers(points(|row| row.half_space), crosses, Colour::Red)
+    };
+    let series = vec![
+        theory.labelled("theory (MDR)"),
+        chain.labelled("chain of dashpots (MDR)"),
+        scaled.labelled("theory × converged factor"),
+        of_paper.labelled(format!("theory × {paper} (paper)")),
+        // Last, because it would vanish behind the open circles.
+        half_space.labelled("half space (BEM)"),
+    ];
+    let x = Axis::log10("sliding speed v [m/s]", [8e-4, 1.25e-1]);
+    Chart::new(x, y, series)
 }

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 
-use crate::output::known_digits;
+use crate::table::{Table, known_digits};
 
 /// The page, with the names of the tables and pictures that are filled in.
 const TEMPLATE: &str = include_str!("report.html");
@@ -18,12 +18,13 @@ const EVIDENCE: [(&str, &str); 2] = [
     ),
 ];
 
-pub(super) fn html(tables: &[(&str, String)], pictures: &[(&str, String)]) -> Result<String> {
+/// Fills in tables and pictures, which are given as SVG.
+pub(super) fn html(tables: &[Table], pictures: &[(&str, String)]) -> Result<String> {
     let mut page = TEMPLATE.to_owned();
     let mut fill = |name: &str, value: &str| page = page.replace(&format!("{{{{{name}}}}}"), value);
     fill("version", env!("CARGO_PKG_VERSION"));
-    for (file, csv) in tables {
-        fill(&format!("table of {file}"), &table(csv));
+    for Table { name, contents } in tables {
+        fill(&format!("table of {name}.csv"), &cells(contents));
     }
     for (name, svg) in pictures {
         fill(name, &closely(svg));
@@ -42,7 +43,7 @@ fn closely(svg: &str) -> String {
 }
 
 /// The numbers behind a figure.
-fn table(csv: &str) -> String {
+fn cells(csv: &str) -> String {
     let mut table = String::new();
     for (line, record) in csv.lines().enumerate() {
         let tag = if line == 0 { "th" } else { "td" };

@@ -3,23 +3,30 @@
 use anyhow::Result;
 use serde::Serialize;
 
+use crate::figures::Part;
 use crate::figures::factors::{self, PAPER};
 use crate::output::points;
 use crate::tasks::in_parallel;
-use viscofriction_plot::{Axis, Chart, Colour, Dash, Line, Marker, Series, Shape};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-pub(super) const FILE: &str = "plain_resolution.csv";
+pub(super) const NAME: &str = "plain_resolution";
 /// How many resolutions there are.
 pub(super) const COUNT: usize = 7;
 /// Elements along the contact length of the one-dimensional model.
 const ELEMENTS: [u32; COUNT] = [5, 7, 10, 14, 20, 28, 40];
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Row {
-    pub(super) exponent: f64,
+    exponent: f64,
     elements: u32,
     /// Friction ratio at the end, with the slope at the end of each step.
     plain: f64,
+}
+
+pub(super) fn part(factors: &[factors::Row]) -> Result<Part> {
+    let rows = compute(COUNT)?;
+    let figure = Figure::single(chart(&rows, factors));
+    Part::new(NAME, &rows, [(NAME, figure)])
 }
 
 /// Both profiles with the first so many resolutions.
@@ -39,7 +46,7 @@ pub(super) fn compute(resolutions: usize) -> Result<Vec<Row>> {
 }
 
 /// The factors over the resolution, between those of the paper and the converged ones.
-pub(super) fn chart(rows: &[Row], converged: &[factors::Row]) -> Chart {
+fn chart(rows: &[Row], converged: &[factors::Row]) -> Chart {
     let range = [4.0, 50.0];
     let mut series = Vec::new();
     let styles = [

@@ -3,12 +3,13 @@
 use anyhow::{Result, ensure};
 use friction_analytic::scaling_factor as tabulated;
 
+use crate::figures::Part;
 use crate::figures::factors::PAPER;
 use crate::output::points;
 use crate::scaling::{MAX_UNKNOWNS, Node, scaling_factor};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-pub(super) const FILE: &str = "scaling_function.csv";
+pub(super) const NAME: &str = "scaling_function";
 /// Values of the table, evenly spaced in ln(2p − 1).
 const ROWS: u32 = 181;
 const ORDERS: [f64; 2] = [0.003, 127.0];
@@ -20,6 +21,11 @@ const SOLVED_ANEW: [(f64, f64); 5] = [
     (3.0, 1e-3),
     (6.0, 2e-3),
 ];
+
+pub(super) fn part() -> Result<Part> {
+    let nodes = compute()?;
+    Part::new(NAME, &nodes, [(NAME, figure(&nodes))])
+}
 
 pub(super) fn compute() -> Result<Vec<Node>> {
     (0..ROWS).map(|index| node(exponent(index))).collect()
@@ -38,7 +44,7 @@ fn node(exponent: f64) -> Result<Node> {
 pub(super) fn check_against_the_half_space() -> Result<usize> {
     for (exponent, relative_error) in SOLVED_ANEW {
         let tabulated = tabulated(exponent)?;
-        let solved = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?.value;
+        let solved = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?.value();
         let difference = (tabulated.value - solved.value).abs();
         let allowed = tabulated.error + solved.error;
         ensure!(
@@ -53,7 +59,7 @@ pub(super) fn check_against_the_half_space() -> Result<usize> {
 }
 
 /// The function above, its relative error below.
-pub(super) fn figure(rows: &[Node]) -> Figure {
+fn figure(rows: &[Node]) -> Figure {
     let curve = |value: fn(&Node) -> f64| {
         let points = points(rows, |row| row.exponent, value);
         Series::line(points, Line::thick(Dash::Solid), Colour::Blue)

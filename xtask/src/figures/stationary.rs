@@ -2,23 +2,24 @@
 
 use anyhow::Result;
 use bem_halfspace::steady::SteadySliding;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use crate::figures::{Part, contact_maps};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
-pub(super) const FILE: &str = "stationary_contact.csv";
+pub(super) const NAME: &str = "stationary_contact";
 
 /// Exponents, and elements along the contact length of the one-dimensional model: the blunter the body, the narrower its
 /// contact.
-pub(super) const PROFILES: [(f64, usize); 4] = [(1.0, 100), (2.0, 100), (4.0, 150), (16.0, 300)];
+const PROFILES: [(f64, usize); 4] = [(1.0, 100), (2.0, 100), (4.0, 150), (16.0, 300)];
 /// The lowest point lies at a corner of four elements, so that edges of elements are round numbers of the length.
 const PHASE: [f64; 2] = [0.5, 0.5];
 /// Residual in contact, relative to F_N/(4ηv).
 const TOLERANCE: f64 = 1e-9;
 
 /// Where a column of elements along the sliding direction touches, in contact lengths of the one-dimensional model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Row {
     pub(super) exponent: f64,
     /// Δx = Δy, which is how exactly the outline is known.
@@ -49,9 +50,26 @@ impl Contact {
     }
 }
 
+pub(super) fn part() -> Result<Part> {
+    let contacts = compute()?;
+    Part::new(
+        NAME,
+        &outlines(&contacts),
+        [(NAME, contact_maps::figure(&contacts))],
+    )
+}
+
 /// The contacts of all profiles.
 pub(super) fn compute() -> Result<Vec<Contact>> {
     in_parallel("stationary contacts", &PROFILES, contact)
+}
+
+/// The rows of all contacts.
+pub(super) fn outlines(contacts: &[Contact]) -> Vec<&Row> {
+    contacts
+        .iter()
+        .flat_map(|contact| &contact.outline)
+        .collect()
 }
 
 fn contact(&(exponent, elements): &(f64, usize)) -> Result<Contact> {

@@ -10,24 +10,34 @@ use clap::ValueEnum;
 use numerics::Estimate;
 use serde::Serialize;
 
-use crate::output::{WrongInput, markdown_table};
+use crate::output::WrongInput;
 use crate::scene::{Scene, as_far_as_reached};
+use crate::table::markdown_table;
 use crate::tasks::in_parallel;
 pub(crate) use table::{Node, generate as generate_table};
 
-/// From this exponent on the elements are squares.
-const STEEP: f64 = 4.0;
-/// Unknown pressures for which an answer is worth waiting.
+/// Exponent from which on the elements are squares.
+const SQUARE_ELEMENTS_FROM: f64 = 4.0;
+/// Most unknown pressures of an answer.
 pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 
 /// s_p, and what it took.
+#[derive(Serialize)]
 pub(crate) struct ScalingFactor {
     exponent: f64,
     /// Friction of the half space over that of the line.
-    pub(crate) value: Estimate,
+    scaling_factor: f64,
+    /// Absolute.
+    error: f64,
     /// Unknown pressures on the finest grid.
     unknowns: usize,
     seconds: f64,
+}
+
+impl ScalingFactor {
+    pub(crate) fn value(&self) -> Estimate {
+        Estimate::new(self.scaling_factor, self.error)
+    }
 }
 
 /// How the factors are printed: as Markdown, or all their digits by name.
@@ -39,31 +49,15 @@ pub(crate) enum Format {
     Json,
 }
 
-#[derive(Serialize)]
-struct Row {
-    exponent: f64,
-    scaling_factor: f64,
-    error: f64,
-    unknowns: usize,
-    seconds: f64,
-}
-
 /// Computes the factors and prints them.
 pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> Result<()> {
     validate(exponents, relative_error)?;
     let rows = in_parallel("scaling factors", exponents, |&exponent| {
         scaling_factor(exponent, relative_error, MAX_UNKNOWNS)
     })?;
-    let named = rows.iter().map(|row| Row {
-        exponent: row.exponent,
-        scaling_factor: row.value.value,
-        error: row.value.error,
-        unknowns: row.unknowns,
-        seconds: row.seconds,
-    });
     match format {
         Format::Table => {
-            let lines = named.map(|row| {
+            let lines = rows.iter().map(|row| {
                 [
                     row.exponent.to_string(),
                     format!("{:.6}", row.scaling_factor),
@@ -77,13 +71,10 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
         }
         Format::Csv => {
             let mut table = csv::Writer::from_writer(std::io::stdout());
-            named.into_iter().try_for_each(|row| table.serialize(row))?;
+            rows.iter().try_for_each(|row| table.serialize(row))?;
             table.flush()?;
         }
-        Format::Json => println!(
-            "{}",
-            serde_json::to_string_pretty(&named.collect::<Vec<_>>())?
-        ),
+        Format::Json => println!("{}", serde_json::to_string_pretty(&rows)?),
     }
     Ok(())
 }
@@ -115,7 +106,11 @@ pub(crate) fn scaling_factor(
     let options = RefinementOptions {
         relative_error,
         // The contact of a steep profile is a thin crescent, as long across the sliding direction as along it.
-        aspect: if exponent < STEEP { 0.5 } else { 1.0 },
+        aspect: if exponent < SQUARE_ELEMENTS_FROM {
+            0.5
+        } else {
+            1.0
+        },
         max_unknowns,
     };
     let half_space = scene.friction(&options);
@@ -126,18 +121,17 @@ pub(crate) fn scaling_factor(
     let unknowns = finest.map(|finest| finest.unknowns);
     let friction = as_far_as_reached(half_space)
         .with_context(|| format!("scaling factor of p = {exponent}"))?;
-    let value = Estimate::new(friction.value / line, friction.error / line);
+    let (scaling_factor, error) = (friction.value / line, friction.error / line);
     let Some(unknowns) = unknowns else {
         bail!(
-            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {} \
-             with an error of {:.1e}",
-            value.value,
-            value.error
+            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is \
+             {scaling_factor} with an error of {error:.1e}"
         )
     };
     Ok(ScalingFactor {
         exponent,
-        value,
+        scaling_factor,
+        error,
         unknowns,
         seconds: start.elapsed().as_secs_f64(),
     })

@@ -6,21 +6,23 @@ use anyhow::Result;
 use numerics::Estimate;
 use serde::{Deserialize, Serialize};
 
-use crate::output::GrowingTable;
 use crate::scaling::scaling_factor;
+use crate::table::GrowingTable;
 
 /// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
 /// p = 1/2.
 const LAST_ORDER: f64 = 127.0;
 const STEP: f64 = 0.153_594_4;
 const N_NODES: usize = 73;
-/// Exponents that differ by less belong to the same node.
-const SAME: f64 = 1e-6;
-/// Relative errors asked for: of cusps, whose apex dominates the friction, and of the others.
-const CUSP: f64 = 0.65;
+/// Relative difference up to which two exponents belong to the same node.
+const EXPONENT_TOLERANCE: f64 = 1e-6;
+/// Exponent below which the apex dominates the friction.
+const CUSP_EXPONENT: f64 = 0.65;
+/// Relative error requested below that exponent.
 const CUSP_ERROR: f64 = 9e-4;
+/// Relative error requested from that exponent on.
 const ERROR: f64 = 8e-5;
-/// The boxes of the steepest contacts are nearly empty, and take so many.
+/// Most unknown pressures: the boxes of the steepest contacts are nearly empty.
 const MAX_UNKNOWNS: usize = 500_000;
 /// The table; an interrupted run goes on where it was.
 const TABLE: &str = "scaling_table.csv";
@@ -47,7 +49,7 @@ impl Node {
 /// Computes all nodes that are not in `out` yet, and adds them to the table there; in the end they are sorted.
 pub(crate) fn generate(out: &Path) -> Result<()> {
     let mut table: GrowingTable<Node> = GrowingTable::open(out.join(TABLE))?;
-    let is_node = |p: f64| move |node: &Node| (node.exponent / p - 1.0).abs() < SAME;
+    let is_node = |p: f64| move |node: &Node| (node.exponent / p - 1.0).abs() < EXPONENT_TOLERANCE;
     let mut missing: Vec<f64> = (0..N_NODES).map(exponent).collect();
     missing.retain(|p| !table.rows.iter().any(is_node(*p)));
     // Few at a time, cheap ones first, so that much is saved early.
@@ -65,7 +67,11 @@ fn exponent(index: usize) -> f64 {
 }
 
 fn node(exponent: f64) -> Result<Node> {
-    let relative_error = if exponent < CUSP { CUSP_ERROR } else { ERROR };
+    let relative_error = if exponent < CUSP_EXPONENT {
+        CUSP_ERROR
+    } else {
+        ERROR
+    };
     let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
-    Ok(Node::new(exponent, factor.value))
+    Ok(Node::new(exponent, factor.value()))
 }

@@ -7,7 +7,7 @@ use viscofriction::Estimate;
 use viscofriction::scene::Indenter;
 use viscofriction::solve::{Answer, Sensitivity};
 
-use super::judge::quantities;
+use super::judge::{Comparison, quantities};
 use super::relation::Answered;
 use super::units::Powers;
 use crate::evidence::request::{derivatives, number_at};
@@ -15,17 +15,9 @@ use crate::evidence::request::{derivatives, number_at};
 /// Rounding of the sums, relative to that of their moduli.
 const ROUNDING: f64 = 1e-6;
 
-/// A sum over the derivatives of a quantity.
-pub(super) struct Sum {
-    pub(super) quantity: String,
-    pub(super) value: f64,
-    pub(super) expected: f64,
-    pub(super) allowed: f64,
-}
-
 /// The sums of all quantities in three units; none of a scene with files, whose lengths no derivative is by, and where there are
 /// no derivatives.
-pub(super) fn sums(first: Answered) -> Result<Vec<Sum>> {
+pub(super) fn sums(first: Answered) -> Result<Vec<Comparison>> {
     let case = first.case;
     if case.lengths.is_some() || case.material.is_some() {
         return Ok(Vec::new());
@@ -60,7 +52,7 @@ fn sums_in(
     mut scenes: [Value; 2],
     unit: Powers,
     answer: &Answer,
-) -> Result<Vec<Sum>> {
+) -> Result<Vec<Comparison>> {
     let factors = unit.factors(answer.is_per_length)?;
     let mut sums = Vec::new();
     for (name, _) in quantities(answer) {
@@ -87,10 +79,11 @@ fn sums_in(
             let factor = factors
                 .get(&name)
                 .with_context(|| format!("{name} has no unit"))?;
-            sums.push(Sum {
+            let expected = factor.ln();
+            sums.push(Comparison {
                 quantity: name,
-                value: sum.value,
-                expected: factor.ln(),
+                values: [sum.value, expected],
+                deviation: (sum.value - expected).abs(),
                 allowed: sum.error + ROUNDING * moduli,
             });
         }

@@ -64,16 +64,16 @@ pub(super) enum Verdict {
     Wrong,
 }
 
-/// Relations that are tried of one scene.
-const TRIED: usize = 2;
-/// Relative difference between answers of the same scene in other words, of which only the rounding differs, and part of
-/// their bars that the last iteration may leave.
-const ROUNDING: f64 = 1e-9;
-const ITERATED: f64 = 0.05;
-/// d ln F/d ln d and d ln μ/d ln d are smaller for all bodies.
-const STEEPEST: f64 = 4.0;
-/// A refinement is ended before the grid that begins later than this.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// Relations that are tried with one scene.
+const RELATIONS_PER_SCENE: usize = 2;
+/// Relative difference between answers to the same scene in other words, of which only the rounding differs.
+const ROUNDING_TOLERANCE: f64 = 1e-9;
+/// Difference between such answers that the last iteration may leave, over the sum of their bars.
+const ITERATION_TOLERANCE: f64 = 0.05;
+/// Upper bound of d ln F/d ln d and d ln μ/d ln d for all bodies.
+const MAX_LOG_SLOPE: f64 = 4.0;
+/// Time after which no finer grid begins.
+const REFINEMENT_TIME_LIMIT: Duration = Duration::from_secs(10);
 
 /// Draws the scene with this number, and judges it; a scene that contradicts itself stays in its folder.
 pub(super) fn judge(seed: u64, number: usize, source: &Source, out: &Path) -> Result<Vec<Row>> {
@@ -135,7 +135,7 @@ fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
         folder,
         answer,
     };
-    while rows.len() <= TRIED && !relations.is_empty() {
+    while rows.len() <= RELATIONS_PER_SCENE && !relations.is_empty() {
         let place = random.choice(&(0..relations.len()).collect::<Vec<_>>());
         let relation = relations.swap_remove(place);
         if relation == Relation::Derivatives {
@@ -158,10 +158,27 @@ impl Row {
         }
     }
 
+    /// Holds the comparison that deviates most, relative to what it may, and the verdict about it.
+    fn judged(mut self, comparisons: Vec<Comparison>) -> Self {
+        for comparison in comparisons {
+            let part = comparison.part();
+            if self.part.is_none_or(|worst| part > worst) {
+                self.part = Some(part.min(f64::MAX));
+                [self.value, self.other_value] = comparison.values.map(Some);
+                self.allowed = Some(comparison.allowed);
+                self.quantity = comparison.quantity;
+            }
+        }
+        if self.part.is_some_and(|part| part > 1.0) {
+            self.verdict = Verdict::Differs;
+        }
+        self
+    }
+
     /// The row of a scene without an answer.
     fn failed(self, failure: Failure) -> Self {
         Self {
-            verdict: failure.verdict(),
+            verdict: failure.verdict,
             message: failure.message,
             ..self
         }
@@ -184,53 +201,59 @@ impl Row {
     }
 }
 
+/// Two values of a quantity, and by how much they may deviate.
+pub(super) struct Comparison {
+    pub(super) quantity: String,
+    pub(super) values: [f64; 2],
+    pub(super) deviation: f64,
+    pub(super) allowed: f64,
+}
+
+impl Comparison {
+    /// Deviation over what is allowed; where nothing is, none is no deviation.
+    fn part(&self) -> f64 {
+        match self.deviation {
+            0.0 => 0.0,
+            deviation if deviation.is_nan() => f64::INFINITY,
+            deviation => deviation / self.allowed,
+        }
+    }
+}
+
 impl Verdict {
     pub(super) const fn contradicts(self) -> bool {
         matches!(self, Self::Differs | Self::Wrong)
     }
 }
 
-/// Why a scene has no answer, and the sentence that says it.
+/// Why a scene has no answer.
 struct Failure {
-    cause: Cause,
+    verdict: Verdict,
+    /// Whether an answer was found that is less exact than asked.
+    is_less_exact: bool,
     message: String,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Cause {
-    /// The scene is wrong, or no method answers it.
-    Refused,
-    /// An answer was found that is less exact than asked.
-    NotReached,
-    /// The search did not wait for the next grid.
-    Unfinished,
-    Panicked,
-}
-
 impl Failure {
-    fn new(cause: Cause, message: impl ToString) -> Self {
-        let message = message.to_string();
-        Self { cause, message }
-    }
-
-    /// Of a problem that was not solved.
-    fn of(error: &SolveError) -> Self {
-        let cause = if misses(error) {
-            Cause::NotReached
-        } else {
-            Cause::Refused
-        };
-        Self::new(cause, error)
-    }
-
     /// No message may show what is no number.
-    fn verdict(&self) -> Verdict {
-        let shows = |text| self.message.contains(text);
-        match self.cause {
-            _ if shows("NaN") || shows("inf ") => Verdict::Wrong,
-            Cause::Panicked => Verdict::Wrong,
-            Cause::Unfinished => Verdict::Unfinished,
-            Cause::Refused | Cause::NotReached => Verdict::Refused,
+    fn new(verdict: Verdict, message: String) -> Self {
+        let is_shown = |text| message.contains(text);
+        let verdict = if is_shown("NaN") || is_shown("inf ") {
+            Verdict::Wrong
+        } else {
+            verdict
+        };
+        Self {
+            verdict,
+            is_less_exact: false,
+            message,
+        }
+    }
+
+    fn refusal(error: &SolveError) -> Self {
+        Self {
+            is_less_exact: misses(error),
+            ..Self::new(Verdict::Refused, error.to_string())
         }
     }
 }
@@ -254,14 +277,14 @@ fn misses(error: &SolveError) -> bool {
     }
 }
 
-/// Ends a refinement that takes too long.
+/// Ends a refinement that takes longer than [`REFINEMENT_TIME_LIMIT`].
 #[derive(Debug)]
-struct Patience {
+struct TimeLimit {
     until: Instant,
     has_ended: AtomicBool,
 }
 
-impl Progress for Patience {
+impl Progress for TimeLimit {
     fn may_refine(&self, _: usize) -> bool {
         let is_early = Instant::now() < self.until;
         self.has_ended.fetch_or(!is_early, Ordering::Relaxed);
@@ -283,29 +306,29 @@ fn answer(
     let solved = || {
         let problem = case.problem(folder);
         let problem =
-            problem.map_err(|error| Failure::new(Cause::Refused, format!("{error:#}")))?;
-        let patience = Patience {
-            until: Instant::now() + PATIENCE,
+            problem.map_err(|error| Failure::new(Verdict::Refused, format!("{error:#}")))?;
+        let time_limit = TimeLimit {
+            until: Instant::now() + REFINEMENT_TIME_LIMIT,
             has_ended: AtomicBool::new(false),
         };
         let plan = plan(&problem).map_err(SolveError::from);
-        let solved = plan.and_then(|plan| plan.solve(&patience));
-        solved.map_err(|error| match patience.has_ended.into_inner() {
-            true => Failure::new(Cause::Unfinished, format!("not finished: {error}")),
-            false => Failure::of(&error),
+        let solved = plan.and_then(|plan| plan.solve(&time_limit));
+        solved.map_err(|error| match time_limit.has_ended.into_inner() {
+            true => Failure::new(Verdict::Unfinished, format!("not finished: {error}")),
+            false => Failure::refusal(&error),
         })
     };
     let said = |panic: Box<dyn Any + Send>| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
         let message = format!("panicked: {}", text.unwrap_or_default());
-        Err(Failure::new(Cause::Panicked, message))
+        Err(Failure::new(Verdict::Wrong, message))
     };
     let solved = || catch_unwind(AssertUnwindSafe(solved)).unwrap_or_else(said);
     // Of scenes that are solved at the same time none takes the threads of another; and a worker of the search that waited
     // for a pool would begin further scenes meanwhile, a thread that is not one of its workers does not.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| Failure::new(Cause::Refused, error))?;
+    let pool = pool.map_err(|error| Failure::new(Verdict::Refused, error.to_string()))?;
     let solved = std::thread::scope(|scope| scope.spawn(|| pool.install(solved)).join());
     solved.unwrap_or_else(said)
 }
@@ -365,21 +388,10 @@ fn added_up(first: Answered) -> Result<Option<Row>> {
     row.seconds = cost.seconds;
     let sums = match sums.map_err(anyhow::Error::downcast::<SolveError>) {
         Ok(sums) => sums,
-        Err(Ok(error)) => return Ok(Some(row.failed(Failure::of(&error)))),
+        Err(Ok(error)) => return Ok(Some(row.failed(Failure::refusal(&error)))),
         Err(Err(error)) => return Err(error),
     };
-    for sum in sums {
-        let part = (sum.value - sum.expected).abs() / sum.allowed;
-        if row.part.is_none_or(|worst| part > worst) {
-            row.part = Some(part.min(f64::MAX));
-            (row.value, row.other_value) = (Some(sum.value), Some(sum.expected));
-            (row.allowed, row.quantity) = (Some(sum.allowed), sum.quantity);
-        }
-    }
-    if row.part.is_some_and(|part| part > 1.0) {
-        row.verdict = Verdict::Differs;
-    }
-    Ok(row.part.is_some().then_some(row))
+    Ok((!sums.is_empty()).then(|| row.judged(sums)))
 }
 
 /// Solves the other scene, and compares all that both know.
@@ -402,11 +414,11 @@ fn compared(relation: Relation, first: Answered, derived: &Derived) -> Result<Ro
                 other: &other,
                 derived,
             };
-            pair.compare(&mut row)?;
+            row = row.judged(pair.comparisons()?);
         }
         Err(failure) => {
             // On other elements an error may be missed by little.
-            let may_be_missed = !relation.is_exact() && failure.cause == Cause::NotReached;
+            let may_be_missed = !relation.is_exact() && failure.is_less_exact;
             row = row.failed(failure);
             if row.verdict == Verdict::Refused && relation.is_same() && !may_be_missed {
                 row.verdict = Verdict::Wrong;
@@ -428,29 +440,18 @@ struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// Writes down the quantity that differs most, relative to what it may.
-    fn compare(&self, row: &mut Row) -> Result<()> {
-        for (name, [one, other]) in self.quantities()? {
-            let allowed = self.allowed(&name, [one, other]);
-            let deviation = match self.relation {
+    /// All quantities with what they may differ by.
+    fn comparisons(&self) -> Result<Vec<Comparison>> {
+        let comparison = |(quantity, [one, other]): (String, [Estimate; 2])| Comparison {
+            deviation: match self.relation {
                 Relation::MoreLoad => (one.value - other.value).max(0.0),
                 _ => (one.value - other.value).abs(),
-            };
-            let part = match deviation {
-                0.0 => 0.0,
-                _ if deviation.is_nan() => f64::INFINITY,
-                _ => deviation / allowed,
-            };
-            if row.part.is_none_or(|worst| part > worst) {
-                row.part = Some(part.min(f64::MAX));
-                (row.value, row.other_value) = (Some(one.value), Some(other.value));
-                (row.allowed, row.quantity) = (Some(allowed), name);
-            }
-        }
-        if row.part.is_some_and(|part| part > 1.0) {
-            row.verdict = Verdict::Differs;
-        }
-        Ok(())
+            },
+            allowed: self.allowed(&quantity, [one, other]),
+            values: [one.value, other.value],
+            quantity,
+        };
+        Ok(self.quantities()?.into_iter().map(comparison).collect())
     }
 
     fn is_compared(&self, name: &str) -> bool {
@@ -501,7 +502,7 @@ impl Pair<'_> {
             let factor = factor(name)?;
             let error = column.error() + of_other.error() / factor;
             // Rounding is relative to the largest value of a curve.
-            let bar = 0.5 * (error + ROUNDING * column.largest());
+            let bar = 0.5 * (error + ROUNDING_TOLERANCE * column.largest());
             for (place, known) in self.places(&curve.times).into_iter().zip(&column.values) {
                 if let Some(found) = of_other.values.get(place) {
                     let pair = [known.value, found.value / factor];
@@ -539,7 +540,12 @@ impl Pair<'_> {
             Relation::OtherThreads => 0.0,
             relation if relation.is_exact() && self.one.method == self.other.method => {
                 let has_powers = has_powers(&self.derived.case.scene);
-                ROUNDING * size + if has_powers { bars } else { ITERATED * bars }
+                ROUNDING_TOLERANCE * size
+                    + if has_powers {
+                        bars
+                    } else {
+                        ITERATION_TOLERANCE * bars
+                    }
             }
             Relation::OtherControl => {
                 // What was found and is now given has an error, which the other quantities inherit.
@@ -548,10 +554,14 @@ impl Pair<'_> {
                 let given = given.map(|known| known.error / known.value.abs());
                 let inherited = given.fold(0.0, f64::max);
                 let is_given = ["normal_force", "indentation_depth"].contains(&name);
-                let steepest = if is_given { STEEPEST } else { 2.0 * STEEPEST };
-                bars + (steepest * inherited + ROUNDING) * size
+                let slope = if is_given {
+                    MAX_LOG_SLOPE
+                } else {
+                    2.0 * MAX_LOG_SLOPE
+                };
+                bars + (slope * inherited + ROUNDING_TOLERANCE) * size
             }
-            _ => bars + (self.derived.vague + ROUNDING * 1e-3) * size,
+            _ => bars + (self.derived.truth_difference + ROUNDING_TOLERANCE * 1e-3) * size,
         }
     }
 }

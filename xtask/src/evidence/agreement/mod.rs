@@ -15,31 +15,32 @@ use strum::IntoEnumIterator as _;
 use super::Report;
 use super::sample::{Options, Source};
 use crate::meter::median;
-use crate::output::{GrowingTable, ROWS_AT_ONCE, markdown_table};
+use crate::table::{GrowingTable, ROWS_AT_ONCE, markdown_table};
 use judge::{Row, Verdict, judge};
 use relation::Relation;
 
-const SCENES: usize = 5000;
-const QUICK_SCENES: usize = 30;
+/// Scenes of a full run and of a quick one.
+const SCENES: [usize; 2] = [5000, 22];
 /// Half the decades of the distances from first touch in a quick run.
-const QUICK_DISTANCES: f64 = 0.2;
+const QUICK_DISTANCE_DECADES: f64 = 0.2;
 /// Memory of one solution in a quick run, which bounds the size of its scenes.
 const QUICK_MEMORY: &str = "16 MiB";
 /// Errors that are asked for in a quick run: smaller ones refine further, in the same way.
 const QUICK_ERRORS: [f64; 1] = [0.1];
-/// Part of the comparisons that may be outside the sum of the bars, and by how many of these sums at most.
-const OUTSIDE: f64 = 0.01;
-const FARTHEST: f64 = 3.0;
-/// Contradictions that the page names.
-const NAMED: usize = 20;
+/// Fraction of the comparisons that may deviate by more than the sum of both bars.
+const MAX_OUTSIDE_FRACTION: f64 = 0.01;
+/// Largest deviation of these, in sums of both bars.
+const MAX_DEVIATION_OVER_BARS: f64 = 3.0;
+/// Contradictions that the page lists by name.
+const LISTED_CONTRADICTIONS: usize = 20;
 
 /// Judges random scenes, of which `out` may hold some.
 pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Report> {
-    let count = options.count(if quick { QUICK_SCENES } else { SCENES })?;
+    let count = options.count(SCENES[usize::from(quick)])?;
     let seed = options.seed();
     let mut source = Source::new("agreement")?;
     if quick {
-        source.range.distances = QUICK_DISTANCES;
+        source.range.distances = QUICK_DISTANCE_DECADES;
         source.range.errors = QUICK_ERRORS.into();
         QUICK_MEMORY.clone_into(&mut source.range.memory);
     }
@@ -139,7 +140,7 @@ fn contradictions(rows: &[Row]) -> String {
     let mut found: Vec<&Row> = found.collect();
     let size = |row: &Row| row.part.unwrap_or(f64::INFINITY);
     found.sort_by(|one, other| size(other).total_cmp(&size(one)));
-    let lines = found.iter().take(NAMED).map(|row| {
+    let lines = found.iter().take(LISTED_CONTRADICTIONS).map(|row| {
         let part = row.part.map(|part| format!(" {part:.2}"));
         let what = match &*row.message {
             "" => &row.quantity,
@@ -167,7 +168,9 @@ fn failure(rows: &[Row]) -> Option<String> {
         parts.iter().filter(|part| **part > 1.0).count(),
     );
     let farthest = parts.into_iter().fold(0.0, f64::max);
-    let holds = wrong == 0 && outside as f64 <= OUTSIDE * all as f64 && farthest <= FARTHEST;
+    let holds = wrong == 0
+        && outside as f64 <= MAX_OUTSIDE_FRACTION * all as f64
+        && farthest <= MAX_DEVIATION_OVER_BARS;
     (!holds).then(|| {
         format!(
             "agreement: {wrong} exact contradictions, {outside} of {all} comparisons outside the sum of their bars, the \

@@ -77,31 +77,35 @@ pub(super) struct Derived {
     /// The method that is asked; none for that of the scene.
     pub(super) method: Option<Method>,
     /// By how much the truth of the other scene may differ, relative to that of the first.
-    pub(super) vague: f64,
+    pub(super) truth_difference: f64,
 }
 
-/// A layer is a half space where it is so many contacts thick.
-const THICK: f64 = 1e6;
-/// Relative difference between a layer and the half space, some times the contact over the thickness, if long waves find the
-/// material no softer than the contact does; and what says nothing any more.
-const DIFFERENCE: f64 = 1e-5;
-const VAGUE: f64 = 0.01;
-/// Factor of the load that is larger.
-const MORE: f64 = 1.5;
-/// Elements along a contact, along a period of what slides, and along one of what moves, whose cycles take as many steps as there
-/// are elements in a stroke, and may be many.
+/// Thickness of a layer that is a half space, over half the contact length.
+const THICKNESS_OVER_CONTACT: f64 = 1e6;
+/// Relative difference between such a layer and the half space: some times the contact over the thickness, if long waves find the
+/// material no softer than the contact does.
+const LAYER_DIFFERENCE: f64 = 1e-5;
+/// Relative difference above which the relation says nothing.
+const MAX_LAYER_DIFFERENCE: f64 = 0.01;
+/// Factor by which the larger load is larger.
+const LOAD_FACTOR: f64 = 1.5;
+/// Elements along a contact.
 const ELEMENTS: usize = 40;
+/// Elements along the period of a surface that slides or rests.
 const ELEMENTS_OF_PERIOD: usize = 256;
+/// Elements along the period of a surface that reciprocates or follows points: a cycle takes as many steps as there are elements in
+/// a stroke.
 const ELEMENTS_OF_MOTION: usize = 64;
-/// Relative error of another series, and by how many times the times for which it holds go beyond its own.
+/// Relative error of another series.
 const SERIES_ERROR: f64 = 1e-4;
-const SERIES_RANGE: f64 = 1e12;
-/// Contacts after which everything is forgotten.
-const LONG: f64 = 1e15;
-/// Durations of a motion after which the same one begins.
-const DATE: f64 = 1e6;
+/// Factor by which the times for which it holds go beyond its shortest and longest relaxation time.
+const SERIES_RANGE_FACTOR: f64 = 1e12;
+/// Length of a track on which everything is forgotten, over half the contact length.
+const TRACK_OVER_CONTACT: f64 = 1e15;
+/// Time at which the later motion begins, over its duration.
+const START_OVER_DURATION: f64 = 1e6;
 /// Largest power of two of a unit.
-const POWERS: f64 = 12.0;
+const MAX_POWER_OF_TWO: f64 = 12.0;
 
 impl Relation {
     /// Whether both answers are the same numbers up to rounding, instead of within their bars.
@@ -129,13 +133,13 @@ impl Relation {
             case: first.case.clone(),
             powers: Powers::default(),
             method: None,
-            vague: 0.0,
+            truth_difference: 0.0,
         };
         let Derived {
             case,
             powers,
             method,
-            vague,
+            truth_difference,
         } = &mut derived;
         let changed = match self {
             Self::OtherThreads => Some(()),
@@ -146,9 +150,9 @@ impl Relation {
             Self::ThickLayer => {
                 let is_changed = thick_layer(case);
                 if is_changed.is_some() {
-                    *vague = DIFFERENCE * softening(first)?;
+                    *truth_difference = LAYER_DIFFERENCE * softening(first)?;
                 }
-                is_changed.filter(|()| *vague <= VAGUE)
+                is_changed.filter(|()| *truth_difference <= MAX_LAYER_DIFFERENCE)
             }
             Self::OtherUnits => {
                 *powers = drawn(random);
@@ -185,7 +189,7 @@ impl Relation {
                 let load = &mut scene.load;
                 let given = [&mut load.normal_force, &mut load.indentation_depth];
                 let given = given.into_iter().chain([&mut load.mean_pressure]);
-                *given.into_iter().flatten().next()? *= MORE;
+                *given.into_iter().flatten().next()? *= LOAD_FACTOR;
             }
             Self::SplitBranches => {
                 let MaterialTable::Prony { branches, .. } = &mut scene.material else {
@@ -196,7 +200,7 @@ impl Relation {
             Self::SubdividedMotion => {
                 let points = scene.load.motion.as_mut()?;
                 *points = with_middles(points);
-                let date = DATE * points.last()?.time;
+                let date = START_OVER_DURATION * points.last()?.time;
                 points.iter_mut().for_each(|point| point.time += date);
             }
             Self::LaterHistory => later(scene.load.history.as_mut()?)?,
@@ -231,7 +235,7 @@ fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
 
 /// The lowest layer of a body that does not repeat itself.
 fn thick_layer(case: &mut Case) -> Option<()> {
-    let thickness = THICK * case.contact;
+    let thickness = THICKNESS_OVER_CONTACT * case.contact;
     let scene = &mut case.scene;
     let is_periodic = is_periodic(&scene.indenter);
     let is_half_space = scene.layer.is_none() && scene.solve.model.is_none();
@@ -241,7 +245,7 @@ fn thick_layer(case: &mut Case) -> Option<()> {
 
 /// A track of a stationary state of a body that does not repeat itself.
 fn long_track(case: &mut Case) -> Option<()> {
-    let track = LONG * case.contact;
+    let track = TRACK_OVER_CONTACT * case.contact;
     let Scene {
         indenter,
         load,
@@ -272,7 +276,7 @@ fn softening(Answered { case, folder, .. }: Answered) -> Result<f64> {
     }
     let problem = case.problem(folder)?;
     let compliance = |length: f64| problem.material().creep_compliance(length / velocity);
-    match [THICK, 1.0].map(|times| compliance(times * case.contact)) {
+    match [THICKNESS_OVER_CONTACT, 1.0].map(|times| compliance(times * case.contact)) {
         [Ok(long), Ok(short)] => Ok(long / short),
         _ => Ok(f64::INFINITY),
     }
@@ -280,7 +284,11 @@ fn softening(Answered { case, folder, .. }: Answered) -> Result<f64> {
 
 fn drawn(random: &mut Random) -> Powers {
     #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
-    let [length, stress, time] = [0; 3].map(|_| random.between([-POWERS, POWERS]).round() as i32);
+    let [length, stress, time] = [0; 3].map(|_| {
+        random
+            .between([-MAX_POWER_OF_TWO, MAX_POWER_OF_TWO])
+            .round() as i32
+    });
     Powers {
         length,
         stress,
@@ -436,7 +444,10 @@ fn other_series(material: &mut MaterialTable) -> Option<()> {
     }
     *approximation = Some(Approximation {
         relative_error: SERIES_ERROR,
-        time_range: [shortest / SERIES_RANGE, longest * SERIES_RANGE],
+        time_range: [
+            shortest / SERIES_RANGE_FACTOR,
+            longest * SERIES_RANGE_FACTOR,
+        ],
     });
     Some(())
 }

@@ -18,11 +18,11 @@ use super::request::{Reference, Request, presses};
 use super::sample::Options;
 use super::{Outcomes, Report, Share};
 use crate::meter::median;
-use crate::output::markdown_table;
 use crate::picture::{chart, guide, markers};
 use crate::random::Random;
+use crate::table::markdown_table;
 use crate::tasks::in_parallel;
-use reference::{SHARP, closed_form, is_numerical, numerical};
+use reference::{SHARP_REFERENCE_RATIO, closed_form, is_numerical, numerical};
 use scene::{Extent, FLAT, Label, Scene};
 
 /// Judges the bars of every method; a quick run takes fewer scenes, larger errors and fewer elements on the half space.
@@ -191,7 +191,7 @@ fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
 fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
     let held: Share = bars.iter().map(|bar| bar.holds).collect();
     // Whether the reference is much more exact than the bar says of the result.
-    let is_sharp = |bar: &&&Bar| bar.reference_error <= SHARP * bar.error_bar;
+    let is_sharp = |bar: &&&Bar| bar.reference_error <= SHARP_REFERENCE_RATIO * bar.error_bar;
     let sharp = bars.iter().filter(is_sharp);
     let held_alone: Share = sharp.map(|bar| bar.holds_alone).collect();
     // A bar of zero holds for a deviation of zero only.
@@ -225,8 +225,8 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Smaller relative errors are drawn here.
-const FLOOR: f64 = 1e-16;
+/// Relative error at which smaller ones are drawn.
+const MIN_DRAWN_ERROR: f64 = 1e-16;
 
 const STYLES: [(Method, Shape, Colour); 5] = [
     (Method::Analytic, Shape::Diamond, Colour::Black),
@@ -259,7 +259,7 @@ fn figure(rows: &[Row]) -> Figure {
 /// Relative bar and deviation; an elastic body has no friction to which they could be related.
 fn point((_, bar): &Row) -> Option<(Method, [f64; 2])> {
     let value = bar.reference.abs();
-    let point = [bar.error_bar, bar.deviation].map(|error| (error / value).max(FLOOR));
+    let point = [bar.error_bar, bar.deviation].map(|error| (error / value).max(MIN_DRAWN_ERROR));
     let drawn = value > bar.error_bar && point.iter().all(|error| error.is_finite());
     drawn.then_some((bar.solver, point))
 }

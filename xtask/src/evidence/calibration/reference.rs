@@ -15,11 +15,11 @@ use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, pres
 /// Half the lengths of contacts over the radius of a cylinder, between which a force is sought.
 const HALF_LENGTHS: [f64; 2] = [1e-6, 1.0];
 /// Relative error of the friction of a contact whose length is found to rounding.
-const CYLINDER: f64 = 1e-12;
+const CYLINDER_ERROR: f64 = 1e-12;
 /// Relative errors of the line; the first that is reached is taken.
 const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
 /// Errors of references, as a part of the bars that they judge sharply, at most.
-pub(super) const SHARP: f64 = 1.0 / 3.0;
+pub(super) const SHARP_REFERENCE_RATIO: f64 = 1.0 / 3.0;
 /// Smallest and largest relative errors asked of the half space.
 const HALF_SPACE_ERRORS: [f64; 2] = [1e-5, 1e-3];
 
@@ -48,7 +48,7 @@ pub(super) fn is_numerical(scene: &Scene, request: &Request) -> bool {
 
 fn sharp_for(bar: f64) -> f64 {
     let [smallest, largest] = HALF_SPACE_ERRORS;
-    (SHARP * bar).max(smallest).min(largest)
+    (SHARP_REFERENCE_RATIO * bar).max(smallest).min(largest)
 }
 
 /// The stationary solver of a model, sharp for bars of this relative length; where its error is not reached, what was
@@ -60,7 +60,7 @@ pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Referen
     }
     let is_coarse = scene.is("self-affine") || scene.is(FLAT);
     let sharp = if is_coarse {
-        SHARP * bar
+        SHARP_REFERENCE_RATIO * bar
     } else {
         sharp_for(bar)
     };
@@ -96,7 +96,7 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
     let half_length = try_bracketed_root(missing, HALF_LENGTHS.map(f64::ln))?;
     let half_length = half_length.context("no contact carries the force")?;
     let friction = slide(half_length)?.friction_coefficient;
-    let error = CYLINDER * friction;
+    let error = CYLINDER_ERROR * friction;
     Ok(Reference::new(friction, error, "Hunter's cylinder"))
 }
 

@@ -117,8 +117,8 @@ struct Asked {
     elements_on_dashpot: Option<Vec<usize>>,
 }
 
-/// Closed forms are asked for this, so that the table of s(p) takes part.
-const CLOSED: f64 = 1e-2;
+/// Relative error requested of closed forms, with which the table of s(p) takes part.
+const CLOSED_FORM_ERROR: f64 = 1e-2;
 
 impl Extent {
     pub(super) fn new(quick: bool) -> Result<Self> {
@@ -170,7 +170,7 @@ impl Asked {
         ) {
             (Some(errors), _) => Accuracy::RelativeError(10_f64.powf(random.between(errors))),
             (None, Some(counts)) => Accuracy::Elements(random.choice(counts)),
-            (None, None) => Accuracy::RelativeError(CLOSED),
+            (None, None) => Accuracy::RelativeError(CLOSED_FORM_ERROR),
         };
         Request::new(model, self.method, accuracy)
     }

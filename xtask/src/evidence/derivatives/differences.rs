@@ -11,13 +11,13 @@ use crate::evidence::request::{derivatives, number_at};
 use crate::random::Random;
 
 /// Distances of the answers in steps with their weights: `12 f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`, to the fourth order.
-const POINTS: [[f64; 2]; 4] = [[-2.0, 1.0], [-1.0, -8.0], [1.0, 8.0], [2.0, -1.0]];
-const DIVISOR: f64 = 12.0;
+const STENCIL: [[f64; 2]; 4] = [[-2.0, 1.0], [-1.0, -8.0], [1.0, 8.0], [2.0, -1.0]];
+const STENCIL_DIVISOR: f64 = 12.0;
 /// What the fourth order leaves, h⁴ f⁽⁵⁾/30, times f′ over the square of what the second one does, h² f‴/6, of a logarithm of the
 /// distance to any place.
-const LEFT: f64 = 7.2;
+const REMAINDER_RATIO: f64 = 7.2;
 /// Bodies that end in a flat or have an edge.
-const FLAT: [&str; 3] = ["flat-punch", "flat-cone", "truncated-paraboloid"];
+const FLAT_ENDED: [&str; 3] = ["flat-punch", "flat-cone", "truncated-paraboloid"];
 
 /// A method, and how accurate its answers are to be.
 #[derive(Debug, Clone, Deserialize)]
@@ -32,19 +32,10 @@ pub(super) struct Asked {
     step: f64,
     /// Scenes from which those are taken.
     pub(super) scenes: usize,
-    quick: Quick,
     /// Memory of an answer, if not as much as the scene allows.
     memory: Option<String>,
     /// Memory of an answer that is differenced, if not as much as of the one that is differentiated.
     reference_memory: Option<String>,
-}
-
-/// What a quick run has instead.
-#[derive(Debug, Clone, Deserialize)]
-struct Quick {
-    scenes: usize,
-    memory: Option<String>,
-    reference_memory: String,
 }
 
 /// One derivative of the logarithm of a quantity by that of a number.
@@ -171,7 +162,7 @@ fn largest(known: &[Sensitivity], quantity: &str) -> f64 {
 /// The derivative of the logarithm of a quantity, whose answers err independently of each other, with what the step leaves.
 fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
     let (mut sum, mut near, mut squares) = (0.0, 0.0, 0.0);
-    for (answer, [steps, weight]) in answers.iter().zip(POINTS) {
+    for (answer, [steps, weight]) in answers.iter().zip(STENCIL) {
         let known = quantity(answer, name)?;
         sum += weight * known.value.ln();
         if steps.abs() <= 1.0 {
@@ -179,23 +170,16 @@ fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
         }
         squares += (weight * known.error / known.value).powi(2);
     }
-    let width = DIVISOR * step;
+    let width = STENCIL_DIVISOR * step;
     let fourth = sum / width;
     let second = near / (2.0 * step);
     let apart = (fourth - second).abs();
-    let left = apart * (LEFT * apart / fourth.abs()).min(1.0);
+    let left = apart * (REMAINDER_RATIO * apart / fourth.abs()).min(1.0);
     let known = Estimate::new(fourth, squares.sqrt() / width + left);
     (known.value.is_finite() && known.error.is_finite()).then_some(known)
 }
 
 impl Asked {
-    /// Asks what a quick run does.
-    pub(super) fn be_quick(&mut self) {
-        self.scenes = self.quick.scenes;
-        self.memory.clone_from(&self.quick.memory);
-        self.reference_memory = Some(self.quick.reference_memory.clone());
-    }
-
     fn scene(&self, scene: &Scene, relative_error: f64) -> Scene {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
@@ -220,7 +204,7 @@ impl Asked {
             let reached = solved.or_else(|failure| failure.reached().cloned().ok_or(failure));
             Ok(reached?)
         };
-        POINTS.into_iter().map(solved).collect()
+        STENCIL.into_iter().map(solved).collect()
     }
 
     /// A scene with a number that is so many steps larger.
@@ -240,7 +224,7 @@ impl Asked {
             "self-affine" => ", rough",
             _ if scene.layer.is_some() => ", layer",
             "cylinder" => ", cylinder",
-            _ if FLAT.contains(&kind) => ", flat end",
+            _ if FLAT_ENDED.contains(&kind) => ", flat end",
             _ => ", half space",
         };
         format!("{}{body}", self.method.name())

@@ -91,7 +91,7 @@ impl Found {
 /// Decades of τ of the true materials.
 const DECADES: [f64; 2] = [-9.0, 3.0];
 /// Temperature of the middle isotherm, at which the material is wanted, \[°C].
-const WANTED: f64 = 20.0;
+const REFERENCE_TEMPERATURE: f64 = 20.0;
 
 impl TrueMaterial {
     fn spectrum(&self) -> Result<RelaxationSpectrum> {
@@ -210,19 +210,19 @@ impl Experiments {
 
     /// The isotherms as they are measured.
     fn measured(&self, truth: &RelaxationSpectrum, drawn: &mut Drawn) -> Result<Vec<Isotherm>> {
-        let law = WlfShift::new(self.wlf[0], self.wlf[1], WANTED)?;
+        let law = WlfShift::new(self.wlf[0], self.wlf[1], REFERENCE_TEMPERATURE)?;
         let step = drawn.random.between(self.step);
         let n_points = drawn.random.between(self.points).round();
         let ratio = (self.frequency[1] / self.frequency[0]).ln() / (n_points - 1.0);
         let middle = (drawn.isotherms / 2) as f64;
         let isotherm = |place: usize| {
-            let temperature = WANTED + step * (place as f64 - middle);
+            let temperature = REFERENCE_TEMPERATURE + step * (place as f64 - middle);
             let own = temperature + drawn.temperature * drawn.random.normal();
             let log_factor = LN_10 * law.log10_factor(own)?;
             let factor = 1.0 + drawn.factor * drawn.random.normal();
             let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
             let stiffer = if drawn.is_entropic {
-                kelvin(own) / kelvin(WANTED)
+                kelvin(own) / kelvin(REFERENCE_TEMPERATURE)
             } else {
                 1.0
             };
@@ -254,7 +254,7 @@ impl Experiments {
         let modulus = truth.complex_modulus(omega)?;
         let modulus = modulus.storage.hypot(modulus.loss);
         let force = self.scene.load.normal_force.context("a force")?;
-        Ok(omega * (3.0 * force * RADIUS / (16.0 * modulus)).cbrt())
+        Ok(omega * (3.0 * force * BALL_RADIUS / (16.0 * modulus)).cbrt())
     }
 
     fn slid(&self, material: &MaterialTable, velocity: f64) -> Scene {
@@ -268,7 +268,7 @@ impl Experiments {
 /// The series of isotherms as `fit-material` finds it, and the window of frequencies.
 fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
     let shifting = Shifting {
-        reference_temperature: Some(WANTED),
+        reference_temperature: Some(REFERENCE_TEMPERATURE),
         law: None,
         vertical: None,
     };
@@ -278,7 +278,7 @@ fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
 }
 
 /// Of the ball, \[m]; only for the speed.
-const RADIUS: f64 = 5e-3;
+const BALL_RADIUS: f64 = 5e-3;
 
 /// The material of a scene, measured in a window.
 fn series(

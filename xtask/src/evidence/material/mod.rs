@@ -5,16 +5,17 @@ mod experiment;
 use anyhow::Result;
 use serde::Serialize;
 
-use super::{Report, Table};
+use super::Report;
+use crate::table::Table;
 use crate::tasks::in_parallel;
 use experiment::{Experiments, Found};
 
 /// Standard deviations of a normal distribution that hold 95 per cent of it to either side.
 const OF_95_PERCENT: f64 = 1.96;
-/// The shares that are asked for.
-const ASKED: [f64; 2] = [0.92, 0.98];
-/// Standard deviations by which a share of a few experiments may miss them by chance.
-const CHANCE: f64 = 3.0;
+/// Smallest and largest share of the true frictions that may be inside the band of 95 %.
+const ALLOWED_COVERAGE: [f64; 2] = [0.92, 0.98];
+/// Standard deviations by which the share of a few experiments may be outside.
+const ALLOWED_SCATTER: f64 = 3.0;
 
 /// Experiments that have something in common.
 #[derive(Debug, Serialize)]
@@ -44,12 +45,13 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     let columns = "experiments number inside_95_percent_band inside_68_percent_band \
                    median_relative_material_error warns_outside";
     let all = &groups[0];
-    let chance = CHANCE * (0.05 * 0.95 / all.number as f64).sqrt();
+    let chance = ALLOWED_SCATTER * (0.05 * 0.95 / all.number as f64).sqrt();
     let chance = if quick { chance } else { 0.0 };
     let share = all.inside_95_percent_band;
-    let holds =
-        share >= ASKED[0] - chance && share <= ASKED[1] + chance && all.warns_outside >= 1.0;
-    let [lowest, highest] = ASKED.map(|share| 100.0 * share);
+    let holds = share >= ALLOWED_COVERAGE[0] - chance
+        && share <= ALLOWED_COVERAGE[1] + chance
+        && all.warns_outside >= 1.0;
+    let [lowest, highest] = ALLOWED_COVERAGE.map(|share| 100.0 * share);
     let verdict = if holds { "as asked" } else { "NOT as asked" };
     let summary = format!(
         "{:.1} % of {} true frictions are inside the 95 % band ({lowest} to {highest} % asked): {verdict}\n{}",
@@ -111,17 +113,5 @@ impl Group {
             median_relative_material_error: errors[errors.len() / 2],
             warns_outside: share(&|one| one.warns_outside),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::report;
-
-    /// A share that is off by more than chance, or an answer beyond the window without a warning, is a failure.
-    #[test]
-    fn the_bands_of_a_few_fitted_materials_hold() {
-        let report = report(true).expect("fits and answers");
-        assert_eq!(report.failure, None, "{}", report.summary);
     }
 }

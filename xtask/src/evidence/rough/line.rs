@@ -14,13 +14,13 @@ use numerics::{MaxElements, Request};
 use rheology::{Compressible, Material};
 
 /// How many periods of the surface the line is long, so that its waves are rounded to whole numbers by a thirtieth at most.
-const PERIODS: f64 = 16.0;
+const LINE_PERIODS: f64 = 16.0;
 /// Thickness of the layer, as a part of the shortest wave; its square is the error that it makes.
-const THIN: f64 = 1e-5;
+const THICKNESS_OVER_WAVE: f64 = 1e-5;
 /// Of the friction.
 const RELATIVE_ERROR: f64 = 0.05;
 /// Along the line.
-const MOST_ELEMENTS: MaxElements = MaxElements(1 << 17);
+const MAX_LINE_ELEMENTS: MaxElements = MaxElements(1 << 17);
 
 /// The length of the line that carries the force on its square.
 #[derive(Clone, Copy)]
@@ -36,7 +36,7 @@ pub(super) fn friction(
     carrying: Carrying,
 ) -> Result<Option<f64>> {
     let period = surface.period();
-    let length = PERIODS * period[0];
+    let length = LINE_PERIODS * period[0];
     let mut waves: Vec<Wave> = surface.waves().to_vec();
     for wave in &mut waves {
         let [q_x, q_y] = surface.wave_vector(wave);
@@ -52,7 +52,7 @@ pub(super) fn friction(
     let [longest, shortest] = [fewest, most].map(|number| length / f64::from(number));
     let line = PeriodicSurface::new([length, shortest], waves)?;
     let material = Compressible::new(material, 0.0)?;
-    let thickness = THIN * shortest;
+    let thickness = THICKNESS_OVER_WAVE * shortest;
     let layer = Layer::new(&material, thickness)?;
     let carrying = match carrying {
         Carrying::LongestWave => longest,
@@ -62,7 +62,7 @@ pub(super) fn friction(
     let load = PeriodicLoad::new(mean_pressure * carrying / (2.0 * thickness), velocity)?;
     let request = Request {
         accuracy: RELATIVE_ERROR.into(),
-        watch: &MOST_ELEMENTS,
+        watch: &MAX_LINE_ELEMENTS,
     };
     match periodic::steady(&line, &layer, &load, request) {
         Ok(estimate) => Ok(Some(estimate.friction_coefficient.value)),

@@ -9,14 +9,15 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
+use numerics::Estimate;
 use viscofriction::scene::Source;
 use viscofriction::sweep::{Plan, Vary, header};
 use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
 
 use super::Report;
-use super::report::Table;
-use crate::output::{GrowingTable, ROWS_AT_ONCE, WrongInput};
+use crate::output::WrongInput;
 use crate::picture::chart;
+use crate::table::{GrowingTable, ROWS_AT_ONCE, Table};
 
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "rough.csv";
@@ -50,18 +51,40 @@ const THEORIES: [(&str, [&str; 2]); 7] = [
 ];
 /// Those of which there is a picture.
 const DRAWN_THEORIES: [usize; 6] = [0, 1, 3, 4, 5, 6];
-/// Names and scenes of the solids; about the geometric means of their moduli of rest and glass, and speeds around the
-/// transition; how they are drawn.
-const SOLIDS: [(&str, &str); 3] = [
-    ("standard-10", include_str!("standard-10.toml")),
-    ("standard-1000", include_str!("standard-1000.toml")),
-    ("rubber", include_str!("rubber.toml")),
-];
-const RANGES: [(f64, &str); 3] = [(3.0, "1e-5:1e1"), (30.0, "1e-6:1e1"), (40.0, "1e-4:1e8")];
-const STYLES: [(Shape, Colour); 3] = [
-    (Shape::Circle, Colour::Blue),
-    (Shape::Square, Colour::Red),
-    (Shape::Diamond, Colour::Green),
+
+/// A solid under the rough surfaces.
+struct Solid {
+    name: &'static str,
+    scene: &'static str,
+    /// About the geometric mean of its moduli at rest and in the glass, \[Pa].
+    stiffness: f64,
+    /// The slowest and the fastest speed around its transition, \[m/s].
+    speeds: &'static str,
+    marker: (Shape, Colour),
+}
+
+const SOLIDS: [Solid; 3] = [
+    Solid {
+        name: "standard-10",
+        scene: include_str!("standard-10.toml"),
+        stiffness: 3.0,
+        speeds: "1e-5:1e1",
+        marker: (Shape::Circle, Colour::Blue),
+    },
+    Solid {
+        name: "standard-1000",
+        scene: include_str!("standard-1000.toml"),
+        stiffness: 30.0,
+        speeds: "1e-6:1e1",
+        marker: (Shape::Square, Colour::Red),
+    },
+    Solid {
+        name: "rubber",
+        scene: include_str!("rubber.toml"),
+        stiffness: 40.0,
+        speeds: "1e-4:1e8",
+        marker: (Shape::Diamond, Colour::Green),
+    },
 ];
 /// Hurst exponents, and how often the longest and the shortest wave fit into the period.
 const SPECTRA: [[f64; 3]; 10] = [
@@ -76,13 +99,14 @@ const SPECTRA: [[f64; 3]; 10] = [
     [0.6, 32.0, 128.0],
     [0.6, 4.0, 256.0],
 ];
-/// Surfaces of each spectrum, and speeds.
+/// Surfaces of each spectrum.
 const SURFACES: usize = 10;
+/// Speeds under each pressure.
 const SPEEDS: usize = 5;
-/// A theory is right where it is not farther from the surfaces than this.
-const WITHIN: f64 = 0.1;
+/// Relative deviation from the surfaces up to which a theory is right.
+const RIGHT_WITHIN: f64 = 0.1;
 /// Ratios that are drawn.
-const DRAWN: RangeInclusive<f64> = 0.01..=10.0;
+const DRAWN_RATIOS: RangeInclusive<f64> = 0.01..=10.0;
 /// Ends of the classes of the area fraction; what is below the first is not drawn.
 const AREAS: [f64; 7] = [1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 0.9];
 
@@ -94,9 +118,9 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
         (SURFACES, SPECTRA.len())
     };
     let mut plans = Vec::new();
-    for ((solid, scene), range) in SOLIDS.iter().zip(RANGES) {
+    for solid in &SOLIDS {
         for spectrum in &SPECTRA[..spectra] {
-            plans.push((*solid, plan(scene, range, (surfaces, *spectrum), quick)?));
+            plans.push((solid.name, plan(solid, *spectrum, surfaces, quick)?));
         }
     }
     let file = out.join(ROWS);
@@ -135,14 +159,14 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
 }
 
 fn plan(
-    scene: &str,
-    (stiffness, speeds): (f64, &str),
-    (surfaces, [hurst_exponent, longest, shortest]): (usize, [f64; 3]),
+    solid: &Solid,
+    [hurst_exponent, longest, shortest]: [f64; 3],
+    surfaces: usize,
     quick: bool,
 ) -> Result<Plan> {
-    let source = Source::new(Path::new("rough.toml"), scene.into())?;
-    let loads = [0.02, 0.1, 0.5].map(|load| (load * stiffness).to_string());
-    let count = if quick { 3 } else { SPEEDS };
+    let source = Source::new(Path::new("rough.toml"), solid.scene.into())?;
+    let loads = [0.02, 0.1, 0.5].map(|load| (load * solid.stiffness).to_string());
+    let count = if quick { 2 } else { SPEEDS };
     let seeds: Vec<String> = (1..=surfaces).map(|seed| seed.to_string()).collect();
     let one = |key, value| format!("indenter.self-affine.{key}={value}:{value}:1");
     let vary = [
@@ -151,7 +175,7 @@ fn plan(
         one("longest_wavelength", longest.recip()),
         one("shortest_wavelength", shortest.recip()),
         format!("load.mean_pressure={}", loads.join(",")),
-        format!("load.velocity={speeds}:{count}:log"),
+        format!("load.velocity={}:{count}:log", solid.speeds),
     ];
     let vary = vary.map(|vary| vary.parse()).into_iter();
     let vary: Vec<Vary> = vary.collect::<Result<_, _>>().map_err(WrongInput)?;
@@ -180,12 +204,12 @@ fn read(file: &Path, plan: &Plan) -> Result<Rows> {
 struct Point<'a> {
     solid: &'a str,
     hurst_exponent: f64,
-    /// Longest waves in the period, and shortest ones in the longest.
-    waves: [f64; 2],
-    /// Mean pressure \[Pa] and velocity \[m/s].
-    load: [f64; 2],
-    /// Mean over the surfaces, and the mean of its error bars.
-    area: [f64; 2],
+    longest_waves_in_period: f64,
+    shortest_waves_in_longest: f64,
+    mean_pressure: f64,
+    velocity: f64,
+    /// Mean over the surfaces, with the mean of its error bars.
+    area_fraction: Estimate,
     /// What was solved over what each theory says, in the mean over the surfaces.
     ratios: [Option<Ratio>; THEORIES.len()],
     /// Friction and what it is by both forms of Persson's theory, surface by surface.
@@ -234,9 +258,11 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
         Some(Point {
             solid: key[0],
             hurst_exponent: given(1)?,
-            waves: [longest.recip(), longest / shortest],
-            load: [given(4)?, given(5)?],
-            area: [mean("area_fraction")?, mean("area_fraction_error")?],
+            longest_waves_in_period: longest.recip(),
+            shortest_waves_in_longest: longest / shortest,
+            mean_pressure: given(4)?,
+            velocity: given(5)?,
+            area_fraction: Estimate::new(mean("area_fraction")?, mean("area_fraction_error")?),
             ratios: THEORIES.map(over),
             frictions: pairs.map(|((one, two), three)| [one, two, three]).collect(),
         })
@@ -262,17 +288,21 @@ fn ratio(solved: &[f64], theory: &[f64]) -> Ratio {
 /// What was solved over what each theory says, over the area.
 fn figure(points: &[Point]) -> Figure {
     let charts = DRAWN_THEORIES.map(|theory| {
-        let series = SOLIDS.iter().zip(STYLES);
-        let series = series.map(|((solid, _), (shape, colour))| {
-            let of_solid = points.iter().filter(|point| point.solid == *solid);
+        let series = SOLIDS.iter().map(|solid| {
+            let of_solid = points.iter().filter(|point| point.solid == solid.name);
+            let points = of_solid
+                .filter_map(|point| Some([point.area_fraction.value, point.ratios[theory]?.value]));
             let points =
-                of_solid.filter_map(|point| Some([point.area[0], point.ratios[theory]?.value]));
-            let points = points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN.contains(ratio));
-            Series::markers(points.collect(), Marker::open(shape), colour).labelled(*solid)
+                points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN_RATIOS.contains(ratio));
+            let (shape, colour) = solid.marker;
+            Series::markers(points.collect(), Marker::open(shape), colour).labelled(solid.name)
         });
         chart(
             Axis::log10("area fraction", [AREAS[0], 1.0]),
-            Axis::log10(THEORIES[theory].0, [*DRAWN.start(), *DRAWN.end()]),
+            Axis::log10(
+                THEORIES[theory].0,
+                [*DRAWN_RATIOS.start(), *DRAWN_RATIOS.end()],
+            ),
             series.collect(),
         )
     });

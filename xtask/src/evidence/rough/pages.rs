@@ -6,29 +6,35 @@ use std::ops::Range;
 use comfy_table::Table;
 use serde::Serialize;
 
-use super::{AREAS, Point, Ratio, SOLIDS, THEORIES, WITHIN};
+use super::{AREAS, Point, RIGHT_WITHIN, Ratio, SOLIDS, THEORIES};
 use crate::meter::median;
-use crate::output::markdown_table;
+use crate::table::markdown_table;
 
 /// Theories of the friction, and the others, which stand in two tables.
 const FRICTIONS: Range<usize> = 0..3;
 const OTHERS: Range<usize> = 3..THEORIES.len();
 /// Longest waves in the period from which a surface is more than a few summits.
-const FEWEST_WAVES: f64 = 4.0;
+const MIN_WAVES: f64 = 4.0;
 /// Area fraction from which γ is sought: below it no γ helps.
-const FROM_AREA: f64 = 0.03;
+const MIN_AREA: f64 = 0.03;
 
 /// Tables by area, by solid and area, and by spectrum and area, and what weight the theory would take.
 pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     let answered: usize = points.iter().map(|point| point.frictions.len()).sum();
-    let large = points.iter().filter(|point| point.waves[0] >= FEWEST_WAVES);
+    let large = points
+        .iter()
+        .filter(|point| point.longest_waves_in_period >= MIN_WAVES);
     let all: Vec<_> = large.map(|point| (Vec::new(), point)).collect();
     let by_solid = all
         .iter()
         .map(|(_, point)| (vec![point.solid.to_owned()], *point));
     let by_solid: Vec<_> = by_solid.collect();
     let by_spectrum = points.iter().map(|point| {
-        let [longest, shortest] = point.waves.map(|count| format!("{count:2}"));
+        let waves = [
+            point.longest_waves_in_period,
+            point.shortest_waves_in_longest,
+        ];
+        let [longest, shortest] = waves.map(|count| format!("{count:2}"));
         let label = vec![point.hurst_exponent.to_string(), longest, shortest];
         (label, point)
     });
@@ -38,10 +44,10 @@ pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
         let tables = [FRICTIONS, OTHERS].map(|theories| table(labels, points, theories));
         tables.map(|table| format!("{table}\n\n")).concat()
     };
-    let weights = SOLIDS.iter().filter_map(|(solid, _)| weight(solid, points));
+    let weights = SOLIDS.iter().filter_map(|solid| weight(solid.name, points));
     let weights: String = weights.collect();
     format!(
-        "Surfaces with at least {FEWEST_WAVES} longest waves along the period:\n\n{}{}All solids:\n\n{}{weights}\n\
+        "Surfaces with at least {MIN_WAVES} longest waves along the period:\n\n{}{}All solids:\n\n{}{weights}\n\
          {answered} of {n_scenes} scenes are of points at which all surfaces have an answer.",
         both(&[], &all),
         both(&["solid"], &by_solid),
@@ -74,12 +80,12 @@ pub(super) fn rows<'a>(points: &[Point<'a>]) -> Vec<Row<'a>> {
     let row = |(point, quantity, ratio): (&Point<'a>, _, Ratio)| Row {
         solid: point.solid,
         hurst_exponent: point.hurst_exponent,
-        longest_waves_in_period: point.waves[0],
-        shortest_waves_in_longest: point.waves[1],
-        mean_pressure: point.load[0],
-        velocity: point.load[1],
-        area_fraction: digits(point.area[0]),
-        area_fraction_error: digits(point.area[1]),
+        longest_waves_in_period: point.longest_waves_in_period,
+        shortest_waves_in_longest: point.shortest_waves_in_longest,
+        mean_pressure: point.mean_pressure,
+        velocity: point.velocity,
+        area_fraction: digits(point.area_fraction.value),
+        area_fraction_error: digits(point.area_fraction.error),
         quantity,
         ratio: digits(ratio.value),
         standard_error: digits(ratio.standard_error),
@@ -92,14 +98,16 @@ pub(super) fn rows<'a>(points: &[Point<'a>]) -> Vec<Row<'a>> {
 fn table(labels: &[&str], points: &[(Vec<String>, &Point)], theories: Range<usize>) -> Table {
     let mut classes: BTreeMap<(&[String], usize), Vec<&Point>> = BTreeMap::new();
     for (label, point) in points {
-        let class = AREAS.partition_point(|end| point.area[0] >= *end);
+        let class = AREAS.partition_point(|end| point.area_fraction.value >= *end);
         classes.entry((label, class)).or_default().push(point);
     }
     let lines = classes.into_iter().map(|((label, class), points)| {
         let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
         let errors = points.iter().filter_map(|point| point.ratios[0]);
         let errors = errors.map(|ratio| ratio.standard_error / ratio.value);
-        let bars = points.iter().map(|point| point.area[1] / point.area[0]);
+        let bars = points
+            .iter()
+            .map(|point| point.area_fraction.error / point.area_fraction.value);
         let percent = |parts: Vec<f64>| format!("{:.0} %", 100.0 * median(parts));
         let mut line = label.to_vec();
         line.extend([from.to_string(), points.len().to_string()]);
@@ -125,7 +133,9 @@ fn spread(mut values: Vec<f64>) -> String {
     let Some(last) = values.len().checked_sub(1) else {
         return String::new();
     };
-    let within = values.iter().filter(|ratio| (*ratio - 1.0).abs() <= WITHIN);
+    let within = values
+        .iter()
+        .filter(|ratio| (*ratio - 1.0).abs() <= RIGHT_WITHIN);
     let within = 100 * within.count() / values.len();
     let [low, high] = [last / 20, last - last / 20].map(|place| values[place]);
     let median = median(values);
@@ -135,7 +145,9 @@ fn spread(mut values: Vec<f64>) -> String {
 /// The γ of S = γ + (1 − γ) P² that suits every second surface best, and how well it suits the others.
 fn weight(solid: &str, points: &[Point]) -> Option<String> {
     let points = points.iter().filter(|point| {
-        point.solid == solid && point.area[0] >= FROM_AREA && point.waves[0] >= FEWEST_WAVES
+        point.solid == solid
+            && point.area_fraction.value >= MIN_AREA
+            && point.longest_waves_in_period >= MIN_WAVES
     });
     // Means of the friction, of what S = 1 adds to S = P², and of the friction with that.
     let halves = points.map(|point| {

@@ -14,7 +14,7 @@ pub(super) const COLUMNS: [&str; 4] = [
     "xu_area_fraction",
 ];
 /// γ of the theory of Xu, who finds 0.42 to 0.45; with 0.42 the area is at most 4 % larger.
-const GAMMA: f64 = 0.45;
+const XU_GAMMA: f64 = 0.45;
 
 /// The numbers of all columns; none where the line is not known to its error.
 pub(super) fn solve(problem: &Problem) -> Result<[Option<f64>; COLUMNS.len()]> {
@@ -40,6 +40,6 @@ pub(super) fn solve(problem: &Problem) -> Result<[Option<f64>; COLUMNS.len()]> {
         ),
         line(Carrying::LongestWave)?,
         line(Carrying::Period)?,
-        Some(theory.area_fraction_of_xu(GAMMA)?.value),
+        Some(theory.area_fraction_of_xu(XU_GAMMA)?.value),
     ])
 }

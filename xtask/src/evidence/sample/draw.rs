@@ -233,7 +233,10 @@ impl Sample<'_> {
     /// Load, motion, model and what is asked.
     pub(super) fn motion(&mut self, scene: &mut Scene, range: &Range, folder: &Path) -> Result<()> {
         let files = Files::of(scene, folder, read)?;
-        let body = body(&scene.indenter, &files)?.body;
+        // A body that is refused, such as one of a file of lengths beyond 1e30 m, needs no load to be refused.
+        let Ok(body) = body(&scene.indenter, &files).map(|of_scene| of_scene.body) else {
+            return Ok(());
+        };
         let [force, depth] = self.load(scene, &body, &files)?;
         let is_round = matches!(body, Body::Revolution(_)) && scene.layer.is_none();
         if is_round && self.random.uniform() < 0.25 {

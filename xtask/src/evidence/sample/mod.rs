@@ -33,7 +33,7 @@ pub(super) struct Options {
 }
 
 const SEED: u64 = 2014;
-const MOST_SCENES: usize = 100_000;
+const MAX_SCENES: usize = 100_000;
 
 impl Options {
     pub(super) fn seed(&self) -> u64 {
@@ -43,8 +43,8 @@ impl Options {
     /// How many scenes, if that is a number that can be.
     pub(super) fn count(&self, usual: usize) -> Result<usize> {
         let count = self.scenes.unwrap_or(usual);
-        let wrong = format!("--scenes {count} is not from 1 to {MOST_SCENES}");
-        ensure!((1..=MOST_SCENES).contains(&count), WrongInput(wrong));
+        let wrong = format!("--scenes {count} is not from 1 to {MAX_SCENES}");
+        ensure!((1..=MAX_SCENES).contains(&count), WrongInput(wrong));
         Ok(count)
     }
 }
@@ -293,7 +293,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
         contact,
     };
     case.write_files(folder)?;
-    for _ in 0..TRIALS {
+    for _ in 0..MAX_DRAWN_MOTIONS {
         (case.scene.load, case.scene.solve) = (Load::default(), Solve::default());
         sample.motion(&mut case.scene, range, folder)?;
         let problem = case.problem(folder);
@@ -305,4 +305,4 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
 }
 
 /// Motions that are drawn for a body until one has a method, or the last one is refused.
-const TRIALS: usize = 3;
+const MAX_DRAWN_MOTIONS: usize = 3;

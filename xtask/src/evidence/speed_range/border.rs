@@ -10,9 +10,9 @@ use super::{Law, MODELS, Prediction, plateau};
 use crate::tasks::in_parallel;
 
 /// Largest |prediction/friction − 1| that is right.
-const ALLOWED: f64 = 0.1;
+const RIGHT_WITHIN: f64 = 0.1;
 /// Step of the difference that gives the slope of the deviation.
-const STEP: f64 = 0.02;
+const SLOPE_STEP: f64 = 0.02;
 
 /// The range of one profile and stiffness ratio; no speeds where the law is right at none of the map.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,7 +55,7 @@ pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
 fn row(model: Model, speeds: &[Prediction], error: f64) -> Result<Row> {
     let (first, _) = &speeds[0];
     let deviations = || speeds.iter().map(|(_, law)| law.deviation(model));
-    let right = |deviation: f64| deviation <= ALLOWED;
+    let right = |deviation: f64| deviation <= RIGHT_WITHIN;
     let crossing = |low, high| crossing(model, speeds, [low, high], error);
     let lowest = deviations().position(right);
     let lowest = lowest.map(|at| crossing(at.checked_sub(1), Some(at)));
@@ -131,7 +131,7 @@ struct Crossing {
 impl Crossing {
     /// The speed, if friction has a relative error.
     fn with_error(&self, relative_error: f64) -> Estimate {
-        let error = self.speed * (1.0 + ALLOWED) * relative_error / self.slope.abs();
+        let error = self.speed * (1.0 + RIGHT_WITHIN) * relative_error / self.slope.abs();
         Estimate::new(self.speed, error)
     }
 }
@@ -146,7 +146,7 @@ impl Border {
             let sliding = self.ends[0].0.at_speed(border.value);
             let law = Law::of(sliding, relative_error)?;
             let error = law.half_space_error / law.half_space;
-            let right = |law: &Law| law.deviation(self.model) <= ALLOWED;
+            let right = |law: &Law| law.deviation(self.model) <= RIGHT_WITHIN;
             let is_low = right(&law) == right(&self.ends[0].1);
             self.ends[usize::from(!is_low)] = (sliding, law);
             // The slope is that between speeds that are far from each other.
@@ -173,14 +173,14 @@ impl Border {
             let line = at.line();
             let quotient = line.and_then(|(line, force)| Ok(at.viscous_law(force)? / line.value));
             quotient.map_or(f64::NAN, |quotient| {
-                (quotient * plateau / ratio - 1.0).abs() - ALLOWED
+                (quotient * plateau / ratio - 1.0).abs() - RIGHT_WITHIN
             })
         };
         let root = bracketed_root(excess, [first.ln(), last.ln()]);
         let root = root.context("a border between two speeds of the map")?;
         Ok(Crossing {
             speed: root.exp(),
-            slope: 0.5 * (excess(root + STEP) - excess(root - STEP)) / STEP,
+            slope: 0.5 * (excess(root + SLOPE_STEP) - excess(root - SLOPE_STEP)) / SLOPE_STEP,
         })
     }
 }

@@ -10,7 +10,8 @@ use friction_analytic::scaling_factor;
 use serde::{Deserialize, Serialize};
 use viscofriction::scene::Model;
 
-use super::{Report, Table, extent};
+use super::{Report, extent};
+use crate::table::Table;
 use crate::tasks::in_parallel;
 use sliding::Sliding;
 

@@ -19,15 +19,18 @@ pub(super) struct Family {
     /// First and last power of ten, and the step of the exponent.
     decades: Vec<(i32, i32, usize)>,
     values: Vec<f64>,
+    /// Values that take long, which a quick run leaves out.
+    slow: Vec<f64>,
 }
 
 impl Family {
     /// Values of the parameter; powers of ten are the nearest numbers, because `powi` rounds more than once.
-    pub(super) fn values(&self) -> impl Iterator<Item = f64> {
+    pub(super) fn values(&self, quick: bool) -> impl Iterator<Item = f64> {
         let powers = self.decades.iter();
         let powers = powers.flat_map(|&(first, last, step)| (first..=last).step_by(step));
         let powers = powers.map(|power| format!("1e{power}").parse().unwrap_or(f64::NAN));
-        powers.chain(self.values.iter().copied())
+        let values = powers.chain(self.values.iter().copied());
+        values.filter(move |value| !(quick && self.slow.contains(value)))
     }
 
     pub(super) fn case(&self, value: f64) -> String {
@@ -75,13 +78,18 @@ impl Row {
     ) -> Self {
         let deviation = (got - expected).abs() / scale;
         Self {
-            quantity: quantity.replace('_', " "),
+            quantity: quantity.to_owned(),
             // NaN and infinity are no numbers of a table.
             deviation: deviation.is_finite().then_some(deviation),
             tolerance: Some(tolerance),
             verdict: Verdict::Accurate.provided(deviation <= tolerance),
             ..Self::wrong(format!("{expected:e}"), format!("{got:e}"))
         }
+    }
+
+    /// A number beside the right one, within a relative tolerance.
+    pub(super) fn relative(quantity: &str, pair: [f64; 2], tolerance: f64) -> Self {
+        Self::number(quantity, pair, pair[1].abs(), tolerance)
     }
 
     /// The worst of several numbers.
@@ -144,21 +152,6 @@ impl Verdict {
     }
 }
 
-/// Numbers beside the right ones, within one relative tolerance: fields of two structs, or `name => got, expected`.
-macro_rules! compare {
-    ($got:expr, $expected:expr, within $tolerance:expr; $($field:ident),+) => {{
-        let (got, expected, tolerance) = (&$got, &$expected, $tolerance);
-        compare!(within tolerance; $(stringify!($field) => got.$field, expected.$field);+)
-    }};
-    (within $tolerance:expr; $($name:expr => $got:expr, $expected:expr);+) => {{
-        let tolerance = $tolerance;
-        let numbers = [$(($name, [$got, $expected])),+].map(|(name, pair)| {
-            $crate::evidence::stability::case::Row::number(name, pair, pair[1].abs(), tolerance)
-        });
-        Ok($crate::evidence::stability::case::Row::worst(numbers))
-    }};
-}
-
 /// What comes of a problem whose right result is an error of the given pattern.
 macro_rules! refused {
     ($result:expr => $pattern:pat) => {
@@ -169,7 +162,7 @@ macro_rules! refused {
         ))
     };
 }
-pub(super) use {compare, refused};
+pub(super) use refused;
 
 /// Runs all cases on all threads; rows in the order of the cases.
 pub(super) fn judge<F: Fn(f64) -> Result<Row> + Sync>(
@@ -202,7 +195,10 @@ mod tests {
     }
 
     fn beside_one(got: f64) -> Row {
-        judged(move |one| compare!(within 1e-9; "one" => one, 1.0; "other" => got, 1.0))
+        judged(move |one| {
+            let number = |quantity, got| Row::relative(quantity, [got, 1.0], 1e-9);
+            Ok(Row::worst([number("one", one), number("other", got)]))
+        })
     }
 
     #[test]

@@ -17,7 +17,7 @@ use indenters::{
 use numerics::{Estimate, InvalidParameter};
 use rheology::{Elastic, Material, Maxwell, Viscous};
 
-use super::case::{Row, compare, refused};
+use super::case::{Row, refused};
 use super::line::{on_dashpot, under};
 use crate::scene::{Scene, solid};
 
@@ -38,7 +38,8 @@ fn judged(
 ) -> Result<Row> {
     let got = steady_refined(body, &material, load, &OPTIONS)?;
     let tolerance = OPTIONS.relative_error + expected.error / expected.value + part;
-    compare!(within tolerance; "friction coefficient" => got.friction_coefficient.value, expected.value)
+    let pair = [got.friction_coefficient.value, expected.value];
+    Ok(Row::relative("friction coefficient", pair, tolerance))
 }
 
 /// A body beside the table of s(p) for the scene of the profile that it is nearly, from which its shape differs by `part`.
@@ -143,7 +144,8 @@ pub(super) fn slender(aspect: f64) -> Result<Row> {
     };
     let (got, other) = (solve(0.5 * aspect)?, solve(aspect)?);
     let tolerance = (got.error + other.error) / other.value;
-    compare!(within tolerance; "friction coefficient" => got.value, other.value)
+    let pair = [got.value, other.value];
+    Ok(Row::relative("friction coefficient", pair, tolerance))
 }
 
 /// Under a constant force any number of steps of any length ends where one elastic step of compliance J(t) does, on the
@@ -160,7 +162,13 @@ pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
     let expected = indent_history_on_grid(&body, &Elastic::new(1.0)?, &step, &options)?;
     // Three solutions, each to the contact tolerance.
     let tolerance = 1e2 * options.contact.tolerance;
-    compare!(got[2], expected[0], within tolerance; indentation_depth, contact_area)
+    let [got, expected] = [&got[2], &expected[0]];
+    let depths = [got.indentation_depth, expected.indentation_depth];
+    let areas = [got.contact_area, expected.contact_area];
+    Ok(Row::worst([
+        Row::relative("indentation depth", depths, tolerance),
+        Row::relative("contact area", areas, tolerance),
+    ]))
 }
 
 /// The last row of a short march over elements of 0.1 m, at a speed of one element in the given time.

@@ -11,9 +11,10 @@ use anyhow::{Result, ensure};
 use clap::Args;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Shape};
 
-use super::{Report, Table};
-use crate::output::{WrongInput, markdown_table};
+use super::Report;
+use crate::output::WrongInput;
 use crate::picture::{chart, guide, markers};
+use crate::table::{Table, markdown_table};
 use case::{Family, Row, Verdict};
 use families::Run;
 
@@ -25,13 +26,13 @@ pub(super) struct Options {
     only: Option<String>,
 }
 
-/// Smaller parts of the tolerance are drawn as this one.
-const SMALLEST: f64 = 1e-9;
+/// Part of the tolerance at which smaller ones are drawn.
+const MIN_DRAWN_PART: f64 = 1e-9;
 
-/// Runs all cases: a quick run, too, because they take seconds.
-pub(super) fn report(options: &Options) -> Result<Report> {
+/// Runs all cases; a quick run leaves out the slow ones.
+pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let families = families::all()?;
-    report_of(&case::judge(&chosen(&families, options)?)?)
+    report_of(&case::judge(&chosen(&families, options, quick)?)?)
 }
 
 fn report_of(rows: &[Row]) -> Result<Report> {
@@ -52,12 +53,13 @@ fn report_of(rows: &[Row]) -> Result<Report> {
 fn chosen<'a>(
     families: &'a [(Family, Run)],
     options: &Options,
+    quick: bool,
 ) -> Result<Vec<(&'a Family, Run, f64)>> {
     let text = options.only.as_deref().unwrap_or_default();
     let mut cases = Vec::new();
     for (family, run) in families {
         let is_asked = |value: &f64| family.case(*value).contains(text);
-        let values = family.values().filter(is_asked);
+        let values = family.values(quick).filter(is_asked);
         cases.extend(values.map(|value| (family, *run, value)));
     }
     let wrong = format!("--only {text:?} is in no case");
@@ -123,14 +125,14 @@ fn panel(rows: &[&Row], end: f64) -> Chart {
     });
     let series = [tolerance].into_iter().chain(of_kinds).collect();
     let x = Axis::linear("log₁₀ of the parameter", [-end, end]);
-    let y = Axis::log10("deviation / tolerance", [0.1 * SMALLEST, 100.0]);
+    let y = Axis::log10("deviation / tolerance", [0.1 * MIN_DRAWN_PART, 100.0]);
     chart(x, y, series)
 }
 
 /// Where a case stands: an accurate one at its part of the tolerance, the others above all of these.
 fn height(row: &Row) -> f64 {
     match row.verdict {
-        Verdict::Accurate => row.part_of_tolerance().unwrap_or(0.0).max(SMALLEST),
+        Verdict::Accurate => row.part_of_tolerance().unwrap_or(0.0).max(MIN_DRAWN_PART),
         Verdict::Refused => 5.0,
         Verdict::Wrong => 20.0,
     }
@@ -138,13 +140,13 @@ fn height(row: &Row) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::case::{compare, judge};
+    use super::case::judge;
     use super::*;
 
     #[test]
     fn a_wrong_case_fails_the_experiment_and_is_named() {
         let family: Family = toml::from_str("name = 'line, test'\nparameter = 'p'").expect("TOML");
-        let beside_one = |p| compare!(within 1e-9; "p" => p, 1.0);
+        let beside_one = |p| Ok(Row::relative("p", [p, 1.0], 1e-9));
         let cases = [1.0, 2.0].map(|value| (&family, beside_one, value));
         let rows = judge(&cases).expect("rows");
         let report = report_of(&rows).expect("a report");

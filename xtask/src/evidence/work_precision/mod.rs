@@ -12,10 +12,11 @@ use casebook::{HERTZ_DEPTH, deviation};
 use serde::{Deserialize, Serialize};
 use viscofriction::scene::{Accuracy, Method, Model, Scene};
 
+use super::Report;
 use super::fit::clear_exponent;
 use super::request::{Request, presses};
-use super::{Report, Table};
-use crate::output::{markdown_table, points};
+use crate::output::points;
+use crate::table::{Table, markdown_table};
 use crate::tasks::in_turn;
 use measured::{DEPTH, Found, Measured, Row};
 
@@ -91,8 +92,8 @@ pub(super) fn report(quick: bool) -> Result<Report> {
 /// Runs of each method in a quick measurement, from the coarsest on.
 const QUICK_RUNS: usize = 3;
 /// Elements along the edges of the grids of the Hertz contact, and of the rough surface.
-const EDGES: [usize; 5] = [128, 256, 512, 1024, 2048];
-const QUICK_EDGES: [usize; 3] = [32, 64, 128];
+const HERTZ_EDGES: [usize; 5] = [128, 256, 512, 1024, 2048];
+const QUICK_HERTZ_EDGES: [usize; 3] = [32, 64, 128];
 const ROUGH_EDGE: usize = 512;
 const QUICK_ROUGH_EDGE: usize = 64;
 
@@ -117,7 +118,14 @@ fn measure(quick: bool) -> Result<Measured> {
             measured.add_scene(name, scene, &requests.collect::<Vec<_>>())
         },
     )?;
-    hertz(&mut measured, if quick { &QUICK_EDGES } else { &EDGES });
+    hertz(
+        &mut measured,
+        if quick {
+            &QUICK_HERTZ_EDGES
+        } else {
+            &HERTZ_EDGES
+        },
+    );
     rough(
         &mut measured,
         if quick { QUICK_ROUGH_EDGE } else { ROUGH_EDGE },
@@ -126,10 +134,10 @@ fn measure(quick: bool) -> Result<Measured> {
 }
 
 /// Tolerance of the Hertz contact, far below the error of its grids.
-const TOLERANCE: f64 = 1e-9;
+const HERTZ_TOLERANCE: f64 = 1e-9;
 /// Tolerances on the rough surface.
-const TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
-const REFERENCE_TOLERANCE: f64 = 1e-12;
+const ROUGH_TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
+const ROUGH_REFERENCE_TOLERANCE: f64 = 1e-12;
 
 /// The depth of the Hertz contact on grids with these edges; the convolution is made in the time that is measured.
 fn hertz(measured: &mut Measured, edges: &[usize]) {
@@ -145,7 +153,7 @@ fn hertz(measured: &mut Measured, edges: &[usize]) {
             ..Row::of_one_instant()
         };
         measured.add(run, || {
-            let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(TOLERANCE)?;
+            let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(HERTZ_TOLERANCE)?;
             Ok(found(&state, &[contact.indentation_depth], &[HERTZ_DEPTH]))
         });
     }
@@ -154,15 +162,15 @@ fn hertz(measured: &mut Measured, edges: &[usize]) {
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
 fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
     let scene = ContactScene::periodic(rough_heights(edge, 0)?)?;
-    let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
-    for tolerance in TOLERANCES {
+    let (contact, exact) = scene.solve(ROUGH_REFERENCE_TOLERANCE)?;
+    for tolerance in ROUGH_TOLERANCES {
         let run = Row {
             scene: "rough surface".to_owned(),
             quantity: "pressure",
             resolution_kind: "tolerance",
             resolution: Some(tolerance),
-            reference: format!("the same grid to {REFERENCE_TOLERANCE:e}"),
-            reference_error: contact.residual.max(REFERENCE_TOLERANCE),
+            reference: format!("the same grid to {ROUGH_REFERENCE_TOLERANCE:e}"),
+            reference_error: contact.residual.max(ROUGH_REFERENCE_TOLERANCE),
             ..Row::of_one_instant()
         };
         measured.add(run, || {

@@ -8,7 +8,7 @@ use super::measured::Row;
 use crate::picture::{chart as chart_of, guide};
 
 /// Errors of references that are drawn; smaller ones do not matter.
-const VISIBLE: f64 = 1e-9;
+const MIN_DRAWN_FLOOR: f64 = 1e-9;
 
 /// The scenes of one picture; all panels have the same axes.
 pub(super) fn figure(rows: &[&Row]) -> Figure {
@@ -74,7 +74,7 @@ fn style(row: &Row) -> (Colour, Marker) {
 
 /// The error of the reference, where it is large enough to be in the way.
 fn visible_floor(row: &Row) -> Option<f64> {
-    (row.reference_error > VISIBLE).then_some(row.reference_error)
+    (row.reference_error > MIN_DRAWN_FLOOR).then_some(row.reference_error)
 }
 
 /// The line of that error for one model.

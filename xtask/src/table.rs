@@ -1,0 +1,170 @@
+//! Tables: files of comma-separated values, some of which grow, and what is printed of them in Markdown.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use comfy_table::Row;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::output::write_atomically;
+use crate::tasks::in_parallel;
+
+/// A file of comma-separated values.
+#[derive(Debug)]
+pub(crate) struct Table {
+    pub(crate) name: &'static str,
+    pub(crate) contents: String,
+}
+
+impl Table {
+    pub(crate) fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
+        let contents = to_csv(rows)?;
+        Ok(Self { name, contents })
+    }
+
+    /// Writes `NAME.csv` into a folder.
+    pub(crate) fn write(&self, folder: &Path) -> Result<()> {
+        let path = folder.join(self.name).with_extension("csv");
+        write_atomically(&path, self.contents.as_bytes())
+    }
+
+    /// Some columns, separated by blanks, in Markdown; numbers only as far as their `…_error` says that they are known.
+    pub(crate) fn markdown(&self, columns: &str) -> Result<String> {
+        let columns = columns.split_whitespace();
+        let mut reader = csv::Reader::from_reader(self.contents.as_bytes());
+        let names = reader.headers()?.clone();
+        let place = |column: &str| names.iter().position(|name| name == column);
+        let mut lines = Vec::new();
+        for record in reader.records() {
+            let record = record?;
+            let number = |place: usize| record[place].parse::<f64>().ok();
+            let mut line = Vec::new();
+            for column in columns.clone() {
+                let cell = place(column).with_context(|| format!("no column {column}"))?;
+                let error = place(&format!("{column}_error")).and_then(number);
+                line.push(match number(cell) {
+                    Some(value) => known_digits(value, error),
+                    None => record[cell].to_owned(),
+                });
+            }
+            lines.push(line);
+        }
+        let header: Vec<String> = columns.map(|name| name.replace('_', " ")).collect();
+        Ok(markdown_table(&header, lines).to_string())
+    }
+}
+
+/// Items whose rows are computed before they are written, of many that take seconds each.
+pub(crate) const ROWS_AT_ONCE: usize = 64;
+
+/// A table whose file is written as it grows, so that an interrupted run goes on where it was.
+pub(crate) struct GrowingTable<R> {
+    pub(crate) file: PathBuf,
+    pub(crate) rows: Vec<R>,
+}
+
+impl<R: Serialize + Send> GrowingTable<R> {
+    /// The rows of a file; none if it is not there.
+    pub(crate) fn open(file: PathBuf) -> Result<Self>
+    where
+        R: DeserializeOwned,
+    {
+        let rows = file.exists().then(|| read_csv(&file)).transpose()?;
+        let rows = rows.unwrap_or_default();
+        Ok(Self { file, rows })
+    }
+
+    /// Adds the rows of all items, and writes the file after so many of them.
+    pub(crate) fn extend<T: Sync>(
+        &mut self,
+        items: &[T],
+        at_once: usize,
+        run: impl Fn(&T) -> Result<Vec<R>> + Sync + Send,
+    ) -> Result<()> {
+        let name = self.file.file_stem().unwrap_or_default().display();
+        for (chunk, some) in items.chunks(at_once).enumerate() {
+            let task = format!("{name}, {} of {}", chunk * at_once, items.len());
+            let found = in_parallel(task, some, &run)?;
+            self.rows.extend(found.into_iter().flatten());
+            self.write()?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn write(&self) -> Result<()> {
+        write_atomically(&self.file, to_csv(&self.rows)?.as_bytes())
+    }
+}
+
+/// CSV with a header line; numbers read back to the same f64.
+pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// Reads a table that [`to_csv`] wrote.
+pub(crate) fn read_csv<R: DeserializeOwned>(path: &Path) -> Result<Vec<R>> {
+    let rows = std::fs::read(path).map_err(Into::into);
+    let rows = rows.and_then(|contents| parse_csv(&contents));
+    rows.with_context(|| format!("reading {}", path.display()))
+}
+
+pub(crate) fn parse_csv<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<R>> {
+    Ok(csv::Reader::from_reader(contents)
+        .into_deserialize()
+        .collect::<Result<_, _>>()?)
+}
+
+/// A table in Markdown, to be printed.
+pub(crate) fn markdown_table<R: Into<Row>>(
+    header: impl Into<Row>,
+    rows: impl IntoIterator<Item = R>,
+) -> comfy_table::Table {
+    let mut table = comfy_table::Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(header);
+    table.add_rows(rows);
+    table
+}
+
+/// Four digits, or fewer if the error is larger than a unit of the last one.
+pub(crate) fn known_digits(value: f64, error: Option<f64>) -> String {
+    if value == 0.0 || value.fract() == 0.0 && value.abs() < 1e6 {
+        return value.to_string();
+    }
+    let first = value.abs().log10().floor();
+    let last = error.map_or(f64::NEG_INFINITY, |error| error.log10().ceil());
+    let is_below = |count: f64| move |&digit: &usize| (digit as f64) < count;
+    let decimals = |count| (0..20).take_while(is_below(count)).count();
+    if (-3.0..6.0).contains(&first) {
+        let last = last.max(first - 3.0);
+        return format!("{value:.*}", decimals(-last));
+    }
+    format!("{value:.*e}", decimals((first - last).min(2.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_known_digits_are_printed() {
+        for (value, error, expected) in [
+            (0.271_8, Some(8e-3), "0.27"),
+            (0.271_8, Some(0.6), "0"),
+            (1.882e-5, Some(4e-8), "1.88e-5"),
+            (1.882e-5, Some(4e-7), "1.9e-5"),
+            (1.882e-5, None, "1.88e-5"),
+            (97_736.0, None, "97736"),
+            (12.345_67, None, "12.35"),
+            (0.0, Some(0.0), "0"),
+        ] {
+            let got = known_digits(value, error);
+            assert_eq!(got, expected, "{value} ± {error:?}");
+        }
+    }
+}
