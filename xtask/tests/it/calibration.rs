@@ -11,10 +11,10 @@ fn may_be(part: f64, [held, all]: [usize; 2]) -> bool {
 }
 
 /// Without the errors of the references, of the answers whose references are sharp: 95 % of each method, by elements or to
-/// an error, with 20 of them or more, and 99 % of all together.
+/// an error, with nine of them or more, and 99 % of all together.
 #[test]
 fn error_bars_hold_on_random_scenes() {
-    let evidence = Evidence::quick("calibration", "calibration --scenes 75");
+    let evidence = Evidence::quick("calibration", "calibration --scenes 48 --seed 23");
     let rows = evidence.rows("calibration");
     let mut methods: BTreeMap<[&str; 2], [usize; 2]> = BTreeMap::new();
     for row in &rows {
@@ -28,7 +28,7 @@ fn error_bars_hold_on_random_scenes() {
         *all += is_sharp;
     }
     let total: [usize; 2] = [0, 1].map(|part| methods.values().map(|counts| counts[part]).sum());
-    let large: Vec<_> = methods.iter().filter(|(_, [_, all])| *all >= 15).collect();
+    let large: Vec<_> = methods.iter().filter(|(_, [_, all])| *all >= 9).collect();
     for (method, [held, all]) in &large {
         assert!(
             may_be(0.95, [*held, *all]),
@@ -37,7 +37,7 @@ fn error_bars_hold_on_random_scenes() {
     }
     let [held, all] = total;
     assert!(may_be(0.99, total), "{held} of {all} hold: {methods:?}");
-    assert!(all >= 125 && large.len() >= 3, "too few: {methods:?}");
+    assert!(all >= 85 && large.len() >= 4, "too few: {methods:?}");
 }
 
 #[test]

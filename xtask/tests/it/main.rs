@@ -1,6 +1,7 @@
 //! What a maintainer types, and what comes back; one binary, one module per claim.
 
 mod agreement;
+mod bars;
 mod calibration;
 mod commands;
 mod kinds;
