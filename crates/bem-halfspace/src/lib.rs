@@ -34,12 +34,29 @@ pub mod contact;
 mod elements;
 mod error;
 mod estimate;
+mod march;
 mod motions;
 mod parallel;
 mod stationary;
-mod stepping;
 mod substrate;
 mod transform;
+
+/// Periodic surfaces, rough and wavy ones: stationary sliding, pressing, sliding from rest, and any motion.
+///
+/// Theory: docs/theory/stationary-half-space.md, "Periodic surfaces", and transient-half-space.md, "Motions".
+pub mod periodic {
+    pub use crate::march::periodic::{PeriodicRow, PeriodicTransient, slide_on_grid};
+    #[cfg(feature = "rough")]
+    pub use crate::motions::periodic::{elements_of_motion, move_along, move_along_memory};
+    pub use crate::stationary::periodic::{
+        PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_on_grid,
+    };
+    #[cfg(feature = "rough")]
+    pub use crate::stationary::periodic::{
+        PeriodicEstimate, elements_for_bars, fewest_elements, indent, indent_on_coarse_grid,
+        largest_grid, memory, sensitivity, slide, steady, steady_on_coarse_grid,
+    };
+}
 
 /// Compiles the program of README.md as a test.
 #[cfg(doctest)]
@@ -66,7 +83,7 @@ pub use periodic::{
 };
 pub use rheology::layer_factor;
 pub use slide::{PressureField, slide_along, slide_on_grid};
-pub use stationary::{periodic, steady};
+pub use stationary::steady;
 pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
 pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;

@@ -22,9 +22,9 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::elements::footprint::Footprint;
 use crate::estimate::bars::order_of_friction;
 use crate::estimate::plan::GridPlan;
+use crate::march::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::motions::indent::footprint_after;
 use crate::motions::slide::{March, Motion, MotionRow};
-use crate::stepping::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, Elastomer, GridOptions, Reached};
 
 /// Elements along the contact on which a relative error is first sought. The work grows with their third power, and most strokes

@@ -4,6 +4,8 @@
 
 pub(crate) mod along_surface;
 pub mod indent;
+#[cfg(feature = "rough")]
+pub(crate) mod periodic;
 pub mod slide;
 
 pub use along_surface::{move_along, move_along_memory};

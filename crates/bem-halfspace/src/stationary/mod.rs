@@ -1,10 +1,10 @@
-//! Stationary sliding, solved directly: single bodies and profiles ([`mod@steady`]), and periodic surfaces ([`periodic`]).
+//! Stationary sliding, solved directly: single bodies and profiles ([`mod@steady`]), and periodic surfaces ([`periodic`](crate::periodic)).
 //!
 //! Theory: docs/theory/stationary-half-space.md.
 
 mod conjugate_residuals;
 mod exchange_rule;
-pub mod periodic;
+pub(crate) mod periodic;
 mod search;
 pub mod steady;
 

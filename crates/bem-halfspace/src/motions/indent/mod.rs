@@ -12,8 +12,8 @@ mod press;
 use indenters::{HistoryPoint, Surface};
 
 use crate::error::check_contact_elements;
-pub use crate::stepping::MotionRow;
-use crate::stepping::{March, Motion};
+pub use crate::march::MotionRow;
+use crate::march::{March, Motion};
 use crate::{BemError, Elastomer, GridOptions};
 pub use follow::{IndentCurve, IndentPoint, indent_along, indent_along_memory};
 pub use history::{HistoryOptions, IndentHistory, indent_history};

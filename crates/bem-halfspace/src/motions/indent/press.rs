@@ -15,7 +15,7 @@ use crate::error::check_contact_elements;
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
-use crate::stepping::{March, Motion};
+use crate::march::{March, Motion};
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
 /// Elements along the contact on the finest grid of a pressed contact.

@@ -19,7 +19,7 @@ mod transient;
 use indenters::{SlidingLoad, Surface};
 
 pub use crate::elements::pressure_field::PressureField;
-pub use crate::stepping::{March, Motion, MotionRow};
+pub use crate::march::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
 pub use refined::{SlideEstimate, slide, slide_memory};
 pub use stationary_limit::{

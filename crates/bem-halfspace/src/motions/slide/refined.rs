@@ -12,11 +12,11 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
+use crate::march::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT};
 use crate::motions::slide::stationary_limit::slide_until_stationary;
 use crate::motions::slide::{
     March, PressureField, SlideRow, StationaryOptions, Transient, follow_march,
 };
-use crate::stepping::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT};
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
 /// Largest number of elements along the contact; a march on it takes about a minute.

@@ -5,10 +5,10 @@ use std::cell::RefCell;
 use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, Request, positive};
 
+use crate::march::periodic::{PeriodicTransient, Steps, slide_with};
 use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::depth::{SlidingSurface, hold};
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::periodic::march::{Steps, slide_with};
 use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::stationary::periodic::refinement::{
     AREA_RATE, FIRST_ORDER_RATE, FIRST_TOLERANCE, FRICTION_RATE, GridResult, RefinementGoal,
@@ -16,7 +16,7 @@ use crate::stationary::periodic::refinement::{
 };
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{
-    PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, solve_from,
+    PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, solve_from,
 };
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
@@ -172,7 +172,7 @@ fn on_coarse_grid(
 /// the first order in the spacing, and the work grows with its inverse third power, so that errors below some per cent take long.
 ///
 /// # Errors
-/// Those of [`slide_on_grid`](super::slide_on_grid), and [`BemError::NotReached`] and [`BemError::GridTooLarge`] as for [`steady`],
+/// Those of [`slide_on_grid`](crate::periodic::slide_on_grid), and [`BemError::NotReached`] and [`BemError::GridTooLarge`] as for [`steady`],
 /// also if a march that is fine enough would take longer than about half an hour.
 pub fn slide<'w>(
     surface: &PeriodicSurface,

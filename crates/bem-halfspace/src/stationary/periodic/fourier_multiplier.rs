@@ -10,18 +10,18 @@ use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 
 /// Plans and wave numbers of a grid, for products with symbols by the waves that it resolves.
-pub(super) struct FourierMultiplier {
+pub(crate) struct FourierMultiplier {
     shape: [usize; 2],
     double: Option<Transforms<f64>>,
     single: Option<Transforms<f32>>,
     /// q_x of the rows of a transformed field, \[rad/m]; positive for the shortest wave.
-    pub(super) along_x: Vec<f64>,
+    pub(crate) along_x: Vec<f64>,
     /// |q|/M of all waves by column and row of the transform, \[rad/m]; for the mean that of the longest wave.
     stiffness: Vec<f64>,
 }
 
 impl FourierMultiplier {
-    pub(super) fn new(grid: &Grid, base: &Base) -> Self {
+    pub(crate) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
         let unit_x = 2.0 * PI / (rows as f64 * dx);
@@ -51,7 +51,7 @@ impl FourierMultiplier {
     /// Multiplies every wave of a field by `symbol(row, [q_x, |q|/M])`, with its row in the transform and wave numbers \[rad/m].
     ///
     /// For the mean, |q|/M is that of the longest wave. Allocates only at the first call.
-    pub(super) fn apply(
+    pub(crate) fn apply(
         &mut self,
         field: &[f64],
         result: &mut [f64],
@@ -72,7 +72,7 @@ impl FourierMultiplier {
     /// Trigonometric interpolation of a field at a distance from the centres, in elements along both axes. The field must not
     /// contain the shortest wave of the grid.
     #[cfg(feature = "rough")]
-    pub(super) fn shift(&mut self, field: &[f64], result: &mut [f64], offset: [f64; 2]) {
+    pub(crate) fn shift(&mut self, field: &[f64], result: &mut [f64], offset: [f64; 2]) {
         let turns = [0, 1].map(|axis| 2.0 * PI * offset[axis] / self.shape[axis] as f64);
         let rows = self.shape[0];
         let number = |row: usize| row as f64 - if 2 * row > rows { rows as f64 } else { 0.0 };
@@ -90,7 +90,7 @@ impl FourierMultiplier {
     }
 
     /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision).
-    pub(super) fn symbols(
+    pub(crate) fn symbols(
         &self,
         symbol: impl Fn(usize, f64) -> Complex<f64> + Sync,
     ) -> Vec<Complex<f32>> {
@@ -107,7 +107,7 @@ impl FourierMultiplier {
     }
 
     /// Multiplies every wave by its symbol, in single precision. Allocates only at the first call.
-    pub(super) fn apply_single_precision(
+    pub(crate) fn apply_single_precision(
         &mut self,
         field: &[f32],
         result: &mut [f32],

@@ -21,16 +21,16 @@ use crate::{Base, BemError, Elastomer, Grid};
 
 /// A material under a surface that slides.
 #[derive(Debug, Clone)]
-pub(super) struct Sliding {
+pub(crate) struct Sliding {
     pub(super) creep: CreepSpectrum,
     /// 1 − ν, for the Poisson ratio ν.
-    pub(super) factor: f64,
+    pub(crate) factor: f64,
     velocity: f64,
     base: Base,
 }
 
 impl Sliding {
-    pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
+    pub(crate) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         if creep.fluidity() > 0.0 {
@@ -71,7 +71,7 @@ impl Sliding {
     }
 
     /// Sliding speed, \[m/s].
-    pub(super) const fn velocity(&self) -> f64 {
+    pub(crate) const fn velocity(&self) -> f64 {
         self.velocity
     }
 
@@ -92,7 +92,7 @@ impl Sliding {
     }
 
     /// (1 − ν) (J' + i J'') for each q_x \[rad/m], \[1/Pa].
-    pub(super) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
+    pub(crate) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
         let compliance = |q_x: &f64| {
             let compliance = self.creep.complex_compliance(self.frequency(*q_x))?;
             positive("storage compliance", compliance.storage)?;

@@ -91,7 +91,7 @@ impl PeriodicLoad {
     }
 
     /// Mean pressure \[Pa] and sliding distance \[m] of a march from rest; fails if one of them is missing.
-    pub(super) fn require_march(&self) -> Result<(f64, f64), BemError> {
+    pub(crate) fn require_march(&self) -> Result<(f64, f64), BemError> {
         let PeriodicControl::MeanPressure(pressure) = self.control else {
             return Err(BemError::DepthFromRest);
         };

@@ -25,18 +25,15 @@ mod depth;
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
-mod kernel;
+pub(crate) mod kernel;
 mod load;
-mod march;
-#[cfg(feature = "rough")]
-mod moving;
-mod nested;
+pub(crate) mod nested;
 #[cfg(feature = "rough")]
 mod perimeter_error;
 #[cfg(feature = "rough")]
 mod refinement;
 
-mod fourier_multiplier;
+pub(crate) mod fourier_multiplier;
 #[cfg(feature = "rough")]
 pub mod sensitivity;
 #[cfg(feature = "rough")]
@@ -59,9 +56,6 @@ pub use estimate::{
 };
 use kernel::Sliding;
 pub use load::{PeriodicControl, PeriodicLoad};
-pub use march::{PeriodicRow, PeriodicTransient, slide_on_grid};
-#[cfg(feature = "rough")]
-pub use moving::{elements_of_motion, move_along, move_along_memory};
 #[cfg(feature = "rough")]
 pub use refinement::{elements_for_bars, fewest_elements, largest_grid, memory};
 
@@ -188,7 +182,7 @@ impl PeriodicOptions {
     }
 }
 
-fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError> {
+pub(crate) fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError> {
     let [rows, columns] = grid.shape();
     check_length("heights", heights.len(), grid.n_elements())?;
     let allowed = "at least 2";

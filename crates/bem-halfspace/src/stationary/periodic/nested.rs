@@ -125,7 +125,7 @@ fn prolong(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
 }
 
 /// A periodic field on another number of elements, bilinear between the centres of its own.
-pub(super) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
+pub(crate) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
     // The two nearest elements along an axis, and the weight of the second.
     let neighbours = |axis: usize| -> Vec<([usize; 2], f64)> {
         let [n, finer] = [from[axis], to[axis]];

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 use numerics::in_range;
 
 use crate::BemError;
-use crate::stepping::{March, ScheduledStep};
+use crate::march::free::{March, ScheduledStep};
 
 /// Slopes of the body over the loaded elements, weighted with their pressure; all zero without contact.
 #[derive(Debug, Clone, Copy, Default)]

@@ -1,7 +1,7 @@
 //! Motions of a periodic surface with error bars: reciprocating up to the limit cycle, or along a path through points.
 //!
 //! The elements are fixed in the material, and the surface is shifted over them by any distance, since the grids resolve all its
-//! waves. The pressure is constant in each step, as in [marches](super::march), and exact in full contact; a cycle in full contact
+//! waves. The pressure is constant in each step, as in [marches](crate::march::periodic), and exact in full contact; a cycle in full contact
 //! has a closed form. In partial contact the error is of the first order in the spacing, and so is that of the steps, which are
 //! refined with the elements.
 //!
@@ -19,14 +19,14 @@ use numerics::{Accuracy, ErrorParts, Goal, MAX_STORED_STATES, Request, refine};
 use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
+use crate::march::periodic::PeriodicMarch;
+use crate::march::{MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::motions::along_surface::{
     LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, cycle_tolerance, moved_if_reached,
     slowest_retardation_time,
 };
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::stationary::periodic::march::PeriodicMarch;
 use crate::stationary::periodic::nested::interpolated;
-use crate::stepping::{MARCH_WORK_EXPONENT, MAX_STEPS};
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 use full_contact::{Closed, value_of_row};
 use stresses::{Spectra, WaveMotion, WaveStates};
@@ -81,7 +81,7 @@ const BYTES_PER_WAVE: f64 = 80.0;
 /// [`BemError::NotReached`] with the result on the finest grid allowed; [`BemError::NoCycle`] for reciprocation on a material that
 /// flows; [`BemError::NotPeriodic`]; [`BemError::DepthFromRest`]; [`BemError::Indenter`] for a path that is too long
 /// for the elements that the shortest waves need; [`BemError::PeriodTooCoarse`] for too few elements; otherwise like
-/// [`slide`](super::slide).
+/// [`slide`](crate::periodic::slide).
 pub fn move_along<'w>(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,

@@ -62,13 +62,13 @@ pub struct PeriodicTransient {
 /// Presses a periodic surface into a material at rest and slides it over the sliding distance of the load, in steps of one element.
 ///
 /// The first step is shorter if the distance is not a multiple of an element. `heights` are those of
-/// [`steady_on_grid`](super::steady_on_grid), whose state is reached after some contact lengths, once the slowest relevant
+/// [`steady_on_grid`](crate::periodic::steady_on_grid), whose state is reached after some contact lengths, once the slowest relevant
 /// relaxation is over.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a velocity of 0; [`BemError::SlidingDistanceMissing`]; [`BemError::DepthFromRest`];
 /// [`BemError::GridTooLarge`] for a distance
-/// of too many elements; otherwise those of [`steady_on_grid`](super::steady_on_grid).
+/// of too many elements; otherwise those of [`steady_on_grid`](crate::periodic::steady_on_grid).
 pub fn slide_on_grid(
     grid: &Grid,
     heights: &[f64],
@@ -85,16 +85,16 @@ pub fn slide_on_grid(
 }
 
 /// Options of a march.
-pub(super) struct Steps<'a> {
+pub(crate) struct Steps<'a> {
     /// Number of steps per element of the distance, an integer.
-    pub(super) per_element: f64,
-    pub(super) options: ContactOptions,
+    pub(crate) per_element: f64,
+    pub(crate) options: ContactOptions,
     /// Reports the finished fraction of the march.
-    pub(super) report: &'a dyn Fn(f64),
+    pub(crate) report: &'a dyn Fn(f64),
 }
 
 /// [`slide_on_grid`] with options of the march.
-pub(super) fn slide_with(
+pub(crate) fn slide_with(
     grid: &Grid,
     heights: &[f64],
     elastomer: &dyn Elastomer,
@@ -140,7 +140,7 @@ pub(super) fn slide_with(
 }
 
 /// The elements of a period, with the history variables of the material under them.
-pub(super) struct PeriodicMarch<'a> {
+pub(crate) struct PeriodicMarch<'a> {
     /// Heights of the surface at the centres of the elements, as given, \[m].
     given: &'a [f64],
     creep: CreepSpectrum,
@@ -152,12 +152,12 @@ pub(super) struct PeriodicMarch<'a> {
     slopes: Vec<f64>,
     convolution: Convolution,
     workspace: ConvolutionWorkspace,
-    pub(super) state: ContactState,
+    pub(crate) state: ContactState,
     step: ExponentialStep,
     /// 2 (1 − ν).
     factor: f64,
     /// History variables, field after field.
-    pub(super) memory: Vec<f64>,
+    pub(crate) memory: Vec<f64>,
     /// Heights plus displacement by the history, without load, \[m].
     separation: Vec<f64>,
     /// 2 (1 − ν) w, the input of the history variables.
@@ -166,7 +166,7 @@ pub(super) struct PeriodicMarch<'a> {
 
 impl<'a> PeriodicMarch<'a> {
     /// A march that begins on a material at rest.
-    pub(super) fn new(
+    pub(crate) fn new(
         grid: &Grid,
         heights: &'a [f64],
         elastomer: &dyn Elastomer,
@@ -197,13 +197,13 @@ impl<'a> PeriodicMarch<'a> {
 
     /// Number of rows of elements along x.
     #[cfg(feature = "rough")]
-    pub(super) fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.convolution.grid().shape()[0]
     }
 
     /// Sets the duration \[s] of the next steps, and the surface at their end: by row of the transform, the waves of the heights
     /// are multiplied by the first symbol, and those of the slopes by the second.
-    pub(super) fn set_step(
+    pub(crate) fn set_step(
         &mut self,
         time_step: f64,
         symbols: impl Fn(usize) -> [Complex<f64>; 2] + Sync,
@@ -253,7 +253,7 @@ impl<'a> PeriodicMarch<'a> {
     }
 
     /// Solves the contact at the end of a step; distance and time are not filled in.
-    pub(super) fn step(
+    pub(crate) fn step(
         &mut self,
         mean_pressure: f64,
         options: &ContactOptions,

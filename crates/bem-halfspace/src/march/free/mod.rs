@@ -13,8 +13,8 @@
 //!
 //! Theory: docs/theory/transient-half-space.md, "Elements and steps" and "The contact of one step".
 
+mod history;
 mod march;
-mod material_history;
 mod motion;
 mod schedule;
 mod slopes;
@@ -33,10 +33,10 @@ use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
 use crate::{BemError, Elastomer, GridOptions};
+use history::MaterialHistory;
 pub(crate) use march::{
     BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS,
 };
-use material_history::MaterialHistory;
 pub use motion::{Motion, MotionRow};
 use schedule::{Schedule, ScheduledStep};
 use slopes::MeanSlopes;
