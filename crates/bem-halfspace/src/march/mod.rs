@@ -4,14 +4,39 @@
 //! u_new = 2 (1 − ν) α w + H,        w = K P / (4π)        at the end of a step
 //! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
 //! ```
-//! α is the compliance of the step and H the displacement that its end would have without load. A material with retardation
-//! elements keeps one history variable per element of the grid and retardation element, and both α and H are exact for any Δt
-//! ([`rheology::ExponentialStep`]).
+//! α is the compliance of the step and H the displacement that its end would have without load, both exact for any Δt
+//! ([`rheology::ExponentialStep`]). H follows from the history variables of each element. Every step is an elastic contact of
+//! compliance 2 (1 − ν) α under an indenter of height h + H, after which the history variables are advanced by w.
+//!
+//! Free bodies ([`free`]) and periodic surfaces ([`periodic`]) differ in the elements that are followed, and in how the heights
+//! and slopes of the surface are found at the end of a step.
 //!
 //! Theory: docs/theory/transient-half-space.md.
 
 pub(crate) mod free;
 pub(crate) mod periodic;
 
-pub(crate) use free::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS};
+use rheology::CreepSpectrum;
+
 pub use free::{March, Motion, MotionRow};
+
+/// Number of steps above which a march, or one cycle of it, is refused; chosen.
+pub(crate) const MAX_STEPS: f64 = 1e5;
+/// Power of the elements along the contact with which the work of a march grows: elements along x and y, times as many steps.
+pub(crate) const MARCH_WORK_EXPONENT: f64 = 3.0;
+/// Memory per followed element without its history variables, \[bytes].
+pub(crate) const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
+/// Memory per step of a march, \[bytes].
+pub(crate) const BYTES_PER_STEP: f64 = 600.0;
+
+/// Number of history variables of an element under loads that are held over each step: one per retardation element, and one for free
+/// flow.
+pub(crate) fn n_history_variables(creep: &CreepSpectrum) -> usize {
+    creep.elements().len() + usize::from(creep.fluidity() > 0.0)
+}
+
+/// Largest retardation time, \[s]; 0 without any.
+pub(crate) fn largest_retardation_time(creep: &CreepSpectrum) -> f64 {
+    let slowest = creep.elements().last();
+    slowest.map_or(0.0, |element| element.retardation_time)
+}

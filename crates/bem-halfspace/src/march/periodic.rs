@@ -1,10 +1,10 @@
-//! Sliding of a periodic surface from rest, step by step in time.
+//! The march of a periodic surface, and its sliding from rest.
 //!
 //! The elements move with the surface, and the material passes them by one element per step, or by a fraction of one. Over a step
 //! the pressure of a material point is constant:
 //!
 //! ```text
-//! u = 2 (1 − ν) α w + history,        w = K p / (4π)        at the end of the step
+//! u = 2 (1 − ν) α w + H,        w = K p / (4π)        at the end of the step
 //! ```
 //!
 //! A wave with the frequency ω = q_x v therefore has the compliance J_Δ of piecewise constant inputs instead of J. The march takes
@@ -154,12 +154,12 @@ pub(crate) struct PeriodicMarch<'a> {
     workspace: ConvolutionWorkspace,
     pub(crate) state: ContactState,
     step: ExponentialStep,
-    /// 2 (1 − ν).
-    factor: f64,
+    /// 2 (1 − ν), the factor from α w to the displacement.
+    half_space_factor: f64,
     /// History variables, field after field.
-    pub(crate) memory: Vec<f64>,
-    /// Heights plus displacement by the history, without load, \[m].
-    separation: Vec<f64>,
+    pub(crate) history: Vec<f64>,
+    /// h + H, the gap at zero depth and without load, \[m].
+    initial_gap: Vec<f64>,
     /// 2 (1 − ν) w, the input of the history variables.
     input: Vec<f64>,
 }
@@ -187,9 +187,9 @@ impl<'a> PeriodicMarch<'a> {
             state: ContactState::new(&convolution),
             workspace: convolution.workspace(),
             convolution,
-            factor: elastomer.material().half_space_factor(),
-            memory: vec![0.0; n * step.n_fields()],
-            separation: vec![0.0; n],
+            half_space_factor: elastomer.material().half_space_factor(),
+            history: vec![0.0; n * step.n_fields()],
+            initial_gap: vec![0.0; n],
             input: vec![0.0; n],
             step,
         })
@@ -247,7 +247,7 @@ impl<'a> PeriodicMarch<'a> {
     /// Shifts the history variables by one element.
     fn shift_history(&mut self) {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
-        for field in self.memory.chunks_exact_mut(n) {
+        for field in self.history.chunks_exact_mut(n) {
             field.rotate_left(columns);
         }
     }
@@ -259,19 +259,29 @@ impl<'a> PeriodicMarch<'a> {
         options: &ContactOptions,
     ) -> Result<PeriodicRow, BemError> {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
-        self.step.history(&self.memory, &mut self.separation);
-        add_scaled(&mut self.separation, 1.0, &self.heights);
+        // Height and displacement without load at the end of the step.
+        self.step.history(&self.history, &mut self.initial_gap);
+        add_scaled(&mut self.initial_gap, 1.0, &self.heights);
+
+        // The contact of an elastic half space of compliance 2 (1 − ν) α on this gap.
         let area = n as f64 * self.convolution.grid().element_area();
         let problem = ContactProblem {
             convolution: &self.convolution,
-            separation: &self.separation,
-            compliance: self.factor * self.step.response(),
+            separation: &self.initial_gap,
+            compliance: self.half_space_factor * self.step.response(),
             largest_pressure: f64::INFINITY,
             control: Control::NormalForce(mean_pressure * area),
         };
         let contact = solve_contact(&problem, &mut self.state, options)?;
-        self.advance_history();
+
+        // The material to the end of the step.
         let pressure = self.state.pressure();
+        self.convolution
+            .apply(&mut self.workspace, pressure, &mut self.input);
+        let per_load = self.half_space_factor / (4.0 * PI);
+        self.input.iter_mut().for_each(|value| *value *= per_load);
+        self.step.advance(&self.input, &mut self.history);
+
         Ok(PeriodicRow {
             sliding_distance: 0.0,
             time: 0.0,
@@ -279,16 +289,6 @@ impl<'a> PeriodicMarch<'a> {
             area_fraction: area::area_fraction(columns, pressure).area,
             mean_depth: contact.indentation_depth - self.mean_height,
         })
-    }
-
-    /// Advances the history variables by the step under the present pressure.
-    fn advance_history(&mut self) {
-        let pressure = self.state.pressure();
-        self.convolution
-            .apply(&mut self.workspace, pressure, &mut self.input);
-        let per_load = self.factor / (4.0 * PI);
-        self.input.iter_mut().for_each(|value| *value *= per_load);
-        self.step.advance(&self.input, &mut self.memory);
     }
 }
 

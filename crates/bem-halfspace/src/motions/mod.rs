@@ -2,7 +2,8 @@
 //!
 //! Theory: docs/theory/transient-half-space.md.
 
-pub(crate) mod along_surface;
+mod along_surface;
+mod any_motion;
 pub mod indent;
 #[cfg(feature = "rough")]
 pub(crate) mod periodic;

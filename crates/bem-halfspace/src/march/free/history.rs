@@ -25,7 +25,7 @@ pub(super) struct MaterialHistory {
     /// 2 (1 − ν) α w of the present step; [`advance`](Self::advance) with history variables leaves 2 (1 − ν) w.
     increment: Vec<f64>,
     /// History variables, `[row][field][column]`: rows that a step needs are contiguous.
-    variables: Vec<f64>,
+    pub(super) variables: Vec<f64>,
     /// History variables per element.
     pub(super) n_fields: usize,
 }
@@ -66,11 +66,6 @@ impl MaterialHistory {
     fn row_variables(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
         &self.variables[rows.start * per_row..rows.end * per_row]
-    }
-
-    /// All history variables, `[row][field][column]`.
-    pub(super) fn variables_mut(&mut self) -> &mut [f64] {
-        &mut self.variables
     }
 
     /// Writes H, the displacement at the end of a step without load, for the rows from `first_row` on.

@@ -1,11 +1,4 @@
-//! Time stepping of the contact on any linear viscoelastic half space or layer.
-//!
-//! ```text
-//! u_new = 2 (1 − ν) α w + H,        w = K P / (4π) held over the step, or linear
-//! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
-//! ```
-//! α is the compliance of the step and H the displacement that its end would have without load, both exact for any Δt. Every
-//! step is therefore an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + H.
+//! The march of a body over a free half space or layer.
 //!
 //! The elements are fixed in the half space. The footprint follows the indenter by whole elements; the lowest point lies
 //! anywhere within the element in its middle. If the indenter is its own mirror image, only the elements in front of the
@@ -14,7 +7,6 @@
 //! Theory: docs/theory/transient-half-space.md, "Elements and steps" and "The contact of one step".
 
 mod history;
-mod march;
 mod motion;
 mod schedule;
 mod slopes;
@@ -24,9 +16,9 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::ops::Range;
 
-use indenters::{Control, Surface};
+use indenters::{Control, SlidingLoad, Surface};
 use numerics::positive;
-use rheology::{CreepSpectrum, ExponentialStep, Material as _, RheologyError, check_spectra};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _, check_spectra};
 
 use crate::contact::{ContactBox, check_heights};
 use crate::elements::bounds::Bounds;
@@ -34,32 +26,10 @@ use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
 use crate::{BemError, Elastomer, GridOptions};
 use history::MaterialHistory;
-pub(crate) use march::{
-    BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS,
-};
 pub use motion::{Motion, MotionRow};
-use schedule::{Schedule, ScheduledStep};
+use schedule::ScheduledStep;
+pub(crate) use schedule::{Schedule, TimedMotion};
 use slopes::MeanSlopes;
-
-/// Time course of the load within a step (docs/theory/transient-half-space.md, "Linear loads").
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LoadInterpolation {
-    /// Constant, at the value of the end of the step; first order in Δt.
-    Held,
-    /// [Linear](ExponentialStep::creep_linear) from the value at the end of the step before; second order in Δt. Held over part of
-    /// the step where prescribed displacements would make the load alternate, or all of it on a dashpot.
-    Linear,
-}
-
-impl LoadInterpolation {
-    /// Coefficients of a step of length `time_step` \[s].
-    fn step(self, creep: &CreepSpectrum, time_step: f64) -> Result<ExponentialStep, RheologyError> {
-        match self {
-            Self::Held => ExponentialStep::creep(creep, time_step),
-            Self::Linear => ExponentialStep::creep_linear(creep, time_step),
-        }
-    }
-}
 
 /// A simulation in time of an indenter that moves over a half space or layer.
 pub struct March<'a> {
@@ -73,7 +43,6 @@ pub struct March<'a> {
     half_space_factor: f64,
     schedule: Schedule,
     steps_done: usize,
-    interpolation: LoadInterpolation,
     /// Coefficients of a step of the length `time_step`.
     creep_step: ExponentialStep,
     /// Δt of the present step, \[s].
@@ -100,12 +69,56 @@ impl fmt::Debug for March<'_> {
 }
 
 impl<'a> March<'a> {
-    /// A march before the first step of `schedule`, over an undeformed surface; errors as for [`new`](Self::new).
-    fn from_schedule(
-        schedule: Schedule,
-        interpolation: LoadInterpolation,
+    /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
+    /// of an element at position zero.
+    ///
+    /// If surface and footprint are [their own mirror images](Surface::mirrors) about y = 0, only the half y ≥ 0 is followed. If
+    /// the indenter never moves, the same holds about x = 0.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for no motions, times that do not increase from above zero, and numbers out of
+    /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
+    pub fn new(
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
+        motions: &[Motion],
+        options: &GridOptions,
+    ) -> Result<Self, BemError> {
+        let schedule = Schedule::through(motions, options.spacing[0])?;
+        Self::from_schedule(surface, elastomer, schedule, options)
+    }
+
+    /// The march of [`slide_on_grid`](crate::motions::slide::slide_on_grid): over the sliding distance of the load in steps of one
+    /// element. The last step ends at that distance and is 0.5 to 1.5 elements long.
+    ///
+    /// # Errors
+    /// [`BemError::SlidingDistanceMissing`]; [`BemError::TooManySteps`]; otherwise like [`new`](Self::new).
+    pub fn sliding(
+        surface: &'a dyn Surface,
+        elastomer: &dyn Elastomer,
+        load: &SlidingLoad,
+        options: &GridOptions,
+    ) -> Result<Self, BemError> {
+        Self::sliding_in_steps(surface, elastomer, load, options, options.spacing[0])
+    }
+
+    /// Like [`sliding`](Self::sliding) in steps of a given length \[m].
+    pub(crate) fn sliding_in_steps(
+        surface: &'a dyn Surface,
+        elastomer: &dyn Elastomer,
+        load: &SlidingLoad,
+        options: &GridOptions,
+        length: f64,
+    ) -> Result<Self, BemError> {
+        let schedule = Schedule::sliding(load, length, options.spacing[0])?;
+        Self::from_schedule(surface, elastomer, schedule, options)
+    }
+
+    /// A march before the first step of `schedule`, over an undeformed surface; errors as for [`new`](Self::new).
+    pub(crate) fn from_schedule(
+        surface: &'a dyn Surface,
+        elastomer: &dyn Elastomer,
+        schedule: Schedule,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         // An indenter that moves along x has no symmetry about x = 0.
@@ -115,7 +128,7 @@ impl<'a> March<'a> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let time_step = schedule.steps[0].time_step;
-        let creep_step = interpolation.step(&creep, time_step)?;
+        let creep_step = (schedule.step_rule)(&creep, time_step)?;
         // Without history variables the elements may move with the indenter.
         let schedule = match creep_step.n_fields() {
             0 => schedule.without_memory(),
@@ -136,7 +149,6 @@ impl<'a> March<'a> {
             half_space_factor: elastomer.material().half_space_factor(),
             schedule,
             steps_done: 0,
-            interpolation,
             creep_step,
             time_step,
             heights: Vec::new(),
@@ -227,18 +239,78 @@ impl<'a> March<'a> {
         })
     }
 
+    /// Largest rise of the body over one element in contact in the last step, \[m].
+    pub(crate) fn largest_rise(&self) -> f64 {
+        self.means.largest * self.options.spacing[0]
+    }
+
+    /// Relative tolerance of the contact of each step.
+    pub(crate) const fn tolerance(&self) -> f64 {
+        self.options.contact.tolerance
+    }
+
+    /// Pressure-weighted mean of |∂h/∂x| in the last step: the friction coefficient if all slopes were uphill, as a scale for rounding.
+    pub(crate) const fn mean_slope_modulus(&self) -> f64 {
+        self.means.mean_slope_modulus
+    }
+
     /// 2 (1 − ν) α of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
         self.half_space_factor * self.creep_step.response()
     }
 
-    /// Solves the next step but leaves the tangential forces 0; `None` after the last step.
+    /// Solves the next step; `None` after the last one.
+    ///
+    /// # Errors
+    /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::ContactNotConverged`];
+    /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for a slope that is not a number;
+    /// [`BemError::Material`].
+    pub fn step(&mut self) -> Result<Option<MotionRow>, BemError> {
+        let Some(row) = self.advance()? else {
+            return Ok(None);
+        };
+        self.means = MeanSlopes::over(self, &self.schedule.steps[self.steps_done - 1])?;
+        Ok(Some(MotionRow {
+            time_level: self.means.time_level,
+            tangential_force: row.normal_force * self.means.met,
+            tangential_force_end_of_step: row.normal_force * self.means.end,
+            ..row
+        }))
+    }
+
+    /// Solves all steps that are left, and reports the fraction of all steps that is done.
+    pub(crate) fn run(&mut self, report: &dyn Fn(f64)) -> Result<Vec<MotionRow>, BemError> {
+        let mut rows = Vec::new();
+        while let Some(row) = self.step()? {
+            rows.push(row);
+            report(self.fraction_done());
+        }
+        Ok(rows)
+    }
+
+    /// Fraction of the steps that are done, from 0 to 1.
+    pub(crate) fn fraction_done(&self) -> f64 {
+        self.steps_done as f64 / self.schedule.steps.len() as f64
+    }
+
+    /// Returns to the end of the first step with given history variables, to follow all later steps again.
+    pub(crate) fn restart_with(&mut self, history_variables: &[f64]) {
+        self.steps_done = 1;
+        self.history.variables.copy_from_slice(history_variables);
+    }
+
+    /// History variables of all elements.
+    pub(crate) fn history_variables(&self) -> Vec<f64> {
+        self.history.variables.clone()
+    }
+
+    /// Solves the next step but leaves time level and tangential forces 0; `None` after the last step.
     pub(crate) fn advance(&mut self) -> Result<Option<MotionRow>, BemError> {
         let step = self.schedule.steps.get(self.steps_done).copied();
         step.map(|step| self.solve_step(&step)).transpose()
     }
 
-    /// Solves the first step, which every schedule has, but leaves the tangential forces 0.
+    /// Solves the first step, which every schedule has, but leaves time level and tangential forces 0.
     pub(crate) fn first(&mut self) -> Result<MotionRow, BemError> {
         let step = self.schedule.steps[0];
         self.solve_step(&step)
@@ -274,6 +346,7 @@ impl<'a> March<'a> {
             position: step.end.position,
             indentation_depth: 0.0,
             normal_force: 0.0,
+            time_level: 0.0,
             tangential_force: 0.0,
             tangential_force_end_of_step: 0.0,
             contact_area: self.contact_box.area(self.layout.mirrors) * dx * dy,
@@ -298,7 +371,7 @@ impl<'a> March<'a> {
             return Ok(());
         }
         let before = self.creep_step.response();
-        self.creep_step = self.interpolation.step(&self.creep, time_step)?;
+        self.creep_step = (self.schedule.step_rule)(&self.creep, time_step)?;
         self.time_step = time_step;
         // Loads are α P / (4π), so the same pressure has another load.
         let ratio = self.creep_step.response() / before;

@@ -13,7 +13,7 @@ pub struct Motion {
     pub control: Control,
 }
 
-/// The state at the end of a step; of [indentation](mod@crate::indent) the position and the forces along x are 0.
+/// The state at the end of a step; of [indentation](mod@crate::indent) the position, the time level and the forces along x are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotionRow {
@@ -25,7 +25,9 @@ pub struct MotionRow {
     pub indentation_depth: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
-    /// Force F_h along −x on the indenter, \[N]: the pressure of the step times the slope at the time level of that pressure.
+    /// Time level θ, from 0 to ½: pressure and forces belong to the time θ Δt before the end of the step.
+    pub time_level: f64,
+    /// Force F_h along −x on the indenter, \[N]: the pressure of the step times the slope at the time level.
     pub tangential_force: f64,
     /// Tangential force with the slope at the end of the step, \[N].
     pub tangential_force_end_of_step: f64,

@@ -1,52 +1,129 @@
-//! The steps of a march: where the indenter stands at the end of each, and which rows of elements later steps still need.
+//! The steps of a march: where the indenter stands at the end of each, how the load changes within it, and which rows of elements
+//! later steps still need.
 //!
 //! Theory: docs/theory/transient-half-space.md, "Motions".
 
 use std::ops::Range;
 
+use indenters::SlidingLoad;
 use numerics::{finite, positive};
+use rheology::{CreepSpectrum, ExponentialStep, RheologyError};
 
 use super::Motion;
 use crate::BemError;
 use crate::contact::check_control;
 use crate::elements::grid::whole_elements;
+use crate::march::MAX_STEPS;
+
+/// Reason in the error for a load without a sliding distance.
+const DISTANCE_NEEDED: &str = "a march over a half space ends after a distance";
+
+/// Coefficients of a step of a duration \[s], on loads that are [held](ExponentialStep::creep) at their value at its end, or
+/// [linear](ExponentialStep::creep_linear) from the end of the step before (docs/theory/transient-half-space.md, "Linear loads").
+type StepRule = fn(&CreepSpectrum, f64) -> Result<ExponentialStep, RheologyError>;
+
+/// A motion and its duration, which the difference of two times would give with a rounding error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TimedMotion {
+    /// Time, position and control at the end.
+    pub(crate) end: Motion,
+    /// Duration Δt, \[s].
+    pub(crate) duration: f64,
+}
 
 /// One step in time with the position of the indenter on the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ScheduledStep {
+pub(super) struct ScheduledStep {
     /// Time, position and control at the end of the step.
-    pub(crate) end: Motion,
+    pub(super) end: Motion,
     /// Duration Δt, \[s].
-    pub(crate) time_step: f64,
+    pub(super) time_step: f64,
     /// Row under the lowest point at the end, counted from the rearmost such row of all steps.
-    pub(crate) row: usize,
+    pub(super) row: usize,
     /// Position of the lowest point relative to the centre of that row, in elements, from −½ to ½.
-    pub(crate) offset: f64,
+    pub(super) offset: f64,
     /// Displacement of the indenter during the step, in elements.
-    pub(crate) advance: f64,
+    pub(super) advance: f64,
 }
 
 /// All steps of a march.
 pub(crate) struct Schedule {
-    pub(crate) steps: Vec<ScheduledStep>,
+    pub(super) steps: Vec<ScheduledStep>,
+    pub(super) step_rule: StepRule,
     /// Lowest and highest row under the lowest point, over each step and all later ones.
     spans: Vec<[usize; 2]>,
 }
 
 impl Schedule {
-    /// The steps to the ends of `motions`, each with its duration \[s], from the centre of an element at time and position 0.
+    /// The steps through `motions`, with loads that are held over each.
+    pub(super) fn through(motions: &[Motion], spacing: f64) -> Result<Self, BemError> {
+        // Durations are differences of the times.
+        let mut before = 0.0;
+        let timed = motions.iter().map(|&end| {
+            let duration = end.time - before;
+            before = end.time;
+            TimedMotion { end, duration }
+        });
+        Self::new(timed, ExponentialStep::creep, spacing)
+    }
+
+    /// Sliding in steps of a `length` \[m], with loads that are held over each; the last step ends at the sliding distance and is 0.5
+    /// to 1.5 of that length.
+    pub(super) fn sliding(load: &SlidingLoad, length: f64, spacing: f64) -> Result<Self, BemError> {
+        load.require_fresh_ground()?;
+        positive("spacing along x", spacing)?;
+        let distance = load
+            .sliding_distance()
+            .ok_or(BemError::SlidingDistanceMissing {
+                why: DISTANCE_NEEDED,
+            })?;
+        let (n_steps, last) = divide_into_steps(distance, length)?;
+        let motions = (1..=n_steps).map(|step| {
+            let [position, length] = if step == n_steps {
+                [distance, last]
+            } else {
+                [step as f64 * length, length]
+            };
+            TimedMotion {
+                end: Motion {
+                    time: position / load.velocity(),
+                    position,
+                    control: load.control(),
+                },
+                duration: length / load.velocity(),
+            }
+        });
+        Self::new(motions, ExponentialStep::creep, spacing)
+    }
+
+    /// The steps through `motions`, with loads that are linear over each. All after the first one may be repeated, so that every row is
+    /// needed after every step.
+    pub(crate) fn repeated(
+        motions: impl Iterator<Item = TimedMotion>,
+        spacing: f64,
+    ) -> Result<Self, BemError> {
+        let mut schedule = Self::new(motions, ExponentialStep::creep_linear, spacing)?;
+        if let Some(first) = schedule.spans.first().copied() {
+            schedule.spans.fill(first);
+        }
+        Ok(schedule)
+    }
+
+    /// The steps through `motions`, from the centre of an element at time and position 0.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no motions, for durations that are not positive, and for positions and controls out of
     /// range.
-    pub(crate) fn new(
-        motions: impl Iterator<Item = (Motion, f64)>,
+    fn new(
+        motions: impl Iterator<Item = TimedMotion>,
+        step_rule: StepRule,
         spacing: f64,
     ) -> Result<Self, BemError> {
+        positive("spacing along x", spacing)?;
         let (mut steps, mut cells) = (Vec::new(), Vec::new());
         let (mut cell_before, mut offset_before) = (0.0, 0.0);
-        for (end, time_step) in motions {
-            let time_step = positive("time step", time_step)?;
+        for TimedMotion { end, duration } in motions {
+            let time_step = positive("time step", duration)?;
             // Position on the grid, as an element and the offset from its centre.
             let [cell, offset] = place(end.position, spacing)?;
             check_control(end.control)?;
@@ -67,25 +144,21 @@ impl Schedule {
             step.row = whole_elements(cell - lowest)?;
         }
         let spans = spans(&steps);
-        Ok(Self { steps, spans })
+        Ok(Self {
+            steps,
+            step_rule,
+            spans,
+        })
     }
 
     /// Whether the indenter never moves.
-    pub(crate) fn rests(&self) -> bool {
+    pub(super) fn rests(&self) -> bool {
         let mut steps = self.steps.iter();
         steps.all(|step| step.advance == 0.0 && step.offset == 0.0)
     }
 
-    /// The schedule of a motion that is repeated: every row is needed after every step.
-    pub(crate) fn repeated(mut self) -> Self {
-        if let Some(first) = self.spans.first().copied() {
-            self.spans.fill(first);
-        }
-        self
-    }
-
     /// The schedule on a material without history variables: the elements move with the indenter, which stays over row 0.
-    pub(crate) fn without_memory(mut self) -> Self {
+    pub(super) fn without_memory(mut self) -> Self {
         for step in &mut self.steps {
             step.row = 0;
         }
@@ -94,10 +167,28 @@ impl Schedule {
     }
 
     /// Rows of the path that footprints of `n_rows` rows cover from step number `first` on; empty after the last step.
-    pub(crate) fn rows_from(&self, first: usize, n_rows: usize) -> Range<usize> {
+    pub(super) fn rows_from(&self, first: usize, n_rows: usize) -> Range<usize> {
         let span = self.spans.get(first);
         span.map_or(0..0, |[low, high]| *low..high + n_rows)
     }
+}
+
+/// Number of steps of a `length` over a `distance`, and the length of the last one: 0.5 to 1.5 of the others.
+fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
+    let steps = distance / length;
+    if steps > MAX_STEPS {
+        return Err(BemError::TooManySteps {
+            steps,
+            limit: MAX_STEPS,
+        });
+    }
+    // The last step takes up the remainder of half an element to one and a half.
+    let before = (steps - 0.5).ceil().max(1.0) - 1.0;
+    let rest = steps - before;
+    // A whole step must not become another one by rounding, or results would depend on the unit of length.
+    let is_whole = (rest - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
+    let last = if is_whole { length } else { rest * length };
+    Ok((whole_elements(before)? + 1, last))
 }
 
 /// Lowest and highest row under the lowest point over each step and all later ones: running extrema from the end.

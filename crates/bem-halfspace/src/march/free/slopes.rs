@@ -38,7 +38,6 @@ impl MeanSlopes {
     /// Slopes under the pressure of the step that was solved last.
     pub(super) fn over(march: &March<'_>, step: &ScheduledStep) -> Result<Self, BemError> {
         let time_level = time_level(march, step)?;
-        let chord = Chord::new(time_level, step);
         let mut sum = Self {
             time_level,
             ..Self::default()
@@ -48,7 +47,7 @@ impl MeanSlopes {
         // Images fore and aft have the opposite slope.
         let has_image = !march.layout.mirrors[0].is_none();
         for (element, load) in march.loaded_elements() {
-            let [met, end] = slopes_at(march, &chord, element)?;
+            let [met, end] = slopes_at(march, time_level, step, element)?;
             if !has_image {
                 sum.met += load * met;
                 sum.end += load * end;
@@ -69,18 +68,22 @@ impl MeanSlopes {
     }
 }
 
-/// Slopes over an element: at the time level of the chord, and at the end of the step.
+/// Slopes over an element: at the time level θ, and at the end of the step.
 fn slopes_at(
     march: &March<'_>,
-    chord: &Chord,
+    time_level: f64,
+    step: &ScheduledStep,
     [row, column]: [usize; 2],
 ) -> Result<[f64; 2], BemError> {
     let spacing = march.options.spacing[0];
     let here = march.x_in_elements(row, march.sampled_offset);
     let y = march.y_of_column(column);
     let height = |x: f64| march.surface.height([x * spacing, y]);
-    // The chord at the time level, and the gradient at the end of the step.
-    let met = chord.rise(here, height) / spacing;
+    // The chord at the time level is as long as an element, or on a dashpot (θ = ½) as the distance of the step.
+    let centre = here + time_level * step.advance;
+    let length = (2.0 * time_level * step.advance.abs()).max(1.0);
+    let half = 0.5 * length;
+    let met = (height(centre + half) - height(centre - half)) / length / spacing;
     let x = here * spacing;
     if !met.is_finite() {
         return Err(BemError::VerticalWall { x, y });
@@ -118,27 +121,4 @@ fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemErro
     // G' = J'/(J'² + J''²), relative to E because squares of compliances may underflow.
     let [storage, loss] = [compliance.storage, compliance.loss].map(|part| part / elastic);
     Ok(storage / (storage * storage + loss * loss))
-}
-
-/// Interval along x over which the slope is averaged, relative to the element, in elements.
-struct Chord {
-    centre: f64,
-    length: f64,
-}
-
-impl Chord {
-    fn new(time_level: f64, step: &ScheduledStep) -> Self {
-        Self {
-            centre: time_level * step.advance,
-            // On a dashpot (θ = ½) the distance of the step; on a spring the element alone.
-            length: (2.0 * time_level * step.advance.abs()).max(1.0),
-        }
-    }
-
-    /// Mean rise of the body per element over the interval, for an element at x = `here`, in elements.
-    fn rise(&self, here: f64, height: impl Fn(f64) -> f64) -> f64 {
-        let centre = here + self.centre;
-        let half = 0.5 * self.length;
-        (height(centre + half) - height(centre - half)) / self.length
-    }
 }

@@ -11,6 +11,7 @@ use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
 use crate::estimate::bars::{has_instantaneous_compliance, reached_or_error};
 use crate::estimate::quantities::{Name, Quantities};
+use crate::march::n_history_variables;
 use crate::{BemError, Elastomer, GridOptions};
 
 /// Elements along the largest contact on the finest grid of a history.
@@ -152,7 +153,7 @@ pub fn indent_along_memory(
     let path = Path::new(history, has_instantaneous_compliance(elastomer))?;
     let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let creep = elastomer.material().creep();
-    let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
+    let n_fields = n_history_variables(&creep);
     let per_element = PRESS_BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
     Ok(per_element * n_followed(surface, &grid(&plan, elements)))
 }

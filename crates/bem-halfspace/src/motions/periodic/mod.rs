@@ -1,7 +1,7 @@
 //! Motions of a periodic surface with error bars: reciprocating up to the limit cycle, or along a path through points.
 //!
 //! The elements are fixed in the material, and the surface is shifted over them by any distance, since the grids resolve all its
-//! waves. The pressure is constant in each step, as in [marches](crate::march::periodic), and exact in full contact; a cycle in full contact
+//! waves. The pressure is constant in each step, as in [`crate::march::periodic`], and exact in full contact; a cycle in full contact
 //! has a closed form. In partial contact the error is of the first order in the spacing, and so is that of the steps, which are
 //! refined with the elements.
 //!
@@ -15,15 +15,14 @@ use std::f64::consts::TAU;
 
 use indenters::rough::PeriodicSurface;
 use indenters::{Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep};
-use numerics::{Accuracy, ErrorParts, Goal, MAX_STORED_STATES, Request, refine};
+use numerics::{Accuracy, ErrorParts, Goal, MAX_STORED_STATES, Request};
 use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::march::periodic::PeriodicMarch;
-use crate::march::{MARCH_WORK_EXPONENT, MAX_STEPS};
-use crate::motions::along_surface::{
-    LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, cycle_tolerance, moved_if_reached,
-    slowest_retardation_time,
+use crate::march::{MARCH_WORK_EXPONENT, MAX_STEPS, n_history_variables};
+use crate::motions::any_motion::{
+    LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, refine_motion,
 };
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
@@ -105,13 +104,12 @@ pub fn move_along<'w>(
         load,
         is_elastic: problem.spectra.creep.is_elastic(),
     };
-    let refined = refine(
+    refine_motion(
         &goal,
-        |elements, tell: &dyn Fn(f64)| problem.run_on(elements, is_full, tell),
-        |record| view.quantities(record),
-        |record, _: &dyn Fn(f64)| Ok::<_, BemError>(extra_errors(&view, record)),
-    )?;
-    moved_if_reached(&view, refined)
+        &view,
+        |elements, report| problem.solve_on_grid(elements, is_full, report),
+        |record| other_errors(&view, record),
+    )
 }
 
 /// Upper bound of the memory of [`move_along`] for a number of elements along the edge of the period that has more of them,
@@ -128,10 +126,9 @@ pub fn move_along_memory(
     let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let shape = problem.shape(elements);
     let n_steps = problem.n_steps(elements, shape)?;
-    let creep = &problem.spectra.creep;
-    let n_fields = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
+    let n_fields = n_history_variables(&problem.spectra.creep);
     // One more is that of the grid before.
-    let copies = if load.is_cycle() {
+    let copies = if problem.limit_cycle.is_some() {
         MAX_STORED_STATES + 1
     } else {
         1
@@ -158,7 +155,7 @@ fn edges(surface: &PeriodicSurface) -> [usize; 2] {
 
 /// Errors besides that of the elements: the distance to the limit cycle and the contact tolerance; the whole value if too few
 /// elements are in contact.
-fn extra_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
+fn other_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
     let pressed = record.steps.iter().filter(|step| step.normal_force > 0.0);
     let fewest = pressed
         .map(|step| step.n_contact)
@@ -188,10 +185,10 @@ struct Moving<'a> {
     spectra: Spectra,
     /// q_x by the number of waves in the period, \[rad/m].
     wave_numbers: Vec<f64>,
-    /// Relative tolerance of the limit cycle.
-    tolerance: f64,
+    /// Search for the limit cycle; `None` for a motion through points.
+    limit_cycle: Option<LimitCycle>,
     /// Shape of the last grid with a limit cycle, and the history variables at its end.
-    limit_cycle: RefCell<Option<([usize; 2], Vec<f64>)>>,
+    last_cycle: RefCell<Option<([usize; 2], Vec<f64>)>>,
 }
 
 /// A motion on one grid.
@@ -224,9 +221,7 @@ impl<'a> Moving<'a> {
             check_spectra(&material)?;
             (material.relaxation(), material.creep())
         };
-        if load.is_cycle() && creep.fluidity() > 0.0 {
-            return Err(BemError::NoCycle);
-        }
+        let limit_cycle = LimitCycle::new(load, &creep, accuracy)?;
         if matches!(load.largest_control(), Control::IndentationDepth(_)) {
             return Err(BemError::DepthFromRest);
         }
@@ -239,8 +234,8 @@ impl<'a> Moving<'a> {
             load,
             spectra: Spectra { relaxation, creep },
             wave_numbers: numbers.map(|number| number as f64 * unit).collect(),
-            tolerance: cycle_tolerance(accuracy),
-            limit_cycle: RefCell::default(),
+            limit_cycle,
+            last_cycle: RefCell::default(),
         };
         if let Accuracy::Elements(elements) = accuracy {
             problem.check_coarsest(elements)?;
@@ -274,22 +269,23 @@ impl<'a> Moving<'a> {
         edges.map(|edge| 2 * edge.saturating_mul(elements).div_ceil(2 * longest))
     }
 
-    /// The steps on a grid; fails if elements times steps are too many.
-    fn steps(&self, elements: usize, shape: [usize; 2]) -> Result<Vec<MovingStep>, BemError> {
-        let [spacing, allowed] = self.spacing_and_most_steps(shape);
-        Ok(self.load.steps(elements, spacing, allowed)?)
+    /// Edges of an element, \[m].
+    fn spacing(&self, shape: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64)
     }
 
-    /// Number of [`steps`](Self::steps).
-    fn n_steps(&self, elements: usize, shape: [usize; 2]) -> Result<f64, BemError> {
-        let [spacing, allowed] = self.spacing_and_most_steps(shape);
-        Ok(self.load.n_steps(elements, spacing, allowed)?)
-    }
-
-    fn spacing_and_most_steps(&self, shape: [usize; 2]) -> [f64; 2] {
+    /// Number of steps above which a grid is refused: elements times steps are limited.
+    fn max_steps(shape: [usize; 2]) -> f64 {
         let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
-        let spacing = self.surface.period()[0] / shape[0] as f64;
-        [spacing, MAX_STEPS.min(MAX_ELEMENT_STEPS / n_elements)]
+        MAX_STEPS.min(MAX_ELEMENT_STEPS / n_elements)
+    }
+
+    /// Number of steps on a grid; fails for too many.
+    fn n_steps(&self, elements: usize, shape: [usize; 2]) -> Result<f64, BemError> {
+        let [spacing, _] = self.spacing(shape);
+        Ok(self
+            .load
+            .n_steps(elements, spacing, Self::max_steps(shape))?)
     }
 
     /// The largest number of elements in the sequence of doublings whose elements times steps are not too many.
@@ -307,8 +303,9 @@ impl<'a> Moving<'a> {
 
     fn on_grid(&self, elements: usize) -> Result<MotionOnGrid, BemError> {
         let shape = self.shape(elements);
-        let steps = self.steps(elements, shape)?;
-        let spacing = [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64);
+        let spacing = self.spacing(shape);
+        let max_steps = Self::max_steps(shape);
+        let steps = self.load.steps(elements, spacing[0], max_steps)?;
         let waves = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
         Ok(MotionOnGrid {
             heights: self.surface.heights(shape)?,
@@ -327,7 +324,7 @@ impl<'a> Moving<'a> {
     }
 
     /// The record of the motion on a grid, in closed form or by a march.
-    fn run_on(
+    fn solve_on_grid(
         &self,
         elements: usize,
         is_full: bool,
@@ -360,18 +357,16 @@ impl<'a> Moving<'a> {
 
     /// A cycle in which the contact is full all the time.
     fn closed(&self, on_grid: &MotionOnGrid) -> MotionRecord {
-        let normal_force = self.load.largest_control().value();
-        let (base, area) = (self.elastomer.base(), self.area());
-        let factor = 0.5 * self.elastomer.material().half_space_factor();
-        let found = self
-            .closed_on(on_grid)
-            .cycle(&on_grid.waves, &self.wave_numbers);
-        let yielded =
-            factor * self.spectra.creep.equilibrium_compliance() * base.uniform_compliance();
+        let closed = self.closed_on(on_grid);
+        let compliance = closed.factor * self.spectra.creep.equilibrium_compliance();
+        let depth =
+            closed.mean_pressure * (compliance * self.elastomer.base().uniform_compliance());
+        let found = closed.cycle(&on_grid.waves, &self.wave_numbers);
+        let (normal_force, area) = (self.load.largest_control().value(), self.area());
         let end = |stress: &f64| StepEnd {
             tangential_force: stress * area,
             normal_force,
-            depth: normal_force / area * yielded,
+            depth,
             n_contact: on_grid.grid.n_elements(),
         };
         let ends: Vec<StepEnd> = found.stresses.iter().map(end).collect();
@@ -386,35 +381,30 @@ impl<'a> Moving<'a> {
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
         let first = self.step(&mut march, touch, start, &on_grid.waves.states[0])?;
-        if !self.load.is_cycle() {
+        let Some(limit_cycle) = &self.limit_cycle else {
             let ends = self.pass(&mut march, on_grid, tell)?;
             return Ok(self.record(first, &ends, steps));
-        }
-        let limit_cycle = LimitCycle {
-            period: self.load.duration(),
-            slowest: slowest_retardation_time(&self.spectra.creep),
-            tolerance: self.tolerance,
         };
-        let start = self.before_cycles(&march.memory, grid.shape());
+        let start = self.before_cycles(&march.history, grid.shape());
         let pass = |from: &[f64], tell: &dyn Fn(f64)| {
-            march.memory.copy_from_slice(from);
+            march.history.copy_from_slice(from);
             let ends = self.pass(&mut march, on_grid, tell)?;
             let record = self.record(ends[ends.len() - 1], &ends, steps);
-            Ok((record, march.memory.clone()))
+            Ok((record, march.history.clone()))
         };
         let record = limit_cycle.find(start, pass, tell)?;
-        self.limit_cycle.replace(Some((grid.shape(), march.memory)));
+        self.last_cycle.replace(Some((grid.shape(), march.history)));
         Ok(record)
     }
 
     /// History variables before the first cycle on a grid: those interpolated from the limit cycle of the previous grid, so that a
     /// slow material has nearly reached its limit cycle; on the first grid those of the first touch.
     fn before_cycles(&self, touched: &[f64], shape: [usize; 2]) -> Vec<f64> {
-        let limit_cycle = self.limit_cycle.borrow();
-        let Some((from, memory)) = &*limit_cycle else {
+        let last_cycle = self.last_cycle.borrow();
+        let Some((from, history)) = &*last_cycle else {
             return touched.to_vec();
         };
-        let fields = memory.chunks_exact(from[0] * from[1]);
+        let fields = history.chunks_exact(from[0] * from[1]);
         fields
             .flat_map(|field| interpolated(field, *from, shape))
             .collect()
@@ -499,6 +489,7 @@ mod tests {
     use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
     use super::*;
+    use crate::march::largest_retardation_time;
 
     /// Retardation times of the slowest element after which the first touch has relaxed.
     const MEMORIES: f64 = 8.0;
@@ -567,18 +558,18 @@ mod tests {
         let (surface, rubber) = (surface(), rubber());
         let accuracy = Accuracy::Elements(elements);
         let problem = Moving::new(&surface, &rubber, load, accuracy).expect("a problem");
-        let shape = problem.shape(elements);
-        let grid = Grid::new(shape, shape.map(|n| 1.0 / n as f64)).expect("a grid");
-        let steps = problem.steps(elements, shape).expect("steps");
-        let heights = surface.heights(shape).expect("heights");
-        let waves = WaveMotion::new(load, &steps, &problem.wave_numbers, &problem.spectra);
-        let waves = waves.expect("a motion of waves");
+        let MotionOnGrid {
+            grid,
+            heights,
+            steps,
+            waves,
+        } = problem.on_grid(elements).expect("a grid");
         let mut march = PeriodicMarch::new(&grid, &heights, &rubber, 1e-4).expect("a march");
         let mut kernel = FourierMultiplier::new(&grid, &rubber.base());
         let creep = &problem.spectra.creep;
         let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
         let mut moved = vec![0.0; heights.len()];
-        let count = MEMORIES * slowest_retardation_time(creep) / load.duration() + 2.0;
+        let count = MEMORIES * largest_retardation_time(creep) / load.duration() + 2.0;
         let mut heat = 0.0;
         for _ in 0..numerics::whole_part(count) {
             heat = 0.0;

@@ -58,12 +58,11 @@ fn follow_march(
     load: &SlidingLoad,
     report: &dyn Fn(f64),
 ) -> Result<Transient, BemError> {
-    let mut rows = Vec::new();
-    while let Some(row) = march.step()? {
-        // Steps without contact, which occur at a given depth only, have no row.
-        rows.extend(SlideRow::in_contact(&row));
-        report(march.fraction_done());
-    }
+    let steps = march.run(report)?.into_iter();
+    // Steps without contact, which occur at a given depth only, have no row.
+    let rows = steps
+        .filter_map(|step| SlideRow::in_contact(&step))
+        .collect();
     Transient::from_march(&march, load, rows)
 }
 
@@ -79,6 +78,5 @@ pub fn slide_along(
     motions: &[Motion],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
-    let mut march = March::new(surface, elastomer, motions, options)?;
-    std::iter::from_fn(|| march.step().transpose()).collect()
+    March::new(surface, elastomer, motions, options)?.run(&|_| ())
 }

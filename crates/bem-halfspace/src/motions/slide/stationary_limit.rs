@@ -65,11 +65,11 @@ impl Transient {
         if n < MIN_STEPS {
             return Err(not_stationary(1.0));
         }
-        let points = halving_points(&self.rows);
-        let drift = ((value - points[1].1) / value).abs();
+        let halfway = self.rows[n / 2 - 1].friction_coefficient;
+        let drift = ((value - halfway) / value).abs();
         if drift <= drift_tolerance {
             return Ok(StationaryFriction {
-                friction_coefficient: extrapolate_to_zero(&points),
+                friction_coefficient: extrapolated_limit(&self.rows),
                 distance_error: 0.5 * spread_of_limits(&self.rows),
                 drift,
             });
@@ -83,33 +83,28 @@ fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
     let first = (3 * rows.len() / 5).max(MIN_STEPS);
     for count in first..=rows.len() {
-        let limit = extrapolate_to_zero(&halving_points(&rows[..count]));
+        let limit = extrapolated_limit(&rows[..count]);
         lowest = limit.min(lowest);
         highest = limit.max(highest);
     }
     highest - lowest
 }
 
-/// Points (1/S, μ) of the last row and of the rows at a half and a quarter of their number.
-fn halving_points(rows: &[SlideRow]) -> [(f64, f64); 3] {
+/// Friction coefficient for an infinite distance: the value at 1/S = 0 of the polynomial in 1/S through the last row and those at a half
+/// and a quarter of their number (Lagrange).
+fn extrapolated_limit(rows: &[SlideRow]) -> f64 {
     let n = rows.len();
-    [n, n / 2, n / 4].map(|count| {
-        let step = &rows[count - 1];
-        (1.0 / step.sliding_distance, step.friction_coefficient)
-    })
-}
-
-/// Value at zero of the interpolation polynomial through `points` (Lagrange).
-fn extrapolate_to_zero(points: &[(f64, f64)]) -> f64 {
-    let term = |&(position, value): &(f64, f64)| {
-        let factors = points
+    let nodes = [n, n / 2, n / 4].map(|count| &rows[count - 1]);
+    let term = |row: &SlideRow| {
+        let here = 1.0 / row.sliding_distance;
+        let factors = nodes
             .iter()
-            .map(|&(other, _)| other)
-            .filter(|other| other.total_cmp(&position).is_ne())
-            .map(|other| other / (other - position));
-        value * factors.product::<f64>()
+            .map(|other| 1.0 / other.sliding_distance)
+            .filter(|other| other.total_cmp(&here).is_ne())
+            .map(|other| other / (other - here));
+        row.friction_coefficient * factors.product::<f64>()
     };
-    points.iter().map(term).sum()
+    nodes.into_iter().map(term).sum()
 }
 
 /// Criterion by which a state counts as stationary.
@@ -215,7 +210,7 @@ impl ExtrapolatedFriction {
         };
         // The extrapolation in 1/S needs four steps.
         let limit = match rows.len() {
-            4.. if flows => extrapolate_to_zero(&halving_points(rows)),
+            MIN_STEPS.. if flows => extrapolated_limit(rows),
             _ => last.friction_coefficient,
         };
         self.0.push([last.sliding_distance, limit]);

@@ -1,0 +1,154 @@
+//! Refinement of any motion, and search for the limit cycle of a reciprocating one.
+//!
+//! A motion is followed on finer and finer grids. On each of them a reciprocating one is repeated until its limit cycle is found, by a fixed-point iteration on the history variables.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions".
+
+use std::cell::Cell;
+
+use indenters::{MotionRecord, MotionView, Moved, MovingLoad};
+use numerics::{Accuracy, ErrorParts, FixedPoint, Goal, anderson_fixed_point, refine};
+use rheology::CreepSpectrum;
+
+use crate::march::largest_retardation_time;
+use crate::{BemError, Reached};
+
+/// Order of the error in the number of elements that the error bars assume, unless the apex of the body lowers it.
+pub(super) const MIN_ORDER_OF_MOTION: f64 = 1.0;
+/// Duration of the first touch, during which the body rests, over that of the first step; chosen.
+pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
+/// Cycles after which the search for the limit cycle is given up.
+const MAX_CYCLES: usize = 100;
+/// Relative change per cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
+const CYCLE_ROUNDING: f64 = 1e-14;
+/// Remaining change of the limit cycle over the relative error asked for; chosen.
+const CYCLE_TOLERANCE_FRACTION: f64 = 0.1;
+/// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error; chosen.
+const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
+
+/// Refines a motion until the error asked for is reached.
+///
+/// `solve` gives the record on a number of elements; `other_errors` those that finer elements do not reduce.
+///
+/// # Errors
+/// [`BemError::NotReached`] with the result on the finest grid if a quantity misses the error asked for; those of `solve`.
+pub(super) fn refine_motion(
+    goal: &Goal,
+    view: &MotionView,
+    solve: impl Fn(usize, &dyn Fn(f64)) -> Result<MotionRecord, BemError>,
+    other_errors: impl Fn(&MotionRecord) -> Vec<ErrorParts>,
+) -> Result<Moved, BemError> {
+    let refined = refine(
+        goal,
+        solve,
+        |record| view.quantities(record),
+        |record, _: &dyn Fn(f64)| Ok::<_, BemError>(other_errors(record)),
+    )?;
+    let found = view.moved(refined.value, &refined.error, refined.parts[0]);
+    let Some(missed) = refined.missed else {
+        return Ok(found);
+    };
+    Err(BemError::NotReached {
+        quantity: MotionView::in_words(missed.quantity),
+        value: missed.value,
+        error: missed.error,
+        relative_error: missed.relative_error,
+        reached: Box::new(Reached::Moved(found)),
+    })
+}
+
+/// Search for the limit cycle of a repeated motion, and its stopping criterion.
+pub(super) struct LimitCycle {
+    /// Duration of a cycle, \[s].
+    period: f64,
+    /// Largest retardation time, \[s].
+    slowest: f64,
+    /// Remaining relative change at which the search stops.
+    tolerance: f64,
+}
+
+impl LimitCycle {
+    /// The search for a motion and an accuracy; `None` for a motion through points, which is not repeated.
+    ///
+    /// # Errors
+    /// [`BemError::NoCycle`] for a material that flows.
+    pub(super) fn new(
+        load: &MovingLoad,
+        creep: &CreepSpectrum,
+        accuracy: Accuracy,
+    ) -> Result<Option<Self>, BemError> {
+        if !load.is_cycle() {
+            return Ok(None);
+        }
+        if creep.fluidity() > 0.0 {
+            return Err(BemError::NoCycle);
+        }
+        Ok(Some(Self {
+            period: load.duration(),
+            slowest: largest_retardation_time(creep),
+            tolerance: match accuracy {
+                Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_FRACTION * asked,
+                Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ONE_GRID,
+            },
+        }))
+    }
+
+    /// Finds the limit cycle by a fixed-point iteration on the history variables, beginning with `first`.
+    ///
+    /// `follow_cycle` follows one cycle from given history variables. It returns the record of the cycle and the history variables at
+    /// its end, and reports the fraction of the cycle that is done.
+    ///
+    /// # Errors
+    /// [`BemError::CycleTooShort`] if the change per cycle is below rounding; [`BemError::NotPeriodic`] after [`MAX_CYCLES`] cycles;
+    /// those of `follow_cycle`.
+    pub(super) fn find(
+        &self,
+        first: Vec<f64>,
+        mut follow_cycle: impl FnMut(&[f64], &dyn Fn(f64)) -> Result<(MotionRecord, Vec<f64>), BemError>,
+        report: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
+        // 1/(1 − e^(−T/λ)): total remaining change over the change by one cycle, for the slowest retardation time λ.
+        let slowness = -(-self.period / self.slowest).exp_m1().recip();
+        if slowness * CYCLE_ROUNDING > self.tolerance {
+            let (period, slowest) = (self.period, self.slowest);
+            return Err(BemError::CycleTooShort { period, slowest });
+        }
+        // Progress is the larger of the fractions of the cycles allowed and of the convergence, in logarithms.
+        let (mut n_cycles, convergence) = (0, Cell::new(0.0_f64));
+        let next_cycle = |from: &[f64]| {
+            let begun = f64::from(n_cycles);
+            n_cycles += 1;
+            follow_cycle(from, &|part| {
+                report(convergence.get().max((begun + part) / MAX_CYCLES as f64));
+            })
+        };
+        let remaining_change = |now: &mut MotionRecord, before: &MotionRecord| {
+            let change = now.rest_after(before, slowness);
+            let part = (change.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
+            convergence.set(convergence.get().max(part));
+            change
+        };
+        match anderson_fixed_point(
+            first,
+            MAX_CYCLES,
+            self.tolerance,
+            next_cycle,
+            remaining_change,
+        )? {
+            FixedPoint::Converged {
+                result,
+                evaluations,
+            } => Ok(MotionRecord {
+                n_cycles: evaluations,
+                ..result
+            }),
+            FixedPoint::NotConverged {
+                remaining_error: change,
+            } => Err(BemError::NotPeriodic {
+                cycles: MAX_CYCLES,
+                change,
+                tolerance: self.tolerance,
+            }),
+        }
+    }
+}
