@@ -14,6 +14,9 @@ use crate::elements::mirror::n_images;
 /// Area of the needed box over that of the present one below which the box shrinks; chosen, and above the ratio at which the
 /// contact solver would take a smaller box of its own.
 const SHRINKING_AREA_RATIO: f64 = 0.75;
+/// Penetration outside the box that is allowed, over the tolerance of the contact on the box; chosen, since the transforms of box and
+/// footprint round differently.
+const OUTSIDE_TOLERANCE_RATIO: f64 = 2.0;
 
 impl March<'_> {
     /// Solves the contact at the end of a step on a box that is enlarged until the indenter penetrates nowhere outside it.
@@ -95,8 +98,7 @@ impl March<'_> {
         let [rows, columns] = self.layout.folded_shape();
         let increment = self.history.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
-        // The box and the window round differently, so the box's own tolerance would be too sharp here.
-        let allowed = -2.0 * self.options.contact.tolerance * deflection;
+        let allowed = -OUTSIDE_TOLERANCE_RATIO * self.options.contact.tolerance * deflection;
         let elements = self.initial_gap.iter().zip(increment).enumerate();
         let outside = elements
             .filter(|(_, (gap, increment))| *gap + *increment - depth < allowed)

@@ -88,7 +88,7 @@ pub fn move_along<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, BemError> {
     let request = request.into();
-    let problem = Moving::new(surface, elastomer, load, request.accuracy)?;
+    let problem = MovingSurface::new(surface, elastomer, load, request.accuracy)?;
     let first = elements_of_motion(surface);
     let is_full = problem.is_full();
     let goal = Goal {
@@ -123,7 +123,7 @@ pub fn move_along_memory(
     load: &MovingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let problem = Moving::new(surface, elastomer, load, Accuracy::Elements(elements))?;
+    let problem = MovingSurface::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let shape = problem.shape(elements);
     let n_steps = problem.n_steps(elements, shape)?;
     let n_fields = n_history_variables(&problem.spectra.creep);
@@ -178,7 +178,7 @@ fn other_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
 }
 
 /// A motion of a surface over a material.
-struct Moving<'a> {
+struct MovingSurface<'a> {
     surface: &'a PeriodicSurface,
     elastomer: &'a dyn Elastomer,
     load: &'a MovingLoad,
@@ -209,7 +209,7 @@ struct StepEnd {
     n_contact: usize,
 }
 
-impl<'a> Moving<'a> {
+impl<'a> MovingSurface<'a> {
     fn new(
         surface: &'a PeriodicSurface,
         elastomer: &'a dyn Elastomer,
@@ -245,17 +245,17 @@ impl<'a> Moving<'a> {
 
     /// Fails for a number of elements whose coarsest grid, with three eighths of them, does not resolve all waves.
     fn check_coarsest(&self, elements: usize) -> Result<(), BemError> {
-        let tells = |elements: usize| {
+        let resolves_all_waves = |elements: usize| {
             let coarsest = (3 * elements).div_ceil(8);
             let numbers = self.surface.largest_numbers();
             let mut pairs = self.shape(coarsest).into_iter().zip(numbers);
             pairs.all(|(elements, number)| elements > 2 * number)
         };
-        if tells(elements) {
+        if resolves_all_waves(elements) {
             return Ok(());
         }
         let most = elements_of_motion(self.surface);
-        let needed = (elements..=most).find(|elements| tells(*elements));
+        let needed = (elements..=most).find(|elements| resolves_all_waves(*elements));
         Err(BemError::PeriodTooCoarse {
             elements,
             needed: needed.unwrap_or(most),
@@ -328,14 +328,14 @@ impl<'a> Moving<'a> {
         &self,
         elements: usize,
         is_full: bool,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
         let on_grid = self.on_grid(elements)?;
         let spacing = on_grid.grid.spacing();
         let record = if is_full {
             self.closed(&on_grid)
         } else {
-            self.march(&on_grid, tell)?
+            self.march(&on_grid, report)?
         };
         Ok(MotionRecord {
             spacing: spacing[0],
@@ -369,30 +369,41 @@ impl<'a> Moving<'a> {
             depth,
             n_contact: on_grid.grid.n_elements(),
         };
-        let ends: Vec<StepEnd> = found.stresses.iter().map(end).collect();
-        let mut record = self.record(ends[ends.len() - 1], &ends, &on_grid.steps);
+        // A cycle begins with the state in which it ends.
+        let last = found.stresses.last();
+        let ends: Vec<StepEnd> = last.into_iter().chain(&found.stresses).map(end).collect();
+        let mut record = self.record(&ends, &on_grid.steps);
         record.work = found.work * area;
         record
     }
 
-    fn march(&self, on_grid: &MotionOnGrid, tell: &dyn Fn(f64)) -> Result<MotionRecord, BemError> {
+    /// Follows the motion on a grid, from the first touch.
+    fn march(
+        &self,
+        on_grid: &MotionOnGrid,
+        report: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
         let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
-        let first = self.step(&mut march, touch, start, &on_grid.waves.states[0])?;
+        let touched = self.step(&mut march, touch, start, &on_grid.waves.states[0])?;
         let Some(limit_cycle) = &self.limit_cycle else {
-            let ends = self.pass(&mut march, on_grid, tell)?;
-            return Ok(self.record(first, &ends, steps));
+            let mut ends = vec![touched];
+            ends.extend(self.steps(&mut march, on_grid, report)?);
+            return Ok(self.record(&ends, steps));
         };
-        let start = self.before_cycles(&march.history, grid.shape());
-        let pass = |from: &[f64], tell: &dyn Fn(f64)| {
+
+        // Cycles follow the first touch.
+        let first = self.before_cycles(&march.history, grid.shape());
+        let cycle = |from: &[f64], report: &dyn Fn(f64)| {
             march.history.copy_from_slice(from);
-            let ends = self.pass(&mut march, on_grid, tell)?;
-            let record = self.record(ends[ends.len() - 1], &ends, steps);
-            Ok((record, march.history.clone()))
+            let mut ends = self.steps(&mut march, on_grid, report)?;
+            // A cycle begins with the state in which it ends.
+            ends.insert(0, ends[ends.len() - 1]);
+            Ok((self.record(&ends, steps), march.history.clone()))
         };
-        let record = limit_cycle.find(start, pass, tell)?;
+        let record = limit_cycle.find(first, cycle, report)?;
         self.last_cycle.replace(Some((grid.shape(), march.history)));
         Ok(record)
     }
@@ -410,16 +421,16 @@ impl<'a> Moving<'a> {
             .collect()
     }
 
-    /// All steps of one cycle or of the path.
-    fn pass(
+    /// Follows all steps of the path, or of one cycle.
+    fn steps(
         &self,
         march: &mut PeriodicMarch<'_>,
         MotionOnGrid { steps, waves, .. }: &MotionOnGrid,
-        tell: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<Vec<StepEnd>, BemError> {
         let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
         let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
-            tell(index as f64 / steps.len() as f64);
+            report(index as f64 / steps.len() as f64);
             self.step(march, step.duration, step.end.control, state)
         };
         pairs.map(end).collect()
@@ -457,25 +468,25 @@ impl<'a> Moving<'a> {
         })
     }
 
-    /// Means over the steps, from the state before them.
-    fn record(&self, first: StepEnd, ends: &[StepEnd], steps: &[MovingStep]) -> MotionRecord {
+    /// Means over the steps, from the states before the first step and after each.
+    fn record(&self, ends: &[StepEnd], steps: &[MovingStep]) -> MotionRecord {
         let mut record = MotionRecord::default();
-        let mut before = (first, self.load.stages()[0].start.position);
-        for (step, end) in steps.iter().zip(ends) {
-            let mean = |of: fn(&StepEnd) -> f64| 0.5 * (of(&before.0) + of(end));
-            let distance = step.end.position - before.1;
+        let mut begin = self.load.stages()[0].start.position;
+        for (step, ends) in steps.iter().zip(ends.windows(2)) {
+            let mean = |of: fn(&StepEnd) -> f64| 0.5 * (of(&ends[0]) + of(&ends[1]));
+            let distance = step.end.position - begin;
             let of_step = MotionStep {
                 stage: step.stage,
                 time: step.end.time - 0.5 * step.duration,
-                position: before.1 + 0.5 * distance,
+                position: begin + 0.5 * distance,
                 tangential_force: mean(|end| end.tangential_force),
                 normal_force: mean(|end| end.normal_force),
                 indentation_depth: mean(|end| end.depth),
                 contact: None,
-                n_contact: end.n_contact,
+                n_contact: ends[1].n_contact,
             };
             record.push(of_step, distance);
-            before = (*end, step.end.position);
+            begin = step.end.position;
         }
         record
     }
@@ -531,7 +542,8 @@ mod tests {
             let load = MovingLoad::reciprocating(Control::NormalForce(mean_pressure), stroke);
             let load = load.expect("a motion");
             let accuracy = Accuracy::RelativeError(0.1);
-            let problem = Moving::new(&surface, &rubber, &load, accuracy).expect("a problem");
+            let problem =
+                MovingSurface::new(&surface, &rubber, &load, accuracy).expect("a problem");
             let Some(elements) = elements else {
                 return problem.is_full();
             };
@@ -557,7 +569,7 @@ mod tests {
     fn heat(load: &MovingLoad, elements: usize) -> f64 {
         let (surface, rubber) = (surface(), rubber());
         let accuracy = Accuracy::Elements(elements);
-        let problem = Moving::new(&surface, &rubber, load, accuracy).expect("a problem");
+        let problem = MovingSurface::new(&surface, &rubber, load, accuracy).expect("a problem");
         let MotionOnGrid {
             grid,
             heights,

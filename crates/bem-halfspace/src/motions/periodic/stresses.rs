@@ -151,9 +151,8 @@ impl WaveMotion {
                 *value += step.response() * stress;
             }
             step.advance(&stress, &mut memory);
-            let (real, imaginary) = displaced.split_at(n_values / 2);
-            let pairs = real.iter().zip(imaginary);
-            state.held = pairs.map(|(re, im)| Complex::new(*re, *im)).collect();
+            let pairs = displaced.chunks_exact(2);
+            state.held = pairs.map(|pair| Complex::new(pair[0], pair[1])).collect();
         }
         if let (true, Some(last)) = (load.is_cycle(), self.states.last()) {
             self.states[0].held = last.held.clone();
@@ -162,10 +161,12 @@ impl WaveMotion {
     }
 }
 
-/// All real parts, then all imaginary parts.
+/// Real and imaginary part of each value.
 fn parts(values: &[Complex<f64>]) -> Vec<f64> {
-    let real = values.iter().map(|value| value.re);
-    real.chain(values.iter().map(|value| value.im)).collect()
+    values
+        .iter()
+        .flat_map(|value| [value.re, value.im])
+        .collect()
 }
 
 /// The steps of a motion, with positions relative to its beginning.

@@ -18,6 +18,8 @@ use crate::{BemError, Elastomer, GridOptions};
 
 /// Smallest number of steps that can be extrapolated: S, S/2 and S/4 must be different steps.
 const MIN_STEPS: usize = 4;
+/// Smallest number of steps over which a limit can change, because it looks back to a half and a quarter of the distance.
+const MIN_STEPS_OF_CHANGE: usize = 2 * MIN_STEPS;
 
 /// The limit of the friction coefficient for an infinite sliding distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -228,8 +230,7 @@ impl ExtrapolatedFriction {
             return 1.0;
         };
         let start = distance - over_distance;
-        // The extrapolation looks back to a half and a quarter of the distance, so that fewer than eight steps show no change.
-        if start <= 0.0 || self.0.len() < 8 {
+        if start <= 0.0 || self.0.len() < MIN_STEPS_OF_CHANGE {
             return 1.0;
         }
         let recent = self.0.iter().rev().take_while(|[then, _]| *then >= start);
