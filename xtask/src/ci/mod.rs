@@ -14,6 +14,7 @@ use anyhow::{Context, Result, ensure};
 
 use crate::figures;
 use cargo::Cargo;
+pub(crate) use cargo::workspace_root;
 pub(crate) use dependencies::{Dependencies, write as write_dependencies};
 pub(crate) use release::release;
 use workspace::Workspace;

@@ -17,6 +17,7 @@ mod share;
 mod speed_range;
 mod stability;
 mod stationary;
+mod tuning;
 mod work_precision;
 
 use std::path::{Path, PathBuf};
@@ -74,6 +75,8 @@ enum Experiment {
     Rough,
     /// Fit materials that are known to made-up measurements, and compare their friction with its material error.
     Material,
+    /// Change constants of the solvers: in which range does nothing change? Goes on where it was interrupted.
+    Tuning(tuning::Options),
 }
 
 /// Carries out the experiments asked for; a result that is wrong is written like any other before the command fails.
@@ -109,6 +112,7 @@ impl Experiment {
             Self::Stationary(options) => stationary::report(options, quick),
             Self::Rough => rough::report(out, quick),
             Self::Material => material::report(quick),
+            Self::Tuning(options) => tuning::report(options, out, quick),
         }
     }
 }

@@ -50,6 +50,7 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
         ("evidence stationary --table colours", "growth, error-bars"),
         ("evidence calibration --scenes 0", "from 1 to 100000"),
         ("evidence stability --only nonsense", "is in no case"),
+        ("evidence tuning --constant PI", "is not in"),
         ("reproduce", "unrecognized subcommand"),
     ] {
         let output = xtask(line);

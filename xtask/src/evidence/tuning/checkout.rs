@@ -1,0 +1,109 @@
+//! A copy of the checkout in which one constant is changed, and the program that is built there.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+
+use super::cases::{BenchmarkScene, Case};
+use super::program::Program;
+use crate::ci::workspace_root;
+use crate::output::write_atomically;
+
+/// Build of the program; many units of code, which are kept, make it short after a change of one file.
+const BUILD: &str = "build --quiet --profile ci --workspace --all-features --bin viscofriction \
+                     --config profile.ci.incremental=true \
+                     --config profile.ci.package.bem-halfspace.codegen-units=32 \
+                     --config profile.ci.package.mdr-core.codegen-units=32";
+
+/// The copy, in a folder with all that is built from it.
+pub(super) struct Checkout {
+    folder: PathBuf,
+    tracked: Vec<PathBuf>,
+}
+
+impl Checkout {
+    pub(super) fn new() -> Result<Self> {
+        Ok(Self {
+            folder: workspace_root().join("target/tuning"),
+            tracked: tracked_files()?,
+        })
+    }
+
+    /// Makes the copy equal to the checkout but for one constant; files that do not change keep their time.
+    pub(super) fn update(&self, change: Option<(&Case, &str)>) -> Result<()> {
+        let root = workspace_root();
+        let edited = change.map(|(case, _)| case.file(&root, &self.tracked));
+        let edited = edited.transpose()?;
+        for file in &self.tracked {
+            let mut contents = read(&root.join(file))?;
+            if let Some((case, tried)) = change.filter(|_| edited == Some(file)) {
+                contents = case
+                    .edit(&String::from_utf8(contents)?, tried)?
+                    .into_bytes();
+            }
+            let copy = self.copy(file);
+            if fs::read(&copy).ok().as_ref() != Some(&contents) {
+                write_atomically(&copy, &contents)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Builds the program from the copy and keeps it under a name.
+    pub(super) fn build(&self, name: &str) -> Result<Program> {
+        // Under `cargo xtask` this is the cargo that runs it.
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let target = self.folder.join("target");
+        let mut command = Command::new(cargo);
+        command.args(BUILD.split_whitespace());
+        command.current_dir(self.copy(Path::new("")));
+        command.env("CARGO_TARGET_DIR", &target);
+        output(command)?;
+        let program = Program::new(&self.folder, name);
+        let built = target
+            .join("ci/viscofriction")
+            .with_extension(std::env::consts::EXE_EXTENSION);
+        fs::copy(&built, program.file()).with_context(|| built.display().to_string())?;
+        Ok(program)
+    }
+
+    /// Where a file of the checkout is in the copy.
+    pub(super) fn copy(&self, file: &Path) -> PathBuf {
+        self.folder.join("checkout").join(file)
+    }
+
+    /// Writes the scene of the reference beside the scene, so that it finds the same other files.
+    pub(super) fn write_reference(&self, scene: &BenchmarkScene) -> Result<PathBuf> {
+        let file = self.copy(&scene.file);
+        let text = String::from_utf8(read(&file)?)?;
+        let mut table: toml::Table = toml::from_str(&text)?;
+        table.insert("solve".to_owned(), scene.reference.clone().into());
+        let finer = file.with_extension("reference.toml");
+        write_atomically(&finer, toml::to_string(&table)?.as_bytes())?;
+        Ok(finer)
+    }
+}
+
+/// Files that git tracks and that are there, from the root of the checkout.
+pub(super) fn tracked_files() -> Result<Vec<PathBuf>> {
+    let root = workspace_root();
+    let mut git = Command::new("git");
+    git.arg("-C").arg(&root).args(["ls-files", "-z"]);
+    let list = String::from_utf8(output(git)?)?;
+    let files = list.split_terminator('\0').map(PathBuf::from);
+    Ok(files.filter(|file| root.join(file).exists()).collect())
+}
+
+fn read(file: &Path) -> Result<Vec<u8>> {
+    fs::read(file).with_context(|| format!("reading {}", file.display()))
+}
+
+/// What a command prints, if it succeeds.
+fn output(mut command: Command) -> Result<Vec<u8>> {
+    let output = command.output().with_context(|| format!("{command:?}"))?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "{command:?}: {errors}");
+    Ok(output.stdout)
+}

@@ -1,0 +1,138 @@
+//! Runs of the program: answer and processor time.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, ensure};
+use serde_json::Value;
+use viscofriction::Estimate;
+
+use super::cases::BenchmarkScene;
+
+/// A program built with some value of a constant.
+pub(super) struct Program {
+    file: PathBuf,
+}
+
+/// What one run of the program gave.
+pub(super) struct Run {
+    pub(super) answer: Result<Answer, Failure>,
+    /// Processor time of the run \[s].
+    pub(super) processor_seconds: f64,
+    /// Time of the run on the wall \[s].
+    pub(super) seconds: f64,
+}
+
+/// The parts of an answer that are compared.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Answer {
+    pub(super) quantities: BTreeMap<String, Estimate>,
+    pub(super) unknowns: Option<f64>,
+    pub(super) iterations: Option<f64>,
+}
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Failure {
+    /// The last line of the program's error.
+    Refused(String),
+    /// The time in which the program did not end \[s].
+    Unfinished(f64),
+}
+
+/// Pause between two looks at whether a run has ended.
+const POLLING_INTERVAL: Duration = Duration::from_millis(2);
+
+impl Program {
+    pub(super) fn new(folder: &Path, name: &str) -> Self {
+        let file = folder.join(format!("viscofriction-{name}"));
+        let file = file.with_extension(std::env::consts::EXE_EXTENSION);
+        Self { file }
+    }
+
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Solves a scene on one thread; a run that takes longer than the limit \[s] is ended.
+    pub(super) fn solve(&self, scene: &BenchmarkScene, file: &Path, limit: f64) -> Result<Run> {
+        let [printed, errors] =
+            ["json", "err"].map(|extension| self.file.with_extension(extension));
+        let start = Instant::now();
+        let before = processor_seconds_of_children()?;
+        let mut command = Command::new(&self.file);
+        command.arg("run").arg(file).args(["--format", "json"]);
+        command.args(&scene.arguments).env("RAYON_NUM_THREADS", "1");
+        command
+            .stdout(File::create(&printed)?)
+            .stderr(File::create(&errors)?);
+        let mut child = command.spawn().with_context(|| format!("{command:?}"))?;
+        let mut status = child.try_wait()?;
+        while status.is_none() && start.elapsed().as_secs_f64() < limit {
+            sleep(POLLING_INTERVAL);
+            status = child.try_wait()?;
+        }
+        if status.is_none() {
+            child.kill()?;
+            child.wait()?;
+        }
+        let answer = match status {
+            None => Err(Failure::Unfinished(limit)),
+            Some(status) if status.success() => Ok(Answer::read(&printed, &scene.quantities)?),
+            Some(_) => {
+                let text = fs::read_to_string(&errors)?;
+                Err(Failure::Refused(
+                    text.lines().last().unwrap_or_default().to_owned(),
+                ))
+            }
+        };
+        Ok(Run {
+            answer,
+            processor_seconds: processor_seconds_of_children()? - before,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+}
+
+impl Answer {
+    /// Quantities of a printed answer; those inside others have the names of the outer ones in front, separated by a slash.
+    fn read(printed: &Path, names: &[String]) -> Result<Self> {
+        let answer: Value = serde_json::from_str(&fs::read_to_string(printed)?)?;
+        let number = |name: &str| answer.pointer(&format!("/{name}")).and_then(Value::as_f64);
+        let known = |name: &String| {
+            let value = number(name).with_context(|| format!("the answer has no {name}"))?;
+            let error = number(&format!("{name}_error"));
+            let error = error.with_context(|| format!("the answer has no error of {name}"))?;
+            Ok((name.clone(), Estimate::new(value, error)))
+        };
+        Ok(Self {
+            quantities: names.iter().map(known).collect::<Result<_>>()?,
+            unknowns: number("unknowns"),
+            iterations: number("iterations"),
+        })
+    }
+}
+
+/// Fields before the times of ended children in `/proc/self/stat`, after the name of the program in parentheses.
+const FIELDS_BEFORE_CHILDREN: usize = 13;
+/// Clock ticks per second in `/proc`, on all architectures that Linux has a Rust compiler for.
+const TICKS_PER_SECOND: f64 = 100.0;
+
+/// Processor time of all children that have ended \[s], which Linux counts in steps of 10 ms.
+fn processor_seconds_of_children() -> Result<f64> {
+    let text = fs::read_to_string("/proc/self/stat").context("processor times need Linux")?;
+    let fields = text.rsplit_once(')').map_or("", |(_, fields)| fields);
+    let times = fields
+        .split_whitespace()
+        .skip(FIELDS_BEFORE_CHILDREN)
+        .take(2);
+    let ticks = times
+        .map(|time| Ok(time.parse::<f64>()?))
+        .collect::<Result<Vec<_>>>()?;
+    ensure!(ticks.len() == 2, "/proc/self/stat has no times: {text}");
+    Ok((ticks[0] + ticks[1]) / TICKS_PER_SECOND)
+}
