@@ -301,9 +301,11 @@ impl Base {
 /// Largest edge of an element over the thickness of the layer; a thinner layer is a Winkler foundation or, where it is
 /// incompressible, a film.
 const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
-/// Half length of the contact over the thickness from which a layer counts as thin in [`Base::pile_up_factor`].
+/// Half length of the contact over the thickness from which a layer counts as thin in [`Base::pile_up_factor`]. Measured by
+/// `evidence tuning`.
 const THIN_LAYER_RATIO: f64 = 5.0;
-/// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height.
+/// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height. Measured by
+/// `evidence tuning`.
 const PILE_UP_MARGIN: f64 = 0.2;
 /// Distance from ρ = 0 to the nearest singularities of c(ρ), which lie on the imaginary axis: from 1 − M ∼ s² e^(−2s).
 pub(super) const SINGULARITY_DISTANCE: f64 = 2.0;

@@ -15,7 +15,7 @@
 use crate::steady::{Foundation, Mode};
 
 /// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the
-/// preconditioned norm.
+/// preconditioned norm. Measured by `evidence tuning`.
 const CG_TOLERANCE: f64 = 1e-8;
 /// Iterations of conjugate gradients at most.
 const MAX_CG_ITERATIONS: usize = 200;

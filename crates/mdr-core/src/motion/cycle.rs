@@ -21,20 +21,22 @@ const CYCLES_AT_FULL_TOLERANCE: usize = 100;
 const LENIENT_TOLERANCE_FACTOR: f64 = 10.0;
 
 /// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as
-/// many cycles as the last one. Chosen.
+/// many cycles as the last one. Measured by `evidence tuning`.
 const TARGET_DEVIATION: f64 = 0.4;
-/// Smallest factor on the cycles that a step covers. Chosen.
+/// Smallest factor on the cycles that a step covers. Measured by `evidence tuning`.
 const MIN_CYCLES_FACTOR: f64 = 0.3;
-/// Largest factor on the cycles that a step covers. Chosen.
+/// Largest factor on the cycles that a step covers. Measured by `evidence tuning`.
 const MAX_CYCLES_FACTOR: f64 = 10.0;
-/// Most cycles that a step covers. Chosen.
+/// Most cycles that a step covers. Measured by `evidence tuning`.
 const MAX_CYCLES_PER_STEP: f64 = 1e16;
 /// Cycles per step with which the next resolution begins, as a part of the last ones on the resolution before.
-/// Chosen.
+/// Measured by `evidence tuning`.
 const CARRIED_OVER_CYCLES: f64 = 1e-3;
-/// Safety factor on the change by a step that did what was expected, as a bound of what remains. Chosen.
+/// Safety factor on the change by a step that did what was expected, as a bound of what remains. Measured by
+/// `evidence tuning`.
 const REMAINDER_SAFETY_FACTOR: f64 = 2.0;
-/// Largest deviation that enters the geometric series of what remains, so that the series converges.
+/// Largest deviation that enters the geometric series of what remains, so that the series converges. Measured by
+/// `evidence tuning`.
 const MAX_COUNTED_DEVIATION: f64 = 0.9;
 /// Rounding of the amplitudes of recovery, relative to them: 64 units in the last place.
 const AMPLITUDE_ROUNDING: f64 = 64.0 * f64::EPSILON;

@@ -23,10 +23,11 @@ use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 const MAX_ELEMENTS_OF_SLIDE: usize = 32;
 /// Order of the error in the number of elements under a smooth body: that of a step with the load held.
 const ORDER_OF_SLIDE: f64 = 1.0;
-/// Sliding distance to the stationary state in contact lengths of the one-dimensional model, if only flow is slow; chosen.
+/// Sliding distance to the stationary state in contact lengths of the one-dimensional model, if only flow is slow; measured by
+/// `evidence tuning`.
 const FLOW_CONTACT_LENGTHS: f64 = 24.0;
-/// Largest relative change of the friction coefficient over the second half of a march that is extrapolated to the stationary
-/// state; chosen.
+/// Largest relative change of the friction coefficient over the second half of a march that is extrapolated to the stationary state;
+/// measured by `evidence tuning`.
 const MAX_DRIFT: f64 = 0.05;
 /// Longest sliding distance to the stationary state over the memory length v λ, beyond [`FLOW_CONTACT_LENGTHS`]; chosen.
 const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;

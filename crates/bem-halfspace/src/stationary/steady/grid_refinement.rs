@@ -63,7 +63,7 @@ const MIN_GRID_LIMIT: f64 = 1e5;
 /// Factors on the spacing that are tried in turn where the active set cycles; chosen. The spacing that is reported is that of the grid
 /// that was solved.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
-/// Tolerance of a contact over the requested relative error and the ratio of friction to mean slope; chosen.
+/// Tolerance of a contact over the requested relative error and the ratio of friction to mean slope; measured by `evidence tuning`.
 const RESIDUAL_SHARE: f64 = 1e-4;
 /// Like [`RESIDUAL_SHARE`], in plane strain; chosen. The constant potential of the whole strip, which is absorbed in the depth, leaves
 /// more rounding error.

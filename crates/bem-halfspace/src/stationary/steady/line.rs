@@ -72,8 +72,8 @@ pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
 /// Elements of the coarsest grid along the half contact of a cylinder on an elastic half space; chosen.
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
-/// Elements of the coarsest grid along the whole contact of a cylinder: twice [`COARSEST_PER_HALF_LENGTH`].
-const COARSEST_PER_CONTACT: f64 = 8.0;
+/// Elements of the coarsest grid along the whole contact of a cylinder.
+const COARSEST_PER_CONTACT: f64 = 2.0 * COARSEST_PER_HALF_LENGTH;
 /// Rear of the footprint, in half lengths of the contact of a cylinder; chosen. No contact reaches further back than the elastic one.
 const FOOTPRINT_REAR: f64 = 2.0;
 /// Front of the footprint, in the same half lengths, without memory; chosen.
