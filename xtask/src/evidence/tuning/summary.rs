@@ -149,7 +149,7 @@ mod tests {
     fn the_range_ends_before_the_first_value_that_changes_something() {
         let text = r#"
             constant = "RATIO"
-            file = "a.rs"
+            source = "a.rs"
             present = "1.0"
             smaller = ["0.5", "0.25", "0.125"]
             larger = ["2.0", "4.0"]
