@@ -76,6 +76,11 @@ impl Estimate {
         Self::new(self.0.value, self.0.error + additional_error)
     }
 
+    /// The error over the modulus of the value; NaN if both are 0.
+    pub fn relative_error(&self) -> f64 {
+        self.error / self.value.abs()
+    }
+
     /// Whether the value is finite and its error at most `relative_error` times its modulus.
     pub fn is_within(&self, relative_error: f64) -> bool {
         self.value.is_finite() && self.error <= relative_error * self.value.abs()

@@ -61,7 +61,8 @@ pub use progress::{
 };
 pub use quadrature::{integrate, integrate_from_ends};
 pub use refinement::{
-    Accuracy, FIRST_ELEMENTS, Goal, NotReached, Quantity, Refined, Request, refine,
+    Accuracy, FIRST_ELEMENTS, Goal, Level, LevelForecast, NotReached, Quantity, Refined, Request,
+    refine, refine_levels,
 };
 pub use root::{bracketed_root, golden_section, try_bracketed_root};
 pub use whole_part::whole_part;

@@ -27,6 +27,16 @@ pub enum Accuracy {
     Elements(usize),
 }
 
+impl Accuracy {
+    /// The requested relative error; `None` if a number of elements is requested.
+    pub const fn relative_error(self) -> Option<f64> {
+        match self {
+            Self::RelativeError(error) => Some(error),
+            Self::Elements(_) => None,
+        }
+    }
+}
+
 impl From<f64> for Accuracy {
     /// A relative error.
     fn from(relative_error: f64) -> Self {
@@ -153,6 +163,30 @@ pub struct NotReached {
     pub elements: usize,
 }
 
+impl NotReached {
+    /// A quantity known on a number of elements; `None` if its value has the requested relative error.
+    pub fn unless_within(
+        relative_error: f64,
+        quantity: usize,
+        known: Estimate,
+        elements: usize,
+    ) -> Option<Self> {
+        (!known.is_within(relative_error)).then_some(Self {
+            quantity,
+            relative_error,
+            value: known.value,
+            scale: known.value.abs(),
+            error: known.error,
+            elements,
+        })
+    }
+
+    /// Factor by which the error is too large.
+    pub fn excess(&self) -> f64 {
+        self.error / (self.relative_error * self.scale)
+    }
+}
+
 /// End of the message of [`NotReached`], which names the scale of the relative error if that is not the value itself.
 fn relative_to(value: f64, scale: f64) -> String {
     if scale > value.abs() {
@@ -174,6 +208,69 @@ const ESTIMATE_WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];
 const WEIGHT_OF_TWO_ESTIMATES: f64 = 1.7;
 /// Rounding error of the many sums behind a value, relative to it; chosen.
 const SUMMATION_ERROR: f64 = 1e-12;
+
+/// The result on one level of a refinement.
+#[derive(Debug)]
+pub struct Level<T> {
+    /// The result.
+    pub found: T,
+    /// The quantity whose error is too large; `None` if all are small enough, or no relative error was requested.
+    pub missed: Option<NotReached>,
+    /// Expected work of the levels that are still needed; `None` if none is, or the next one is beyond the limits.
+    pub remaining_work: Option<f64>,
+}
+
+/// Solves on one level after the other, each finer than the one before, until no more is needed or within the limits.
+///
+/// `solve_next` receives the result of the level before and solves on the next one. It returns `None` while the levels are too
+/// few for an error estimate, which takes the `initial_work`.
+///
+/// # Errors
+/// Those of `solve_next`.
+pub fn refine_levels<T, E>(
+    watch: &dyn Progress,
+    initial_work: f64,
+    mut solve_next: impl FnMut(Option<Level<T>>, &mut WorkProgress) -> Result<Option<Level<T>>, E>,
+) -> Result<Level<T>, E> {
+    let mut progress = WorkProgress::new(watch, initial_work);
+    let mut last: Option<Level<T>> = None;
+    loop {
+        last = solve_next(last, &mut progress)?;
+        if let Some(level) = last.take_if(|level| level.remaining_work.is_none()) {
+            return Ok(level);
+        }
+        if let Some(work) = last.as_ref().and_then(|level| level.remaining_work) {
+            progress.set_remaining_work(work);
+        }
+    }
+}
+
+/// Expected work and errors of the levels that follow.
+#[derive(Debug, Clone, Copy)]
+pub struct LevelForecast {
+    /// Work of the next level.
+    pub work: f64,
+    /// Ratio > 1 of the work of one level to that of the level before.
+    pub work_ratio: f64,
+    /// Ratio < 1 of the error of one level to that of the level before.
+    pub error_ratio: f64,
+    /// Number of levels within the limits.
+    pub max_levels: f64,
+}
+
+impl LevelForecast {
+    /// Number of levels, at least 1, until the error is small enough or the limits are reached.
+    fn levels(&self, missed: &NotReached) -> f64 {
+        let needed = missed.excess().ln() / -self.error_ratio.ln();
+        needed.min(self.max_levels).ceil().max(1.0)
+    }
+
+    /// Work of these levels, a geometric series.
+    pub fn remaining_work(&self, missed: &NotReached) -> f64 {
+        let growth = self.work_ratio.powf(self.levels(missed));
+        self.work * (growth - 1.0) / (self.work_ratio - 1.0)
+    }
+}
 
 /// Solves with the requested number of elements, or doubles them until all quantities have the requested relative error.
 ///
@@ -200,23 +297,25 @@ pub fn refine<T, E>(
             (goal.initial_elements, Some(error), goal.selection_factor)
         }
     };
-    let mut progress = WorkProgress::new(watch, goal.initial_work(elements));
     let solve_on = |eighths: usize, elements: usize, progress: &mut WorkProgress| {
         let elements = eighths.saturating_mul(elements).div_ceil(8);
         progress.run(goal.work_on(elements as f64), |report| {
             solve(elements, report)
         })
     };
-    // The two coarsest resolutions; later ones are the fine resolutions of the step before.
-    let mut half = quantities(&solve_on(4, elements, &mut progress)?);
-    let mut three_eighths = None;
-    if elements >= MIN_ELEMENTS_FOR_THREE_EIGHTHS {
-        three_eighths = Some(quantities(&solve_on(3, elements, &mut progress)?));
-    }
-    loop {
+    // Quantities on half and on three eighths of the elements, from the second level on known from the level before.
+    let (mut half, mut three_eighths) = (Vec::new(), None);
+    let level = refine_levels(watch, goal.initial_work(elements), |last, progress| {
+        if last.is_none() {
+            half = quantities(&solve_on(4, elements, progress)?);
+            if elements >= MIN_ELEMENTS_FOR_THREE_EIGHTHS {
+                three_eighths = Some(quantities(&solve_on(3, elements, progress)?));
+            }
+        }
+
         // Solve on this resolution and on three quarters of it.
-        let three_quarters = quantities(&solve_on(6, elements, &mut progress)?);
-        let value = solve_on(8, elements, &mut progress)?;
+        let three_quarters = quantities(&solve_on(6, elements, progress)?);
+        let value = solve_on(8, elements, progress)?;
         let fine = quantities(&value);
 
         // Estimate the discretisation error from the differences between resolutions.
@@ -246,23 +345,26 @@ pub fn refine<T, E>(
             }
         }
 
-        // Return, or double the elements; their half and three eighths are known then.
-        match not_reached(relative_error, &fine, &parts, elements) {
-            Some(missed) if !is_last() => progress.set_remaining_work(goal.work_after(&missed)),
-            missed => {
-                return Ok(Refined {
-                    error: errors(&fine, &parts),
-                    value,
-                    parts,
-                    elements,
-                    missed,
-                });
-            }
-        }
+        // Double the elements; their half and three eighths are known then.
+        let missed = not_reached(relative_error, &fine, &parts, elements);
+        let unfinished = missed.filter(|_| !is_last());
+        let level = Level {
+            found: Refined {
+                error: errors(&fine, &parts),
+                value,
+                parts,
+                elements,
+                missed,
+            },
+            missed,
+            remaining_work: unfinished.map(|missed| goal.work_after(&missed)),
+        };
         elements *= 2;
         half = fine;
         three_eighths = Some(three_quarters);
-    }
+        Ok(Some(level))
+    })?;
+    Ok(level.found)
 }
 
 impl Goal<'_> {
@@ -277,21 +379,18 @@ impl Goal<'_> {
         work(0.375) + work(0.5) + work(0.75) + (1.0 + self.extra_work) * work(1.0)
     }
 
-    /// Work of the resolutions that are still needed if the error falls with the convergence order.
+    /// Work of the doublings that are still needed if the error falls with the convergence order.
     fn work_after(&self, missed: &NotReached) -> f64 {
-        let ratio = missed.error / (missed.relative_error * missed.scale);
-        let mut elements = missed.elements as f64;
-        // Elements for which C/n^q is the requested error.
-        let needed = (elements * ratio.powf(self.order.recip())).min(self.max_elements as f64);
+        let elements = missed.elements as f64;
         // Each doubling solves on all and on three quarters of the new elements.
-        let mut work = 0.0;
-        loop {
-            elements *= 2.0;
-            work += self.work_on(elements) + self.work_on(0.75 * elements);
-            if elements >= needed {
-                return work + self.extra_work * self.work_on(elements);
-            }
-        }
+        let forecast = LevelForecast {
+            work: self.work_on(2.0 * elements) + self.work_on(1.5 * elements),
+            work_ratio: self.work_exponent.exp2(),
+            error_ratio: (-self.order).exp2(),
+            max_levels: (self.max_elements as f64 / elements).log2(),
+        };
+        let finest = elements * forecast.levels(missed).exp2();
+        forecast.remaining_work(missed) + self.extra_work * self.work_on(finest)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::elements::mirror::Mirror;
 use numerics::{positive, whole_part};
 
 /// Largest number of elements of a grid; chosen, since more would not fit into the memory of a large machine.
-const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
+pub(crate) const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
 
 /// A regular grid of rectangular elements, stored row-major with y fastest.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -59,11 +59,6 @@ pub struct Refinement {
     pub friction_coefficient: Average,
     /// Friction coefficient [from dissipation](crate::stationary::steady::SteadySliding::friction_from_dissipation).
     pub friction_from_dissipation: Average,
-    /// Fraction of the friction that may be lost because the surface relaxes within one element.
-    pub unresolved: f64,
-    /// True if the contact ends within a few elements of an edge of the body, so that the elements do not resolve whether it
-    /// ends at that edge.
-    pub hides_edge: bool,
     /// Normal force, \[N].
     pub normal_force: Average,
     /// Depth after the sliding distance of the load, or the

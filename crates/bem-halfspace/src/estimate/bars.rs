@@ -200,20 +200,22 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
         finest: refined.value.state,
         options: refined.value.options,
     })?;
-    reached_or_error(refined.missed, estimate)
+    reached_or_error(refined.missed, Name::of_quantity, estimate)
 }
 
 /// The result, or [`BemError::NotReached`] with the result inside if a quantity missed the error asked for.
+///
+/// `name` is that of a quantity by its index.
 pub(crate) fn reached_or_error<E: Into<Reached>>(
     missed: Option<NotReached>,
+    name: impl FnOnce(usize) -> &'static str,
     found: E,
 ) -> Result<E, BemError> {
     let Some(missed) = missed else {
         return Ok(found);
     };
     Err(BemError::NotReached {
-        // For a history the quantities of all rows follow each other.
-        quantity: Name::ALL[missed.quantity % Name::ALL.len()].in_words(),
+        quantity: name(missed.quantity),
         value: missed.value,
         error: missed.error,
         relative_error: missed.relative_error,

@@ -25,8 +25,13 @@ impl Name {
         self as usize
     }
 
+    /// The name in words of the quantity with this index; for a history the quantities of all rows follow each other.
+    pub(crate) fn of_quantity(index: usize) -> &'static str {
+        Self::ALL[index % Self::ALL.len()].in_words()
+    }
+
     /// The quantity in error messages, with its unit.
-    pub(crate) const fn in_words(self) -> &'static str {
+    const fn in_words(self) -> &'static str {
         match self {
             Self::Friction => "friction coefficient",
             Self::Force => "normal force [N]",

@@ -137,7 +137,7 @@ pub fn indent_along<'w>(
         n_steps: found.rows.len() * found.steps_per_row,
         options,
     };
-    reached_or_error(fine.missed, found)
+    reached_or_error(fine.missed, Name::of_quantity, found)
 }
 
 /// Memory that [`indent_along`] takes at most for a number of elements along the largest contact, \[bytes].

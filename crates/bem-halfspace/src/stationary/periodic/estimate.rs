@@ -193,7 +193,7 @@ pub fn slide<'w>(
         area: FIRST_ORDER_RATE,
         steps_per_row: Some(distance / period * per_element),
     };
-    refine(surface, &goal, |grid, heights, tolerance, tell| {
+    refine(surface, &goal, |sampled, tolerance, tell| {
         let options = ContactOptions {
             tolerance,
             ..ContactOptions::default()
@@ -203,14 +203,14 @@ pub fn slide<'w>(
             options,
             report: tell,
         };
-        let state = slide_with(grid, heights, elastomer, load, &steps)?;
+        let state = slide_with(&sampled.grid, &sampled.heights, elastomer, load, &steps)?;
         let last = state.rows[state.rows.len() - 1];
         let found = GridResult {
             friction: last.friction_coefficient,
             from_dissipation: None,
             area_fraction: area_fraction(&state.pressure, surface),
             in_contact: in_contact(&state.pressure),
-            has_all_waves: true,
+            has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
             mean_pressure,
             mean_depth: last.mean_depth,
@@ -236,11 +236,11 @@ fn solve(
     };
     let guess = RefCell::new(Vec::new());
     let mut pressure_before = None;
-    refine(surface, &goal, |grid, heights, tolerance, _| {
+    refine(surface, &goal, |sampled, tolerance, _| {
         let on_grid = SlidingSurface {
             sliding,
-            grid,
-            heights,
+            grid: &sampled.grid,
+            heights: &sampled.heights,
             options: PeriodicOptions {
                 tolerance,
                 ..PeriodicOptions::default()
@@ -256,7 +256,7 @@ fn solve(
             from_dissipation: Some(state.friction_from_dissipation),
             area_fraction: area_fraction(&state.pressure, surface),
             in_contact: in_contact(&state.pressure),
-            has_all_waves: true,
+            has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
             mean_pressure: held.mean_pressure,
             mean_depth: state.mean_depth,

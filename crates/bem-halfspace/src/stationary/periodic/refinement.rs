@@ -5,8 +5,13 @@
 use std::borrow::Cow;
 
 use indenters::rough::PeriodicSurface;
-use numerics::{Accuracy, Estimate, Request, WorkProgress, between_zero_and_one};
+use numerics::{
+    Accuracy, Estimate, Level, LevelForecast, NotReached, Request, between_zero_and_one,
+    refine_levels,
+};
 
+use crate::elements::grid::MAX_ELEMENTS;
+use crate::estimate::bars::reached_or_error;
 use crate::stationary::periodic::equations::{
     BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID, MAX_BASIS_FLOATS_ON_SMALL_GRID,
 };
@@ -18,7 +23,7 @@ use crate::{BemError, Grid, Reached};
 /// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 /// Fewest elements along an edge with waves; chosen.
-const MIN_EDGE_ELEMENTS: usize = 32;
+pub(super) const MIN_EDGE_ELEMENTS: usize = 32;
 /// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]; chosen.
 ///
 /// Above it the first grid has one element per shortest wave, and contains only the modes that it resolves.
@@ -49,9 +54,9 @@ pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
 ///
 /// Of 1135 results the worst erred by 4.2 bars without it, and by 2.6 with it.
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
-/// Fewest elements in contact on the coarsest of three grids for the bars to be trusted; chosen. With fewer, two grids may agree by
-/// chance.
-const MIN_CONTACT_ELEMENTS: usize = 30;
+/// Fewest elements in contact on the coarsest grid for the bars to be trusted; chosen. With fewer, the active set decides the friction,
+/// and two grids may agree by chance.
+pub(super) const MIN_CONTACT_ELEMENTS: usize = 30;
 /// Tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for; chosen.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
 /// Relative error of a result per relative residual of the contact; chosen.
@@ -61,8 +66,6 @@ const CLOSED_FORM_ROUNDING: f64 = 1e-12;
 /// Maximum number of elements times steps of a march: about half an hour of one thread.
 const MAX_ELEMENT_STEPS: f64 = 2e9;
 
-/// Maximum number of elements of any grid: 2^28, as of [`Grid`].
-const MAX_GRID_ELEMENTS: f64 = 268_435_456.0;
 /// Memory per element without the GCR basis, at most, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 186.0;
 /// Memory of the GCR basis per element on a small grid, \[bytes].
@@ -180,7 +183,7 @@ fn finest_elements(first: [usize; 2]) -> f64 {
 
 /// Number of elements of the largest grid that fits into a memory \[bytes]; of the largest grid of all for `None`.
 pub fn largest_grid(memory: Option<f64>) -> f64 {
-    memory.map_or(MAX_GRID_ELEMENTS, |bytes| {
+    memory.map_or(MAX_ELEMENTS, |bytes| {
         // The basis grows with the grid between the memory of a direct solve and that of the largest basis of a small grid.
         let with_direct_solve = (bytes - DIRECT_SOLVE_BYTES) / BYTES_PER_ELEMENT;
         let with_largest_basis = (bytes - MAX_SMALL_BASIS_BYTES) / BYTES_PER_ELEMENT;
@@ -189,7 +192,7 @@ pub fn largest_grid(memory: Option<f64>) -> f64 {
             .max(with_largest_basis)
             .min(with_direct_solve)
             .floor()
-            .clamp(0.0, MAX_GRID_ELEMENTS)
+            .clamp(0.0, MAX_ELEMENTS)
     })
 }
 
@@ -214,7 +217,8 @@ pub(super) struct SampledSurface {
     pub(super) grid: Grid,
     /// Heights of the resolved modes at the centres of the elements, \[m].
     pub(super) heights: Vec<f64>,
-    has_all_waves: bool,
+    /// True if the grid resolves all waves of the surface.
+    pub(super) has_all_waves: bool,
 }
 
 impl SampledSurface {
@@ -234,94 +238,60 @@ impl SampledSurface {
 
 /// Solves on one grid after the other, each with twice the elements along both axes, until the error asked for is reached.
 ///
-/// `solve` gets the grid, its heights, the tolerance of the contact, and a function that reports its progress. The grids do not
+/// `solve` gets the surface on the grid, the tolerance of the contact, and a function that reports its progress. The grids do not
 /// depend on the error asked for, so that a smaller error continues the sequence of a larger one.
 pub(super) fn refine<S>(
     surface: &PeriodicSurface,
     goal: &RefinementGoal,
-    mut solve: impl FnMut(&Grid, &[f64], f64, &dyn Fn(f64)) -> Result<(GridResult, S), BemError>,
+    mut solve: impl FnMut(&SampledSurface, f64, &dyn Fn(f64)) -> Result<(GridResult, S), BemError>,
 ) -> Result<PeriodicEstimate<S>, BemError>
 where
     PeriodicEstimate<S>: Into<Reached>,
 {
-    let asked = match goal.request.accuracy {
-        Accuracy::RelativeError(error) => Some(between_zero_and_one("relative_error", error)?),
-        Accuracy::Elements(_) => None,
-    };
+    let asked = goal.request.accuracy.relative_error();
+    if let Some(error) = asked {
+        between_zero_and_one("relative_error", error)?;
+    }
     let mut shape = first_shape(surface, &goal.request)?;
     goal.check_size(shape, FINEST_OVER_COARSEST as f64)?;
-    let first_work = goal.work_on(shape);
-    let total_work =
-        first_work + goal.work_on(shape.map(|n| 2 * n)) + goal.work_on(shape.map(|n| 4 * n));
-    let mut progress = WorkProgress::new(goal.request.watch, total_work);
-    let (mut grids, mut tolerance) = (Vec::new(), FIRST_TOLERANCE);
-    let mut best: Option<(TargetEstimate, PeriodicEstimate<S>)> = None;
-    loop {
-        // Solve on the next grid. If that does not converge, the best estimate so far is the answer.
-        let SampledSurface {
-            grid,
-            heights,
-            has_all_waves,
-        } = SampledSurface::new(surface, shape)?;
-        let solved = progress.run(goal.work_on(shape), |tell| {
-            solve(&grid, &heights, tolerance, tell)
-        });
+    let initial_work = goal.work_on(shape)
+        + goal.work_on(shape.map(|n| 2 * n))
+        + goal.work_on(shape.map(|n| 4 * n));
+    let (mut results, mut tolerance) = (Vec::new(), FIRST_TOLERANCE);
+    let finest = refine_levels(goal.request.watch, initial_work, |last, progress| {
+        // Solve on the next grid. If that does not converge, what coarser grids know is the answer.
+        let sampled = SampledSurface::new(surface, shape)?;
+        let solved = progress.run(goal.work_on(shape), |tell| solve(&sampled, tolerance, tell));
         let failed = matches!(solved, Err(BemError::ContactNotConverged { .. }));
-        if let Some(((target, estimate), asked)) = best.take_if(|_| failed).zip(asked) {
-            return Err(target.not_reached(asked, estimate.into()));
+        if let Some(last) = last.filter(|_| failed) {
+            let remaining_work = None;
+            return Ok(Some(Level {
+                remaining_work,
+                ..last
+            }));
         }
-        let (found, state) = solved?;
-        grids.push(GridResult {
-            has_all_waves,
-            ..found
-        });
-        let finer = shape.map(|n| 2 * n);
-        if let Some(estimate) = goal.estimate(&grids, state) {
-            // Stop if the error asked for is reached.
-            let target = estimate.target();
-            let Some(missed) = asked.filter(|asked| !target.estimate.is_within(*asked)) else {
-                return Ok(estimate);
-            };
-            let is_better =
-                |(best, _): &(TargetEstimate, _)| best.relative_error() <= target.relative_error();
-            if !best.as_ref().is_some_and(is_better) {
-                best = Some((target, estimate));
-            }
-
-            // Give up if the next grid is too large, or too large for what it may reach.
-            let excess = target.relative_error() / missed;
-            if let Some((target, estimate)) = best.take_if(|_| !goal.may_refine_to(finer, excess)) {
-                return Err(target.not_reached(missed, estimate.into()));
-            }
-            goal.check_march(excess, finer)?;
-            progress.set_remaining_work(goal.remaining_work(excess, finer));
-        }
-        shape = finer;
+        let (result, state) = solved?;
+        results.push(result);
+        shape = shape.map(|n| 2 * n);
         tolerance *= 0.5;
-    }
-}
+        let Some(found) = goal.estimate(&results, state) else {
+            return Ok(None);
+        };
 
-/// The quantity whose relative error is asked for.
-#[derive(Clone, Copy)]
-struct TargetEstimate {
-    quantity: &'static str,
-    estimate: Estimate,
-}
-
-impl TargetEstimate {
-    fn relative_error(&self) -> f64 {
-        self.estimate.error / self.estimate.value.abs()
-    }
-
-    fn not_reached(self, relative_error: f64, reached: Reached) -> BemError {
-        BemError::NotReached {
-            quantity: self.quantity,
-            value: self.estimate.value,
-            error: self.estimate.error,
-            relative_error,
-            reached: Box::new(reached),
+        // Give up if the next grid is too large, or too large for what it may reach.
+        let missed = asked.and_then(|asked| found.missed(asked, shape[0].max(shape[1]) / 2));
+        let unfinished = missed.filter(|missed| goal.may_refine_to(shape, missed.excess()));
+        if let Some(missed) = unfinished {
+            goal.check_march(missed.excess(), shape)?;
         }
-    }
+        let remaining_work = unfinished.map(|missed| goal.forecast(shape).remaining_work(&missed));
+        Ok::<_, BemError>(Some(Level {
+            found,
+            missed,
+            remaining_work,
+        }))
+    })?;
+    reached_or_error(finest.missed, |index| TARGETS[index], finest.found)
 }
 
 impl RefinementGoal<'_> {
@@ -331,18 +301,14 @@ impl RefinementGoal<'_> {
         rows * columns * self.steps_per_row.map_or(1.0, |steps| steps * rows)
     }
 
-    /// Work on the grids from this one on that are needed if the error is too large by the factor `excess` and converges as
-    /// expected.
-    fn remaining_work(&self, excess: f64, shape: [usize; 2]) -> f64 {
-        let grids = (excess.log2() / -self.friction.expected_reduction.log2())
-            .ceil()
-            .max(1.0);
-        let growth: f64 = if self.steps_per_row.is_some() {
-            8.0
-        } else {
-            4.0
-        };
-        self.work_on(shape) * (growth.powf(grids) - 1.0) / (growth - 1.0)
+    /// The grids from this shape on, if the friction converges as expected.
+    fn forecast(&self, shape: [usize; 2]) -> LevelForecast {
+        LevelForecast {
+            work: self.work_on(shape),
+            work_ratio: self.steps_per_row.map_or(4.0, |_| 8.0),
+            error_ratio: self.friction.expected_reduction,
+            max_levels: f64::INFINITY,
+        }
     }
 
     /// Fails if a grid with `finer` times the elements of a shape along both axes is too large.
@@ -350,7 +316,7 @@ impl RefinementGoal<'_> {
         let [rows, columns] = shape.map(|n| n as f64);
         let elements = finer.powi(2) * rows * columns;
         let limit = match self.steps_per_row {
-            None => MAX_GRID_ELEMENTS,
+            None => MAX_ELEMENTS,
             Some(steps) => MAX_USUAL_GRID.min(MAX_ELEMENT_STEPS / (steps * finer * rows)),
         };
         if elements <= limit {
@@ -410,53 +376,36 @@ impl RefinementGoal<'_> {
         let friction = dissipation.map_or(slopes, |other| weighted_mean(slopes, other));
 
         // Newly resolved waves reduce the area more than finer elements do, so that the change before does not count then.
-        let min_reduction = if coarse.has_all_waves {
-            self.area.min_reduction
-        } else {
-            0.0
-        };
-        let area_rate = ConvergenceRate {
-            min_reduction,
-            ..self.area
-        };
+        let mut area_rate = self.area;
+        if !coarse.has_all_waves {
+            area_rate.min_reduction = 0.0;
+        }
         let area = with_error(&|found| found.area_fraction.value, area_rate);
 
-        // Add the bounds of sub-grid gaps, except to what is prescribed.
+        // Add the bounds of sub-grid gaps, except to what is prescribed. With few elements in contact the active set decides the
+        // values: let the bars reach to 0.
         let gaps = fine.subgrid_gaps;
-        let mut estimate = PeriodicEstimate {
-            friction_coefficient: friction.widened(gaps.friction),
-            friction_from_dissipation: dissipation.map(|friction| friction.widened(gaps.friction)),
-            area_fraction: area
-                .widened(fine.area_fraction.error)
-                .widened(gaps.area_fraction),
-            mean_pressure: match self.control {
-                PeriodicControl::MeanPressure(pressure) => Estimate::exact(pressure),
-                PeriodicControl::MeanDepth(_) => {
-                    with_error(&|found| found.mean_pressure, FIRST_ORDER_RATE)
-                        .widened(gaps.mean_pressure)
-                }
-            },
-            mean_depth: match self.control {
-                PeriodicControl::MeanPressure(_) => {
-                    with_error(&|found| found.mean_depth, FIRST_ORDER_RATE).widened(gaps.mean_depth)
-                }
-                PeriodicControl::MeanDepth(depth) => Estimate::exact(depth),
-            },
-            finest,
-        };
-
-        // With few elements in contact the active set decides the values: let the bars reach to 0.
-        if coarse.in_contact < MIN_CONTACT_ELEMENTS {
-            let dissipation = estimate.friction_from_dissipation.as_mut();
-            let values = [
-                &mut estimate.friction_coefficient,
-                &mut estimate.area_fraction,
-            ];
-            for value in values.into_iter().chain(dissipation) {
-                *value = value.widened(value.value.abs());
+        let reach = f64::from(u8::from(coarse.in_contact < MIN_CONTACT_ELEMENTS));
+        let widened =
+            |known: Estimate, gap: f64| known.widened(gap).widened(reach * known.value.abs());
+        let pressure = with_error(&|found| found.mean_pressure, FIRST_ORDER_RATE);
+        let depth = with_error(&|found| found.mean_depth, FIRST_ORDER_RATE);
+        let (mean_pressure, mean_depth) = match self.control {
+            PeriodicControl::MeanPressure(given) => {
+                (Estimate::exact(given), depth.widened(gaps.mean_depth))
             }
-        }
-        Some(estimate)
+            PeriodicControl::MeanDepth(given) => {
+                (pressure.widened(gaps.mean_pressure), Estimate::exact(given))
+            }
+        };
+        Some(PeriodicEstimate {
+            friction_coefficient: widened(friction, gaps.friction),
+            friction_from_dissipation: dissipation.map(|known| widened(known, gaps.friction)),
+            area_fraction: widened(area.widened(fine.area_fraction.error), gaps.area_fraction),
+            mean_pressure,
+            mean_depth,
+            finest,
+        })
     }
 }
 
@@ -481,22 +430,33 @@ fn weighted_mean(slopes: Estimate, dissipation: Estimate) -> Estimate {
     )
 }
 
+/// Names of the quantities whose relative error is asked for, with their units.
+const TARGETS: [&str; 3] = [
+    "friction coefficient",
+    "area fraction",
+    "mean pressure [Pa]",
+];
+
 impl<S> PeriodicEstimate<S> {
-    /// The quantity whose relative error is asked for: the friction, or the area without friction, or the mean pressure if its
-    /// relative error is larger.
-    fn target(&self) -> TargetEstimate {
-        let first = if self.friction_coefficient.value == 0.0 {
-            ("area fraction", self.area_fraction)
+    /// The one of [`TARGETS`] whose relative error is too large: the friction, or the area without friction, or the mean pressure if
+    /// its relative error is larger.
+    fn missed(&self, relative_error: f64, elements: usize) -> Option<NotReached> {
+        let (friction, pressure) = (self.friction_coefficient, self.mean_pressure);
+        let has_friction = friction.value != 0.0;
+        let contact = if has_friction {
+            friction
         } else {
-            ("friction coefficient", self.friction_coefficient)
+            self.area_fraction
         };
-        let relative = |known: Estimate| known.error / known.value.abs();
-        let (quantity, estimate) = if relative(self.mean_pressure) > relative(first.1) {
-            ("mean pressure [Pa]", self.mean_pressure)
-        } else {
-            first
-        };
-        TargetEstimate { quantity, estimate }
+        if pressure.relative_error() > contact.relative_error() {
+            return NotReached::unless_within(relative_error, 2, pressure, elements);
+        }
+        NotReached::unless_within(
+            relative_error,
+            usize::from(!has_friction),
+            contact,
+            elements,
+        )
     }
 }
 
@@ -560,9 +520,9 @@ mod tests {
         };
         let surface = PeriodicSurface::new([1.0; 2], vec![wave]).expect("a surface");
         let mut frictions = [(1.3, 1.3), (1.1, 1.1), (1.0, 1.0)].into_iter();
-        let refined = refine(&surface, &goal(), |grid, _, tolerance, _| {
+        let refined = refine(&surface, &goal(), |sampled, tolerance, _| {
             let pressure = PressureField {
-                grid: *grid,
+                grid: sampled.grid,
                 origin: [0.0; 2],
                 pressure: Vec::new(),
             };

@@ -7,11 +7,10 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar" and "Order and error bar".
 
-use std::ops::Range;
-
 use indenters::Surface;
 use numerics::{
-    ErrorParts, Estimate, Progress, WorkProgress, between_zero_and_one, in_range, positive,
+    ErrorParts, Estimate, Level, LevelForecast, NotReached, Progress, WorkProgress,
+    between_zero_and_one, in_range, positive, refine_levels,
 };
 
 use crate::BemError;
@@ -21,7 +20,8 @@ use crate::estimate::bars;
 use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::estimate::quantities::Name;
 use crate::stationary::steady::extrapolation::{
-    HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS, change_at_observed_order, extrapolate, extrapolate_faster,
+    ACCEPTED_ERROR_RATIO, CREEPING_ORDERS, HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS,
+    change_at_observed_order, extrapolate,
 };
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
@@ -40,9 +40,6 @@ const STRIP_SCATTER_WINDOW: usize = 4;
 const FRONT_ORDER: f64 = 1.5;
 /// Convergence order of the area of the elements in contact.
 const AREA_ORDER: f64 = 1.0;
-/// The friction from dissipation replaces that from slopes if its error is below this fraction of the other; chosen. The smaller of
-/// two error estimates holds less often than either.
-const MAX_DISSIPATION_ERROR_RATIO: f64 = 0.5;
 /// Safety factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the last
 /// refinement has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and cylinders, with
 /// it 98.6 (docs/calibration.md).
@@ -120,70 +117,24 @@ pub(super) fn refine<E: Into<Reached>>(
     options: &RefinementOptions,
     finish: impl FnOnce(SteadyEstimate) -> Result<E, BemError>,
 ) -> Result<E, BemError> {
-    let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
+    between_zero_and_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
-    let mut grids = Grids {
+    let mut grids = ShiftedGrids {
         problem,
         options,
         order: order_of_friction(problem.plan.apex_exponent)?,
         reuse: Reuse::default(),
-        progress: WorkProgress::new(problem.watch, refinement_work(0..MIN_REFINEMENTS)),
+        next: 0,
+        refinements: Vec::new(),
+        subgrid_friction_fraction: 0.0,
+        hides_edge: false,
     };
-    let is_elastic = problem.loading.creep.is_elastic();
-    let rounding = if is_elastic {
-        ELASTIC_ROUNDING
-    } else {
-        MIN_TOLERANCE
-    };
-    let (mut index, mut finest) = grids.coarsest(0)?;
-    let mut refinements = vec![finest.averages];
-    loop {
-        // Choose the quantity that decides. Without friction the contact is known as well as its depth; finer grids would only
-        // show rounding error.
-        let friction = grids.friction(&refinements);
-        let force = grids.force(&refinements);
-        let friction_is_rounding = friction.error <= rounding * finest.state.mean_slope;
-        let (quantity, known) = match grids.depth(&refinements) {
-            Some(depth) if friction_is_rounding => (Name::Depth, depth),
-            None if friction_is_rounding => (Name::Force, force),
-            _ => (Name::Friction, friction),
-        };
-
-        // Stop when the error is reached, or when the next grid would exceed the limits.
-        let is_reached = known.is_within(relative_error) && force.is_within(relative_error);
-        if is_reached || !grids.may_refine(index + 1, &finest.averages) {
-            let found = finish(grids.estimate(friction, force, refinements, finest))?;
-            let (quantity, known) = match quantity {
-                _ if !force.is_within(relative_error) => (Name::Force, force),
-                // Friction was asked for, unless the material has none.
-                _ if !is_elastic => (Name::Friction, friction),
-                _ => (quantity, known),
-            };
-            if known.is_within(relative_error) {
-                return Ok(found);
-            }
-            return Err(BemError::NotReached {
-                quantity: quantity.in_words(),
-                value: known.value,
-                error: known.error,
-                relative_error,
-                reached: Box::new(found.into()),
-            });
-        }
-        let excess = (known.error / known.value.abs()).max(force.error / force.value.abs());
-        grids.predict_work(index, excess / relative_error, &finest.averages);
-
-        // Refine. A patch that coarser grids do not resolve makes their values worthless.
-        index += 1;
-        match grids.refine(index) {
-            Err(BemError::GridTooCoarse { .. }) => {
-                (index, finest) = grids.coarsest(index + 1)?;
-                refinements.clear();
-            }
-            refined => finest = refined?,
-        }
-        refinements.push(finest.averages);
-    }
+    let initial_work = (0..MIN_REFINEMENTS).map(work_of_level).sum();
+    let finest = refine_levels(problem.watch, initial_work, |_, progress| {
+        grids.solve_next(progress).map(Some)
+    })?;
+    let found = finish(finest.found)?;
+    bars::reached_or_error(finest.missed, Name::of_quantity, found)
 }
 
 /// Convergence order of the averages.
@@ -197,136 +148,188 @@ fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     Ok(order)
 }
 
-/// The averages of one refinement, and the last of its solutions with its grid.
-struct SolvedRefinement {
-    averages: Refinement,
-    state: SteadySliding,
-    options: SteadyOptions,
-}
-
-/// A problem on a sequence of refined grids.
-struct Grids<'a> {
+/// A problem on shifted grids, refined by √2 from level to level.
+struct ShiftedGrids<'a> {
     problem: &'a SteadyProblem<'a>,
     options: &'a RefinementOptions,
     /// Convergence order of the averages.
     order: f64,
     reuse: Reuse,
-    progress: WorkProgress<'a>,
+    /// Number of refinements by √2 of the next level.
+    next: i32,
+    /// Averages of the levels that resolve the contact, from coarse to fine.
+    refinements: Vec<Refinement>,
+    /// Fraction of the friction that may be lost on the last level, because the surface relaxes within one element.
+    subgrid_friction_fraction: f64,
+    /// True if the contact on the last level ends within a few elements of an edge of the body, so that the elements do not resolve whether
+    /// it ends at that edge.
+    hides_edge: bool,
 }
 
-/// Relative work of some refinements; each has twice as many elements as the one before.
-fn refinement_work(refinements: Range<i32>) -> f64 {
-    refinements.map(|index| f64::from(index).exp2()).sum()
+/// Relative work of a level, which has twice as many elements as the one before.
+fn work_of_level(index: i32) -> f64 {
+    f64::from(index).exp2()
 }
 
-impl Grids<'_> {
-    /// Reports the work that remains until the error is smaller by the factor `excess`, if it falls with the order of the averages.
-    fn predict_work(&mut self, index: i32, excess: f64, last: &Refinement) {
-        // Refinements until the error is small enough, at most those that the limit of unknowns allows.
-        let max_ahead = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
-        let needed = 2.0 * excess.log2() / self.order;
-        let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(max_ahead)));
-        let ahead = ahead.unwrap_or(1).max(MIN_REFINEMENTS - 1 - index);
-        self.progress
-            .set_remaining_work(refinement_work(index + 1..index + 1 + ahead));
+impl ShiftedGrids<'_> {
+    /// Solves on the next level that resolves body and contact, and extrapolates all quantities.
+    fn solve_next(
+        &mut self,
+        progress: &mut WorkProgress,
+    ) -> Result<Level<SteadyEstimate>, BemError> {
+        // A patch that coarser grids do not resolve makes their values worthless.
+        let (state, options) = loop {
+            if self.refinements.is_empty() {
+                self.check_first_level()?;
+            }
+            let solved = self.solve_level(progress);
+            self.next += 1;
+            match solved {
+                Err(BemError::SlopeNotResolved { .. }) if self.refinements.is_empty() => {}
+                Err(BemError::GridTooCoarse { .. }) => self.refinements.clear(),
+                solved => break solved?,
+            }
+        };
+
+        // Choose the quantity that decides. Without friction the contact is known as well as its depth; finer grids would only
+        // show rounding error.
+        let [friction, force] = [self.friction(), self.force()];
+        let is_elastic = self.problem.loading.creep.is_elastic();
+        let rounding = if is_elastic {
+            ELASTIC_ROUNDING
+        } else {
+            MIN_TOLERANCE
+        };
+        let friction_is_rounding = friction.error <= rounding * state.mean_slope;
+        let (name, known) = match self.depth() {
+            Some(depth) if friction_is_rounding => (Name::Depth, depth),
+            None if friction_is_rounding => (Name::Force, force),
+            _ => (Name::Friction, friction),
+        };
+        let missed_force = self.unless_within(Name::Force, force);
+        let undecided = missed_force.or(self.unless_within(name, known));
+        Ok(Level {
+            found: self.estimate(friction, force, state, options),
+            // Friction was asked for, unless the material has none.
+            missed: if is_elastic {
+                undecided
+            } else {
+                missed_force.or(self.unless_within(Name::Friction, friction))
+            },
+            remaining_work: undecided
+                .filter(|_| self.may_refine())
+                .map(|missed| self.forecast().remaining_work(&missed)),
+        })
     }
 
-    /// Extrapolated limit of the averages of a quantity. The error contains the remaining scatter, and under a body with edges the
-    /// change of the limit if the observed order is assumed.
-    fn limit(
-        &self,
-        refinements: &[Refinement],
-        order: f64,
-        quantity: impl Fn(&Refinement) -> Average,
-    ) -> Estimate {
-        let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
-        let last = refinements.last();
-        let scatter = last.map_or(0.0, |last| quantity(last).scatter);
-        let limit = extrapolate(&values, order).widened(scatter);
-        if self.problem.loading.has_edges {
-            let hides_edge = last.is_some_and(|last| last.hides_edge);
-            let range = [OBSERVED_ORDERS, HIDDEN_EDGE_ORDERS][usize::from(hides_edge)];
-            return limit.widened(change_at_observed_order(&values, order, range));
+    /// True if the next level is within the limits, supposing that it has twice as many unknowns as the last one.
+    fn may_refine(&self) -> bool {
+        let SteadyProblem { plan, watch, .. } = self.problem;
+        self.next < MAX_REFINEMENTS
+            && self.n_elements(self.next) <= self.max_elements()
+            && 2 * self.last_unknowns() <= self.options.max_unknowns
+            && watch.may_refine(plan.elements(self.next))
+    }
+
+    /// The levels that follow, if the error falls with the order of the averages.
+    fn forecast(&self) -> LevelForecast {
+        let unknowns = self.last_unknowns().max(1);
+        LevelForecast {
+            work: work_of_level(self.next),
+            work_ratio: 2.0,
+            error_ratio: (-0.5 * self.order).exp2(),
+            max_levels: f64::from((self.options.max_unknowns / unknowns).ilog2()),
         }
-        limit
+    }
+
+    /// The quantity, unless it has the requested error.
+    fn unless_within(&self, name: Name, known: Estimate) -> Option<NotReached> {
+        let elements = self.problem.plan.elements(self.next - 1);
+        NotReached::unless_within(self.options.relative_error, name.index(), known, elements)
+    }
+
+    /// Number of unknown pressures of the last level.
+    fn last_unknowns(&self) -> usize {
+        self.refinements.last().map_or(0, |last| last.unknowns)
+    }
+
+    /// Extrapolated limit of the averages of a quantity. The error contains the scatter of the last level.
+    fn limit(&self, order: f64, quantity: impl Fn(&Refinement) -> Average) -> Estimate {
+        self.limit_of(
+            &Vec::from_iter(self.refinements.iter().map(quantity)),
+            order,
+            &[],
+            1,
+        )
+    }
+
+    /// Extrapolated limit of averages that converge with the order `order` or one of the `faster_orders`. The error contains the largest
+    /// scatter of some last levels, and under a body with edges the change of the limit if the observed order is assumed.
+    fn limit_of(
+        &self,
+        averages: &[Average],
+        order: f64,
+        faster_orders: &[f64],
+        scatter_window: usize,
+    ) -> Estimate {
+        let values: Vec<f64> = averages.iter().map(|average| average.value).collect();
+        let last = averages.iter().rev().take(scatter_window);
+        let scatter = last.map(|average| average.scatter).fold(0.0, f64::max);
+        let limit = extrapolate(&values, order, faster_orders).widened(scatter);
+        if !self.problem.loading.has_edges {
+            return limit;
+        }
+        let range = [OBSERVED_ORDERS, HIDDEN_EDGE_ORDERS][usize::from(self.hides_edge)];
+        limit.widened(change_at_observed_order(&values, order, range))
     }
 
     /// Friction from the slopes, or from the dissipated power where its error is much smaller. The error contains the sub-grid friction.
-    fn friction(&self, refinements: &[Refinement]) -> Estimate {
-        let mut friction = self.friction_from_slopes(refinements);
-        if !self.problem.loading.creep.only_flows() {
-            let dissipated =
-                self.extrapolate_friction(refinements, |r| r.friction_from_dissipation);
+    ///
+    /// A small friction on any material but a dashpot may converge faster than front and apex allow on a dashpot. Higher orders are then
+    /// tried for bodies of finite width without edges. On a dashpot the scatter is not added, because it falls as fast as the rest of the
+    /// error.
+    fn friction(&self) -> Estimate {
+        let loading = &self.problem.loading;
+        let is_small = self.reuse.solution.as_ref().is_some_and(|last| {
+            last.friction_coefficient.abs() < SMALL_FRICTION_RATIO * last.mean_slope
+        });
+        let only_flows = loading.creep.only_flows();
+        let may_be_faster =
+            is_small && !only_flows && loading.strip.is_none() && !loading.has_edges;
+        let faster_orders: &[f64] = if may_be_faster { &CREEPING_ORDERS } else { &[] };
+        let limit = |quantity: fn(&Refinement) -> Average, scatter_window: usize| {
+            let averages = Vec::from_iter(self.refinements.iter().map(quantity));
+            self.limit_of(&averages, self.order, faster_orders, scatter_window)
+        };
+        let scatter_window = match loading.strip {
+            _ if only_flows => 0,
+            Some(_) => STRIP_SCATTER_WINDOW,
+            None => 1,
+        };
+        let mut friction = limit(|level| level.friction_coefficient, scatter_window);
+        if !only_flows {
+            let dissipated = limit(|level| level.friction_from_dissipation, 1);
             // Under edges the slopes of the elements miss the dissipation at the edge.
-            let has_edges = self.problem.loading.has_edges;
-            if has_edges || dissipated.error < MAX_DISSIPATION_ERROR_RATIO * friction.error {
+            if loading.has_edges || dissipated.error < ACCEPTED_ERROR_RATIO * friction.error {
                 friction = dissipated;
             }
             friction = Estimate::new(friction.value, SAFETY_FACTOR_CREEPING * friction.error);
         }
-        // Friction within an element of the grid.
-        let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
-        friction.widened(unresolved * friction.value.abs())
-    }
-
-    /// Extrapolated limit of one of the two frictions. A small friction on any material but a dashpot may converge faster than front
-    /// and apex allow on a dashpot. Higher orders are then tried for bodies of finite width without edges.
-    fn extrapolate_friction(
-        &self,
-        refinements: &[Refinement],
-        friction: impl Fn(&Refinement) -> Average,
-    ) -> Estimate {
-        let Loading {
-            creep,
-            strip,
-            has_edges,
-            ..
-        } = &self.problem.loading;
-        let is_small = self.reuse.solution.as_ref().is_some_and(|last| {
-            last.friction_coefficient.abs() < SMALL_FRICTION_RATIO * last.mean_slope
-        });
-        if !is_small || creep.only_flows() || strip.is_some() || *has_edges {
-            return self.limit(refinements, self.order, friction);
-        }
-        let values: Vec<f64> = refinements.iter().map(|r| friction(r).value).collect();
-        let last = refinements.last();
-        let scatter = last.map_or(0.0, |last| friction(last).scatter);
-        extrapolate_faster(&values, self.order).widened(scatter)
-    }
-
-    /// Friction from the slopes. On a dashpot its scatter is not added, because it falls as fast as the rest of the error.
-    fn friction_from_slopes(&self, refinements: &[Refinement]) -> Estimate {
-        let Loading { creep, strip, .. } = &self.problem.loading;
-        // Number of last refinements whose scatter is added.
-        let scatter_window = match strip {
-            _ if creep.only_flows() => 0,
-            Some(_) => STRIP_SCATTER_WINDOW,
-            None => 1,
-        };
-        let without_scatter = |refinement: &Refinement| Average {
-            scatter: 0.0,
-            ..refinement.friction_coefficient
-        };
-        let friction = self.extrapolate_friction(refinements, without_scatter);
-        let last = refinements.iter().rev().take(scatter_window);
-        let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
-        friction.widened(scatter.fold(0.0, f64::max))
+        friction.widened(self.subgrid_friction_fraction * friction.value.abs())
     }
 
     /// The given normal force, or its limit at a given depth.
-    fn force(&self, refinements: &[Refinement]) -> Estimate {
+    fn force(&self) -> Estimate {
         let [given, _] = bars::given(self.problem.loading.control);
-        given.unwrap_or_else(|| self.limit(refinements, self.order, |r| r.normal_force))
+        given.unwrap_or_else(|| self.limit(self.order, |level| level.normal_force))
     }
 
     /// The given depth, or its limit under a given force. `None` in plane strain on a half space, where depth has no meaning.
-    fn depth(&self, refinements: &[Refinement]) -> Option<Estimate> {
+    fn depth(&self) -> Option<Estimate> {
         let Loading { creep, strip, .. } = &self.problem.loading;
         let [_, given] = bars::given(self.problem.loading.control);
         let has_depth = strip.is_none() || creep.base().is_rigid();
-        given.or_else(|| {
-            has_depth.then(|| self.limit(refinements, self.order, |r| r.indentation_depth))
-        })
+        given.or_else(|| has_depth.then(|| self.limit(self.order, |level| level.indentation_depth)))
     }
 
     /// All quantities with their errors.
@@ -334,59 +337,40 @@ impl Grids<'_> {
         &self,
         friction: Estimate,
         normal_force: Estimate,
-        refinements: Vec<Refinement>,
-        finest: SolvedRefinement,
+        finest: SteadySliding,
+        options: SteadyOptions,
     ) -> SteadyEstimate {
-        let iteration = finest.state.iteration_error();
-        let known = |of: fn(&Refinement) -> Average| self.limit(&refinements, self.order, of);
-        let [dx, dy] = finest.options.spacing;
+        let iteration = finest.iteration_error();
+        let peak_pressure = || self.limit(self.order, |level| level.peak_pressure);
+        let [dx, dy] = options.spacing;
         SteadyEstimate {
-            friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
+            friction_coefficient: friction.widened(iteration),
             error_parts: ErrorParts {
                 iteration: Some(iteration),
                 ..ErrorParts::discretisation_only(friction.error)
             },
             normal_force,
-            indentation_depth: self.depth(&refinements),
-            contact_area: self.limit(&refinements, AREA_ORDER, |r| r.contact_area),
-            peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
+            indentation_depth: self.depth(),
+            contact_area: self.limit(AREA_ORDER, |level| level.contact_area),
+            peak_pressure: self.problem.has_peak.then(peak_pressure),
             contact_box_error: bars::contact_box_error(dx.max(dy)),
-            refinements,
-            finest: finest.state,
-            options: finest.options,
+            refinements: self.refinements.clone(),
+            finest,
+            options,
         }
     }
 
-    /// The first refinement from `index` on that resolves body and contact.
+    /// Checks that all levels that an error estimate needs, from the next one on, are within the limits.
     ///
     /// # Errors
-    /// [`BemError::GridTooLarge`] if too few of the refinements that follow are within the limits for an error estimate.
-    fn coarsest(&mut self, mut index: i32) -> Result<(i32, SolvedRefinement), BemError> {
-        loop {
-            // All refinements that an error estimate needs must be within the limits.
-            let elements = self.n_elements(index + MIN_REFINEMENTS - 1);
-            if elements > self.max_elements() {
-                return Err(BemError::GridTooLarge {
-                    elements,
-                    limit: self.max_elements(),
-                });
-            }
-            match self.refine(index) {
-                Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. }) => {
-                    index += 1;
-                }
-                refinement => return Ok((index, refinement?)),
-            }
+    /// [`BemError::GridTooLarge`].
+    fn check_first_level(&self) -> Result<(), BemError> {
+        let elements = self.n_elements(self.next + MIN_REFINEMENTS - 1);
+        let limit = self.max_elements();
+        if elements > limit {
+            return Err(BemError::GridTooLarge { elements, limit });
         }
-    }
-
-    /// True if a refinement is within the limits, supposing that it has twice as many unknowns as the one before.
-    fn may_refine(&self, refinement: i32, before: &Refinement) -> bool {
-        let SteadyProblem { plan, watch, .. } = self.problem;
-        refinement < MAX_REFINEMENTS
-            && self.n_elements(refinement) <= self.max_elements()
-            && 2 * before.unknowns <= self.options.max_unknowns
-            && watch.may_refine(plan.elements(refinement))
+        Ok(())
     }
 
     /// Number of elements of the footprint.
@@ -417,10 +401,14 @@ impl Grids<'_> {
         (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, on_large)
     }
 
-    /// Solves all shifted grids, each from the active set of the one before, and averages.
-    fn refine(&mut self, index: i32) -> Result<SolvedRefinement, BemError> {
+    /// Solves all shifted grids of the next level, each from the active set of the one before, and averages. Returns the last solution with
+    /// its grid.
+    fn solve_level(
+        &mut self,
+        progress: &mut WorkProgress,
+    ) -> Result<(SteadySliding, SteadyOptions), BemError> {
         // Solve the shifted grids.
-        let (spacing, work) = (self.edges(index), refinement_work(index..index + 1));
+        let (spacing, work) = (self.edges(self.next), work_of_level(self.next));
         let footprint = self.problem.plan.footprint.widened(spacing[0]);
         let mut options = SteadyOptions::new(spacing, footprint);
         let mut states = Vec::new();
@@ -428,44 +416,40 @@ impl Grids<'_> {
             options.phase = phase;
             options.tolerance = self.tolerance();
             let state = self.solve_on_similar_grid(&options)?;
-            self.progress.add(work / self.phases().len() as f64);
+            progress.add(work / self.phases().len() as f64);
             states.push(state.clone());
             self.reuse.solution = Some(state);
         }
 
         // Average. Forces and areas of a strip become those per unit length.
-        let distance = self.problem.loading.sliding_distance;
-        let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
+        let loading = &self.problem.loading;
+        let per_length = loading.strip.map_or(1.0, f64::recip);
         type Quantity<'q> = &'q dyn Fn(&SteadySliding) -> f64;
         let over_pairs = |of: Quantity| Average::over_interleaved_shifts(&states, of);
         let average = |of: Quantity| Average::over_shifts(&states, of);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
-        let creep = &self.problem.loading.creep;
-        let kinks = self.problem.plan.kinks;
-        let unresolved = states
-            .iter()
-            .map(|one| one.subgrid_friction_fraction(creep, kinks));
-        let edges = self.edges_of_body();
         let averages = Refinement {
-            hides_edge: states.iter().any(|state| state.hides_edge(&edges)),
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: over_pairs(&|one| one.friction_coefficient),
             friction_from_dissipation: over_pairs(&|one| one.friction_from_dissipation),
-            unresolved: unresolved.fold(0.0, f64::max),
             normal_force: average(&|state| state.normal_force).times(per_length),
-            indentation_depth: average(&|state| state.depth.at_distance(distance)),
+            indentation_depth: average(&|state| state.depth.at_distance(loading.sliding_distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),
             peak_pressure: average(&|state| state.pressure.largest()),
             unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
         };
+        let kinks = self.problem.plan.kinks;
+        let subgrid_friction_fractions = states
+            .iter()
+            .map(|state| state.subgrid_friction_fraction(&loading.creep, kinks));
+        self.subgrid_friction_fraction = subgrid_friction_fractions.fold(0.0, f64::max);
+        let edges = self.edges_of_body();
+        self.hides_edge = states.iter().any(|state| state.hides_edge(&edges));
+        self.refinements.push(averages);
         // Keep the last state, with the spacing that was solved.
         let state = states.swap_remove(states.len() - 1);
         options.spacing = state.pressure.grid.spacing();
-        Ok(SolvedRefinement {
-            averages,
-            state,
-            options,
-        })
+        Ok((state, options))
     }
 
     /// Radii at which the slope of the body jumps, \[m].
