@@ -55,6 +55,14 @@ pub struct ContactEstimate<S, O> {
     pub options: O,
 }
 
+impl<S, O> ContactEstimate<S, O> {
+    /// Replaces the friction by that of an elastic material, which is exactly 0 under any body.
+    pub(crate) fn remove_friction(&mut self) {
+        self.friction_coefficient = Estimate::exact(0.0);
+        self.error_parts = ErrorParts::NONE;
+    }
+}
+
 /// A contact on one grid.
 pub(crate) struct OnGrid<S, O> {
     pub(crate) quantities: Quantities<f64>,

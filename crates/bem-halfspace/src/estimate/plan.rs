@@ -107,13 +107,8 @@ impl GridPlan {
         footprint: Footprint,
         depth: f64,
     ) -> Result<Self, BemError> {
-        let mut plan = Self {
-            footprint,
-            coarsest_spacing: contact_radius(body, depth)? / ELEMENTS_ON_COARSEST_GRID,
-            apex_exponent: body.profile_exponent(),
-            kinks: 0.0,
-            shows_cells: false,
-        };
+        let spacing = contact_radius(body, depth)? / ELEMENTS_ON_COARSEST_GRID;
+        let mut plan = Self::smooth(footprint, spacing, body.profile_exponent());
         // Refine until a steep flank is longer than an element; coarser elements do not represent it, and their contact is hard
         // to find.
         let [_, radius] = plan.footprint.x;
@@ -130,11 +125,21 @@ impl GridPlan {
     /// The plan for a surface whose contact is about as long as the surface lies below `depth` \[m].
     fn of_surface(surface: &dyn Surface, footprint: Footprint, depth: f64) -> Self {
         let [rear, front] = surface.extent_below(depth)[0];
+        let radius = CONTACT_OVER_INTERSECTION_LENGTH * (0.5 * (front - rear));
+        let spacing = radius / ELEMENTS_ON_COARSEST_GRID;
+        Self::smooth(footprint, spacing, surface.apex_exponent())
+    }
+
+    /// The plan for a surface without kinks and visible cells.
+    pub(crate) const fn smooth(
+        footprint: Footprint,
+        coarsest_spacing: f64,
+        apex_exponent: f64,
+    ) -> Self {
         Self {
             footprint,
-            coarsest_spacing: CONTACT_OVER_INTERSECTION_LENGTH * (0.5 * (front - rear))
-                / ELEMENTS_ON_COARSEST_GRID,
-            apex_exponent: surface.apex_exponent(),
+            coarsest_spacing,
+            apex_exponent,
             kinks: 0.0,
             shows_cells: false,
         }

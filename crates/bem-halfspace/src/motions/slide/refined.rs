@@ -6,7 +6,7 @@
 //! Theory: docs/theory/transient-half-space.md, "Finite sliding distance" and "Grid".
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Request};
+use numerics::{Accuracy, ErrorParts, FIRST_ELEMENTS, Goal, Request};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
@@ -212,8 +212,7 @@ impl<'a> PlannedSlide<'a> {
         let march = |elements, report: &dyn Fn(f64)| self.march(elements, report);
         bars::resolve(&resolution, march, |mut estimate: SlideEstimate| {
             if self.creep.is_elastic() {
-                estimate.friction_coefficient = Estimate::exact(0.0);
-                estimate.error_parts = ErrorParts::NONE;
+                estimate.remove_friction();
             }
             if self.load.sliding_distance().is_none() {
                 self.widen_by_remaining_change(&mut estimate);

@@ -3,10 +3,7 @@
 //! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar".
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{
-    Accuracy, ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Progress, Request, SilentProgress,
-    positive,
-};
+use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Request, positive};
 use rheology::Material as _;
 
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
@@ -145,17 +142,8 @@ pub fn steady<'w>(
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SteadyEstimate, BemError> {
-    let request = request.into();
-    match request.accuracy {
-        Accuracy::RelativeError(relative_error) => {
-            let options = RefinementOptions {
-                relative_error,
-                ..RefinementOptions::default()
-            };
-            refined(surface, elastomer, load, &options, request.watch)
-        }
-        Accuracy::Elements(_) => with_elements(surface, elastomer, load, request),
-    }
+    let options = RefinementOptions::default();
+    estimate(surface, elastomer, load, &options, request.into())
 }
 
 /// Like [`steady`], with the aspect ratio of the elements and the limit of the work as options.
@@ -168,73 +156,52 @@ pub fn steady_refined(
     load: &SlidingLoad,
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
-    refined(surface, elastomer, load, options, &SilentProgress)
+    let request = options.relative_error.into();
+    estimate(surface, elastomer, load, options, request)
 }
 
-/// The state with a requested relative error.
-fn refined(
+/// The state with the requested relative error instead of that of the options, or on a requested number of elements.
+fn estimate(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &RefinementOptions,
-    watch: &dyn Progress,
-) -> Result<SteadyEstimate, BemError> {
-    in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
-        let problem = SteadyProblem {
-            surface,
-            loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
-            plan,
-            has_peak: peak_has_limit(surface, elastomer),
-            watch,
-        };
-        refine(&problem, options, |estimate| {
-            without_meaningless(load, elastomer, estimate)
-        })
-    })
-}
-
-/// The state on a grid with a given number of elements; its error follows from grids with fewer elements.
-fn with_elements(
-    surface: &dyn Surface,
-    elastomer: &dyn Elastomer,
-    load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
-        with_elements_in(plan, surface, elastomer, load, request)
-    })
-}
-
-/// Like [`with_elements`], in the footprint of a plan.
-fn with_elements_in(
-    plan: &GridPlan,
-    surface: &dyn Surface,
-    elastomer: &dyn Elastomer,
-    load: &SlidingLoad,
-    request: Request,
-) -> Result<SteadyEstimate, BemError> {
-    // Assume the order of the sharpest feature: an edge, the apex, or a smooth body.
+    let finish = |estimate| without_meaningless(load, elastomer, estimate);
     let has_peak = peak_has_limit(surface, elastomer);
-    let mut resolution = resolution(request, load.control(), BODY_ORDER, has_peak);
-    if plan.kinks > NEGLIGIBLE_KINKS || plan.shows_cells {
-        (
-            resolution.goal.order,
-            resolution.max_dissipation_error_ratio,
-        ) = (FLAT_END_ORDER, f64::INFINITY);
-    } else {
-        resolution.goal.order = bars::order_of_friction(plan.apex_exponent, BODY_ORDER);
-    }
-
-    // Solve on the grids that the error estimate asks for.
     let creep = SlidingCreep::for_load(elastomer, load)?;
-    let solve = |elements: usize, _: &dyn Fn(f64)| {
-        let options = grid(plan, elements);
-        let state = steady_on_grid(surface, elastomer, load, &options)
-            .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
-        Ok(state.on_grid(&creep, plan.kinks, options, load.sliding_distance()))
-    };
-    bars::resolve(&resolution, solve, |estimate| {
-        without_meaningless(load, elastomer, estimate)
+    in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
+        if let Some(relative_error) = request.accuracy.relative_error() {
+            let problem = SteadyProblem {
+                surface,
+                loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
+                plan,
+                has_peak,
+                watch: request.watch,
+            };
+            let options = RefinementOptions {
+                relative_error,
+                ..*options
+            };
+            return refine(&problem, &options, finish);
+        }
+
+        // On given elements assume the order of the sharpest feature: an edge, the apex, or a smooth body.
+        let mut resolution = resolution(request, load.control(), has_peak);
+        if plan.kinks > NEGLIGIBLE_KINKS || plan.shows_cells {
+            resolution.goal.order = FLAT_END_ORDER;
+            resolution.max_dissipation_error_ratio = f64::INFINITY;
+        } else {
+            resolution.goal.order = bars::order_of_friction(plan.apex_exponent, BODY_ORDER);
+        }
+        let solve = |elements: usize, _: &dyn Fn(f64)| {
+            let options = grid(plan, elements);
+            let state = steady_on_grid(surface, elastomer, load, &options)
+                .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
+            Ok(state.on_grid(&creep, plan.kinks, options, load.sliding_distance()))
+        };
+        bars::resolve(&resolution, solve, finish)
     })
 }
 
@@ -263,19 +230,14 @@ fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> Be
     }
 }
 
-/// How a solution on a given number of elements is resolved, with its assumed convergence order.
-pub(super) fn resolution(
-    request: Request<'_>,
-    control: Control,
-    order: f64,
-    has_peak: bool,
-) -> Resolution<'_> {
+/// How a solution on a given number of elements is resolved, with the order of a smooth body.
+pub(super) fn resolution(request: Request<'_>, control: Control, has_peak: bool) -> Resolution<'_> {
     Resolution {
         goal: Goal {
             request,
             initial_elements: FIRST_ELEMENTS,
             max_elements: usize::MAX,
-            order,
+            order: BODY_ORDER,
             work_exponent: WORK_EXPONENT,
             extra_work: 0.0,
             selection_factor: 2.0,
@@ -298,8 +260,7 @@ fn without_meaningless(
     mut estimate: SteadyEstimate,
 ) -> Result<SteadyEstimate, BemError> {
     if elastomer.material().creep().is_elastic() {
-        estimate.friction_coefficient = Estimate::exact(0.0);
-        estimate.error_parts = ErrorParts::NONE;
+        estimate.remove_friction();
     }
     let depth = &estimate.finest.depth;
     if let (Control::NormalForce(_), true) = (load.control(), depth.depth_per_e_fold > 0.0) {

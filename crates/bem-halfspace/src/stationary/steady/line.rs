@@ -12,8 +12,7 @@
 //! Theory: docs/theory/stationary-half-space.md, "Line contact".
 
 use indenters::{SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Request, positive};
-use rheology::Material as _;
+use numerics::{Estimate, Request, positive};
 
 use crate::estimate::bars::{self, ContactEstimate};
 use crate::estimate::plan::GridPlan;
@@ -72,8 +71,6 @@ pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
 /// Elements of the coarsest grid along the half contact of a cylinder on an elastic half space; chosen.
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
-/// Elements of the coarsest grid along the whole contact of a cylinder.
-const COARSEST_PER_CONTACT: f64 = 2.0 * COARSEST_PER_HALF_LENGTH;
 /// Rear of the footprint, in half lengths of the contact of a cylinder; chosen. No contact reaches further back than the elastic one.
 const FOOTPRINT_REAR: f64 = 2.0;
 /// Front of the footprint, in the same half lengths, without memory; chosen.
@@ -125,13 +122,8 @@ pub fn steady_line<'w>(
     } = line_scale(profile, elastomer, load)?;
     let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
-    let plan = GridPlan {
-        footprint: strip.footprint(footprint),
-        coarsest_spacing: half_length / COARSEST_PER_HALF_LENGTH,
-        apex_exponent: 2.0,
-        kinks: 0.0,
-        shows_cells: false,
-    };
+    let spacing = half_length / COARSEST_PER_HALF_LENGTH;
+    let plan = GridPlan::smooth(strip.footprint(footprint), spacing, 2.0);
     let problem = SteadyProblem {
         surface: &strip,
         loading,
@@ -141,30 +133,39 @@ pub fn steady_line<'w>(
     };
 
     // The estimate of the strip as that of a line: an elastic material has no friction, a half space no depth.
-    let is_elastic = elastomer.material().creep().is_elastic();
     let has_depth = elastomer.base().is_rigid();
     let finish = |strip_estimate| {
         let mut found = line_estimate(strip_estimate, force);
-        if is_elastic {
-            found.friction_coefficient = Estimate::exact(0.0);
-            found.error_parts = ErrorParts::NONE;
+        if problem.loading.creep.is_elastic() {
+            found.remove_friction();
         }
         found.indentation_depth = found.indentation_depth.filter(|_| has_depth);
         Ok(found)
     };
-
-    // Solve to a relative error or with a number of elements.
-    match request.accuracy {
-        Accuracy::RelativeError(relative_error) => {
-            let options = RefinementOptions {
-                relative_error,
-                max_unknowns: MAX_UNKNOWNS_OF_LINE,
-                ..RefinementOptions::default()
-            };
-            refine(&problem, &options, finish)
-        }
-        Accuracy::Elements(_) => finish(with_elements(&problem, strip.length, request)?),
+    if let Some(relative_error) = request.accuracy.relative_error() {
+        let options = RefinementOptions {
+            relative_error,
+            max_unknowns: MAX_UNKNOWNS_OF_LINE,
+            ..RefinementOptions::default()
+        };
+        return refine(&problem, &options, finish);
     }
+
+    // Solve on the grids that the error estimate of given elements asks for.
+    let loading = &problem.loading;
+    let mut resolution = resolution(request, loading.control, problem.has_peak);
+    resolution.goal.order = PROFILE_ORDER;
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
+        let spacing = 2.0 * half_length / elements as f64;
+        let options = SteadyOptions::new([spacing, strip.length], plan.footprint);
+        let state = solve(&strip, loading, &options, &mut Reuse::default())?;
+        let mut on_grid = state.on_grid(&loading.creep, 0.0, options, None);
+        on_grid.quantities.contact_area /= strip.length;
+        // A width of whole elements has an error of at least one element.
+        on_grid.area_uncertainty = spacing;
+        Ok(on_grid)
+    };
+    bars::resolve(&resolution, solve, finish)
 }
 
 /// The scale of a line contact, and where it may occur.
@@ -206,7 +207,7 @@ pub fn steady_line_grid(
         half_length,
         footprint,
     } = line_scale(&profile, elastomer, load)?;
-    let spacing = COARSEST_PER_CONTACT / COARSEST_PER_HALF_LENGTH * half_length / elements;
+    let spacing = 2.0 * half_length / elements;
     let grid = SteadyOptions::new([spacing; 2], Footprint::square(half_length));
     Ok(LineOptions {
         footprint,
@@ -246,30 +247,6 @@ pub fn steady_line_on_grid(
     let grid = options.on_strip(&strip);
     let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
     Ok(LineSliding::from_strip(&state))
-}
-
-/// The state of a strip with a given number of elements along the contact of a cylinder on an elastic half space.
-fn with_elements(
-    problem: &SteadyProblem,
-    strip: f64,
-    request: Request,
-) -> Result<SteadyEstimate, BemError> {
-    let (loading, plan) = (&problem.loading, &problem.plan);
-    let length = COARSEST_PER_CONTACT * plan.coarsest_spacing;
-    // Solve on the grids that the error estimate asks for.
-    let resolution = resolution(request, loading.control, PROFILE_ORDER, problem.has_peak);
-    let solve = |elements: usize, _: &dyn Fn(f64)| {
-        let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
-        let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
-        Ok(state.on_grid(&loading.creep, 0.0, options, None))
-    };
-    let mut estimate = bars::resolve(&resolution, solve, Ok)?;
-    // Per unit length along y.
-    let area = estimate.contact_area;
-    // A width of whole elements has an error of at least one element.
-    let error = (area.error / strip).max(estimate.options.spacing[0]);
-    estimate.contact_area = Estimate::new(area.value / strip, error);
-    Ok(estimate)
 }
 
 impl LineOptions {
