@@ -3,7 +3,9 @@
 use numerics::ErrorParts;
 
 use crate::BemError;
+use crate::elements::area::outline_uncertainty;
 use crate::elements::bounds::Bounds;
+use crate::elements::mirror::NO_MIRRORS;
 use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
 use crate::estimate::bars::{ContactEstimate, OnGrid};
@@ -94,13 +96,22 @@ impl SteadySliding {
                 ..ErrorParts::discretisation_only(subgrid_friction)
             },
             min_relative_error: 0.0,
-            // Areas of stationary sliding have the error that differences between grids show.
-            area_uncertainty: 0.0,
+            area_uncertainty: self.area_uncertainty(),
             area_order: None,
             spacing: options.spacing[0],
             state: self,
             options,
         }
+    }
+
+    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    fn area_uncertainty(&self) -> f64 {
+        let PressureField { grid, pressure, .. } = &self.pressure;
+        let bounds = Bounds {
+            lower: [0; 2],
+            upper: grid.shape(),
+        };
+        grid.element_area() * outline_uncertainty(pressure, &bounds, NO_MIRRORS)
     }
 
     /// Fraction of the friction that the elements may miss because the material relaxes within them.
