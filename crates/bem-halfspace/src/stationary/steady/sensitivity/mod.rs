@@ -62,10 +62,11 @@ const STRIP_SPACING_FACTOR: f64 = 0.25;
 const SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
 /// Shifts in plane strain, in elements.
 const STRIP_SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
-/// Extrapolation with the order 3/2 of the singular front, whose correction is 1/(2^1.5 − 1), and with the order 1 of the area. The factor
-/// of the error is chosen.
+/// Limit − fine over fine − coarse at the order 3/2 of the singular front: 1/(2^(3/2) − 1) = (2^(3/2) + 1)/7.
+const FRONT_CORRECTION: f64 = (2.0 * std::f64::consts::SQRT_2 + 1.0) / 7.0;
+/// Extrapolation with the order 3/2 of the singular front, and with the order 1 of the area. The factor of the error is chosen.
 const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
-    correction: 0.547,
+    correction: FRONT_CORRECTION,
     area_correction: 1.0,
     error: 2.0,
 };
