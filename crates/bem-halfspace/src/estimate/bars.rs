@@ -1,7 +1,7 @@
 //! Error bars of the quantities of a contact from several resolutions, shared by all methods.
 
 use indenters::{Control, Surface};
-use numerics::{ErrorParts, Estimate, Goal, NotReached, Quantity};
+use numerics::{ErrorParts, Estimate, FIRST_ELEMENTS, Goal, NotReached, Quantity, Request};
 
 use crate::{BemError, Elastomer, Reached};
 use rheology::Material as _;
@@ -18,6 +18,13 @@ const MIN_FRICTION_ORDER: f64 = 0.1;
 /// The contact boundary follows the elements, and each outermost element counts as a whole or not at all. The test
 /// `the_bars_of_an_elastic_contact_hold` compares with known contacts.
 const END_ERROR_IN_ELEMENTS: f64 = 1.5;
+
+/// Factor on the discretisation error if a relative error ends the refinement, whose last grid has an error that is small by chance;
+/// chosen.
+const SELECTION_FACTOR: f64 = 2.0;
+/// Exponent of the work of a contact as a function of the elements along it: transforms of all elements along x and y dominate, and finer
+/// grids need hardly more operator applications.
+pub(crate) const GRID_WORK_EXPONENT: f64 = 2.0;
 
 /// A contact with an error bar for every quantity; an error of 0 means that the quantity is prescribed.
 ///
@@ -113,6 +120,24 @@ pub(crate) enum Target {
     Friction,
     /// The target without sliding or without dissipation; at a given depth it is the force.
     Depth,
+}
+
+/// The refinement of a contact up to a number of elements along it.
+pub(crate) const fn contact_goal(
+    request: Request,
+    max_elements: usize,
+    order: f64,
+    work_exponent: f64,
+) -> Goal {
+    Goal {
+        request,
+        initial_elements: FIRST_ELEMENTS,
+        max_elements,
+        order,
+        work_exponent,
+        extra_work: 0.0,
+        selection_factor: SELECTION_FACTOR,
+    }
 }
 
 /// What a refinement aims at.

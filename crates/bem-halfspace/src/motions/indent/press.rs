@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
-use numerics::{ErrorParts, FIRST_ELEMENTS, Goal, Request, positive};
+use numerics::{ErrorParts, Goal, Request, positive};
 use rheology::{Compressible, Elastic, Material as _, check_spectra};
 
 use crate::elements::pressure_field::PressureField;
@@ -38,8 +38,6 @@ const BOUNDARY_ERROR_FACTOR: f64 = 0.07;
 const PUNCH_WIDENING: f64 = 0.113;
 /// Fewest elements along a disc: with fewer, grids of different spacings have the same disc.
 const MIN_ELEMENTS_OF_DISC: usize = 4;
-/// Power of the elements along the contact with which the work grows: that of a Fourier transform in two dimensions.
-const GRID_WORK_EXPONENT: f64 = 2.0;
 
 /// Memory for an element in front of the mirrors, \[bytes].
 pub(super) const PRESS_BYTES_PER_ELEMENT: f64 = 600.0;
@@ -315,15 +313,12 @@ impl Spring {
 
 /// The refinement that meets a request on grids of at most `largest` elements along the contact.
 pub(super) const fn goal(request: Request, largest: usize) -> Goal {
-    Goal {
+    bars::contact_goal(
         request,
-        initial_elements: FIRST_ELEMENTS,
-        max_elements: largest,
-        order: MIN_CONVERGENCE_ORDER,
-        work_exponent: GRID_WORK_EXPONENT,
-        extra_work: 0.0,
-        selection_factor: 2.0,
-    }
+        largest,
+        MIN_CONVERGENCE_ORDER,
+        bars::GRID_WORK_EXPONENT,
+    )
 }
 
 fn estimate(

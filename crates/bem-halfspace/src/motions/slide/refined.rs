@@ -6,10 +6,12 @@
 //! Theory: docs/theory/transient-half-space.md, "Finite sliding distance" and "Grid".
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, FIRST_ELEMENTS, Goal, Request};
+use numerics::{Accuracy, ErrorParts, Request};
 use rheology::{CreepSpectrum, Material as _};
 
-use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
+use crate::estimate::bars::{
+    self, ContactEstimate, OnGrid, Resolution, Target, contact_goal, peak_has_limit,
+};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
 use crate::march::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT};
@@ -189,16 +191,14 @@ impl<'a> PlannedSlide<'a> {
 
     /// Refines until the error asked for is reached.
     fn solve(&self) -> Result<SlideEstimate, BemError> {
+        let order = bars::order_of_friction(self.plan.apex_exponent, ORDER_OF_SLIDE);
         let resolution = Resolution {
-            goal: Goal {
-                request: self.request,
-                initial_elements: FIRST_ELEMENTS,
-                max_elements: MAX_ELEMENTS_OF_SLIDE,
-                order: bars::order_of_friction(self.plan.apex_exponent, ORDER_OF_SLIDE),
-                work_exponent: MARCH_WORK_EXPONENT,
-                extra_work: 0.0,
-                selection_factor: 2.0,
-            },
+            goal: contact_goal(
+                self.request,
+                MAX_ELEMENTS_OF_SLIDE,
+                order,
+                MARCH_WORK_EXPONENT,
+            ),
             control: self.load.control(),
             // An elastic half space has no friction to refine by; its depth takes that place.
             target: if self.creep.is_elastic() {

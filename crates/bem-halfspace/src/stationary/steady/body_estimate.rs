@@ -3,10 +3,12 @@
 //! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar".
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Request, positive};
+use numerics::{Accuracy, Request, positive};
 use rheology::Material as _;
 
-use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
+use crate::estimate::bars::{
+    self, GRID_WORK_EXPONENT, Resolution, Target, contact_goal, peak_has_limit,
+};
 use crate::estimate::plan::{GridPlan, NEGLIGIBLE_KINKS};
 use crate::stationary::steady::grid_refinement::{SteadyProblem, refine};
 use crate::stationary::steady::loading::Loading;
@@ -26,9 +28,6 @@ const FLAT_END_ORDER: f64 = 0.5;
 /// On a given number of elements the friction from dissipation replaces that from slopes if its error is below this fraction of the other;
 /// chosen. The smaller of two error estimates holds less often than either.
 const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
-/// Exponent of the work as a function of the elements along the contact. Transforms of all elements along x and y dominate it; finer grids
-/// need hardly more operator applications.
-const WORK_EXPONENT: f64 = 2.0;
 /// Largest number of footprints; chosen. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
 /// Memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes].
@@ -233,15 +232,7 @@ fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> Be
 /// How a solution on a given number of elements is resolved, with the order of a smooth body.
 pub(super) fn resolution(request: Request<'_>, control: Control, has_peak: bool) -> Resolution<'_> {
     Resolution {
-        goal: Goal {
-            request,
-            initial_elements: FIRST_ELEMENTS,
-            max_elements: usize::MAX,
-            order: BODY_ORDER,
-            work_exponent: WORK_EXPONENT,
-            extra_work: 0.0,
-            selection_factor: 2.0,
-        },
+        goal: contact_goal(request, usize::MAX, BODY_ORDER, GRID_WORK_EXPONENT),
         control,
         target: Target::Friction,
         has_peak,
