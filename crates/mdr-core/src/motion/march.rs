@@ -19,7 +19,7 @@ use crate::steady::{Foundation, has_steep_kinks};
 
 /// Steps of a motion, or of one cycle, beyond which it is refused. Chosen.
 const MAX_STEPS: f64 = 4e6;
-/// Duration of the first pressing, at rest, relative to that of the first step. Chosen.
+/// Duration of the first pressing, at rest, relative to that of the first step. Measured by `evidence tuning`.
 const FIRST_PRESSING_DURATION: f64 = 1e-3;
 
 /// Relative difference between the force and its mean over a step up to which the next step corrects it. Forces that
@@ -27,7 +27,7 @@ const FIRST_PRESSING_DURATION: f64 = 1e-3;
 const MAX_FORCE_CORRECTION: f64 = 0.25;
 
 /// Distance from the lowest point at which the contact is first assumed to end, in lengths of the contact of the
-/// fastest sliding. Chosen.
+/// fastest sliding. Measured by `evidence tuning`.
 const FIRST_CONTACT_REACH: f64 = 0.75;
 
 /// Memory of an element besides its history variables, about and at most, \[bytes].

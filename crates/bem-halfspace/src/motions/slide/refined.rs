@@ -38,7 +38,8 @@ const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;
 const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
 /// Longest march to the stationary state, in contact lengths; chosen.
 const MAX_CONTACT_LENGTHS: f64 = 500.0;
-/// Largest change of the friction coefficient at which a march counts as stationary, over the error asked for; chosen.
+/// Largest change of the friction coefficient at which a march counts as stationary, over the error asked for; measured by
+/// `evidence tuning`.
 const CHANGE_OVER_ERROR: f64 = 0.1;
 
 /// State at the end of a march with error bars: after the sliding distance, or in the stationary state.
