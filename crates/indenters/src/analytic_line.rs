@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::table::increasing;
+use crate::table::check_increasing;
 use crate::{IndenterError, RigidLine};
 use numerics::finite;
 
@@ -19,14 +19,14 @@ impl<H: Fn(f64) -> f64, S: Fn(f64) -> f64> AnalyticLine<H, S> {
     /// `domain` \[m].
     ///
     /// # Errors
-    /// [`IndenterError::InvalidParameter`] or [`IndenterError::NotIncreasing`] when the domain is not finite or empty, and
-    /// `InvalidParameter` when the height at one of its ends is not finite. Inside, heights are checked by the functions
-    /// that sample them.
+    /// [`IndenterError::InvalidParameter`] when the domain, or the height at one of its ends, is not finite;
+    /// [`IndenterError::NotIncreasing`] when the domain is empty. Heights inside are checked by the functions that sample
+    /// them.
     pub fn new(height: H, slope: S, domain: [f64; 2]) -> Result<Self, IndenterError> {
         for end in domain {
             finite("end of the domain", end)?;
         }
-        increasing("domain", &domain)?;
+        check_increasing("domain", &domain)?;
         for end in domain {
             finite("height of the line", height(end))?;
         }

@@ -15,9 +15,9 @@ use numerics::integrate_from_ends;
 /// A jump of the slope h', or of the curvature h'', at a radius greater than zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
-    /// Where the slope jumps, \[m].
+    /// Radius of the jump, \[m].
     pub radius: f64,
-    /// h'(r + 0) − h'(r − 0); zero where only the curvature jumps.
+    /// Jump h'(r + 0) − h'(r − 0) of the slope; zero if only the curvature jumps.
     pub slope_jump: f64,
 }
 
@@ -33,7 +33,7 @@ pub struct ProfilePoint {
 }
 
 impl ProfilePoint {
-    /// Where the body has ended.
+    /// Value beyond the end of the body.
     pub const ENDED: Self = Self {
         height: f64::INFINITY,
         slope: f64::INFINITY,
@@ -51,7 +51,7 @@ pub struct LinePoint {
 }
 
 impl LinePoint {
-    /// Where the body has ended.
+    /// Value beyond the end of the body.
     pub const ENDED: Self = Self {
         height: f64::INFINITY,
         slope: f64::INFINITY,
@@ -60,9 +60,9 @@ impl LinePoint {
 
 /// A body of revolution, given by the height h(r) of its surface above its lowest point.
 ///
-/// Implementors give the profile and its exponent; the equivalent line follows by quadrature, unless there is a closed
-/// form. The macro [`surface_of_revolution!`](crate::surface_of_revolution) makes a body of revolution a
-/// [`Surface`](crate::Surface).
+/// Only the profile and its exponent must be implemented; the equivalent line follows by quadrature unless a closed form
+/// is given. The macro [`surface_of_revolution!`](crate::surface_of_revolution) implements [`Surface`](crate::Surface) for
+/// the body.
 #[auto_impl(&, Box, Arc)]
 pub trait Axisymmetric: Send + Sync {
     /// Height, slope and curvature at a `radius` r ≥ 0 \[m]; [`ProfilePoint::ENDED`] where the body has ended.
@@ -81,12 +81,12 @@ pub trait Axisymmetric: Send + Sync {
         Vec::new()
     }
 
-    /// The equivalent line at a position x ≥ 0 \[m] for bodies with a closed form.
+    /// Closed form of the equivalent line at a position x ≥ 0 \[m]; `None` if there is none.
     fn closed_line(&self, _x: f64) -> Option<LinePoint> {
         None
     }
 
-    /// Radius at which the equivalent line has a height > 0, \[m], for bodies with a closed form of it.
+    /// Closed form of the radius at which the equivalent line has a height > 0, \[m]; `None` if there is none.
     fn closed_radius(&self, _height: f64) -> Option<f64> {
         None
     }
@@ -110,8 +110,8 @@ pub trait Axisymmetric: Send + Sync {
 
     /// Slope of the equivalent line h̃'(x); odd in x.
     ///
-    /// At a kink it is the slope on the side of the apex: on the other side the line is singular, like the inverse root of
-    /// the distance. At the apex itself it is the slope towards positive x.
+    /// At a kink it is the slope on the side of the apex, because on the other side it has an inverse square root
+    /// singularity. At the apex it is the slope towards positive x.
     fn line_slope(&self, x: f64) -> f64 {
         let closed = self.closed_line(x.abs()).map(|line| line.slope);
         x.signum() * closed.unwrap_or_else(|| abel_slope(self, x.abs()))
@@ -135,10 +135,10 @@ pub trait Axisymmetric: Send + Sync {
     }
 }
 
-/// The transform by quadrature at x ≥ 0: with r = x sin φ the root under the integral disappears,
-/// h̃(x) = x ∫₀^{π/2} h'(x sin φ) dφ.
+/// Height of the equivalent line at x ≥ 0 by quadrature, h̃(x) = x ∫₀^{π/2} h'(x sin φ) dφ.
 ///
-/// This is what [`Axisymmetric::line_height`] does where there is no closed form.
+/// The substitution r = x sin φ removes the square root of the integrand. [`Axisymmetric::line_height`] calls this function
+/// if there is no closed form.
 pub fn abel_height(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x > body.max_radius() {
         return f64::INFINITY;
@@ -146,13 +146,12 @@ pub fn abel_height(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x == 0.0 {
         return 0.0;
     }
-    x * quarter_turn(body, x, |radius| body.profile_slope(radius))
+    x * integrate_quarter_turn(body, x, |radius| body.profile_slope(radius))
 }
 
-/// The derivative of the transform by quadrature at x ≥ 0: a kink of h' at b adds Δh' b / √(x² − b²) to
-/// ∫₀^{π/2} (h' + r h'')(x sin φ) dφ.
+/// Slope of the equivalent line at x ≥ 0 by quadrature, h̃'(x) = ∫₀^{π/2} (h' + r h'')(x sin φ) dφ + Σ Δh' b / √(x² − b²).
 ///
-/// This is what [`Axisymmetric::line_slope`] does where there is no closed form.
+/// The sum is over the kinks with radius b < x. [`Axisymmetric::line_slope`] calls this function if there is no closed form.
 pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x > body.max_radius() {
         return f64::INFINITY;
@@ -160,25 +159,25 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x == 0.0 {
         return apex_slope(body);
     }
-    let smooth = quarter_turn(body, x, |r| slope_of_moment(body, r));
+    let smooth = integrate_quarter_turn(body, x, |r| moment_slope(body, r));
     let kinks = body.kinks().into_iter().filter(|kink| kink.radius < x);
     let leg = |b: f64| ((x - b) * (x + b)).sqrt();
     let singular = kinks.map(|kink| kink.slope_jump * kink.radius / leg(kink.radius));
     smooth + singular.sum::<f64>()
 }
 
-/// (r h')' = h' + r h''.
-fn slope_of_moment(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
+/// Derivative (r h')' = h' + r h'' of the moment r h'.
+fn moment_slope(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
     let point = body.profile(r);
     let change = r * point.curvature;
     if change.is_finite() {
         return point.slope + change;
     }
-    // Close to a sharp apex h'' overflows before r h'' does; there h' ∼ r^(p−1).
+    // Close to a sharp apex h'' overflows before r h'' does; h' ∼ r^(p−1) gives (r h')' = p h'.
     point.slope * body.profile_exponent()
 }
 
-/// h̃'(+0), from the leading exponent.
+/// Slope h̃'(+0) at the apex, from the leading exponent.
 fn apex_slope(body: &(impl Axisymmetric + ?Sized)) -> f64 {
     match body.profile_exponent() {
         sharp if sharp < 1.0 => f64::INFINITY,
@@ -187,8 +186,8 @@ fn apex_slope(body: &(impl Axisymmetric + ?Sized)) -> f64 {
     }
 }
 
-/// ∫₀^{π/2} f(x sin φ) dφ, split where the radius passes a kink.
-fn quarter_turn(
+/// Integral ∫₀^{π/2} f(x sin φ) dφ, split at the kinks of the body.
+fn integrate_quarter_turn(
     body: &(impl Axisymmetric + ?Sized),
     x: f64,
     integrand: impl Fn(f64) -> f64,
@@ -197,15 +196,15 @@ fn quarter_turn(
     radii.extend(body.kinks().iter().map(|kink| kink.radius));
     radii.retain(|radius| *radius < x);
     radii.push(x);
-    let ring = |ends: &[f64]| part_of_turn(x, [ends[0], ends[1]], &integrand);
+    let ring = |ends: &[f64]| integrate_ring(x, [ends[0], ends[1]], &integrand);
     radii.windows(2).map(ring).sum()
 }
 
-/// ∫ f(x sin φ) dφ over a ring without kinks.
+/// Integral ∫ f(x sin φ) dφ over a ring without kinks.
 ///
-/// Integrated over ψ = π/2 − φ, because a kink close to x is known precisely as the small angle ψ = arccos(b / x).
-fn part_of_turn(x: f64, [inner, outer]: [f64; 2], integrand: impl Fn(f64) -> f64) -> f64 {
-    // Rounding must not carry a radius across the kink, nor an underflow to the apex, where slopes may be infinite.
+/// The variable is ψ = π/2 − φ, because the small angle ψ = arccos(b / x) of a kink close to x has no cancellation.
+fn integrate_ring(x: f64, [inner, outer]: [f64; 2], integrand: impl Fn(f64) -> f64) -> f64 {
+    // Keep rounded radii off the kinks, and underflowing ones off the apex, where slopes may be infinite.
     let range = [inner.next_up().max(f64::MIN_POSITIVE), outer.next_down()];
     let inside = |radius: f64| integrand(radius.max(range[0]).min(range[1]));
     let at = |end: f64, offset: f64| {

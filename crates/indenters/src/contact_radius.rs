@@ -8,41 +8,43 @@ use crate::leading_edge::crossing;
 use crate::{Axisymmetric, EquivalentLine, IndenterError};
 use numerics::{InvalidParameter, bracketed_root, in_range, positive};
 
-/// Step of the search, the eighth part of an octave.
-const STEP: f64 = 1.090_507_732_665_257_7;
-/// Octaves over which the line must follow its leading power before everything below it is taken as the apex.
+/// Ratio 2^(1/8) of neighbouring radii of the search (chosen).
+const SEARCH_STEP: f64 = 1.090_507_732_665_257_7;
+/// Number of octaves over which the line must follow its leading power to count as the apex (chosen).
 const APEX_OCTAVES: u32 = 40;
-/// How closely it must do so there, relative to the exponent.
-const APEX_DEVIATION: f64 = 1e-2;
-/// A fall below this, relative to height over radius, is rounding.
-const ROUNDING: f64 = 1e-12;
+/// Largest relative deviation of the local exponent from the leading exponent near the apex (chosen).
+const APEX_EXPONENT_TOLERANCE: f64 = 1e-2;
+/// Largest relative fall of the line, Δh̃/h̃ or x |h̃'|/h̃, that counts as rounding (chosen: some thousand roundings).
+const FALL_TOLERANCE: f64 = 1e-12;
 
-/// Radius a \[m] of the contact circle at an indentation `depth` d > 0 \[m]: the smallest with h̃(a) = d.
+/// Contact radius a \[m] at an indentation `depth` d > 0 \[m]: the smallest radius with h̃(a) = d.
 ///
-/// A body that is flat to its end, as [`FlatPunch`](crate::FlatPunch), has its own radius at every depth. The line is
-/// searched from the apex outwards in steps of a tenth of the radius; valleys narrower than that are not seen unless they
-/// begin at a kink. The error of an unreachable depth holds the limiting radius.
+/// The contact radius of a body that is flat to its end, as [`FlatPunch`](crate::FlatPunch), is its own radius. The line is
+/// searched from the apex outwards in steps of an eighth of an octave (9 % of the radius). Narrower valleys are missed
+/// unless they begin at a kink. The error of an unreachable depth holds the limiting radius.
 ///
 /// # Errors
-/// [`IndenterError::NonMonotoneLine`] when the line turns down first, `NotHighEnough` when the body ends first,
-/// `InvalidParameter` when the depth is out of its range, already exceeded at the smallest radius that is a number, or the
-/// line is not a number somewhere.
+/// - [`IndenterError::NonMonotoneLine`] when the line turns down below the depth;
+/// - [`IndenterError::NotHighEnough`] when the body ends below the depth;
+/// - [`IndenterError::InvalidParameter`] when the depth is out of its range or exceeded at the smallest positive radius, or
+///   when a height of the line is NaN.
 pub fn contact_radius(
     body: &(impl Axisymmetric + ?Sized),
     depth: f64,
 ) -> Result<f64, IndenterError> {
     let depth = positive("depth", depth)?;
     let search = Search { body, depth };
-    // Where the slope jumps downwards; just outside the line falls.
-    let mut falling = body.kinks();
-    falling.retain(|kink| kink.slope_jump < 0.0);
-    let edges: Vec<f64> = falling.iter().map(|kink| kink.radius).collect();
-    let mut inner = search.apex_side()?;
+    // Just outside a downward jump of the slope the line falls.
+    let mut falling_kinks = body.kinks();
+    falling_kinks.retain(|kink| kink.slope_jump < 0.0);
+    let edges: Vec<f64> = falling_kinks.iter().map(|kink| kink.radius).collect();
+    // Search outwards, interval by interval, up to the next falling kink.
+    let mut inner = search.start_radius()?;
     loop {
         if edges.contains(&inner) {
             return Err(search.turns_down_at(inner));
         }
-        let next = (inner * STEP).min(body.max_radius());
+        let next = (inner * SEARCH_STEP).min(body.max_radius());
         let edge = edges.iter().find(|edge| **edge > inner);
         let outer = edge.map_or(next, |edge| next.min(*edge));
         if outer <= inner || outer.is_infinite() {
@@ -50,7 +52,7 @@ pub fn contact_radius(
         }
         let turn = search.turning_point([inner, outer])?;
         let reached = turn.unwrap_or(outer);
-        if search.line(reached)? >= depth {
+        if search.line_height(reached)? >= depth {
             return Ok(crossing(&EquivalentLine(body), [inner, reached], depth)?);
         }
         if turn.is_some() {
@@ -60,35 +62,42 @@ pub fn contact_radius(
     }
 }
 
+/// Search for the contact radius of a body at one depth.
 struct Search<'a, P: ?Sized> {
     body: &'a P,
     depth: f64,
 }
 
 impl<P: Axisymmetric + ?Sized> Search<'_, P> {
-    fn line(&self, x: f64) -> Result<f64, InvalidParameter> {
+    /// Height of the equivalent line, refused if it is NaN.
+    fn line_height(&self, x: f64) -> Result<f64, InvalidParameter> {
         let value = self.body.line_height(x);
-        let holds = !value.is_nan();
-        in_range("height of the equivalent line", value, holds, "a number")
+        let is_number = !value.is_nan();
+        in_range(
+            "height of the equivalent line",
+            value,
+            is_number,
+            "a number",
+        )
     }
 
-    /// A radius below the contact radius, inside which the line rises like its leading power.
-    fn apex_side(&self) -> Result<f64, InvalidParameter> {
-        // Where the descent begins has no influence on what it finds; 1 m stands for "anywhere".
+    /// Radius below the contact radius inside which the line rises like its leading power.
+    fn start_radius(&self) -> Result<f64, InvalidParameter> {
+        // Halve the radius from the end of the body, its first kink or 1 m; the result does not depend on the choice.
         let first_kink = self.body.kinks().first().map(|kink| kink.radius);
         let end = Some(self.body.max_radius()).filter(|end| end.is_finite());
         let mut x = end.or(first_kink).unwrap_or(1.0);
         let mut candidate = None;
         let mut octaves = 0;
         while octaves < APEX_OCTAVES && x >= f64::MIN_POSITIVE {
-            let height = self.line(x)?;
+            let height = self.line_height(x)?;
             if height == 0.0 {
                 candidate = candidate.or(Some(x));
                 break;
             }
             let exponent = x * self.body.line_slope(x) / height;
             let deviation = (exponent / self.body.profile_exponent() - 1.0).abs();
-            if height < self.depth && deviation <= APEX_DEVIATION {
+            if height < self.depth && deviation <= APEX_EXPONENT_TOLERANCE {
                 candidate = candidate.or(Some(x));
                 octaves += 1;
             } else {
@@ -103,37 +112,38 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         })
     }
 
-    /// The highest point inside the interval when the line falls somewhere in it.
+    /// Radius of the highest point in an interval in which the line falls; `None` if it does not fall.
     fn turning_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, InvalidParameter> {
         let Some(falling) = self.falling_point([inner, outer])? else {
             return Ok(None);
         };
-        // Where the line is still flat (or its height underflows) it has not turned yet.
+        // A level line, or one whose height underflows, has not turned yet.
         let slope = |x: f64| match self.body.line_slope(x) {
             0.0 => f64::MIN_POSITIVE,
             other => other,
         };
-        // One step outside, because at a kink the slope is the one inside.
+        // One unit in the last place outwards, because the slope at a kink is the inner one.
         let first = inner.next_up();
         if slope(first) < 0.0 {
             return Ok(Some(inner));
         }
         let turn = bracketed_root(slope, [first, falling]).unwrap_or(f64::NAN);
-        let holds = !turn.is_nan();
-        in_range("slope of the equivalent line", turn, holds, "a number").map(Some)
+        let is_number = !turn.is_nan();
+        in_range("slope of the equivalent line", turn, is_number, "a number").map(Some)
     }
 
+    /// A radius in an interval at which the line falls, by bisection while the height is lower at the outer end.
     fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, InvalidParameter> {
         let [mut start, mut end] = [inner, outer];
         while !self.falls(end)? {
-            let lost = self.line(start)? - self.line(end)?;
+            let fall = self.line_height(start)? - self.line_height(end)?;
             let middle = 0.5 * (start + end);
-            let lowered = lost > ROUNDING * self.line(start)?;
-            if !lowered || middle <= start || middle >= end {
+            let is_lower = fall > FALL_TOLERANCE * self.line_height(start)?;
+            if !is_lower || middle <= start || middle >= end {
                 return Ok(None);
             }
-            // The line falls over at least one half.
-            if self.line(middle)? < self.line(start)? {
+            // The line falls over at least one of the halves.
+            if self.line_height(middle)? < self.line_height(start)? {
                 end = middle;
             } else {
                 start = middle;
@@ -142,10 +152,12 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         Ok(Some(end))
     }
 
+    /// Whether the slope is negative by more than rounding.
     fn falls(&self, x: f64) -> Result<bool, InvalidParameter> {
-        Ok(x * self.body.line_slope(x) < -ROUNDING * self.line(x)?)
+        Ok(x * self.body.line_slope(x) < -FALL_TOLERANCE * self.line_height(x)?)
     }
 
+    /// Error for a line that turns down at a radius, \[m].
     fn turns_down_at(&self, radius: f64) -> IndenterError {
         IndenterError::NonMonotoneLine {
             limiting_radius: radius,
@@ -154,8 +166,9 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         }
     }
 
+    /// Result at the end of the body: its radius for a flat punch, otherwise an error.
     fn end_of_body(&self, radius: f64) -> Result<f64, IndenterError> {
-        let available = self.line(radius)?;
+        let available = self.line_height(radius)?;
         let flat = available == 0.0 && self.body.profile_exponent() == f64::INFINITY;
         if flat && radius >= self.body.max_radius() {
             return Ok(radius);

@@ -1,4 +1,4 @@
-//! A cylinder across the direction of motion, without end.
+//! The infinitely long cylinder with its axis along y, across the direction of motion.
 //!
 //! ```text
 //! h(x) = x²/(2R)
@@ -8,7 +8,7 @@ use crate::Surface;
 use crate::shape::shape;
 
 shape! {
-    /// The parabola of a cylinder that is infinite along y, as in the theory of line contacts (Hertz 1881; Hunter 1961).
+    /// The parabolic cylinder of the theory of line contacts, infinite along y (Hertz 1881; Hunter 1961).
     Cylinder;
     /// A cylinder of `radius` R > 0 \[m].
     new;

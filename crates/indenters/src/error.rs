@@ -1,9 +1,9 @@
-//! Why an indenter, its load or a geometric problem is refused.
+//! Errors of indenters, loads and geometric problems.
 
 use numerics::{InvalidParameter, Rounded};
 use thiserror::Error;
 
-/// Why an indenter, a load or a geometric problem is refused.
+/// The reason for which an indenter, a load or a geometric problem is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum IndenterError {
@@ -15,11 +15,11 @@ pub enum IndenterError {
     LengthMismatch {
         /// Name of the first list.
         first: &'static str,
-        /// Its length.
+        /// Length of the first list.
         first_length: usize,
         /// Name of the second list.
         second: &'static str,
-        /// Its length.
+        /// Length of the second list.
         second_length: usize,
     },
     /// A list has too few entries.
@@ -27,9 +27,9 @@ pub enum IndenterError {
     TooFew {
         /// Name of the list.
         list: &'static str,
-        /// The smallest length that makes sense.
+        /// Smallest admissible length.
         needed: usize,
-        /// Its length.
+        /// Actual length.
         length: usize,
     },
     /// The positions of a table do not increase from entry to entry.
@@ -41,7 +41,7 @@ pub enum IndenterError {
         index: usize,
         /// The offending entry.
         value: f64,
-        /// The entry before it.
+        /// The entry before the offending one.
         previous: f64,
     },
     /// The path is too long for the contact, or has too many points.
@@ -51,9 +51,9 @@ pub enum IndenterError {
          straight way, or take longer elements: press a body harder, or leave out the shortest waves of a periodic surface"
     )]
     TooManySteps {
-        /// Steps needed.
+        /// Number of steps needed.
         steps: f64,
-        /// The most steps of a motion, or of one cycle.
+        /// Largest number of steps of a motion, or of one cycle.
         allowed: f64,
     },
     /// The body does not reach as far as the position asked for.
@@ -64,13 +64,14 @@ pub enum IndenterError {
     OutOfDomain {
         /// The position asked for, \[m].
         position: f64,
-        /// Where the body begins, \[m].
+        /// Lower end of the body, \[m].
         lower: f64,
-        /// Where it ends, \[m].
+        /// Upper end of the body, \[m].
         upper: f64,
     },
-    /// The equivalent line turns downwards before it reaches the depth asked for: there the contact is no longer a
-    /// single circle and the method of dimensionality reduction does not hold.
+    /// The equivalent line turns downwards before it reaches the depth asked for.
+    ///
+    /// The contact is then no longer a single circle, and the method of dimensionality reduction does not hold.
     #[error(
         "the equivalent line rises only up to radius {} m, where its height is {} m; a depth of {} m was asked for",
         Rounded(*limiting_radius), Rounded(*limiting_depth), Rounded(*depth)
@@ -78,7 +79,7 @@ pub enum IndenterError {
     NonMonotoneLine {
         /// Radius at which the equivalent line stops rising, \[m].
         limiting_radius: f64,
-        /// Its height there, \[m].
+        /// Height of the equivalent line at this radius, \[m].
         limiting_depth: f64,
         /// The depth asked for, \[m].
         depth: f64,
@@ -110,7 +111,7 @@ pub enum IndenterError {
         /// The sliding distance of the load, \[m].
         sliding_distance: f64,
     },
-    /// Only bodies are known that never come back to the same place.
+    /// A method covers fresh ground only, but the load is on a closed track.
     #[error(
         "only bodies on fresh ground are known here, but the load comes back to the same place after {track} m"
     )]
@@ -126,7 +127,7 @@ pub enum IndenterError {
     NotConverged {
         /// The value reached.
         value: f64,
-        /// Its estimated relative error.
+        /// Estimated relative error of the value.
         reached: f64,
         /// The relative error asked for.
         relative_tolerance: f64,

@@ -11,7 +11,7 @@ use crate::shape::shape;
 use crate::{Axisymmetric, Kink, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
-    /// A cone whose tip is cut off; flat up to its `radius`, then rising with its `slope`.
+    /// A truncated cone, flat up to its `radius` and rising with its `slope` beyond.
     FlatCone;
     /// Flat up to the `radius` b > 0 \[m], then a cone of `slope` t > 0.
     new;
@@ -59,7 +59,7 @@ impl Axisymmetric for FlatCone {
 surface_of_revolution!(FlatCone);
 
 shape! {
-    /// A paraboloid whose tip is cut off or worn away; flat up to its `radius`.
+    /// A truncated or worn paraboloid, flat up to its `radius`.
     TruncatedParaboloid;
     /// Flat up to the `radius` b > 0 \[m], then `curvature · (r² − b²)`, curvature c > 0 in \[1/m]; the radius of
     /// curvature is `1 / (2 curvature)`.
@@ -108,7 +108,7 @@ impl Axisymmetric for TruncatedParaboloid {
 surface_of_revolution!(TruncatedParaboloid);
 
 shape! {
-    /// A flat end with a vertical edge around it; the contact circle is its rim at every depth.
+    /// A flat-ended cylindrical punch; its contact radius is its own radius at every depth.
     FlatPunch;
     /// A punch of `radius` > 0 \[m].
     new;

@@ -1,24 +1,25 @@
-//! Surfaces given by heights on a rectangular grid.
+//! Height maps: surfaces given by heights on a rectangular grid.
 //!
 //! ```text
 //! h = (1 − s)(1 − t) h_ij + s (1 − t) h_(i+1)j + (1 − s) t h_i(j+1) + s t h_(i+1)(j+1)        0 ≤ s, t ≤ 1 in a cell
 //! ```
 
-use crate::table::{at_least, check_heights};
+use crate::table::{check_heights, check_min_length};
 use crate::{IndenterError, Surface};
 use numerics::{finite, positive, whole_part};
 
-/// Part of the length of a map by which a point beyond its edge is on it: a point that was meant to be on the edge is off it by
-/// some units in the last place.
+/// Distance beyond the edge, relative to the length of the map, within which a point counts as on the edge (chosen).
+///
+/// It covers the rounding of coordinates that were meant to lie on the edge.
 const EDGE_TOLERANCE: f64 = 1e-12;
 
-/// A surface through heights on a grid, bilinear between them; it ends at the edge of the grid.
+/// A surface with bilinear interpolation between heights on a grid; it ends at the edge of the grid.
 ///
-/// Heights count as those of all bodies here, from the lowest point away from the elastomer; those of instruments and arrays,
-/// out of the body, are a [`Topography`](crate::topography::Topography).
+/// Heights are counted from the lowest point away from the elastomer, as for all bodies. Heights of instruments and arrays,
+/// which point out of the body, are a [`Topography`](crate::topography::Topography).
 ///
-/// Its lowest height is the origin, of several the one nearest to the middle. Every grid line is an edge: details of
-/// the size of a cell are those of the grid, not of the surface that was measured.
+/// The origin is the lowest node; among several, the one nearest to the middle. Every grid line is an edge: details of
+/// the size of a cell belong to the grid, not to the measured surface.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HeightMap {
@@ -26,13 +27,14 @@ pub struct HeightMap {
     spacing: [f64; 2],
     /// Row and column of the lowest height.
     lowest: [usize; 2],
-    /// Above the lowest, row-major with y fastest.
+    /// Heights above the lowest \[m], row-major with y fastest.
     heights: Vec<f64>,
 }
 
 impl HeightMap {
-    /// The surface through `heights` \[m], row-major with y fastest, in as many rows along x and columns along y as
-    /// `shape` says, `spacing` \[m] apart along x and y.
+    /// The surface through `heights` \[m], row-major with y fastest.
+    ///
+    /// `shape` is the number of rows along x and of columns along y, `spacing` \[m] their distance along x and y.
     ///
     /// # Errors
     /// [`IndenterError`] `TooFew` (two rows and two columns are needed), `LengthMismatch` or `InvalidParameter`.
@@ -41,8 +43,8 @@ impl HeightMap {
         spacing: [f64; 2],
         mut heights: Vec<f64>,
     ) -> Result<Self, IndenterError> {
-        at_least(2, "heights along x", shape[0])?;
-        at_least(2, "heights along y", shape[1])?;
+        check_min_length(2, "heights along x", shape[0])?;
+        check_min_length(2, "heights along y", shape[1])?;
         check_heights("grid", shape[0].saturating_mul(shape[1]), &heights)?;
         positive("spacing along x", spacing[0])?;
         positive("spacing along y", spacing[1])?;
@@ -62,7 +64,7 @@ impl HeightMap {
         })
     }
 
-    /// Heights along x and along y.
+    /// Numbers of heights along x and along y.
     pub const fn shape(&self) -> [usize; 2] {
         self.shape
     }
@@ -77,8 +79,9 @@ impl HeightMap {
         &self.heights
     }
 
-    /// The map beside its mirror images about its last row, about its last column and about both: when that is repeated its
-    /// edges fit, and no height jumps.
+    /// The map together with its mirror images about its last row, its last column and both.
+    ///
+    /// Its periodic continuation has no jump of the height.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let [rows, columns] = self.shape;
@@ -94,30 +97,31 @@ impl HeightMap {
         }
     }
 
-    /// Where the surface begins and ends along x and along y, seen from its lowest point, \[m].
+    /// Ends of the surface along x and along y, relative to its lowest point, \[m].
     pub fn extent(&self) -> [[f64; 2]; 2] {
-        [0, 1].map(|axis| self.between(axis, [0, self.shape[axis] - 1]))
+        [0, 1].map(|axis| self.node_coordinates(axis, [0, self.shape[axis] - 1]))
     }
 
-    fn between(&self, axis: usize, nodes: [usize; 2]) -> [f64; 2] {
+    /// Coordinates of two nodes along an axis, relative to the lowest point, \[m].
+    fn node_coordinates(&self, axis: usize, nodes: [usize; 2]) -> [f64; 2] {
         nodes.map(|node| (node as f64 - self.lowest[axis] as f64) * self.spacing[axis])
     }
 
-    /// The cell along an axis that holds a coordinate \[m], and where in the cell it lies, from 0 to 1; `None` outside.
+    /// The cell along an axis that holds a coordinate \[m], and the position in the cell, from 0 to 1; `None` outside.
     fn cell(&self, axis: usize, coordinate: f64) -> Option<(usize, f64)> {
-        let place = coordinate / self.spacing[axis] + self.lowest[axis] as f64;
+        let node = coordinate / self.spacing[axis] + self.lowest[axis] as f64;
         let last = self.shape[axis] - 1;
         let end = last as f64;
         let rounding = EDGE_TOLERANCE * end;
-        if !(place >= -rounding && place <= end + rounding) {
+        if !(node >= -rounding && node <= end + rounding) {
             return None;
         }
-        let place = place.clamp(0.0, end);
-        let cell = whole_part(place).min(last - 1);
-        Some((cell, place - cell as f64))
+        let node = node.clamp(0.0, end);
+        let cell = whole_part(node).min(last - 1);
+        Some((cell, node - cell as f64))
     }
 
-    /// Heights at the corners of a cell: at its lower x, at its upper x, each from lower to upper y.
+    /// Heights at the corners of a cell, `[[h_ij, h_i(j+1)], [h_(i+1)j, h_(i+1)(j+1)]]`.
     fn corners(&self, [row, column]: [usize; 2]) -> [[f64; 2]; 2] {
         [row, row + 1].map(|row| {
             let first = row * self.shape[1] + column;
@@ -126,7 +130,7 @@ impl HeightMap {
     }
 }
 
-/// Row and column of the lowest height, of equal ones the nearest to the middle.
+/// Row and column of the lowest height; among equal ones, of the nearest to the middle.
 fn lowest(shape: [usize; 2], heights: &[f64]) -> [usize; 2] {
     let place = |index: usize| [index / shape[1], index % shape[1]];
     let from_middle = |index: usize| -> f64 {
@@ -144,7 +148,8 @@ fn lowest(shape: [usize; 2], heights: &[f64]) -> [usize; 2] {
     place((0..heights.len()).min_by(below).unwrap_or(0))
 }
 
-fn mix([from, to]: [f64; 2], part: f64) -> f64 {
+/// Linear interpolation between two values.
+fn interpolate([from, to]: [f64; 2], part: f64) -> f64 {
     (1.0 - part) * from + part * to
 }
 
@@ -153,7 +158,10 @@ impl Surface for HeightMap {
         let (Some((row, s)), Some((column, t))) = (self.cell(0, x), self.cell(1, y)) else {
             return f64::INFINITY;
         };
-        mix(self.corners([row, column]).map(|edge| mix(edge, t)), s)
+        interpolate(
+            self.corners([row, column]).map(|edge| interpolate(edge, t)),
+            s,
+        )
     }
 
     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -162,8 +170,8 @@ impl Surface for HeightMap {
         };
         let [behind, ahead] = self.corners([row, column]);
         [
-            (mix(ahead, t) - mix(behind, t)) / self.spacing[0],
-            mix([behind[1] - behind[0], ahead[1] - ahead[0]], s) / self.spacing[1],
+            (interpolate(ahead, t) - interpolate(behind, t)) / self.spacing[0],
+            interpolate([behind[1] - behind[0], ahead[1] - ahead[0]], s) / self.spacing[1],
         ]
     }
 
@@ -175,11 +183,11 @@ impl Surface for HeightMap {
                 *nodes = [nodes[0].min(index), nodes[1].max(index)];
             }
         }
-        // A cell reaches below a height only where one of its corners does.
+        // A bilinear cell reaches below a height only if one of its corners does: extend the nodes by one cell.
         [0, 1].map(|axis| {
             let [first, last] = nodes[axis];
             let end = (last + 1).min(self.shape[axis] - 1);
-            self.between(axis, [first.saturating_sub(1), end])
+            self.node_coordinates(axis, [first.saturating_sub(1), end])
         })
     }
 
@@ -193,7 +201,7 @@ impl Surface for HeightMap {
             rows().eq(rows().rev()),
             rows().all(|row| row.iter().eq(row.iter().rev())),
         ];
-        // The mirror passes through the lowest point, and the surface ends as far from it on both sides.
+        // The lowest point, which is the origin, must lie on the mirror plane in the middle of the map.
         [0, 1].map(|axis| same[axis] && 2 * self.lowest[axis] + 1 == self.shape[axis])
     }
 }

@@ -1,4 +1,4 @@
-//! From the equivalent line back to the body.
+//! Inverse Abel transform: the body of revolution of an equivalent line.
 //!
 //! ```text
 //! h(r) = (2 / π) ∫₀^r h̃(x) / √(r² − x²) dx  =  (2 / π) ∫₀^{π/2} h̃(r sin φ) dφ
@@ -9,12 +9,12 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use crate::{IndenterError, RigidLine};
 use numerics::{finite, integrate, positive};
 
-/// How often intervals may be halved, all in all, in search of kinks that the line does not name; one kink takes about 30.
+/// Bound on the number of bisections in search of kinks that the line does not report; one kink takes about 30.
 const MAX_BISECTIONS: usize = 1000;
 
 /// Height h(r) \[m] of the body of revolution whose equivalent line is the right half of `line`, at a `radius` r > 0 \[m].
 ///
-/// Kinks of the line are found even when it does not name them; named ones cost nothing. The tolerance bounds the
+/// Kinks that the line does not report are found by bisection; reported ones cost nothing. The tolerance bounds the
 /// estimated error relative to the integral of |h̃|; 1e-9 is a good value.
 ///
 /// # Errors
@@ -36,24 +36,24 @@ pub fn inverse_abel(
         });
     }
     let height = |phi: f64| line.height(radius * phi.sin());
-    // 0, the angles of the known kinks, and a quarter turn.
+    // Split the quarter turn at the reported kinks.
     let kinks = line.kinks().into_iter();
     let inner = kinks.filter(|kink| *kink > 0.0 && *kink < radius);
     let mut angles = vec![0.0];
     angles.extend(inner.map(|kink| (kink / radius).asin()));
     angles.push(FRAC_PI_2);
-    average(height, &angles, relative_tolerance)
+    mean_over_angles(height, &angles, relative_tolerance)
 }
 
-/// (2 / π) ∫ f dφ between the first and the last angle; halves every interval that does not converge as a whole.
-fn average(
+/// Integral (2 / π) ∫ f dφ from the first to the last angle, with bisection of the intervals that do not converge.
+fn mean_over_angles(
     function: impl Fn(f64) -> f64,
     angles: &[f64],
     relative_tolerance: f64,
 ) -> Result<f64, IndenterError> {
     let piece = |ends: [f64; 2]| integrate(&function, ends, 0.01 * relative_tolerance);
     let mut open: Vec<[f64; 2]> = angles.windows(2).map(|a| [a[0], a[1]]).collect();
-    // ∫ |f| dφ, roughly.
+    // A rough value of ∫ |f| dφ is the scale of the error.
     let magnitude = |ends: &[f64; 2]| integrate(|phi| function(phi).abs(), *ends, 0.01).value;
     let scale = open.iter().map(magnitude).sum();
     finite("height of the line", scale)?;
@@ -61,7 +61,8 @@ fn average(
     while let Some(ends) = open.pop() {
         let integral = piece(ends);
         finite("height of the line", integral.value)?;
-        // Each of the intervals around a kink may have its share; their number grows with the logarithm of the accuracy.
+        // An interval may take 1 % of the tolerance: the number of intervals around a kink grows with the logarithm of
+        // the accuracy.
         if integral.error > 0.01 * relative_tolerance * scale && bisections < MAX_BISECTIONS {
             let middle = 0.5 * (ends[0] + ends[1]);
             open.extend([[ends[0], middle], [middle, ends[1]]]);

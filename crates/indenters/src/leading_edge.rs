@@ -1,18 +1,19 @@
-//! The part of a moving rigid line that can touch, and the part that does.
+//! Leading edge and contact line of a moving rigid line.
 //!
 //! ```text
 //! A   = { x ∈ X : h̃(x) < h̃(ξ) for all ξ > x }              (Kürschner 2014, Definition 1)
 //! A_d = { x ∈ A : h̃(x) ≤ h_0 + d },   h_0 = min h̃          (Definition 2)
 //! ```
 //!
-//! The paper writes Definition 2 with d instead of `h_0 + d`; its proof of Theorem 3 uses `h_0 + d`.
+//! The leading edge can touch; the contact line does. The paper writes Definition 2 with d instead of `h_0 + d`; its proof
+//! of Theorem 3 uses `h_0 + d`.
 
-use crate::table::at_least;
+use crate::table::check_min_length;
 use crate::{IndenterError, RigidLine};
 use numerics::{InvalidParameter, bracketed_root, finite, positive};
 
-/// Intervals of the domain of a line that are searched for one turning point each, unless the caller chooses.
-const SAMPLES: usize = 1024;
+/// Default number of intervals of the domain that are searched for one turning point each (chosen).
+const DEFAULT_SAMPLES: usize = 1024;
 
 /// The leading edge A of a rigid line that moves towards positive x.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +22,8 @@ const SAMPLES: usize = 1024;
 pub struct LeadingEdge {
     /// Intervals `[α, β]` of A by increasing position, \[m].
     ///
-    /// The last one is closed; all others are open at β. The height increases over each and from each to the next. A falling
-    /// line has the single interval `[β, β]` at its end.
+    /// The last interval is closed; all others are open at β. The height increases over each interval and from each to the
+    /// next. A falling line has the single interval `[β, β]` at its end.
     pub intervals: Vec<[f64; 2]>,
     /// Height h_0 of the lowest point, \[m].
     pub lowest: f64,
@@ -36,7 +37,7 @@ impl LeadingEdge {
         self.highest - self.lowest
     }
 
-    /// The part of the leading edge of this `line` up to an indentation `depth` d > 0 \[m].
+    /// Contact line: the part of the leading edge of this `line` up to an indentation `depth` d > 0 \[m].
     ///
     /// # Errors
     /// Like [`contact_line`].
@@ -74,7 +75,7 @@ impl LeadingEdge {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct ContactLine {
-    /// Intervals `[α, β]` of A_d by increasing position, \[m], none of them of zero length.
+    /// Intervals `[α, β]` of A_d by increasing position, all of positive length, \[m].
     pub intervals: Vec<[f64; 2]>,
     /// Height h_0 of the lowest point of the line, \[m].
     pub lowest: f64,
@@ -89,17 +90,18 @@ impl ContactLine {
 
 /// Finds the leading edge of a line with a finite domain.
 ///
-/// The equivalent line of a body without an end has the leading edge `[0, ∞[`; ask
-/// [`contact_radius`](crate::contact_radius) for its contact line `[0, a]`.
+/// The equivalent line of an infinite body has the leading edge `[0, ∞[`; [`contact_radius`](crate::contact_radius) gives
+/// its contact line `[0, a]`.
 ///
 /// # Errors
 /// [`IndenterError::InvalidParameter`] when the domain is infinite or a height is not finite.
 pub fn leading_edge(line: &(impl RigidLine + ?Sized)) -> Result<LeadingEdge, IndenterError> {
-    leading_edge_with(line, SAMPLES)
+    leading_edge_with(line, DEFAULT_SAMPLES)
 }
 
-/// Like [`leading_edge`], with one turning point searched for in each of so many equal intervals of the domain; without
-/// effect on a [`SampledLine`](crate::SampledLine), which is known exactly.
+/// Finds the leading edge with a search for one turning point in each of `samples` equal intervals of the domain.
+///
+/// The number has no effect on a [`SampledLine`](crate::SampledLine), whose turning points are known.
 ///
 /// # Errors
 /// Like [`leading_edge`].
@@ -110,14 +112,16 @@ pub fn leading_edge_with(
     for end in line.domain() {
         finite("end of the domain", end)?;
     }
+    // Split the line into monotone pieces.
     let breaks = line.monotone_breaks(samples);
-    let heights = breaks.iter().map(|x| line.height(*x));
-    let heights = heights.map(|height| finite("height of the line", height));
-    let heights: Vec<f64> = heights.collect::<Result<_, _>>()?;
-    at_least(1, "monotone_breaks", breaks.len())?;
+    let heights: Vec<f64> = breaks
+        .iter()
+        .map(|x| finite("height of the line", line.height(*x)))
+        .collect::<Result<_, _>>()?;
+    check_min_length(1, "monotone_breaks", breaks.len())?;
     let last = breaks.len() - 1;
+    // Walk backwards from the end of the line with the minimum over all breaks to the right of the piece.
     let mut backwards = vec![[breaks[last]; 2]];
-    // Minimum over all breaks to the right of the piece.
     let mut later = f64::INFINITY;
     for (ends, heights) in breaks.windows(2).zip(heights.windows(2)).rev() {
         let [low, high] = [heights[0], heights[1]];
@@ -142,7 +146,7 @@ pub fn leading_edge_with(
     })
 }
 
-/// Where the rising line passes a height between those at the two ends.
+/// Position at which a rising line reaches a `height` between those at the two ends, \[m].
 pub(crate) fn crossing(
     line: &(impl RigidLine + ?Sized),
     ends: [f64; 2],

@@ -27,7 +27,7 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-// Only its inflation is chosen here.
+// Only the inflation backend of `zip` is chosen here.
 #[cfg(feature = "topography")]
 use flate2 as _;
 
@@ -64,7 +64,7 @@ mod surface;
 mod table;
 pub mod topography;
 
-/// The program of that page compiles.
+/// The example in the README, compiled as a doc test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;

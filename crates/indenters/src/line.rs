@@ -1,11 +1,11 @@
-//! Rigid lines of the one-dimensional model, and where they turn up or down.
+//! Rigid lines of the one-dimensional model, and their turning points.
 
 use auto_impl::auto_impl;
 
 use crate::Axisymmetric;
 use numerics::bracketed_root;
 
-/// Halvings of an interval whose slopes contradict its heights, all together, before it is taken as it is.
+/// Bound on the number of bisections of a search interval whose slopes contradict its heights (chosen).
 const MAX_BISECTIONS: u32 = 40;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
@@ -14,10 +14,10 @@ pub trait RigidLine {
     /// Height h̃(x), \[m], at a position of the domain; `+∞` outside.
     fn height(&self, x: f64) -> f64;
 
-    /// Slope h̃'(x), at a position of the domain; at a kink one of the two one-sided slopes, finite where one of them is.
+    /// Slope h̃'(x) at a position of the domain; at a kink a one-sided slope, finite if one of the two is.
     fn slope(&self, x: f64) -> f64;
 
-    /// The interval X on which the line is given, \[m]. Its ends may be infinite.
+    /// Interval X on which the line is given, \[m]; its ends may be infinite.
     fn domain(&self) -> [f64; 2];
 
     /// Positions inside the domain at which the slope jumps or is singular, increasing.
@@ -25,15 +25,15 @@ pub trait RigidLine {
         Vec::new()
     }
 
-    /// Exponent p of the line h̃ ∼ |x|^p around its lowest point; 1 where nothing is known.
+    /// Exponent p of the line h̃ ∼ |x|^p around its lowest point; 1 if unknown.
     fn apex_exponent(&self) -> f64 {
         1.0
     }
 
-    /// Positions, increasing, from end to end of the finite domain, between which the line only rises or only falls.
+    /// Increasing positions from end to end of the finite domain between which the line is monotone.
     ///
-    /// Found by looking for one change of sign of the slope in each of `samples` equal intervals. A line that knows its
-    /// turning points overrides this.
+    /// The default searches each of `samples` equal intervals for one change of sign of the slope. A line whose turning
+    /// points are known overrides it.
     fn monotone_breaks(&self, samples: usize) -> Vec<f64> {
         find_breaks(self, samples)
     }
@@ -43,7 +43,7 @@ pub trait RigidLine {
 #[derive(Debug, PartialEq)]
 pub struct EquivalentLine<'a, P: ?Sized>(pub &'a P);
 
-// Not derived, because the body itself need not be one that can be copied.
+// Not derived: a derive would require the body itself to be `Clone`.
 impl<P: ?Sized> Clone for EquivalentLine<'_, P> {
     fn clone(&self) -> Self {
         *self
@@ -76,10 +76,10 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
     }
 }
 
-/// Positions, increasing, from end to end of the domain, between which the line only rises or only falls.
+/// Increasing positions from end to end of the domain between which the line is monotone.
 ///
-/// Searches `samples` equal intervals of the (finite) domain, finer between kinks, for a change of sign of the slope. Two
-/// turning points inside one of them are not seen.
+/// Searches `samples` equal intervals of the (finite) domain, split at kinks, for a change of sign of the slope. Two
+/// turning points inside one interval are missed.
 fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     let [lower, upper] = line.domain();
     let mut breaks = line.kinks();
@@ -88,27 +88,28 @@ fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     breaks.push(upper);
     let spacing = (upper - lower) / samples.max(1) as f64;
     let stations = stations(&breaks, spacing);
-    // Slope with which the last interval ended, zero as long as the line is level.
-    let mut heading = 0.0_f64;
+    // Slope at the end of the previous interval, zero as long as the line is level.
+    let mut previous_slope = 0.0_f64;
     for ends in stations.windows(2) {
         let [left, right] = [ends[0], ends[1]];
         let [start, end] = inside([left, right]).map(|x| line.slope(x));
         let rise = line.height(right) - line.height(left);
-        let entry = first_not_zero([start, rise, heading]);
-        // A height that is not finite is handed on to whoever evaluates the line at the breaks.
-        if heading.signum() * entry < 0.0 || !line.height(left).is_finite() {
+        let entry_slope = first_nonzero([start, rise, previous_slope]);
+        // A turn at the station itself. A height that is not finite becomes a break, so that callers refuse it there.
+        if previous_slope.signum() * entry_slope < 0.0 || !line.height(left).is_finite() {
             breaks.push(left);
         }
+        // A turn inside the interval.
         let mut bisections = 0;
         breaks.extend(turning_point(line, [left, right], &mut bisections));
-        heading = first_not_zero([end, entry, heading]);
+        previous_slope = first_nonzero([end, entry_slope, previous_slope]);
     }
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
     breaks
 }
 
-/// The fixed positions, and between them others at most 1.5 spacings apart.
+/// The fixed positions with others between them, at most 1.5 spacings apart.
 fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
     let mut stations = Vec::new();
     for gap in fixed.windows(2) {
@@ -121,17 +122,18 @@ fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
     stations
 }
 
-/// One step inside, so that at a kink the slope is that on the side of this interval.
+/// The ends of an interval, moved inwards by one unit in the last place: a slope at a kink is then the one of this side.
 fn inside([left, right]: [f64; 2]) -> [f64; 2] {
     [left.next_up(), right.next_down()]
 }
 
-fn first_not_zero(candidates: [f64; 3]) -> f64 {
+/// The first slope that is not zero; the last one if all are zero.
+fn first_nonzero(candidates: [f64; 3]) -> f64 {
     let found = candidates.into_iter().find(|slope| *slope != 0.0);
     found.unwrap_or(candidates[2])
 }
 
-/// The position inside an interval without kinks at which the slope changes its sign.
+/// Position inside an interval without kinks at which the slope changes its sign; `None` if it does not.
 fn turning_point(
     line: &(impl RigidLine + ?Sized),
     [left, right]: [f64; 2],

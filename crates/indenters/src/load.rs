@@ -1,9 +1,9 @@
-//! How the rigid body is pressed and moved.
+//! Loads: force or depth, and the sliding or the duration of a contact.
 
 use crate::IndenterError;
 use numerics::{InvalidParameter, positive};
 
-/// What is prescribed normal to the surface.
+/// The quantity prescribed normal to the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Control {
@@ -21,7 +21,7 @@ impl Control {
         }
     }
 
-    /// Another force instead of a force, or another depth instead of a depth.
+    /// The same kind of control with another value.
     #[must_use]
     pub const fn with(self, value: f64) -> Self {
         match self {
@@ -40,7 +40,7 @@ impl Control {
     }
 }
 
-/// Force or depth at one time of a history; two of the same time are a jump.
+/// Force or depth at one time of a history; two points at the same time are a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HistoryPoint {
@@ -65,13 +65,12 @@ pub struct SlidingLoad {
     control: Control,
     velocity: f64,
     sliding_distance: Option<f64>,
-    /// Never beside a sliding distance.
+    /// Length of a closed track, \[m]; `None` if a sliding distance is set.
     track: Option<f64>,
 }
 
 impl SlidingLoad {
-    /// Pressed with `normal_force` F_N > 0 \[N], moved with `velocity` v > 0 \[m/s] towards positive x, for so long that the
-    /// state is stationary.
+    /// Stationary sliding under `normal_force` F_N > 0 \[N] with `velocity` v > 0 \[m/s] towards positive x.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero. A body at rest never
@@ -80,8 +79,7 @@ impl SlidingLoad {
         Self::with(Control::NormalForce(normal_force), velocity)
     }
 
-    /// Held at `indentation_depth` d > 0 \[m], moved with `velocity` v > 0 \[m/s] towards positive x, for so long that the
-    /// state is stationary.
+    /// Stationary sliding at `indentation_depth` d > 0 \[m] with `velocity` v > 0 \[m/s] towards positive x.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
@@ -89,7 +87,7 @@ impl SlidingLoad {
         Self::with(Control::IndentationDepth(indentation_depth), velocity)
     }
 
-    /// Pressed as `control` says, moved with `velocity` v > 0 \[m/s].
+    /// Stationary sliding under a prescribed force or depth with `velocity` v > 0 \[m/s] towards positive x.
     ///
     /// # Errors
     /// Like [`SlidingLoad::new`] and [`SlidingLoad::at_depth`].
@@ -102,7 +100,7 @@ impl SlidingLoad {
         })
     }
 
-    /// The same load, seen when the body has slid `sliding_distance` > 0 \[m] since first touch.
+    /// The same load after a `sliding_distance` > 0 \[m] since first touch.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when the distance is not finite and greater than zero.
@@ -114,8 +112,9 @@ impl SlidingLoad {
         })
     }
 
-    /// The same load without an end, on a track after whose length > 0 \[m] the body comes back to the same place, as a ball on a
-    /// disc does: ahead of it is what the pass before has left. The curvature of the track is left out.
+    /// The same load on a closed track of length > 0 \[m] after any number of passes, as in a ball-on-disc test.
+    ///
+    /// The body meets the deformation left by its previous passes. The curvature of the track is neglected.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when the length is not finite and greater than zero.
@@ -127,7 +126,7 @@ impl SlidingLoad {
         })
     }
 
-    /// Force or depth.
+    /// Prescribed force or depth.
     pub const fn control(&self) -> Control {
         self.control
     }
@@ -137,20 +136,20 @@ impl SlidingLoad {
         self.velocity
     }
 
-    /// Sliding distance since first touch, \[m]; none for the stationary state.
+    /// Sliding distance since first touch, \[m]; `None` for the stationary state.
     pub const fn sliding_distance(&self) -> Option<f64> {
         self.sliding_distance
     }
 
-    /// Length after which the body comes back to the same place, \[m]; none where it never does.
+    /// Length of the closed track, \[m]; `None` on fresh ground.
     pub const fn track(&self) -> Option<f64> {
         self.track
     }
 
-    /// Refuses a track, for methods that know none.
+    /// Refuses a closed track, for methods that cover fresh ground only.
     ///
     /// # Errors
-    /// [`IndenterError::NoTrack`].
+    /// [`IndenterError::NoTrack`] if the load is on a closed track.
     pub const fn require_fresh_ground(&self) -> Result<(), IndenterError> {
         match self.track {
             None => Ok(()),
@@ -158,7 +157,7 @@ impl SlidingLoad {
         }
     }
 
-    /// Normal force F_N, \[N]; none where the depth is prescribed.
+    /// Normal force F_N, \[N]; `None` if the depth is prescribed.
     pub fn normal_force(&self) -> Option<f64> {
         self.require_normal_force().ok()
     }
@@ -166,7 +165,7 @@ impl SlidingLoad {
     /// Normal force F_N \[N], for methods that cannot prescribe the depth.
     ///
     /// # Errors
-    /// [`IndenterError::NeedsNormalForce`] where the depth is prescribed.
+    /// [`IndenterError::NeedsNormalForce`] if the depth is prescribed.
     pub const fn require_normal_force(&self) -> Result<f64, IndenterError> {
         match self.control {
             Control::NormalForce(force) => Ok(force),
@@ -176,10 +175,10 @@ impl SlidingLoad {
         }
     }
 
-    /// Force or depth, for methods that know the stationary state only.
+    /// Prescribed force or depth, for methods that give the stationary state only.
     ///
     /// # Errors
-    /// [`IndenterError::OnlyStationary`] where a sliding distance is prescribed.
+    /// [`IndenterError::OnlyStationary`] if a sliding distance is prescribed.
     pub const fn require_stationary(&self) -> Result<Control, IndenterError> {
         match self.sliding_distance {
             None => Ok(self.control),
@@ -197,7 +196,7 @@ pub struct PressingLoad {
 }
 
 impl PressingLoad {
-    /// Pressed as `control` says for a `duration` > 0 \[s].
+    /// A constant force or depth for a `duration` > 0 \[s].
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when force, depth or duration is not finite and greater than zero.
@@ -208,7 +207,7 @@ impl PressingLoad {
         })
     }
 
-    /// Force or depth.
+    /// Prescribed force or depth.
     pub const fn control(&self) -> Control {
         self.control
     }

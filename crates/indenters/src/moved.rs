@@ -1,4 +1,4 @@
-//! What is said of a motion: its steps on one resolution, and its points with their errors from several.
+//! Results of a motion: its steps on one resolution, and its points with error estimates from several.
 //!
 //! ```text
 //! μ = ∫ F_t dx / ∫ F_N |dx|
@@ -8,25 +8,26 @@ use numerics::{ErrorParts, Estimate, Quantity};
 
 use crate::{Control, MovingLoad, Stage};
 
-/// By how much less forces and depths of single steps need be known than the friction of a cycle.
-const PARTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
-/// Rows of a motion, about.
-const ROWS: usize = 64;
-/// Rounding of forces times slopes, relative to the mean slope.
-const ROUNDING: f64 = 1e-12;
-/// Quantities of the whole motion, before those of its rows, and of each row.
-const OF_WHOLE: usize = 3;
-const OF_ROW: usize = 3;
+/// Weights of the remaining changes in the test for a limit cycle (chosen): friction coefficient, forces and depth of steps.
+const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
+/// Approximate number of points at which a motion is reported (chosen).
+const POINTS_PER_MOTION: usize = 64;
+/// Rounding error of the friction coefficient, relative to the mean slope (chosen).
+const FRICTION_ROUNDING: f64 = 1e-12;
+/// Number of quantities of the whole motion, which precede those of its points.
+const MOTION_QUANTITIES: usize = 3;
+/// Number of quantities of each point.
+const POINT_QUANTITIES: usize = 3;
 
-/// One step of a motion; what is not said to belong to its end is a mean, and belongs to its middle.
+/// One step of a motion; values are means over the step unless they belong to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotionStep {
-    /// Number of the stage of the motion.
+    /// Index of the stage of the motion.
     pub stage: usize,
-    /// Time in the middle, \[s].
+    /// Time in the middle of the step, \[s].
     pub time: f64,
-    /// Position in the middle, \[m].
+    /// Position in the middle of the step, \[m].
     pub position: f64,
     /// Force on the body along −x, \[N].
     pub tangential_force: f64,
@@ -34,13 +35,13 @@ pub struct MotionStep {
     pub normal_force: f64,
     /// Indentation depth d of the lowest point, \[m].
     pub indentation_depth: f64,
-    /// Rearmost and foremost loaded element at the end, relative to the lowest point, \[m].
+    /// Rearmost and foremost loaded element at the end of the step, relative to the lowest point, \[m]; `None` without contact.
     pub contact: Option<[f64; 2]>,
-    /// Number of loaded elements at the end.
+    /// Number of loaded elements at the end of the step.
     pub n_contact: usize,
 }
 
-/// A point of a motion with its errors; an error of 0 says that a quantity is given.
+/// A point of a motion with error estimates; the error of a prescribed quantity is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MovedPoint {
@@ -48,7 +49,7 @@ pub struct MovedPoint {
     pub time: f64,
     /// Position of the lowest point along x, \[m].
     pub position: f64,
-    /// Force on the body along −x \[N], on the way to this point.
+    /// Force on the body along −x as it arrives at this point, \[N].
     pub tangential_force: Estimate,
     /// Normal force F_N, \[N].
     pub normal_force: Estimate,
@@ -56,7 +57,7 @@ pub struct MovedPoint {
     pub indentation_depth: Estimate,
 }
 
-/// A motion with its error bars, or the cycle in which one to and fro ends.
+/// A motion with error estimates, or the limit cycle of a reciprocating one.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -64,40 +65,40 @@ pub struct MovedPoint {
 pub struct Moved {
     /// Mean friction coefficient ∫ F_t dx / ∫ F_N |dx|.
     pub friction_coefficient: Estimate,
-    /// What its error consists of.
+    /// Parts of the error of the friction coefficient.
     pub error_parts: ErrorParts,
-    /// The largest |F_t|/F_N on the way.
+    /// Largest |F_t|/F_N of the motion.
     pub peak_friction: Estimate,
-    /// Energy ∫ F_t dx that is dissipated in a cycle \[J]; none of a motion that does not come back.
+    /// Energy ∫ F_t dx dissipated in a cycle, \[J]; `None` for a single motion.
     pub dissipated_energy: Option<Estimate>,
-    /// From the beginning to the end, the points of the motion among them.
+    /// Points from the beginning to the end; they include those of the load.
     pub points: Vec<MovedPoint>,
-    /// The steps on the finest resolution.
+    /// Time steps on the finest resolution.
     pub steps: Vec<MotionStep>,
-    /// Cycles that were followed until they were alike.
+    /// Number of cycles up to the limit cycle.
     pub n_cycles: usize,
-    /// Rear and front end of the contact at the end, relative to the lowest point, \[m]; none where nothing touches.
+    /// Rear and front end of the contact at the end of the motion, relative to the lowest point, \[m]; `None` without contact.
     pub ends: Option<[Estimate; 2]>,
 }
 
-/// A motion, or its last cycle, on one resolution.
+/// Record of a motion, or of its last cycle, on one resolution.
 #[derive(Debug, Clone, Default)]
 pub struct MotionRecord {
-    /// Its steps.
+    /// Time steps.
     pub steps: Vec<MotionStep>,
-    /// ∫ F_t dx, \[J].
+    /// Work ∫ F_t dx of the tangential force, \[J].
     pub work: f64,
-    /// ∫ F_N |dx|, \[J].
+    /// Integral ∫ F_N |dx| of the normal force over the path, \[J].
     pub normal_work: f64,
-    /// Cycles that were followed.
+    /// Number of cycles so far.
     pub n_cycles: usize,
-    /// What is left of the way to the cycle: of the friction coefficient, and of forces and depths of all steps.
+    /// Estimated remaining changes up to the limit cycle: friction coefficient, tangential force, normal force, depth.
     pub rest: [f64; 4],
-    /// Work less what the elements are known to have lost, \[J].
+    /// Work less the energy dissipated by the elements, \[J].
     pub imbalance: f64,
     /// Length of an element, \[m].
     pub spacing: f64,
-    /// Root mean square slope of a surface without end; 0 of a body, whose contact tells it.
+    /// Root mean square slope of a periodic surface; 0 for a body, whose slope follows from depth and contact.
     pub steepness: f64,
 }
 
@@ -109,15 +110,15 @@ impl MotionRecord {
         self.steps.push(step);
     }
 
-    /// By how much a cycle may differ from the last one of all, when it differs so from the one before: the friction
-    /// coefficient, and of all steps the tangential force, the normal force, and the depth.
+    /// Estimated remaining changes up to the limit cycle, in the order of [`rest`](Self::rest).
     ///
-    /// What changes slowly does so over the whole cycle, and its mean is that many times as far from its end; elements that
-    /// come and go from cycle to cycle change single steps, and no more.
-    fn left(&self, before: &Self, slowness: f64) -> [f64; 4] {
-        let rest = |of: fn(&MotionStep) -> f64| {
+    /// Changes from the previous cycle to this one consist of a slow drift, which is uniform over the cycle, and of elements
+    /// that come and go in single steps. The drift, estimated by the mean change, is extrapolated by the factor `slowness`.
+    /// The largest change of a single step is added to it.
+    fn remaining_change(&self, before: &Self, slowness: f64) -> [f64; 4] {
+        let drift_and_scatter = |quantity: fn(&MotionStep) -> f64| {
             let pairs = self.steps.iter().zip(&before.steps);
-            let changes = pairs.map(|(now, before)| of(now) - of(before));
+            let changes = pairs.map(|(now, before)| quantity(now) - quantity(before));
             let (sum, largest) = changes.fold((0.0, 0.0_f64), |(sum, largest), change| {
                 (sum + change, largest.max(change.abs()))
             });
@@ -125,18 +126,18 @@ impl MotionRecord {
         };
         [
             slowness * (self.friction() - before.friction()).abs(),
-            rest(|step| step.tangential_force),
-            rest(|step| step.normal_force),
-            rest(|step| step.indentation_depth),
+            drift_and_scatter(|step| step.tangential_force),
+            drift_and_scatter(|step| step.normal_force),
+            drift_and_scatter(|step| step.indentation_depth),
         ]
     }
 
-    /// What these are relative to; without friction the largest coefficient of a step.
-    fn sizes(&self) -> [f64; 4] {
-        let largest = |of: fn(&MotionStep) -> f64| {
+    /// Scales of the quantities in [`rest`](Self::rest): the friction coefficient, and largest forces and depth.
+    fn scales(&self) -> [f64; 4] {
+        let largest = |quantity: fn(&MotionStep) -> f64| {
             self.steps
                 .iter()
-                .map(|step| of(step).abs())
+                .map(|step| quantity(step).abs())
                 .fold(f64::MIN_POSITIVE, f64::max)
         };
         [
@@ -147,7 +148,7 @@ impl MotionRecord {
         ]
     }
 
-    /// Mean friction coefficient ∫ F_t dx / ∫ F_N |dx|; 0 where nothing was pressed on the way.
+    /// Mean friction coefficient ∫ F_t dx / ∫ F_N |dx|; 0 without a normal force.
     pub fn friction(&self) -> f64 {
         let friction = self.work / self.normal_work;
         if self.normal_work > 0.0 {
@@ -157,14 +158,16 @@ impl MotionRecord {
         }
     }
 
-    /// Keeps what is left after the cycle before, and gives the largest part of it, relative to the values.
+    /// Updates [`rest`](Self::rest) from the previous cycle and returns the largest weighted relative remaining change.
     pub fn rest_after(&mut self, before: &Self, slowness: f64) -> f64 {
-        self.rest = self.left(before, slowness);
-        let relative = self.rest.iter().zip(self.sizes()).zip(PARTS);
-        let relative = relative.map(|((rest, size), part)| part * rest / size);
-        relative.fold(0.0, f64::max)
+        self.rest = self.remaining_change(before, slowness);
+        let weighted = self.rest.iter().zip(self.scales()).zip(LIMIT_CYCLE_WEIGHTS);
+        weighted
+            .map(|((rest, scale), weight)| weight * rest / scale)
+            .fold(0.0, f64::max)
     }
 
+    /// Largest |F_t|/F_N of the steps.
     fn peak(&self) -> f64 {
         let pressed = self.steps.iter().filter(|step| step.normal_force > 0.0);
         let frictions = pressed.map(|step| (step.tangential_force / step.normal_force).abs());
@@ -172,61 +175,81 @@ impl MotionRecord {
     }
 }
 
-/// What is known at a point: tangential force, normal force, depth.
-type Row = [f64; OF_ROW];
+/// Quantities at a point: tangential force, normal force, depth.
+type PointValues = [f64; POINT_QUANTITIES];
 
-/// How a march is looked at.
+/// A position of a motion: a stage and the fraction of it that has passed.
+#[derive(Clone, Copy)]
+struct Station {
+    stage: usize,
+    part: f64,
+}
+
+/// A motion as the source of quantities with error estimates.
 #[derive(Debug, Clone, Copy)]
 pub struct MotionView<'a> {
-    /// The motion.
+    /// Motion of the body.
     pub load: &'a MovingLoad,
-    /// Whether nothing is dissipated, so that slopes stand for the friction.
+    /// Whether the material is elastic; the slope is then the scale of the friction coefficient.
     pub is_elastic: bool,
 }
 
 impl MotionView<'_> {
-    /// The points at which a motion is asked for: its stage, and the part of it; the first one is its beginning.
-    fn stations(&self) -> Vec<(usize, f64)> {
+    /// Stations of the reported points: the beginning of the motion, then equal parts of each stage.
+    fn stations(&self) -> Vec<Station> {
         let n_stages = self.load.stages().len();
-        let each = ROWS.div_ceil(n_stages);
-        let parts = move |stage| (1..=each).map(move |k| (stage, k as f64 / each as f64));
-        let all = (0..n_stages).flat_map(parts);
-        std::iter::once((0, 0.0)).chain(all).collect()
+        let per_stage = POINTS_PER_MOTION.div_ceil(n_stages);
+        let in_stage = move |stage| {
+            (1..=per_stage).map(move |k| Station {
+                stage,
+                part: k as f64 / per_stage as f64,
+            })
+        };
+        let start = Station {
+            stage: 0,
+            part: 0.0,
+        };
+        let all = (0..n_stages).flat_map(in_stage);
+        std::iter::once(start).chain(all).collect()
     }
 
-    /// Friction, its peak and the work, and force along x, normal force and depth of all points; the first drives a refinement, and so do
-    /// the forces along x of a motion that does not come back.
+    /// Quantities of the whole motion (friction, peak friction, work), then of each point (tangential force, normal force,
+    /// depth).
+    ///
+    /// The friction coefficient controls a refinement; so do the tangential forces of a single motion.
     pub fn quantities(&self, record: &MotionRecord) -> Vec<Quantity> {
-        let mut quantities = self.of_whole(record).to_vec();
+        let mut quantities = self.motion_quantities(record).to_vec();
         let steepness = self.steepness(record);
-        let rows: Vec<(Row, Row)> = self
+        let points: Vec<Interpolated> = self
             .stations()
             .iter()
-            .map(|at| row(self.load, &record.steps, *at))
+            .map(|station| interpolate(self.load, &record.steps, *station))
             .collect();
-        let mut sizes = [f64::MIN_POSITIVE; OF_ROW];
-        for (values, _) in &rows {
-            for (size, value) in sizes.iter_mut().zip(values) {
-                *size = value.abs().max(*size);
+        // The scale of a quantity is its largest value; the elastic tangential force scales with slope times normal force.
+        let mut scales = [f64::MIN_POSITIVE; POINT_QUANTITIES];
+        for point in &points {
+            for (scale, value) in scales.iter_mut().zip(point.values) {
+                *scale = value.abs().max(*scale);
             }
         }
-        sizes[0] = sizes[0].max(if self.is_elastic {
-            steepness * sizes[1]
+        scales[0] = scales[0].max(if self.is_elastic {
+            steepness * scales[1]
         } else {
             0.0
         });
-        for (values, scatter) in rows {
-            quantities.extend((0..OF_ROW).map(|k| Quantity {
-                scale: sizes[k],
-                error_floor: scatter[k],
+        for point in points {
+            quantities.extend((0..POINT_QUANTITIES).map(|k| Quantity {
+                scale: scales[k],
+                error_floor: point.scatter[k],
                 controls_refinement: k == 0 && !self.load.is_cycle(),
-                ..Quantity::from(values[k])
+                ..Quantity::from(point.values[k])
             }));
         }
         quantities
     }
 
-    fn of_whole(&self, record: &MotionRecord) -> [Quantity; OF_WHOLE] {
+    /// Friction coefficient, peak friction and work.
+    fn motion_quantities(&self, record: &MotionRecord) -> [Quantity; MOTION_QUANTITIES] {
         let friction = record.friction();
         let peak = record.peak();
         let steepness = self.steepness(record);
@@ -242,7 +265,7 @@ impl MotionView<'_> {
                     peak
                 },
                 error_floor: if is_cycle { imbalance.abs() } else { 0.0 },
-                rounding_error: ROUNDING * steepness,
+                rounding_error: FRICTION_ROUNDING * steepness,
                 ..Quantity::from(friction)
             },
             Quantity {
@@ -255,14 +278,14 @@ impl MotionView<'_> {
                 } else {
                     0.0
                 },
-                rounding_error: ROUNDING * steepness * record.normal_work,
+                rounding_error: FRICTION_ROUNDING * steepness * record.normal_work,
                 controls_refinement: false,
                 ..Quantity::from(record.work)
             },
         ]
     }
 
-    /// About the mean slope in the contact.
+    /// Estimate of the mean slope in the contact: the largest ratio of depth to length of contact.
     fn steepness(&self, record: &MotionRecord) -> f64 {
         let steps = record.steps.iter();
         let slopes = steps.filter_map(|step| {
@@ -274,13 +297,13 @@ impl MotionView<'_> {
             .fold(record.steepness, f64::max)
     }
 
-    /// The name of a quantity of this number.
+    /// Name of the quantity with this index.
     pub const fn in_words(quantity: usize) -> &'static str {
         match quantity {
             0 => "friction coefficient",
             1 => "largest friction coefficient",
             2 => "dissipated energy",
-            _ => match (quantity - OF_WHOLE) % OF_ROW {
+            _ => match (quantity - MOTION_QUANTITIES) % POINT_QUANTITIES {
                 0 => "force along x",
                 1 => "normal force",
                 _ => "indentation depth",
@@ -288,7 +311,7 @@ impl MotionView<'_> {
         }
     }
 
-    /// What is left to the cycle, of the same quantities.
+    /// Truncation errors of the [`quantities`](Self::quantities) up to the limit cycle; empty for a single motion.
     pub fn rests(&self, record: &MotionRecord) -> Vec<ErrorParts> {
         if !self.load.is_cycle() {
             return Vec::new();
@@ -297,68 +320,86 @@ impl MotionView<'_> {
             truncation: Some(rest),
             ..ErrorParts::NONE
         };
-        let [friction, rows @ ..] = record.rest;
-        let force = record.sizes()[2];
-        let work = friction * record.normal_work + rows[1] / force * record.work.abs();
-        let whole = [friction, rows[0] / force, work];
-        let rows = self.stations().into_iter().flat_map(|_| rows);
-        whole.into_iter().chain(rows).map(truncated).collect()
+        let [friction, of_point @ ..] = record.rest;
+        let [tangential_force, normal_force, _] = of_point;
+        let force_scale = record.scales()[2];
+        let work = friction * record.normal_work + normal_force / force_scale * record.work.abs();
+        let of_motion = [friction, tangential_force / force_scale, work];
+        let of_points = self.stations().into_iter().flat_map(|_| of_point);
+        of_motion
+            .into_iter()
+            .chain(of_points)
+            .map(truncated)
+            .collect()
     }
 
-    /// The motion with the errors of these quantities.
+    /// The motion with the errors of its [`quantities`](Self::quantities).
     pub fn moved(&self, record: MotionRecord, error: &[f64], error_parts: ErrorParts) -> Moved {
         let is_cycle = self.load.is_cycle();
-        // No material gives energy back.
-        let lost = |value: f64, error: f64| match value {
+        // A negative dissipation within its error is 0, because no passive material gives energy back.
+        let not_negative = |value: f64, error: f64| match value {
             value if is_cycle && value < 0.0 && -value <= error => Estimate::new(0.0, error),
             value => Estimate::new(value, error),
         };
-        let friction = lost(record.friction(), error[0]);
+        let friction = not_negative(record.friction(), error[0]);
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
-        let given = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
-        let points = self.stations().into_iter().enumerate().map(|(index, at)| {
-            let place = self.load.stages()[at.0].at(at.1);
-            let (values, _) = row(self.load, &record.steps, at);
+        let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
+        let stations = self.stations().into_iter().enumerate();
+        let points = stations.map(|(index, station)| {
+            let prescribed = self.load.stages()[station.stage].at(station.part);
+            let values = interpolate(self.load, &record.steps, station).values;
             let [tangential_force, normal_force, indentation_depth] = std::array::from_fn(|k| {
-                if given(k) {
-                    return Estimate::exact(place.control.value());
+                if is_prescribed(k) {
+                    return Estimate::exact(prescribed.control.value());
                 }
-                Estimate::new(values[k], error[OF_WHOLE + OF_ROW * index + k])
+                Estimate::new(
+                    values[k],
+                    error[MOTION_QUANTITIES + POINT_QUANTITIES * index + k],
+                )
             });
             MovedPoint {
-                time: self.load.begins() + place.time,
-                position: place.position,
+                time: self.load.start_time() + prescribed.time,
+                position: prescribed.position,
                 tangential_force,
                 normal_force,
                 indentation_depth,
             }
         });
+        // An end of the contact is known to two elements.
         let last = record.steps.last().and_then(|step| step.contact);
         let end = |end: f64| Estimate::new(end, 2.0 * record.spacing);
         Moved {
             friction_coefficient: friction,
             error_parts,
             peak_friction: Estimate::new(record.peak(), error[1]),
-            dissipated_energy: is_cycle.then(|| lost(record.work, error[2])),
+            dissipated_energy: is_cycle.then(|| not_negative(record.work, error[2])),
             points: points.collect(),
             ends: last.map(|ends| ends.map(end)),
             n_cycles: record.n_cycles,
-            steps: self.dated(record.steps),
+            steps: self.with_absolute_times(record.steps),
         }
     }
 
-    /// With the times of the motion.
-    fn dated(&self, mut steps: Vec<MotionStep>) -> Vec<MotionStep> {
+    /// The steps with times that include the start time of the load.
+    fn with_absolute_times(&self, mut steps: Vec<MotionStep>) -> Vec<MotionStep> {
         for step in &mut steps {
-            step.time += self.load.begins();
+            step.time += self.load.start_time();
         }
         steps
     }
 }
 
-/// The values at a part of a stage, straight through the middles of the two nearest steps of it, and how steps scatter
-/// there.
-fn row(load: &MovingLoad, steps: &[MotionStep], (stage, part): (usize, f64)) -> (Row, Row) {
+/// Quantities at a station, and the scatter of the steps around it.
+struct Interpolated {
+    values: PointValues,
+    scatter: PointValues,
+}
+
+/// Linear interpolation between the middles of the two steps of the stage that are nearest to a station.
+///
+/// The scatter is the deviation of the middle one of three neighbouring steps from the line through the other two.
+fn interpolate(load: &MovingLoad, steps: &[MotionStep], station: Station) -> Interpolated {
+    let Station { stage, part } = station;
     let values = |step: &MotionStep| {
         [
             step.tangential_force,
@@ -376,14 +417,17 @@ fn row(load: &MovingLoad, steps: &[MotionStep], (stage, part): (usize, f64)) -> 
     let (before, next) = (&steps[after - 1], &steps[after]);
     let along = (time - before.time) / (next.time - before.time);
     let (from, to) = (values(before), values(next));
-    let value = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]));
+    let interpolated = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]));
     let scatter = match steps.get((after + 1).saturating_sub(2).min(count.saturating_sub(3))..) {
         Some([a, b, c, ..]) => {
             let middle = (b.time - a.time) / (c.time - a.time);
             let [a, b, c] = [a, b, c].map(values);
             std::array::from_fn(|k| (a[k] + middle * (c[k] - a[k]) - b[k]).abs())
         }
-        _ => [0.0; OF_ROW],
+        _ => [0.0; POINT_QUANTITIES],
     };
-    (value, scatter)
+    Interpolated {
+        values: interpolated,
+        scatter,
+    }
 }

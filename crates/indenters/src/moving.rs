@@ -1,4 +1,4 @@
-//! How a body is moved along the surface while it is pressed: once through points, or to and fro.
+//! Motions of a pressed body along x: once through a list of points, or reciprocating.
 //!
 //! ```text
 //! x(t) = x₀ + (x₁ − x₀) ξ,   or   x₀ + (x₁ − x₀) (1 − cos π ξ)/2,     ξ = (t − t₀)/(t₁ − t₀)
@@ -7,7 +7,7 @@
 use crate::{Control, IndenterError};
 use numerics::{InvalidParameter, finite, in_range, not_negative, positive};
 
-/// Where a body is at one time, and how it is pressed there.
+/// Position of a body and its force or depth at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MovingPoint {
@@ -19,57 +19,60 @@ pub struct MovingPoint {
     pub control: Control,
 }
 
-/// How a body moves from one end of its stroke to the other.
+/// Time dependence of the position between the ends of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Shape {
-    /// Like a crank: x = −(s/2) cos(2π f t).
+    /// Sinusoidal motion x = −(s/2) cos(2π f t).
     #[default]
     Sinusoidal,
-    /// With constant speed, which turns at the ends.
+    /// Constant speed that changes its sign at the ends.
     Triangular,
 }
 
-/// To and fro without end.
+/// A reciprocating motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stroke {
-    /// Distance s from one end to the other, \[m].
+    /// Distance s between the ends, \[m].
     pub length: f64,
-    /// Cycles per second f, \[1/s].
+    /// Frequency f of the cycles, \[1/s].
     pub frequency: f64,
-    /// How it moves between the ends.
+    /// Time dependence of the position between the ends.
     pub shape: Shape,
 }
 
-/// A body that is pressed and moved along x: once through points, straight between them, or to and fro until every cycle is
-/// like the one before.
+/// A body that is pressed and moved along x.
+///
+/// It moves once through a list of points, linearly in time between them, or reciprocates until the limit cycle.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MovingLoad {
-    /// Times of the stages are those since then, \[s], whose digits a date would take away.
-    begins: f64,
+    /// Time at which the motion begins, \[s]; times of the stages count from it, so that they keep their digits.
+    start_time: f64,
     stages: Vec<Stage>,
     is_cycle: bool,
 }
 
-/// A part of a motion without a jump of the velocity inside.
+/// A part of a motion without a jump of the velocity in its interior.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stage {
-    /// Where it begins.
+    /// First point of the stage.
     pub start: MovingPoint,
-    /// Where it ends.
+    /// Last point of the stage.
     pub end: MovingPoint,
     shape: Shape,
 }
 
 impl MovingLoad {
-    /// Once through at least two points, straight from each to the next.
+    /// A single motion through at least two points, linear in time from each to the next.
     ///
     /// # Errors
-    /// [`IndenterError::TooFew`] points; [`IndenterError::NotIncreasing`] times; [`IndenterError::InvalidParameter`] for
-    /// numbers out of range, for positions that are all the same, and for points of which some have a force and some a depth.
+    /// - [`IndenterError::TooFew`] for fewer than two points;
+    /// - [`IndenterError::NotIncreasing`] for times that do not increase;
+    /// - [`IndenterError::InvalidParameter`] for numbers out of range, for positions that are all the same, and for points of
+    ///   which some have a force and some a depth.
     pub fn through(points: &[MovingPoint]) -> Result<Self, IndenterError> {
         let [first, .., last] = points else {
             return Err(IndenterError::TooFew {
@@ -100,17 +103,17 @@ impl MovingLoad {
             }
         }
         positive("duration of the motion", last.time - first.time)?;
-        let since = |point: MovingPoint| MovingPoint {
+        let relative_to_start = |point: MovingPoint| MovingPoint {
             time: point.time - first.time,
             ..point
         };
         let stage = |pair: &[MovingPoint]| Stage {
-            start: since(pair[0]),
-            end: since(pair[1]),
+            start: relative_to_start(pair[0]),
+            end: relative_to_start(pair[1]),
             shape: Shape::Triangular,
         };
         let load = Self {
-            begins: first.time,
+            start_time: first.time,
             stages: points.windows(2).map(stage).collect(),
             is_cycle: false,
         };
@@ -121,7 +124,7 @@ impl MovingLoad {
         Ok(load)
     }
 
-    /// To and fro, pressed as `control` says; a cycle begins and ends at rest at the rear end of the stroke.
+    /// A reciprocating motion under a constant force or depth; a cycle begins and ends at the rear end of the stroke.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when force or depth, stroke, frequency, or the speed that follows from them is not
@@ -145,57 +148,57 @@ impl MovingLoad {
             }
         };
         Ok(Self {
-            begins: 0.0,
+            start_time: 0.0,
             stages: vec![stage(0.0, -half), stage(1.0, half)],
             is_cycle: true,
         })
     }
 
-    /// Whether the motion repeats itself without end.
+    /// Whether the motion reciprocates.
     pub const fn is_cycle(&self) -> bool {
         self.is_cycle
     }
 
-    /// When the motion begins, \[s].
-    pub const fn begins(&self) -> f64 {
-        self.begins
+    /// Time at which the motion begins, \[s].
+    pub const fn start_time(&self) -> f64 {
+        self.start_time
     }
 
-    /// The parts of the motion, or of one cycle, in times after its beginning; at least one.
+    /// Stages of the motion, or of one cycle, with times that count from its beginning; at least one.
     pub fn stages(&self) -> &[Stage] {
         &self.stages
     }
 
-    /// How long the motion, or a cycle of it, takes, \[s].
+    /// Duration of the motion, or of one cycle, \[s].
     pub fn duration(&self) -> f64 {
         self.stages[self.stages.len() - 1].end.time
     }
 
-    /// Length of the path, or of one cycle of it, \[m].
+    /// Length of the path, or of the path of one cycle, \[m].
     pub fn length(&self) -> f64 {
         self.stages.iter().map(|stage| stage.distance().abs()).sum()
     }
 
-    /// The rearmost and the foremost position, \[m].
+    /// Rearmost and foremost position, \[m].
     pub fn range(&self) -> [f64; 2] {
         let first = self.stages[0].start.position;
         let ends = self.stages.iter().map(|stage| stage.end.position);
         ends.fold([first; 2], |[low, high], end| [low.min(end), high.max(end)])
     }
 
-    /// Largest speed, \[m/s].
+    /// Largest speed of the motion, \[m/s].
     pub fn fastest(&self) -> f64 {
         self.stages.iter().map(Stage::fastest).fold(0.0, f64::max)
     }
 
-    /// The largest force or depth.
+    /// Largest force or depth of the motion.
     pub fn largest_control(&self) -> Control {
         let first = self.stages[0].start.control;
         let ends = self.stages.iter().map(|stage| stage.end.control.value());
         first.with(ends.fold(first.value(), f64::max))
     }
 
-    /// Whether force or depth is the same all the time.
+    /// Whether the force or depth is constant.
     pub fn is_held(&self) -> bool {
         let first = self.stages[0].start.control;
         self.stages.iter().all(|stage| stage.end.control == first)
@@ -203,61 +206,64 @@ impl MovingLoad {
 }
 
 impl Stage {
-    /// After a part of its time, from 0 to 1.
+    /// Point after a fraction of the duration, from 0 to 1.
     pub fn at(&self, part: f64) -> MovingPoint {
         let (start, end) = (&self.start, &self.end);
-        let way = match self.shape {
+        let path_fraction = match self.shape {
             Shape::Sinusoidal => (std::f64::consts::FRAC_PI_2 * part).sin().powi(2),
             Shape::Triangular => part,
         };
-        // Exact where both are the same.
-        let between = |from: f64, to: f64, part: f64| from + (to - from) * part;
-        let control = between(start.control.value(), end.control.value(), part);
+        // Exact if both ends are equal.
+        let interpolate = |from: f64, to: f64, part: f64| from + (to - from) * part;
+        let control = interpolate(start.control.value(), end.control.value(), part);
         MovingPoint {
-            time: between(start.time, end.time, part),
-            position: between(start.position, end.position, way),
+            time: interpolate(start.time, end.time, part),
+            position: interpolate(start.position, end.position, path_fraction),
             control: start.control.with(control),
         }
     }
 
-    /// Velocity after a part of its time, from 0 to 1, \[m/s].
+    /// Velocity after a fraction of the duration, from 0 to 1, \[m/s].
     pub fn velocity(&self, part: f64) -> f64 {
         let mean = self.distance() / self.duration();
         match self.shape {
-            Shape::Sinusoidal => self.haste() * (std::f64::consts::PI * part).sin() * mean,
+            Shape::Sinusoidal => {
+                self.peak_to_mean_speed() * (std::f64::consts::PI * part).sin() * mean
+            }
             Shape::Triangular => mean,
         }
     }
 
-    /// How it moves between its ends.
+    /// Time dependence of the position between the ends.
     pub const fn shape(&self) -> Shape {
         self.shape
     }
 
-    /// How long it takes, \[s].
+    /// Duration of the stage, \[s].
     pub fn duration(&self) -> f64 {
         self.end.time - self.start.time
     }
 
-    /// How far it goes, negative backwards, \[m].
+    /// Displacement from the start to the end, negative backwards, \[m].
     pub fn distance(&self) -> f64 {
         self.end.position - self.start.position
     }
 
-    /// Largest speed over the mean one.
-    pub const fn haste(&self) -> f64 {
+    /// Ratio of the largest to the mean speed: π/2 for a sinusoidal stage, else 1.
+    pub const fn peak_to_mean_speed(&self) -> f64 {
         match self.shape {
             Shape::Sinusoidal => std::f64::consts::FRAC_PI_2,
             Shape::Triangular => 1.0,
         }
     }
 
-    /// Largest speed, \[m/s].
+    /// Largest speed of the stage, \[m/s].
     pub fn fastest(&self) -> f64 {
-        self.haste() * self.distance().abs() / self.duration()
+        self.peak_to_mean_speed() * self.distance().abs() / self.duration()
     }
 }
 
+/// Value of a control that may be zero, or a depth of either sign; refused if it is not finite or a negative force.
 fn checked(control: Control) -> Result<f64, InvalidParameter> {
     match control {
         Control::NormalForce(force) => not_negative("normal_force", force),

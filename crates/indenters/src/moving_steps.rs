@@ -1,36 +1,38 @@
-//! The steps of a motion: as long as an element where it moves, longer and longer after it has stopped or begun.
+//! Time steps of a motion: at most one element long, graded geometrically after the start, a stop or a turn.
 
 use crate::{IndenterError, MovingLoad, MovingPoint, Stage};
 
-/// Steps of a stage for each element along the contact, at least, where it moves by less than a contact or stops.
+/// Smallest number of steps of a stage per element along the contact, for stages shorter than a contact (chosen).
 const STEPS_PER_ELEMENT: f64 = 1.0;
-/// By how many elements along the contact a step grows to e times that of the one before.
-const ELEMENTS_PER_GROWTH: f64 = 0.125;
-/// First step of a motion, and of one that goes on with another speed, relative to the longest.
-const FIRST_STEP: f64 = 1e-4;
-const STEP_AFTER_TURN: f64 = 0.02;
-/// Of a body that stops before it has moved, relative to the time for which it stops.
-const FIRST_STOP: f64 = 1e-6;
+/// Number of steps in which the step length grows e-fold, per element along the contact (chosen).
+const E_FOLDING_STEPS_PER_ELEMENT: f64 = 0.125;
+/// First step of a motion, relative to the longest step of its first stage (chosen).
+const FIRST_STEP_FRACTION: f64 = 1e-4;
+/// First step of a moving stage after another one, relative to its longest step (chosen).
+const STEP_AFTER_TURN_FRACTION: f64 = 0.02;
+/// First step of a motion that begins with a hold, relative to the longest step of the hold (chosen).
+const FIRST_HOLD_FRACTION: f64 = 1e-6;
 
 /// One step of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovingStep {
-    /// Number of its stage.
+    /// Index of the stage.
     pub stage: usize,
-    /// How long it takes, \[s]; steps of one length have exactly the same.
+    /// Duration, \[s]; equal steps have equal durations to the last bit.
     pub duration: f64,
-    /// Where it ends.
+    /// Point at the end of the step.
     pub end: MovingPoint,
-    /// Velocities at its beginning and its end, \[m/s].
+    /// Velocities at the beginning and at the end of the step, \[m/s].
     pub velocities: [f64; 2],
 }
 
 impl MovingLoad {
-    /// Steps of the motion, or of one cycle, for a number of elements of this spacing \[m] along the contact: not longer than
-    /// an element, and finer in time with the elements.
+    /// Time steps of the motion, or of one cycle, for a contact of `elements` along x with the given `spacing` \[m].
+    ///
+    /// No step is longer than an element; the number of steps of a stage is at least that of the elements.
     ///
     /// # Errors
-    /// [`IndenterError::TooManySteps`] for more than are `allowed`.
+    /// [`IndenterError::TooManySteps`] for more than `allowed` steps.
     pub fn steps(
         &self,
         elements: usize,
@@ -40,20 +42,21 @@ impl MovingLoad {
         self.n_steps(elements, spacing, allowed)?;
         let mut steps: Vec<MovingStep> = Vec::new();
         for (index, stage) in self.stages().iter().enumerate() {
-            let fewest = fewest(stage, elements, spacing);
+            let min_steps = min_steps(stage, elements, spacing);
+            // Equal steps for a cycle, graded ones for a single motion.
             let parts = if self.is_cycle() {
-                even(fewest.ceil()).collect()
+                equal_parts(min_steps.ceil()).collect()
             } else {
-                let before = steps.last().map(|step| step.duration);
-                Graded::new(stage, before, fewest, elements).ends_and_lengths()
+                let previous_duration = steps.last().map(|step| step.duration);
+                Graded::new(stage, previous_duration, min_steps, elements).parts()
             };
             let mut from = stage.velocity(0.0);
-            steps.extend(parts.into_iter().map(|(part, length)| {
-                let to = stage.velocity(part);
+            steps.extend(parts.into_iter().map(|part| {
+                let to = stage.velocity(part.end);
                 MovingStep {
                     stage: index,
-                    duration: length * stage.duration(),
-                    end: end_of(stage, part),
+                    duration: part.length * stage.duration(),
+                    end: point_at(stage, part.end),
                     velocities: [std::mem::replace(&mut from, to), to],
                 }
             }));
@@ -61,23 +64,27 @@ impl MovingLoad {
         Ok(steps)
     }
 
-    /// Number of [`steps`](Self::steps), without the memory that they take.
+    /// Number of [`steps`](Self::steps), without storing them.
     ///
     /// # Errors
-    /// As for [`steps`](Self::steps).
+    /// [`IndenterError::TooManySteps`] for more than `allowed` steps.
     pub fn n_steps(
         &self,
         elements: usize,
         spacing: f64,
         allowed: f64,
     ) -> Result<f64, IndenterError> {
-        let fewest = |stage: &Stage| fewest(stage, elements, spacing);
-        let mut steps: f64 = self.stages().iter().map(|stage| fewest(stage).ceil()).sum();
+        let min_steps = |stage: &Stage| min_steps(stage, elements, spacing);
+        let mut steps: f64 = self
+            .stages()
+            .iter()
+            .map(|stage| min_steps(stage).ceil())
+            .sum();
         if !self.is_cycle() && steps <= allowed {
-            let mut before = None;
+            let mut previous_duration = None;
             let graded = self.stages().iter().map(|stage| {
-                let graded = Graded::new(stage, before, fewest(stage), elements);
-                before = Some(graded.equal() * stage.duration());
+                let graded = Graded::new(stage, previous_duration, min_steps(stage), elements);
+                previous_duration = Some(graded.equal_length() * stage.duration());
                 graded.growing.len() as f64 + graded.n_equal
             });
             steps = graded.sum();
@@ -89,25 +96,28 @@ impl MovingLoad {
     }
 }
 
-/// Length of a stage over that of its longest step.
-fn fewest(stage: &Stage, elements: usize, spacing: f64) -> f64 {
-    let ways = stage.haste() * stage.distance().abs() / spacing;
-    ways.max(STEPS_PER_ELEMENT * elements as f64).max(2.0)
+/// Smallest number of steps of a stage: its duration divided by that of its longest step.
+fn min_steps(stage: &Stage, elements: usize, spacing: f64) -> f64 {
+    let path_in_elements = stage.peak_to_mean_speed() * stage.distance().abs() / spacing;
+    path_in_elements
+        .max(STEPS_PER_ELEMENT * elements as f64)
+        .max(2.0)
 }
 
-/// Part of a stage that the first step of it is, where the one before took so long.
-fn first_step(stage: &Stage, before: Option<f64>, longest: f64) -> f64 {
-    let stops = stage.distance() == 0.0;
-    let first = match before {
-        None if stops => FIRST_STOP * longest,
-        None => FIRST_STEP * longest,
-        Some(step) if stops => step / stage.duration(),
-        Some(_) => STEP_AFTER_TURN * longest,
+/// Length of the first step of a stage, relative to the stage; `previous_duration` \[s] is that of the step before it.
+fn first_step_length(stage: &Stage, previous_duration: Option<f64>, longest: f64) -> f64 {
+    let is_hold = stage.distance() == 0.0;
+    let first = match previous_duration {
+        None if is_hold => FIRST_HOLD_FRACTION * longest,
+        None => FIRST_STEP_FRACTION * longest,
+        Some(step) if is_hold => step / stage.duration(),
+        Some(_) => STEP_AFTER_TURN_FRACTION * longest,
     };
     first.min(longest)
 }
 
-fn end_of(stage: &Stage, part: f64) -> MovingPoint {
+/// Point after a fraction of a stage; exactly its end for 1.
+fn point_at(stage: &Stage, part: f64) -> MovingPoint {
     if part >= 1.0 {
         stage.end
     } else {
@@ -115,61 +125,75 @@ fn end_of(stage: &Stage, part: f64) -> MovingPoint {
     }
 }
 
-/// Ends and lengths of equal steps, in parts of the whole.
-fn even(count: f64) -> impl Iterator<Item = (f64, f64)> {
-    let length = count.recip();
-    let ends = (1_u32..).map(f64::from).take_while(move |k| *k <= count);
-    ends.map(move |k| (k / count, length))
+/// A step of a stage, relative to the duration of the stage.
+#[derive(Clone, Copy)]
+struct StagePart {
+    end: f64,
+    length: f64,
 }
 
-/// Steps that grow up to the longest, and equal ones that fill the rest, in parts of the whole.
+/// Equal steps of a stage.
+fn equal_parts(count: f64) -> impl Iterator<Item = StagePart> {
+    let length = count.recip();
+    let ends = (1_u32..).map(f64::from).take_while(move |k| *k <= count);
+    ends.map(move |k| StagePart {
+        end: k / count,
+        length,
+    })
+}
+
+/// Geometrically growing steps up to the longest, then equal ones; lengths are relative to the stage.
 struct Graded {
     growing: Vec<f64>,
     n_equal: f64,
-    /// Length of the equal steps together.
-    rest: f64,
+    /// Total length of the equal steps.
+    equal_total: f64,
 }
 
 impl Graded {
-    /// Of a stage whose step before took so long, and which has at least the fewest steps.
-    fn new(stage: &Stage, before: Option<f64>, fewest: f64, elements: usize) -> Self {
-        let longest = fewest.recip();
-        let growth = (ELEMENTS_PER_GROWTH * elements as f64).recip().exp();
+    /// Steps of a stage after a step of `previous_duration` \[s].
+    fn new(stage: &Stage, previous_duration: Option<f64>, min_steps: f64, elements: usize) -> Self {
+        let longest = min_steps.recip();
+        let growth = (E_FOLDING_STEPS_PER_ELEMENT * elements as f64)
+            .recip()
+            .exp();
         let mut growing = Vec::new();
-        // From 0 nothing grows.
-        let mut length = first_step(stage, before, longest).max(f64::MIN_POSITIVE);
+        // A length that underflows to 0 would not grow.
+        let mut length =
+            first_step_length(stage, previous_duration, longest).max(f64::MIN_POSITIVE);
         let mut sum = 0.0;
         while length < longest && sum + length < 1.0 {
             growing.push(length);
             sum += length;
             length *= growth;
         }
-        let rest = 1.0 - sum;
+        let equal_total = 1.0 - sum;
         Self {
             growing,
-            n_equal: (rest / longest).ceil(),
-            rest,
+            n_equal: (equal_total / longest).ceil(),
+            equal_total,
         }
     }
 
     /// Length of an equal step.
-    fn equal(&self) -> f64 {
-        self.n_equal.recip() * self.rest
+    fn equal_length(&self) -> f64 {
+        self.n_equal.recip() * self.equal_total
     }
 
-    fn ends_and_lengths(&self) -> Vec<(f64, f64)> {
-        let equal = even(self.n_equal).map(|_| self.equal());
+    fn parts(&self) -> Vec<StagePart> {
+        let equal = equal_parts(self.n_equal).map(|_| self.equal_length());
         let mut end = 0.0;
         let lengths = self.growing.iter().copied().chain(equal);
-        let mut steps: Vec<(f64, f64)> = lengths
+        let mut parts: Vec<StagePart> = lengths
             .map(|length| {
                 end += length;
-                (end, length)
+                StagePart { end, length }
             })
             .collect();
-        if let Some((end, _)) = steps.last_mut() {
-            *end = 1.0;
+        // The sum of the lengths is 1 up to rounding.
+        if let Some(last) = parts.last_mut() {
+            last.end = 1.0;
         }
-        steps
+        parts
     }
 }

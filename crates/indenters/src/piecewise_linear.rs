@@ -11,16 +11,17 @@ use numerics::in_range;
 
 /// A body of revolution with a straight profile between the rows of a table; it ends at the last radius.
 ///
-/// Every knot is a ring-shaped edge. Where the slope jumps upwards the slope of the equivalent line is singular; where it
-/// jumps downwards the line itself turns down. A table of a smooth body therefore is not a good model of its friction.
+/// Every knot is a ring-shaped edge. The slope of the equivalent line is singular at an upward jump of the slope, and the
+/// line itself turns down at a downward jump. A table of a smooth body is therefore a poor model of its friction.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PiecewiseLinearProfile {
     radii: Vec<f64>,
     heights: Vec<f64>,
-    /// Slope of each piece, and the jumps between them.
+    /// Slope of each piece.
     #[cfg_attr(feature = "serde", serde(skip))]
     slopes: Vec<f64>,
+    /// Jumps of the slope at the knots.
     #[cfg_attr(feature = "serde", serde(skip))]
     kinks: Vec<Kink>,
 }
@@ -60,28 +61,30 @@ impl PiecewiseLinearProfile {
         &self.heights
     }
 
-    /// Index of the piece whose half-open interval ]r_i, r_(i+1)] holds the radius.
-    fn piece(&self, radius: f64) -> usize {
+    /// Index i of the piece whose half-open interval ]r_i, r_(i+1)] holds the radius.
+    fn piece_at(&self, radius: f64) -> usize {
         let inner_knots = &self.radii[1..self.radii.len() - 1];
         inner_knots.partition_point(|knot| *knot < radius)
     }
 
-    /// Σ m_i × angle of piece i, as seen from x.
-    fn turned_slope(&self, x: f64) -> f64 {
+    /// Sum Σ m_i φ_i = h̃(x) / x over the pieces, with the angle φ_i = arcsin(r_(i+1) / x) − arcsin(r_i / x).
+    fn slope_sum(&self, x: f64) -> f64 {
         let pieces = self.radii.windows(2).zip(&self.slopes);
-        let pieces = pieces.take_while(|(ends, _)| ends[0] < x);
-        let turn = |ends: &[f64]| arc_sine_difference([ends[0], ends[1].min(x)], x);
-        pieces.map(|(ends, slope)| slope * turn(ends)).sum()
+        let angle = |ends: &[f64]| arc_sine_difference([ends[0], ends[1].min(x)], x);
+        pieces
+            .take_while(|(ends, _)| ends[0] < x)
+            .map(|(ends, slope)| slope * angle(ends))
+            .sum()
     }
 }
 
-/// The jumps of the slope, without those that are only the rounding of collinear heights.
+/// Jumps of the slope, without those that are rounding errors of collinear heights.
 fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
     let is_kink = |i: &usize| {
         let jump = slopes[*i] - slopes[i - 1];
         let narrow = (radii[*i] - radii[i - 1]).min(radii[i + 1] - radii[*i]);
         let high = heights[i - 1].max(heights[*i]).max(heights[i + 1]);
-        jump.abs() > ROUNDING * high / narrow
+        jump.abs() > SLOPE_ROUNDING * high / narrow
     };
     let kink = |i| Kink {
         radius: radii[i],
@@ -90,15 +93,17 @@ fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
     (1..slopes.len()).filter(is_kink).map(kink).collect()
 }
 
-/// Two slopes with one rounding of each height, of the difference and of the quotient.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// Bound on the rounding error of a slope jump, relative to height over width of a piece.
+///
+/// Derived: two slopes, each with one rounding of two heights, of their difference and of the quotient.
+const SLOPE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Axisymmetric for PiecewiseLinearProfile {
     fn profile(&self, radius: f64) -> ProfilePoint {
         if radius > self.max_radius() {
             return ProfilePoint::ENDED;
         }
-        let i = self.piece(radius);
+        let i = self.piece_at(radius);
         let fraction = (radius - self.radii[i]) / (self.radii[i + 1] - self.radii[i]);
         ProfilePoint {
             height: self.heights[i] + fraction * (self.heights[i + 1] - self.heights[i]),
@@ -130,7 +135,7 @@ impl Axisymmetric for PiecewiseLinearProfile {
         let singular = kinks.map(|kink| kink.slope_jump * (kink.radius / leg(x, kink.radius)));
         let smooth = match x {
             0.0 => self.slopes[0] * std::f64::consts::FRAC_PI_2,
-            _ => self.turned_slope(x),
+            _ => self.slope_sum(x),
         };
         Some(LinePoint {
             height: x * smooth,

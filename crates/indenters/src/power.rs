@@ -16,7 +16,7 @@ use numerics::positive;
 pub struct PowerProfile {
     coefficient: f64,
     exponent: f64,
-    /// κ(p), kept because every height of the line needs it.
+    /// Stretch κ(p), stored because every height of the line needs it.
     #[cfg_attr(feature = "serde", serde(skip))]
     stretch: f64,
 }
@@ -42,9 +42,11 @@ impl PowerProfile {
         Self::new(positive("slope", slope)?, 1.0)
     }
 
-    /// The cone with the elastic force of a four-sided pyramid whose faces have a slope > 0 along the shortest way down:
-    /// F = 0.7453 E* d²/slope of the pyramid (Bilodeau 1992, J. Appl. Mech. 59, 519, DOI 10.1115/1.2893754), and
-    /// (2/π) E* d²/slope of a cone. The contact of a pyramid is not a disc, so that its way back is an approximation.
+    /// The cone with the elastic force of a four-sided pyramid, whose faces have the `slope` > 0 along their line of
+    /// steepest descent.
+    ///
+    /// The force is F = 0.7453 E* d²/slope for the pyramid (Bilodeau 1992, J. Appl. Mech. 59, 519, DOI 10.1115/1.2893754)
+    /// and (2/π) E* d²/slope for a cone. Unloading is an approximation, because the contact of a pyramid is not a disc.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when the slope is not finite and greater than zero.
@@ -78,7 +80,7 @@ impl PowerProfile {
 
     /// Position x > 0 \[m] at which the equivalent line has the `height` ≥ 0 \[m]: `x = (height / (κ c))^(1/p)`.
     ///
-    /// The ratio may leave the range of numbers long before x does.
+    /// A ratio height / (κ c) that overflows or underflows is replaced by its logarithm.
     pub fn line_position(&self, height: f64) -> f64 {
         if height == 0.0 {
             return 0.0;
@@ -121,7 +123,7 @@ impl Axisymmetric for PowerProfile {
 
 surface_of_revolution!(PowerProfile);
 
-/// `factor · radius^exponent`, also where the power alone leaves the range of numbers and the product does not.
+/// Product `factor · radius^exponent`, also if the power alone overflows or underflows.
 pub(crate) fn scaled_power(factor: f64, radius: f64, exponent: f64) -> f64 {
     if factor == 0.0 {
         return 0.0;
@@ -130,6 +132,6 @@ pub(crate) fn scaled_power(factor: f64, radius: f64, exponent: f64) -> f64 {
     if power.is_normal() {
         return factor * power;
     }
-    let half = radius.powf(0.5 * exponent);
-    factor * half * half
+    let square_root = radius.powf(0.5 * exponent);
+    factor * square_root * square_root
 }

@@ -3,8 +3,7 @@
 use crate::Axisymmetric;
 use numerics::bracketed_root;
 
-/// Makes a body of revolution a [`Surface`](crate::Surface): the type implements [`Axisymmetric`](crate::Axisymmetric), and
-/// this gives it everything else.
+/// Implements [`Surface`](crate::Surface) for a type that implements [`Axisymmetric`](crate::Axisymmetric).
 ///
 /// ```
 /// use indenters::{Axisymmetric, ProfilePoint, Surface, surface_of_revolution};
@@ -73,24 +72,25 @@ pub fn gradient(body: &(impl Axisymmetric + ?Sized), [x, y]: [f64; 2]) -> [f64; 
         return [0.0, 0.0];
     }
     let slope = body.profile_slope(radius);
-    // A vertical edge, as at the equator of the sphere: the body has ended.
+    // A vertical edge, as at the equator of a sphere, is the end of the body.
     if slope == f64::INFINITY {
         return [0.0, 0.0];
     }
-    // A slope that overflows must not meet a zero.
+    // Avoid ∞ · 0 if the slope overflows.
     [x, y].map(|along| match along {
         0.0 => 0.0,
         _ => slope * (along / radius),
     })
 }
 
-/// The radius from which on the body is higher than `height`, searched by doubling; its end, where it stays lower.
+/// Radius at which the body reaches `height` \[m]; the end of the body if it stays lower.
 pub fn radius_below(body: &(impl Axisymmetric + ?Sized), height: f64) -> f64 {
     if height <= 0.0 {
         return 0.0;
     }
     let end = body.max_radius();
     let above = |radius: f64| body.profile_height(radius) >= height;
+    // Bracket the radius between r/2 and r; the search may start anywhere.
     let mut radius = if end.is_finite() { end } else { 1.0 };
     while !above(radius) && radius < 0.25 * f64::MAX && radius < end {
         radius *= 2.0;
@@ -101,6 +101,7 @@ pub fn radius_below(body: &(impl Axisymmetric + ?Sized), height: f64) -> f64 {
     while above(0.5 * radius) && radius > f64::MIN_POSITIVE {
         radius *= 0.5;
     }
+    // Clamped, because the height may be infinite beyond the end of the body.
     let excess = |radius: f64| (body.profile_height(radius) - height).clamp(-height, height);
     bracketed_root(excess, [0.5 * radius, radius]).unwrap_or(radius)
 }

@@ -1,19 +1,19 @@
-//! Right triangles with a given hypotenuse, without cancellation where they are nearly flat.
+//! Legs and angles of right triangles with a given hypotenuse, without cancellation in nearly flat ones.
 
-/// √(x² − b²) for 0 ≤ b ≤ x; neither the difference nor the squares lose digits.
+/// Leg √(x² − b²) for 0 ≤ b ≤ x, without cancellation and without overflow of the squares.
 pub(crate) fn leg(hypotenuse: f64, other_leg: f64) -> f64 {
     (hypotenuse - other_leg).sqrt() * (hypotenuse + other_leg).sqrt()
 }
 
-/// arccos(b / x) for 0 ≤ b ≤ x, accurate to rounding also where b is close to x.
+/// Angle arccos(b / x) for 0 ≤ b ≤ x, accurate to rounding even if b is close to x.
 pub(crate) fn arc_cosine(adjacent: f64, hypotenuse: f64) -> f64 {
     leg(hypotenuse, adjacent).atan2(adjacent)
 }
 
-/// arcsin(r₂ / x) − arcsin(r₁ / x) for 0 ≤ r₁ ≤ r₂ ≤ x: a sum of positive terms only.
+/// Difference arcsin(r₂ / x) − arcsin(r₁ / x) for 0 ≤ r₁ ≤ r₂ ≤ x, without cancellation.
 ///
-/// With u = r / x and c = √(1 − u²) it is the angle of sine u₂c₁ − u₁c₂ = (u₂² − u₁²) / (u₂c₁ + u₁c₂) and of cosine
-/// c₁c₂ + u₁u₂.
+/// With u = r / x and c = √(1 − u²), it is the angle with the sine u₂c₁ − u₁c₂ = (u₂² − u₁²) / (u₂c₁ + u₁c₂) and the
+/// cosine c₁c₂ + u₁u₂, whose terms are all positive.
 pub(crate) fn arc_sine_difference([inner, outer]: [f64; 2], hypotenuse: f64) -> f64 {
     if inner >= outer {
         return 0.0;

@@ -11,7 +11,7 @@ use crate::shape::shape;
 use crate::{Axisymmetric, Kink, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
-    /// One sheet of a hyperboloid of revolution; far from the tip it is a cone of its `slope`.
+    /// One sheet of a hyperboloid of revolution, which approaches a cone of its `slope`.
     Hyperboloid;
     /// A tip of the size `radius` b > 0 \[m] on a cone of `slope` t > 0; the radius of curvature of the tip is b / t.
     new;

@@ -1,4 +1,4 @@
-//! Rigid lines given by a table, straight between its rows.
+//! Rigid lines given by a table, linear between its rows.
 
 use crate::table::check_table;
 use crate::{IndenterError, RigidLine};
@@ -32,8 +32,8 @@ impl SampledLine {
         &self.heights
     }
 
-    /// Index of the piece whose half-open interval [x_i, x_(i+1)[ holds the position.
-    fn piece(&self, x: f64) -> usize {
+    /// Index i of the piece whose half-open interval [x_i, x_(i+1)[ holds the position.
+    fn piece_at(&self, x: f64) -> usize {
         let inner = &self.positions[1..self.positions.len() - 1];
         inner.partition_point(|position| *position <= x)
     }
@@ -45,9 +45,9 @@ impl RigidLine for SampledLine {
         if !(lower..=upper).contains(&x) {
             return f64::INFINITY;
         }
-        let i = self.piece(x);
+        let i = self.piece_at(x);
         let [left, right] = [self.positions[i], self.positions[i + 1]];
-        // The last knot must give back its height to the last bit, or a plateau would not be one.
+        // The last knot keeps its height to the last bit, so that a plateau stays level.
         if x >= right {
             return self.heights[i + 1];
         }
@@ -56,7 +56,7 @@ impl RigidLine for SampledLine {
     }
 
     fn slope(&self, x: f64) -> f64 {
-        let i = self.piece(x);
+        let i = self.piece_at(x);
         (self.heights[i + 1] - self.heights[i]) / (self.positions[i + 1] - self.positions[i])
     }
 

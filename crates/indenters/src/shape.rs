@@ -1,6 +1,6 @@
-//! What bodies have in common that are given by a few positive numbers.
+//! Macro for bodies with positive parameters.
 
-/// A body whose parameters are all finite and greater than zero: its type, its constructor and what gives them back.
+/// Defines a body with finite positive parameters: the struct, its checked constructor `new`, and its getters.
 macro_rules! shape {
     (
         $(#[$doc:meta])*

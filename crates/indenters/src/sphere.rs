@@ -1,4 +1,4 @@
-//! The exact sphere, not its parabola.
+//! The exact sphere, as opposed to its osculating paraboloid.
 //!
 //! ```text
 //! h(r) = R − √(R² − r²)        h̃(x) = x artanh(x / R)        (Segedin 1957, Mathematika 4, 156)
@@ -51,10 +51,10 @@ impl Axisymmetric for Sphere {
         })
     }
 
-    /// x = R tanh y with y tanh y = h̃/R, by Newton's method from both limits.
+    /// Radius x = R tanh y with y tanh y = h̃/R, by Newton's method.
     fn closed_radius(&self, height: f64) -> Option<f64> {
         let ratio = height / self.radius;
-        // The beginning of the series of y², or y ≈ ratio far from the apex.
+        // Initial value: the series of y² in the ratio near the apex, y ≈ ratio far from it.
         let series = 1.0 + ratio * (1.0 / 3.0 + 4.0 / 45.0 * ratio);
         let mut y = (ratio * series.min(ratio + 0.5 / ratio.max(0.5))).sqrt();
         for _ in 0..8 {

@@ -9,8 +9,7 @@ use std::f64::consts::PI;
 use crate::IndenterError;
 use numerics::positive;
 
-/// Above this argument the ratio of gamma functions is summed by its asymptotic series; below it Γ is far from
-/// overflow.
+/// Argument from which the ratio of gamma functions is summed by its asymptotic series; below it Γ is far from overflow.
 const ASYMPTOTIC_FROM: f64 = 32.0;
 
 /// Stretch κ(p) of Eq. (9), for any exponent p > 0.
@@ -25,8 +24,9 @@ pub fn stretch(exponent: f64) -> Result<f64, IndenterError> {
     Ok((PI * x).sqrt() * half_step_series(x))
 }
 
-/// Γ(x + 1) / (Γ(x + 1/2) √x) for large x (NIST DLMF 5.11.13); the first term left out is below 1e-16 from x = 32.
+/// Γ(x + 1) / (Γ(x + 1/2) √x) for large x (NIST DLMF 5.11.13); the first neglected term is below 1e-16 for x ≥ 32.
 fn half_step_series(x: f64) -> f64 {
+    /// Coefficients of 1, 1/x, 1/x², … in the asymptotic series.
     const COEFFICIENTS: [f64; 9] = [
         1.0,
         1.0 / 8.0,
@@ -38,6 +38,7 @@ fn half_step_series(x: f64) -> f64 {
         -39_325.0 / 33_554_432.0,
         -334_477.0 / 2_147_483_648.0,
     ];
-    let from_the_last = COEFFICIENTS.iter().rev();
-    from_the_last.fold(0.0, |sum, coefficient| sum / x + coefficient)
+    // Horner's rule in 1/x.
+    let from_highest_order = COEFFICIENTS.iter().rev();
+    from_highest_order.fold(0.0, |sum, coefficient| sum / x + coefficient)
 }

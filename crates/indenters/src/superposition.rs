@@ -5,7 +5,7 @@
 //! ```
 
 use crate::power::scaled_power;
-use crate::table::at_least;
+use crate::table::check_min_length;
 use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
 use numerics::{in_range, positive};
 
@@ -23,9 +23,9 @@ pub struct PowerTerm {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Superposition {
-    /// By increasing exponent.
+    /// Terms of the profile by increasing exponent.
     terms: Vec<PowerTerm>,
-    /// The terms of the equivalent line.
+    /// Terms of the equivalent line by increasing exponent.
     #[cfg_attr(feature = "serde", serde(skip))]
     line_terms: Vec<PowerTerm>,
 }
@@ -41,11 +41,16 @@ impl Superposition {
     pub fn new(mut terms: Vec<PowerTerm>) -> Result<Self, IndenterError> {
         for term in &terms {
             positive("exponent", term.exponent)?;
-            let holds = term.coefficient.is_finite() && term.coefficient != 0.0;
-            in_range("coefficient", term.coefficient, holds, "finite and not 0")?;
+            let is_valid = term.coefficient.is_finite() && term.coefficient != 0.0;
+            in_range(
+                "coefficient",
+                term.coefficient,
+                is_valid,
+                "finite and not 0",
+            )?;
         }
         terms.sort_by(|one, other| one.exponent.total_cmp(&other.exponent));
-        at_least(1, "terms", terms.len())?;
+        check_min_length(1, "terms", terms.len())?;
         positive("coefficient of the lowest exponent", terms[0].coefficient)?;
         for pair in terms.windows(2) {
             let [before, exponent] = [pair[0].exponent, pair[1].exponent];
@@ -68,9 +73,9 @@ impl Superposition {
 impl Axisymmetric for Superposition {
     fn profile(&self, radius: f64) -> ProfilePoint {
         ProfilePoint {
-            height: sum(&self.terms, 0.0, |_| 1.0, radius),
-            slope: sum(&self.terms, 1.0, |p| p, radius),
-            curvature: sum(&self.terms, 2.0, |p| p * (p - 1.0), radius),
+            height: derivative(&self.terms, 0.0, |_| 1.0, radius),
+            slope: derivative(&self.terms, 1.0, |p| p, radius),
+            curvature: derivative(&self.terms, 2.0, |p| p * (p - 1.0), radius),
         }
     }
 
@@ -80,29 +85,29 @@ impl Axisymmetric for Superposition {
 
     fn closed_line(&self, x: f64) -> Option<LinePoint> {
         Some(LinePoint {
-            height: sum(&self.line_terms, 0.0, |_| 1.0, x),
-            slope: sum(&self.line_terms, 1.0, |p| p, x),
+            height: derivative(&self.line_terms, 0.0, |_| 1.0, x),
+            slope: derivative(&self.line_terms, 1.0, |p| p, x),
         })
     }
 }
 
 surface_of_revolution!(Superposition);
 
-/// Σ c w(p) r^(p − order), the derivative of the given order.
-fn sum(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radius: f64) -> f64 {
+/// Derivative Σ c w(p) r^(p − order) of a sum of powers; `weight` w(p) is p (p − 1) … (p − order + 1).
+fn derivative(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radius: f64) -> f64 {
     let power = |term: &PowerTerm, shift: f64| {
         let coefficient = term.coefficient * weight(term.exponent);
         scaled_power(coefficient, radius, term.exponent - shift)
     };
-    let plain: f64 = terms.iter().map(|term| power(term, order)).sum();
-    if !plain.is_nan() {
-        return plain;
+    let sum: f64 = terms.iter().map(|term| power(term, order)).sum();
+    if !sum.is_nan() {
+        return sum;
     }
-    // ∞ − ∞: far out the highest power decides the sign, at the apex the lowest.
+    // The sum is ∞ − ∞. Factor out the dominant power: the highest one for large radii, the lowest one at the apex.
     let shift = match terms {
         [.., last] if radius > 1.0 => last.exponent,
         [first, ..] => first.exponent,
-        [] => return plain,
+        [] => return sum,
     };
     let mantissa: f64 = terms.iter().map(|term| power(term, shift)).sum();
     scaled_power(mantissa, radius, shift - order)

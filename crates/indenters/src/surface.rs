@@ -5,45 +5,44 @@ use auto_impl::auto_impl;
 use crate::Axisymmetric;
 use crate::extent::search;
 
-/// The surface of a rigid body as the half space sees it: height and gradient over the plane.
+/// The surface of a rigid body: height and gradient over the (x, y) plane.
 ///
-/// Only height and gradient have to be given; all bodies of this crate are surfaces, and
-/// [`surface_of_revolution!`](crate::surface_of_revolution) makes an own [`Axisymmetric`] body one.
-///
-/// The example `custom_surface.rs` of this crate is a surface of its own.
+/// Only [`height`](Self::height) and [`gradient`](Self::gradient) must be implemented; see the example
+/// `custom_surface.rs`. The macro [`surface_of_revolution!`](crate::surface_of_revolution) implements the trait for an
+/// [`Axisymmetric`] body.
 #[auto_impl(&, Box, Arc)]
 pub trait Surface: Send + Sync {
     /// Height h(x, y) above the lowest point, \[m], at a `[x, y]` position \[m]; `+∞` where there is no body.
     fn height(&self, position: [f64; 2]) -> f64;
 
-    /// Gradient [∂h/∂x, ∂h/∂y]; zero at the apex of a body of revolution, whatever its exponent, and
-    /// where there is no body.
+    /// Gradient [∂h/∂x, ∂h/∂y]; zero where there is no body, and at the apex of a body of revolution for any exponent.
     fn gradient(&self, position: [f64; 2]) -> [f64; 2];
 
-    /// Whether h(−x, y) = h(x, y), and whether h(x, −y) = h(x, y), everywhere and up to rounding, and the gradient
-    /// accordingly but on kinks. Solvers then do without one side of the mirror; a surface that does not say so is computed
-    /// on both.
+    /// Mirror symmetries: whether h(−x, y) = h(x, y), and whether h(x, −y) = h(x, y), everywhere up to rounding.
+    ///
+    /// The gradient has the same symmetry except on kinks. Solvers restrict themselves to one side of each mirror plane; the
+    /// default `false` makes them compute both.
     fn mirrors(&self) -> [bool; 2] {
         [false; 2]
     }
 
-    /// The rectangle `[[x_min, x_max], [y_min, y_max]]` \[m] that holds every point lower than `height` \[m]; infinite where
-    /// the surface stays low without end.
+    /// Rectangle `[[x_min, x_max], [y_min, y_max]]` \[m] that contains the origin and every point lower than `height` \[m].
     ///
-    /// Unless a surface knows it, it is searched on grids from the origin outwards: parts narrower than a thirtieth of their
-    /// distance from it, or a thousand times as far away as the others, are not seen. The rectangle holds the origin too, and
-    /// is a tenth too large.
+    /// An end is infinite where the surface never rises above the height. The default implementation searches grids from the
+    /// origin outwards. It misses parts narrower than a thirtieth of their distance from the origin, and parts a thousand
+    /// times as far away as all others. Its rectangle is up to a tenth too large.
     fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
         search(height, |position| self.height(position) < height)
     }
 
-    /// Leading exponent p of h ∼ c r^p at the lowest point; 1 where nothing is known.
+    /// Leading exponent p of h ∼ c r^p at the lowest point; 1 if unknown.
     fn apex_exponent(&self) -> f64 {
         1.0
     }
 
-    /// Length along x of the cells at whose ends the slope may jump, the lowest point among them, \[m]; `None` where it jumps nowhere
-    /// or nothing is known.
+    /// Length along x of the cells of a gridded surface, at whose ends the slope may jump, \[m].
+    ///
+    /// The lowest point lies on an end of a cell. `None` if the slope is continuous, or if nothing is known.
     fn cell_length(&self) -> Option<f64> {
         None
     }
@@ -54,10 +53,10 @@ pub trait Surface: Send + Sync {
     }
 }
 
-/// A surface whose mirrors are hidden, so that solvers compute both sides of them.
+/// A surface that reports no mirror symmetry, so that solvers compute both sides of each mirror plane.
 ///
-/// The results are the same up to rounding, but for slopes on kinks, which have two: this is for those who want to see
-/// that, or what a mirror saves.
+/// The results agree up to rounding, except for slopes on kinks, which are one-sided. It serves to test the symmetry
+/// reduction and to measure what it saves.
 #[derive(Debug, Clone, Copy)]
 pub struct Unmirrored<'a, S: ?Sized>(pub &'a S);
 

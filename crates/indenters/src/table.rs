@@ -1,25 +1,27 @@
-//! What every table of positions and heights must fulfil.
+//! Checks of tables of positions and heights.
 
 use crate::IndenterError;
 use numerics::finite;
 
-/// Checks that both lists are finite and equally long, have two rows, and that the positions, which have a name, increase.
+/// Checks a table of two or more rows: finite numbers, lists of equal length, increasing positions.
+///
+/// `list` is the name of the positions in messages.
 pub(crate) fn check_table(
     list: &'static str,
     positions: &[f64],
     heights: &[f64],
 ) -> Result<(), IndenterError> {
     check_heights(list, positions.len(), heights)?;
-    at_least(2, list, positions.len())?;
+    check_min_length(2, list, positions.len())?;
     for (name, values) in [(list, positions), ("heights", heights)] {
         for value in values {
             finite(name, *value)?;
         }
     }
-    increasing(list, positions)
+    check_increasing(list, positions)
 }
 
-/// Checks that there are as many heights as a list, which has a name, needs.
+/// Checks that the number of heights is the length of the list `first`.
 pub(crate) const fn check_heights(
     first: &'static str,
     first_length: usize,
@@ -36,7 +38,8 @@ pub(crate) const fn check_heights(
     })
 }
 
-pub(crate) fn at_least(
+/// Checks that a list has at least `needed` entries.
+pub(crate) fn check_min_length(
     needed: usize,
     list: &'static str,
     length: usize,
@@ -51,7 +54,8 @@ pub(crate) fn at_least(
     })
 }
 
-pub(crate) fn increasing(list: &'static str, values: &[f64]) -> Result<(), IndenterError> {
+/// Checks that the values of a list increase strictly.
+pub(crate) fn check_increasing(list: &'static str, values: &[f64]) -> Result<(), IndenterError> {
     match values.windows(2).position(|pair| pair[1] <= pair[0]) {
         None => Ok(()),
         Some(before) => Err(IndenterError::NotIncreasing {

@@ -19,20 +19,20 @@ use numerics::{InvalidParameter, finite, in_range, positive};
 use rustfft::num_complex::Complex;
 
 use crate::IndenterError;
-use crate::table::at_least;
+use crate::table::check_min_length;
 pub use roughness::Roughness;
 pub use self_affine::SelfAffine;
 pub use spectrum::{PowerSpectrum, Ring};
 pub use tabulated::TabulatedSpectrum;
 
-/// Wave lengths that are a whole part of another one count although they are rounded.
-const SLACK: f64 = 1e-12;
+/// Relative tolerance of comparisons of wave lengths (chosen); it covers the rounding of whole fractions of a period.
+const WAVELENGTH_TOLERANCE: f64 = 1e-12;
 
 /// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Wave {
-    /// Numbers m and n of waves in the periods along x and y, not both 0.
+    /// Numbers m and n of wave lengths in the periods along x and y, not both 0.
     pub numbers: [i32; 2],
     /// Amplitude a, \[m].
     pub amplitude: f64,
@@ -40,7 +40,7 @@ pub struct Wave {
     pub phase: f64,
 }
 
-/// A rigid surface that repeats itself along x and y.
+/// A rigid surface that is periodic along x and y.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodicSurface {
@@ -49,7 +49,7 @@ pub struct PeriodicSurface {
 }
 
 impl PeriodicSurface {
-    /// The sum of some waves, with the `period` [L_x, L_y] \[m].
+    /// The sum of the `waves`, with the `period` [L_x, L_y] \[m].
     ///
     /// # Errors
     /// [`IndenterError::TooFew`] without waves; [`IndenterError::InvalidParameter`] for a period that is not positive, a
@@ -57,7 +57,7 @@ impl PeriodicSurface {
     pub fn new(period: [f64; 2], waves: Vec<Wave>) -> Result<Self, IndenterError> {
         positive("period along x", period[0])?;
         positive("period along y", period[1])?;
-        at_least(1, "waves", waves.len())?;
+        check_min_length(1, "waves", waves.len())?;
         for wave in &waves {
             let allowed = "other than 0 along x or y: a mean height changes nothing";
             in_range("number of waves", 0.0, wave.numbers != [0, 0], allowed)?;
@@ -72,12 +72,12 @@ impl PeriodicSurface {
         self.period
     }
 
-    /// The waves.
+    /// Waves of the surface.
     pub fn waves(&self) -> &[Wave] {
         &self.waves
     }
 
-    /// Largest numbers of waves in the periods along x and y.
+    /// Largest |m| and |n| of the waves.
     pub fn largest_numbers(&self) -> [usize; 2] {
         [0, 1].map(|axis| {
             let waves = self.waves.iter();
@@ -86,9 +86,8 @@ impl PeriodicSurface {
         })
     }
 
-    /// Root mean square of |∇h|.
+    /// Root mean square of |∇h|; waves that are given twice count as independent.
     pub fn rms_slope(&self) -> f64 {
-        // Waves of opposite numbers are one; those that are given twice count as independent.
         let square = |wave: &Wave| {
             let [q_x, q_y] = self.wave_vector(wave);
             0.5 * wave.amplitude * wave.amplitude * (q_x * q_x + q_y * q_y)
@@ -96,48 +95,51 @@ impl PeriodicSurface {
         self.waves.iter().map(square).sum::<f64>().sqrt()
     }
 
-    /// Root mean square of the height over its mean, \[m].
+    /// Root mean square of the height relative to its mean, \[m].
     pub fn rms_height(&self) -> f64 {
         let square = |wave: &Wave| 0.5 * wave.amplitude * wave.amplitude;
         self.waves.iter().map(square).sum::<f64>().sqrt()
     }
 
-    /// Without the waves shorter than twice the shortest, which are its shortest octave; none where no wave is left.
+    /// The surface without its shortest octave, the waves shorter than twice the shortest; `None` if no wave remains.
     #[must_use]
     pub fn without_shortest_octave(&self) -> Option<Self> {
         self.without_waves_below(2.0 * self.shortest_wavelength())
     }
 
-    /// Length of the shortest wave that has an amplitude, \[m]; infinite where none has.
+    /// Length of the shortest wave with an amplitude other than 0, \[m]; infinite if there is none.
     pub fn shortest_wavelength(&self) -> f64 {
         let waves = self.waves.iter().filter(|wave| wave.amplitude != 0.0);
         TAU / waves.map(|wave| self.wave_number(wave)).fold(0.0, f64::max)
     }
 
-    /// Without the waves shorter than a length \[m]; none where no wave is left.
+    /// The surface without the waves shorter than a length \[m]; `None` if no wave remains.
     #[must_use]
     pub fn without_waves_below(&self, shortest: f64) -> Option<Self> {
-        let largest = TAU / shortest * (1.0 + SLACK);
-        let is_left = |wave: &&Wave| wave.amplitude != 0.0 && self.wave_number(wave) <= largest;
-        let waves = self.waves.iter().filter(is_left).copied().collect();
+        let largest = TAU / shortest * (1.0 + WAVELENGTH_TOLERANCE);
+        let is_long = |wave: &&Wave| wave.amplitude != 0.0 && self.wave_number(wave) <= largest;
+        let waves = self.waves.iter().filter(is_long).copied().collect();
         Self::new(self.period, waves).ok()
     }
 
+    /// Magnitude of the wave vector, \[1/m].
     fn wave_number(&self, wave: &Wave) -> f64 {
         let [x, y] = self.wave_vector(wave);
         x.hypot(y)
     }
 
-    /// With the waves of which a grid of so many elements along x and y has more than two each; none where it tells no wave.
+    /// The surface with only the waves that a grid of this shape resolves; `None` if it resolves none.
+    ///
+    /// A wave is resolved if it has more than two elements per wave length along x and along y.
     pub fn told_by(&self, shape: [usize; 2]) -> Option<Cow<'_, Self>> {
-        let is_told = |wave: &&Wave| {
+        let is_resolved = |wave: &&Wave| {
             let mut numbers = wave.numbers.iter().zip(shape);
             numbers.all(|(number, elements)| elements > 2 * number.unsigned_abs() as usize)
         };
-        if self.waves.iter().all(|wave| is_told(&wave)) {
+        if self.waves.iter().all(|wave| is_resolved(&wave)) {
             return Some(Cow::Borrowed(self));
         }
-        let waves = self.waves.iter().filter(is_told).copied().collect();
+        let waves = self.waves.iter().filter(is_resolved).copied().collect();
         Self::new(self.period, waves).ok().map(Cow::Owned)
     }
 
@@ -146,7 +148,9 @@ impl PeriodicSurface {
         [0, 1].map(|axis| TAU * f64::from(wave.numbers[axis]) / self.period[axis])
     }
 
-    /// Heights \[m] on so many elements along x and y, row-major with y fastest; the first element is at the origin.
+    /// Heights \[m] on a grid of `[rows, columns]` elements along x and y, row-major with y fastest.
+    ///
+    /// The first element is at the origin.
     ///
     /// # Errors
     /// [`InvalidParameter`] for a grid with no more than two elements per shortest wave.
@@ -160,11 +164,13 @@ impl PeriodicSurface {
         let (enough_x, enough_y) = (rows > 2 * along_x, columns > 2 * along_y);
         in_range("elements along x", rows as f64, enough_x, allowed)?;
         in_range("elements along y", columns as f64, enough_y, allowed)?;
+        // Spectrum with n ≥ 0, stored column by column.
         let n_columns = columns / 2 + 1;
         let mut spectrum = vec![Complex::default(); n_columns * rows];
         for wave in &self.waves {
             add_wave(wave, &mut spectrum, rows);
         }
+        // Inverse transforms along x, then along y.
         let along_x = f64::inverse(rows);
         along_x.process(&mut spectrum);
         let along_y = f64::real_inverse(columns);
@@ -175,7 +181,7 @@ impl PeriodicSurface {
             for (coefficient, column) in coefficients.iter_mut().zip(spectrum.chunks_exact(rows)) {
                 *coefficient = column[row];
             }
-            // Of a column that stands for itself only the real part counts.
+            // The coefficients of n = 0 and n = columns/2 are their own conjugates, hence real.
             coefficients[0].im = 0.0;
             if columns.is_multiple_of(2) {
                 coefficients[n_columns - 1].im = 0.0;
@@ -187,7 +193,7 @@ impl PeriodicSurface {
     }
 }
 
-/// Adds a wave to the columns of a spectrum whose inverse transform is not normalised.
+/// Adds a wave to the columns of a spectrum; the inverse transform is not normalised.
 fn add_wave(wave: &Wave, spectrum: &mut [Complex<f64>], rows: usize) {
     let half = Complex::from_polar(0.5 * wave.amplitude, wave.phase);
     let [m, n] = wave.numbers;

@@ -1,4 +1,4 @@
-//! Numbers that say what a measured surface is like.
+//! Roughness parameters of a measured surface.
 //!
 //! ```text
 //! Sq² = ⟨z²⟩,   Ssk = ⟨z³⟩/Sq³,   Sku = ⟨z⁴⟩/Sq⁴,   Sa = ⟨|z|⟩          z = height out of the body, less its mean
@@ -10,18 +10,18 @@
 use numerics::{in_range, positive};
 
 use crate::rough::PeriodicSurface;
-use crate::table::at_least;
+use crate::table::check_min_length;
 use crate::{HeightMap, IndenterError};
 
-/// What a surface is like; exact for the heights given.
+/// Roughness parameters, exact for the given heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Roughness {
-    /// Mean of the deviations from the mean height, Sa \[m].
+    /// Mean absolute deviation from the mean height, Sa \[m].
     pub mean_deviation: f64,
     /// Root mean square of the heights, Sq \[m].
     pub rms_height: f64,
-    /// Skewness Ssk, positive where peaks stand out of a plain.
+    /// Skewness Ssk, positive if peaks stand out of a plain.
     pub skewness: f64,
     /// Kurtosis Sku, 3 for Gaussian heights.
     pub kurtosis: f64,
@@ -33,31 +33,33 @@ pub struct Roughness {
     pub rms_slopes: [f64; 2],
     /// Root mean square of the mean curvature ∇²z/2, \[1/m].
     pub rms_curvature: f64,
-    /// Nayak's parameter α ≥ 3/2 of an isotropic surface with these moments: the larger, the more wave lengths there are.
+    /// Nayak's bandwidth parameter α ≥ 3/2 of an isotropic surface with these moments.
     pub nayak: f64,
 }
 
 impl Roughness {
-    /// Numbers of a map, whose waves tell slopes and curvatures where it `repeats` itself, and else the first and second
-    /// differences of neighbouring heights.
+    /// Roughness parameters of a map.
+    ///
+    /// Slopes and curvatures are those of the waves if the map `repeats` itself, otherwise first and second differences of
+    /// neighbouring heights.
     ///
     /// # Errors
-    /// [`IndenterError::TooFew`] below three rows and columns; [`IndenterError::InvalidParameter`] for heights that are all
-    /// the same, and for heights and spacings below 1e-30 m or above 1e30 m.
+    /// [`IndenterError::TooFew`] for fewer than three rows or columns; [`IndenterError::InvalidParameter`] for equal heights,
+    /// and for heights and spacings below 1e-30 m or above 1e30 m.
     pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
-        at_least(3, "heights along x", map.shape()[0])?;
-        at_least(3, "heights along y", map.shape()[1])?;
+        check_min_length(3, "heights along x", map.shape()[0])?;
+        check_min_length(3, "heights along y", map.shape()[1])?;
         let surface = PeriodicSurface::through(map, 0.0)?;
         check_lengths(map)?;
         let [along_x, along_y, laplacian] = if repeats {
-            squares_of_waves(&surface)
+            mean_squares_of_waves(&surface)
         } else {
-            squares_of_differences(map)
+            mean_squares_of_differences(map)
         };
         let (heights, n) = (map.heights(), map.heights().len() as f64);
         let mean = heights.iter().sum::<f64>() / n;
         let highest = heights.iter().copied().fold(0.0, f64::max);
-        // Heights of the map point into the body; relative to their range no power of them is too small.
+        // Heights of the map point into the body. Moments of heights relative to their range do not underflow.
         let relative = |height: &f64| (mean - height) / highest;
         let moment = |power: i32| {
             let powers = heights.iter().map(|height| relative(height).powi(power));
@@ -85,7 +87,7 @@ impl Roughness {
     }
 }
 
-/// Refuses lengths with fourth powers, or ratios of these, that an f64 does not hold.
+/// Refuses lengths whose fourth powers, or ratios of these, overflow or underflow.
 pub(super) fn check_lengths(map: &HeightMap) -> Result<(), IndenterError> {
     let [x, y] = map.spacing();
     let highest = map.heights().iter().copied().fold(0.0, f64::max);
@@ -100,8 +102,8 @@ pub(super) fn check_lengths(map: &HeightMap) -> Result<(), IndenterError> {
     Ok(())
 }
 
-/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z.
-fn squares_of_waves(surface: &PeriodicSurface) -> [f64; 3] {
+/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z of a sum of waves.
+fn mean_squares_of_waves(surface: &PeriodicSurface) -> [f64; 3] {
     let mut squares = [0.0; 3];
     for wave in surface.waves() {
         let [x, y] = surface.wave_vector(wave).map(|q| q * q);
@@ -113,7 +115,8 @@ fn squares_of_waves(surface: &PeriodicSurface) -> [f64; 3] {
     squares
 }
 
-fn squares_of_differences(map: &HeightMap) -> [f64; 3] {
+/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z by differences of neighbouring heights.
+fn mean_squares_of_differences(map: &HeightMap) -> [f64; 3] {
     let ([rows, columns], [dx, dy]) = (map.shape(), map.spacing());
     let mean = |rows: usize, columns: usize, value: &dyn Fn(usize) -> f64| {
         let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [row, column]));
@@ -122,12 +125,13 @@ fn squares_of_differences(map: &HeightMap) -> [f64; 3] {
     };
     let heights = map.heights();
     let step = |at: usize, next: usize| heights[at + next] - heights[at];
-    let bend = |at: usize, next: usize| step(at + next, next) - step(at, next);
+    let second_difference = |at: usize, next: usize| step(at + next, next) - step(at, next);
     [
         mean(rows - 1, columns, &|at| step(at, columns) / dx),
         mean(rows, columns - 1, &|at| step(at, 1) / dy),
         mean(rows - 2, columns - 2, &|at| {
-            bend(at + 1, columns) / (dx * dx) + bend(at + columns, 1) / (dy * dy)
+            second_difference(at + 1, columns) / (dx * dx)
+                + second_difference(at + columns, 1) / (dy * dy)
         }),
     ]
 }

@@ -1,10 +1,9 @@
 //! Random self-affine surfaces.
 //!
 //! ```text
-//! C(q) ∝ q^(−2 (1 + H))   from the roll-off to the shortest wave,  constant from the longest wave to the roll-off
+//! C(q) ∝ q^(−2 (1 + H))   from the roll-off to the shortest wave,  constant from the longest wave to the roll-off,
+//! ⟨h²⟩ = ∫ C d²q
 //! ```
-//!
-//! with ⟨h²⟩ = ∫ C d²q.
 
 use numerics::{between_zero_and_one, in_range, positive};
 
@@ -20,7 +19,7 @@ pub struct SelfAffine {
     pub period: [f64; 2],
     /// Hurst exponent H, between 0 and 1.
     pub hurst_exponent: f64,
-    /// Root mean square of |∇h| > 0, of this surface and not only on average.
+    /// Root mean square of |∇h| > 0, exact for each realisation.
     pub rms_slope: f64,
     /// Longest wave length, \[m].
     pub longest_wavelength: f64,
@@ -28,7 +27,7 @@ pub struct SelfAffine {
     pub shortest_wavelength: f64,
     /// Wave length above which the spectrum is constant, \[m]; the longest one for a spectrum without roll-off.
     pub roll_off_wavelength: f64,
-    /// Another seed draws another surface.
+    /// Seed of the random numbers, which selects the realisation.
     pub seed: u64,
 }
 
@@ -36,7 +35,7 @@ impl SelfAffine {
     /// Draws the surface.
     ///
     /// # Errors
-    /// [`IndenterError::InvalidParameter`] for numbers out of range, and wave lengths between which the periods have no wave.
+    /// [`IndenterError::InvalidParameter`] for numbers out of range, and if the periods have no wave in the range.
     pub fn surface(&self) -> Result<PeriodicSurface, IndenterError> {
         self.validate()?;
         let random = RandomWaves {
@@ -45,7 +44,7 @@ impl SelfAffine {
             shortest_wavelength: self.shortest_wavelength,
             seed: self.seed,
         };
-        // Before the rms slope is right.
+        // Draw the waves with amplitudes of the right ratios, then scale them to the rms slope.
         let mut surface = random.surface(|inverse| {
             let ratio = (inverse * self.roll_off_wavelength).max(1.0);
             ratio.powf(-1.0 - self.hurst_exponent)
@@ -63,9 +62,9 @@ impl SelfAffine {
         let shortest = positive("shortest_wavelength", self.shortest_wavelength)?;
         let longest = positive("longest_wavelength", self.longest_wavelength)?;
         let roll_off = self.roll_off_wavelength;
-        let holds = roll_off >= shortest && roll_off <= longest;
+        let is_in_range = roll_off >= shortest && roll_off <= longest;
         let allowed = "between the shortest and the longest wave length";
-        in_range("roll_off_wavelength", roll_off, holds, allowed)?;
+        in_range("roll_off_wavelength", roll_off, is_in_range, allowed)?;
         Ok(())
     }
 }

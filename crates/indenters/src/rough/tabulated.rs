@@ -1,13 +1,11 @@
 //! Random surfaces of a power spectrum that is given as a table.
 //!
 //! ```text
-//! ⟨h²⟩ = ∫ C d²q = 2π ∫ q C dq,    ⟨|∇h|²⟩ = 2π ∫ q³ C dq,    ln C straight over ln q between the rows
+//! ⟨h²⟩ = ∫ C d²q = 2π ∫ q C dq,    ⟨|∇h|²⟩ = 2π ∫ q³ C dq,    ln C linear in ln q between the rows
 //! ```
 //!
-//! Beside a row with C = 0, which measured spectra have, C is straight over q; at the ends of a table such rows say that there
-//! are no waves.
-//!
-//! A wave and the opposite one, which are one wave of the surface, have the mean square amplitude 4 C Δq_x Δq_y.
+//! Next to a row with C = 0, as measured spectra have them, C is linear in q instead; at the ends of a table such rows are
+//! dropped. The wave vectors q and −q are one wave of the surface, with the mean square amplitude 4 C Δq_x Δq_y.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +14,7 @@ use numerics::{in_range, not_negative, positive};
 use super::random::RandomWaves;
 use crate::IndenterError;
 use crate::rough::PeriodicSurface;
-use crate::table::{at_least, increasing};
+use crate::table::{check_increasing, check_min_length};
 
 /// An isotropic power spectrum C(q) of surfaces, between the first and the last of its wave numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,11 +25,13 @@ pub struct TabulatedSpectrum {
 }
 
 impl TabulatedSpectrum {
-    /// The spectrum through the points (`wave_numbers[i]` \[1/m], `densities[i]` \[m⁴]); wave numbers are greater than 0 and
-    /// increase, and densities are at least 0. It begins and ends with the first and the last density that is not 0.
+    /// The spectrum through the points (`wave_numbers[i]` \[1/m], `densities[i]` \[m⁴]).
+    ///
+    /// Wave numbers are positive and increase, densities are at least 0. The spectrum extends from the first to the last
+    /// positive density.
     ///
     /// # Errors
-    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows from the first to the last density that is not 0 are needed),
+    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows from the first to the last positive density are needed),
     /// `NotIncreasing` or `InvalidParameter`.
     pub fn new(mut wave_numbers: Vec<f64>, mut densities: Vec<f64>) -> Result<Self, IndenterError> {
         if wave_numbers.len() != densities.len() {
@@ -42,11 +42,12 @@ impl TabulatedSpectrum {
                 second_length: densities.len(),
             });
         }
-        increasing("wave numbers", &wave_numbers)?;
+        check_increasing("wave numbers", &wave_numbers)?;
         for (&wave_number, &density) in wave_numbers.iter().zip(&densities) {
             positive("wave number", wave_number)?;
             not_negative("density", density)?;
         }
+        // Drop the rows without waves at both ends.
         let has_waves = |density: &f64| *density > 0.0;
         let last = densities
             .iter()
@@ -57,14 +58,14 @@ impl TabulatedSpectrum {
             column.truncate(last);
             column.drain(..first);
         }
-        at_least(2, "wave numbers with a density", wave_numbers.len())?;
+        check_min_length(2, "wave numbers with a density", wave_numbers.len())?;
         Ok(Self {
             wave_numbers,
             densities,
         })
     }
 
-    /// Longest and shortest wave length, \[m].
+    /// Longest and shortest wave length of the table, \[m].
     pub fn wavelengths(&self) -> [f64; 2] {
         let last = self.wave_numbers.len() - 1;
         [self.wave_numbers[0], self.wave_numbers[last]].map(|wave_number| TAU / wave_number)
@@ -81,7 +82,7 @@ impl TabulatedSpectrum {
                 return TAU * ((c[0] - slope * q[0]) * powers[0] + slope * powers[1]);
             }
             let (range, change) = ((q[1] / q[0]).ln(), (c[1] / c[0]).ln());
-            // q⁴ C is a power of q from row to row.
+            // Between two rows q⁴ C is a power of q: ∫ q³ C dq = q₀⁴ C₀ ln(q₁/q₀) (e^x − 1)/x with x = ln(q₁⁴C₁/(q₀⁴C₀)).
             let exponent = 4.0 * range + change;
             let growth = if exponent.abs() < f64::EPSILON {
                 1.0
@@ -93,12 +94,14 @@ impl TabulatedSpectrum {
         squares.sum::<f64>().sqrt()
     }
 
-    /// C at a wave number within the table.
+    /// Density C at a wave number within the table, \[m⁴].
     fn density(&self, wave_number: f64) -> f64 {
         let last = self.wave_numbers.len() - 1;
-        let row = self.wave_numbers.partition_point(|q| *q <= wave_number);
-        let row = row.clamp(1, last);
-        let [from, to] = [row - 1, row];
+        let to = self
+            .wave_numbers
+            .partition_point(|q| *q <= wave_number)
+            .clamp(1, last);
+        let from = to - 1;
         let [below, above] = [self.densities[from], self.densities[to]];
         if below == 0.0 || above == 0.0 {
             let width = self.wave_numbers[to] - self.wave_numbers[from];
@@ -110,11 +113,12 @@ impl TabulatedSpectrum {
         below * (part * (above / below).ln()).exp()
     }
 
-    /// Draws a surface with the periods \[m] along x and y and the waves of the table that are not shorter than
-    /// `shortest_wavelength` \[m]; another seed draws another one.
+    /// Draws a surface with the `period` \[m] along x and y from the waves of the table down to `shortest_wavelength` \[m].
+    ///
+    /// The `seed` selects the realisation.
     ///
     /// # Errors
-    /// [`IndenterError::InvalidParameter`] for numbers out of range, and wave lengths between which the periods have no wave.
+    /// [`IndenterError::InvalidParameter`] for numbers out of range, and if the periods have no wave in the range.
     pub fn surface(
         &self,
         period: [f64; 2],
@@ -123,8 +127,13 @@ impl TabulatedSpectrum {
     ) -> Result<PeriodicSurface, IndenterError> {
         let [longest_wavelength, shortest] = self.wavelengths();
         let allowed = "not shorter than the shortest wave of the table";
-        let holds = shortest_wavelength >= shortest;
-        in_range("shortest_wavelength", shortest_wavelength, holds, allowed)?;
+        let is_in_table = shortest_wavelength >= shortest;
+        in_range(
+            "shortest_wavelength",
+            shortest_wavelength,
+            is_in_table,
+            allowed,
+        )?;
         let random = RandomWaves {
             period,
             longest_wavelength,

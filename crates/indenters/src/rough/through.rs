@@ -1,4 +1,4 @@
-//! Periodic surfaces through heights on a grid.
+//! Periodic surfaces through the heights of a map: trigonometric interpolation.
 
 use numerics::transforms::Real;
 use numerics::{in_range, not_negative, positive};
@@ -7,18 +7,19 @@ use rustfft::num_complex::Complex;
 use crate::rough::{PeriodicSurface, Wave};
 use crate::{HeightMap, IndenterError};
 
-/// Amplitudes below this part of the largest height are the rounding of a transform.
-const ROUNDING: f64 = 1e-13;
+/// Amplitude that counts as rounding of the transform, relative to the largest height (chosen).
+const AMPLITUDE_ROUNDING: f64 = 1e-13;
 
 impl PeriodicSurface {
-    /// The trigonometric polynomial through the heights of a map that repeats itself, of which the first row follows on the
-    /// last and the first column on the last, without its mean and without waves shorter than `shortest_wavelength` ≥ 0 \[m].
+    /// The trigonometric polynomial through the heights of a periodic map, without its mean and without waves shorter than
+    /// `shortest_wavelength` ≥ 0 \[m].
     ///
-    /// Waves of two elements along an axis are left out always, because heights do not tell their phase. A map whose opposite
-    /// edges do not fit together has a step there, with waves of all lengths.
+    /// The row after the last one is the first one, and so for the columns. Waves of two elements along an axis are always
+    /// left out, because the heights do not determine their phase. A map whose opposite edges differ has a step there, with
+    /// waves of all lengths.
     ///
     /// # Errors
-    /// [`IndenterError::InvalidParameter`] for heights that are all the same, and a `shortest_wavelength` that leaves no wave.
+    /// [`IndenterError::InvalidParameter`] for equal heights, and for a `shortest_wavelength` that leaves no wave.
     pub fn through(map: &HeightMap, shortest_wavelength: f64) -> Result<Self, IndenterError> {
         not_negative("shortest_wavelength", shortest_wavelength)?;
         let heights = map.heights().iter();
@@ -39,10 +40,11 @@ impl PeriodicSurface {
                 };
                 let n = n as f64;
                 let length = (m / period[0]).hypot(n / period[1]).recip();
-                let is_told = 2.0 * m.abs() < rows as f64 && 2.0 * n < columns as f64;
-                // Of two waves with opposite numbers one.
-                let is_one = n > 0.0 || m > 0.0;
-                if is_told && is_one && length >= shortest_wavelength * (1.0 - 1e-12) {
+                let is_resolved = 2.0 * m.abs() < rows as f64 && 2.0 * n < columns as f64;
+                // One of the two waves ±(m, n).
+                let is_representative = n > 0.0 || m > 0.0;
+                if is_resolved && is_representative && length >= shortest_wavelength * (1.0 - 1e-12)
+                {
                     #[expect(clippy::cast_possible_truncation, reason = "below half of the shape")]
                     let numbers = [m, n].map(|number| number as i32);
                     waves.push(Wave {
@@ -53,7 +55,7 @@ impl PeriodicSurface {
                 }
             }
         }
-        waves.retain(|wave| wave.amplitude > ROUNDING * highest);
+        waves.retain(|wave| wave.amplitude > AMPLITUDE_ROUNDING * highest);
         let allowed = "short enough for a wave of the map";
         in_range(
             "shortest_wavelength",
@@ -65,9 +67,10 @@ impl PeriodicSurface {
     }
 }
 
-/// Σ h e^(−i(…)), column by column of the numbers along y, which are not negative.
+/// Discrete Fourier transform Σ h e^(−i(…)) with n ≥ 0 along y, stored column by column.
 fn spectrum(map: &HeightMap) -> Vec<Complex<f64>> {
     let [rows, columns] = map.shape();
+    // Transforms along y, then along x.
     let along_y = f64::real_forward(columns);
     let (mut row, mut found) = (along_y.make_input_vec(), along_y.make_output_vec());
     let mut spectrum = vec![Complex::default(); found.len() * rows];

@@ -1,14 +1,18 @@
-//! Esri's ASCII grid: names and numbers, then the heights in rows.
+//! Reader of Esri's ASCII grid: a header of names and numbers, then the heights in rows.
 
 use super::text::{Notation, lines, shown, text_of};
 use super::{FORMATS, LateralUnit, Memory, Topography, TopographyError};
 use numerics::whole_part;
 
+/// Marker of missing heights if the header states none (Esri's convention).
 const DEFAULT_MISSING: f64 = -9999.0;
-/// Markers of missing heights beyond it are the least or largest number of f32, with as many digits as a writer likes.
-const LARGEST_HEIGHT: f64 = 1e30;
+/// Magnitude beyond which heights of the sign of the marker are missing, too (chosen).
+///
+/// Such markers are the smallest or largest f32, written with any number of digits.
+const MAX_ABS_HEIGHT: f64 = 1e30;
 
-const NAMES: [&str; 10] = [
+/// Names of the header, in lower case.
+const HEADER_NAMES: [&str; 10] = [
     "ncols",
     "nrows",
     "xllcorner",
@@ -22,13 +26,13 @@ const NAMES: [&str; 10] = [
 ];
 
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, TopographyError> {
-    memory.holds_text(contents)?;
+    memory.require_text(contents)?;
     let text = text_of(contents);
     let head = Head::of(&text)?;
-    let [columns, rows] = [head.needed(&["ncols"])?, head.needed(&["nrows"])?];
+    let [columns, rows] = [head.required(&["ncols"])?, head.required(&["nrows"])?];
     let spacing = [
-        head.needed(&["cellsize", "dx"])?,
-        head.needed(&["cellsize", "dy"])?,
+        head.required(&["cellsize", "dx"])?,
+        head.required(&["cellsize", "dy"])?,
     ];
     let missing = head.number("nodata_value").unwrap_or(DEFAULT_MISSING);
     let mut heights = Vec::new();
@@ -53,13 +57,13 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
             });
         }
     }
-    check_lengths(&lengths, [columns, rows])?;
+    check_line_lengths(&lengths, [columns, rows])?;
     let last = lengths.last().map_or(head.lines.max(1), |(line, _)| *line);
     if [columns, rows].iter().any(|count| count.fract() != 0.0)
         || columns * rows - heights.len() as f64 != 0.0
     {
         let count = heights.len();
-        return Err(wrong(
+        return Err(format_error(
             last,
             &format!("{count} heights for {columns} × {rows} points"),
         ));
@@ -70,21 +74,25 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
     Ok(surface)
 }
 
-fn wrong(line: usize, found: &str) -> TopographyError {
+/// Error for a file that is no ASCII grid.
+fn format_error(line: usize, found: &str) -> TopographyError {
     let format = "an ASCII grid with ncols, nrows, cellsize and heights";
     let problem = format!("{format} is needed, but there is {found}");
     TopographyError::Line { line, problem }
 }
 
+/// Whether a height is the marker of missing heights.
 fn is_missing(height: f64, marker: f64) -> bool {
     let is_same = height.to_bits() == marker.to_bits();
-    let is_huge = |number: f64| number.abs() > LARGEST_HEIGHT;
+    let is_huge = |number: f64| number.abs() > MAX_ABS_HEIGHT;
     is_same || (is_huge(height) && is_huge(marker) && height.signum() == marker.signum())
 }
 
-/// Refuses rows that are longer than `ncols`, and equally long ones that are no parts of such a row, or as long as there are
-/// rows, as where both were exchanged; else a row may go on in the next line.
-fn check_lengths(
+/// Checks the numbers of heights in the lines against `ncols` and `nrows`.
+///
+/// A row may continue in the next line. Refused are lines longer than `ncols`, and lines of equal length that does not divide
+/// `ncols` or equals `nrows`, as in a file in which the two were exchanged.
+fn check_line_lengths(
     lengths: &[(usize, usize)],
     [columns, rows]: [f64; 2],
 ) -> Result<(), TopographyError> {
@@ -103,10 +111,11 @@ fn check_lengths(
     Ok(())
 }
 
-/// The names above the heights.
+/// The header above the heights.
 struct Head {
+    /// Names and numbers in the order of the file.
     known: Vec<(String, f64)>,
-    /// Lines of names, of those that are neither empty nor comments.
+    /// Number of its lines, without empty lines and comments.
     lines: usize,
 }
 
@@ -116,22 +125,28 @@ impl Head {
         for (line, text) in lines(text) {
             let mut words = text.split_whitespace();
             let name = words.next().unwrap_or_default().to_ascii_lowercase();
-            if !NAMES.contains(&&*name) {
+            if !HEADER_NAMES.contains(&&*name) {
                 break;
             }
             let word = words.next().unwrap_or_default();
-            let number: Option<f64> = word.replace(',', ".").parse().ok();
-            let number = number.filter(|number| number.is_finite() || name == "nodata_value");
-            let number = number.ok_or_else(|| {
-                let problem = format!("{name}: a number is needed, and not '{}'", shown(word));
-                TopographyError::Line { line, problem }
-            })?;
+            let number = word
+                .replace(',', ".")
+                .parse::<f64>()
+                .ok()
+                .filter(|number| number.is_finite() || name == "nodata_value")
+                .ok_or_else(|| {
+                    let problem = format!("{name}: a number is needed, and not '{}'", shown(word));
+                    TopographyError::Line { line, problem }
+                })?;
             known.push((name, number));
         }
         let lines = known.len();
         if lines == 0 {
             let advice = "give points x, y and z the extension xyz, and rows of heights txt";
-            return Err(wrong(1, &format!("none of these; {advice}; {FORMATS}")));
+            return Err(format_error(
+                1,
+                &format!("none of these; {advice}; {FORMATS}"),
+            ));
         }
         Ok(Self { known, lines })
     }
@@ -141,9 +156,9 @@ impl Head {
         found.map(|(_, number)| *number)
     }
 
-    /// The first of some names that is there.
-    fn needed(&self, names: &[&str]) -> Result<f64, TopographyError> {
+    /// The number of the first of the `names` that the header has.
+    fn required(&self, names: &[&str]) -> Result<f64, TopographyError> {
         let found = names.iter().find_map(|name| self.number(name));
-        found.ok_or_else(|| wrong(1, &format!("no {}", names[0])))
+        found.ok_or_else(|| format_error(1, &format!("no {}", names[0])))
     }
 }

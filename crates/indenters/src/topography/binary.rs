@@ -1,16 +1,16 @@
-//! Heights in binary behind a short header.
+//! Readers of binary heights behind a short header: Gwyddion Simple Field and Digital Surf.
 
 use super::memory::Memory;
 use super::text::text_of;
-use super::{LateralUnit, Topography, Unread, metres};
+use super::{LateralUnit, ReadFailure, Topography, metres};
 
-/// The text of a Gwyddion Simple Field is written by a program and short, \[bytes].
-const LARGEST_HEAD: usize = 1 << 16;
+/// Bound on the length of the text header of a Gwyddion Simple Field, \[bytes] (chosen).
+const MAX_HEADER_BYTES: usize = 1 << 16;
 
-/// Gwyddion Simple Field: a text, one to four zeros, and f32 row by row
+/// Reads a Gwyddion Simple Field: a text header, one to four zeros, and f32 row by row
 /// (<https://gwyddion.net/documentation/user-guide-en/gsf.html>).
-pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
-    let head = &contents[..contents.len().min(LARGEST_HEAD)];
+pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
+    let head = &contents[..contents.len().min(MAX_HEADER_BYTES)];
     let end = head.iter().position(|byte| *byte == 0).unwrap_or(0);
     let head = text_of(&contents[..end]);
     let (first, head) = head.split_once('\n').unwrap_or_default();
@@ -39,24 +39,24 @@ pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography
     let size = [number("XReal")?, number("YReal")?].map(|size| size * unit.unwrap_or(1.0));
     let spacing = [size[0] / columns as f64, size[1] / rows as f64];
     // The zeros end at a multiple of four bytes.
-    let values = contents.get(4 * (end / 4 + 1)..).unwrap_or_default();
-    let values = values.as_chunks().0;
+    let data = contents.get(4 * (end / 4 + 1)..).unwrap_or_default();
+    let values = data.as_chunks().0;
     if columns.checked_mul(rows) != Some(values.len()) {
         let count = values.len();
         return Err(format!("{count} heights for {columns} × {rows} points").into());
     }
-    memory.holds(Some(values.len()))?;
+    memory.require_heights(Some(values.len()))?;
     let values = values
         .iter()
         .map(|value| height.unwrap_or(1.0) * f64::from(f32::from_le_bytes(*value)));
     Ok(Topography {
         states_unit: height.is_some(),
-        lateral_unit: lateral(unit),
+        lateral_unit: lateral_unit(unit),
         ..Topography::of_rows([rows, columns], spacing, values.collect())
     })
 }
 
-/// Metres in a unit as files state it; `None` if they state none.
+/// Length of a unit as a file states it, \[m]; `None` if it states none.
 fn unit_of(text: &str) -> Result<Option<f64>, String> {
     let unit = text.trim_matches(['\0', ' ']);
     if unit.is_empty() {
@@ -66,20 +66,21 @@ fn unit_of(text: &str) -> Result<Option<f64>, String> {
     known.map(Some)
 }
 
-fn lateral(unit: Option<f64>) -> LateralUnit {
+fn lateral_unit(unit: Option<f64>) -> LateralUnit {
     unit.map_or(LateralUnit::Unstated, |_| LateralUnit::Stated)
 }
 
-/// Digital Surf: 512 bytes, two comments, and integers. The places in the header are those that SurfaceTopography (Pastewka
-/// and others, `IO/SUR.py`) reads; the offset of all heights has no effect.
-pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+/// Reads a surface of Digital Surf: a header of 512 bytes, two comments, and integers.
+///
+/// The offsets in the header are those of SurfaceTopography (`IO/SUR.py`). The common offset of the heights has no effect.
+pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
     if contents.len() < 512 || !contents.starts_with(b"DIGITAL SURF") {
         return Err("another beginning".to_owned().into());
     }
-    let short = |at: usize| usize::from(u16::from_le_bytes(part(contents, at)));
-    let real = |at: usize| f64::from(f32::from_le_bytes(part(contents, at)));
+    let short = |at: usize| usize::from(u16::from_le_bytes(bytes_at(contents, at)));
+    let real = |at: usize| f64::from(f32::from_le_bytes(bytes_at(contents, at)));
     let unit = |at: usize| unit_of(&text_of(&contents[at..at + 16]));
-    let count = |at: usize| u32::from_le_bytes(part(contents, at)) as usize;
+    let count = |at: usize| u32::from_le_bytes(bytes_at(contents, at)) as usize;
     let bytes = match short(98) {
         16 => 2,
         32 => 4,
@@ -97,17 +98,18 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
         let found = format!("{objects} objects of kind {kind}, {given} bytes for {points}");
         return Err(found.into());
     }
-    memory.holds(points)?;
+    memory.require_heights(points)?;
     let [unit_x, unit_y, unit_z] = [unit(180)?, unit(196)?, unit(212)?];
     let length = |at: usize, unit: Option<f64>| real(at) * unit.unwrap_or(1.0);
     let spacing = [length(120, unit_x), length(124, unit_y)];
     let step = length(128, unit_z);
-    let missing = (short(86) == 1).then(|| i32::from_le_bytes(part(contents, 100)).wrapping_sub(2));
+    let missing =
+        (short(86) == 1).then(|| i32::from_le_bytes(bytes_at(contents, 100)).wrapping_sub(2));
     let height = |index: usize| {
         let at = begin + bytes * index;
         let value = match bytes {
-            2 => i32::from(i16::from_le_bytes(part(contents, at))),
-            _ => i32::from_le_bytes(part(contents, at)),
+            2 => i32::from(i16::from_le_bytes(bytes_at(contents, at))),
+            _ => i32::from_le_bytes(bytes_at(contents, at)),
         };
         if Some(value) == missing {
             f64::NAN
@@ -118,20 +120,21 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
     let heights = (0..columns * rows).map(height).collect();
     let surface = Topography {
         states_unit: unit_z.is_some(),
-        lateral_unit: lateral(unit_x.and(unit_y)),
+        lateral_unit: lateral_unit(unit_x.and(unit_y)),
         ..Topography::of_rows([rows, columns], spacing, heights)
     };
-    Ok(inverted(surface, short(290))?)
+    Ok(undo_inversion(surface, short(290))?)
 }
 
-/// Bytes from a place on that is there.
-fn part<const N: usize>(contents: &[u8], at: usize) -> [u8; N] {
+/// The `N` bytes from an offset on; the contents must have them.
+fn bytes_at<const N: usize>(contents: &[u8], at: usize) -> [u8; N] {
     std::array::from_fn(|byte| contents[at + byte])
 }
 
-/// A surface that was stored inverted: its heights (1), and mirrored along x (2) or y (3) with them. Gwyddion
-/// (`surffile.c`) inverts them back; other readers take the numbers as they are, so that a note says what was done.
-fn inverted(mut surface: Topography, inversion: usize) -> Result<Topography, String> {
+/// Undoes the inversion of a stored surface: none (0), heights (1), heights and x (2), heights and y (3).
+///
+/// Gwyddion (`surffile.c`) does the same. Other readers take the numbers as they are; therefore a note reports it.
+fn undo_inversion(mut surface: Topography, inversion: usize) -> Result<Topography, String> {
     let columns = surface.shape[1];
     let mirrored = match inversion {
         0 => return Ok(surface),

@@ -1,4 +1,4 @@
-//! Which format the contents of a file have, by their beginning and by the extension of the file.
+//! Detection of the format of a file, by its signature and its extension.
 
 /// Formats of heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,8 +14,8 @@ pub(super) enum Format {
     Text,
 }
 
-/// Beginnings of files that are read elsewhere, and what they are.
-const OTHERS: [(&[u8], &str); 36] = [
+/// Signatures of formats that are not supported, with their descriptions for messages.
+const UNSUPPORTED_SIGNATURES: [(&[u8], &str); 36] = [
     (
         b"DSCOMPRESSED",
         "a compressed file of Digital Surf; save it uncompressed",
@@ -83,29 +83,34 @@ const OTHERS: [(&[u8], &str); 36] = [
     (b"solid ", "a mesh of triangles (stl)"),
     (b"ply\n", "a mesh of triangles (ply)"),
 ];
-/// Bytes of the beginning of a file that tell text from binary.
-const BEGINNING: usize = 4096;
-/// One control in fewer bytes than these is more than damage to a text.
-const CONTROLS: usize = 50;
-/// Controls that damage alone may leave in a short text.
-const FEW_CONTROLS: usize = 6;
+/// Number of bytes at the beginning of a file that decide between text and binary (chosen).
+const SAMPLED_BYTES: usize = 4096;
+/// A file with more than one control character per this many bytes is binary (chosen).
+const BYTES_PER_CONTROL: usize = 50;
+/// Number of control characters that a damaged short text may contain (chosen).
+const MAX_STRAY_CONTROLS: usize = 6;
 
 impl Format {
+    /// The format of the contents of a file.
+    ///
     /// # Errors
-    /// What the contents are, if they are in none of the formats.
+    /// A description of contents in none of the formats.
     pub(super) fn of(extension: &str, contents: &[u8]) -> Result<Self, String> {
-        if let Some((_, name)) = OTHERS.iter().find(|(start, _)| contents.starts_with(start)) {
+        if let Some((_, name)) = UNSUPPORTED_SIGNATURES
+            .iter()
+            .find(|(start, _)| contents.starts_with(start))
+        {
             return Err((*name).to_owned());
         }
         if contents.starts_with(b"PK\x03\x04") && extension != "x3p" {
-            return archive(contents);
+            return archive_format(contents);
         }
         let by_contents = [
             (contents.starts_with(b"\x93NUMPY"), Self::Npy),
             (contents.starts_with(b"Gwyddion Simple Field"), Self::Gsf),
             (contents.starts_with(b"DIGITAL SURF"), Self::Sur),
             (is_surface_data(contents), Self::Sdf),
-            (is_grid(contents), Self::Asc),
+            (is_ascii_grid(contents), Self::Asc),
         ];
         if let Some((_, format)) = by_contents.into_iter().find(|(is_it, _)| *is_it) {
             return Ok(format);
@@ -124,8 +129,8 @@ impl Format {
     }
 }
 
-/// What an archive is.
-fn archive(contents: &[u8]) -> Result<Format, String> {
+/// The format of a zip archive, by the names of its parts.
+fn archive_format(contents: &[u8]) -> Result<Format, String> {
     let has = |name: &[u8]| contents.windows(name.len()).any(|bytes| bytes == name);
     if has(b"main.xml") {
         return Ok(Format::X3p);
@@ -151,20 +156,20 @@ fn is_surface_data(contents: &[u8]) -> bool {
 }
 
 /// Whether contents begin as Esri's ASCII grid does.
-fn is_grid(contents: &[u8]) -> bool {
+fn is_ascii_grid(contents: &[u8]) -> bool {
     let names = [&b"ncols"[..], b"nrows"];
     let start = contents.trim_ascii_start().get(..5);
     start.is_some_and(|start| names.iter().any(|name| start.eq_ignore_ascii_case(name)))
 }
 
-/// Whether a part of the bytes are controls that texts do not have; zeros are parts of letters in UTF-16.
+/// Whether the beginning has more control characters than a damaged text; in UTF-16 zeros are parts of letters.
 fn is_binary(contents: &[u8]) -> bool {
-    let start = &contents[..contents.len().min(BEGINNING)];
+    let start = &contents[..contents.len().min(SAMPLED_BYTES)];
     let count = |is_it: fn(&u8) -> bool| start.iter().filter(|byte| is_it(byte)).count();
     let zeros = count(|byte| *byte == 0);
     let controls = count(|byte| *byte < 9 || (14..27).contains(byte));
-    // Of ASCII in UTF-16 every other byte is zero.
+    // In ASCII letters in UTF-16 every other byte is zero.
     let is_wide = zeros.abs_diff(start.len() / 2) <= start.len() / 8;
     let controls = if is_wide { controls - zeros } else { controls };
-    controls > FEW_CONTROLS && CONTROLS * controls > start.len()
+    controls > MAX_STRAY_CONTROLS && BYTES_PER_CONTROL * controls > start.len()
 }

@@ -1,13 +1,13 @@
-//! Equally spaced coordinates, as columns of a file hold them: exact, rounded to their digits, or with gaps.
+//! Detection of equally spaced coordinates in a column of a file: exact, rounded to their digits, or with gaps.
 
 use numerics::whole_part;
 
-/// Part of a spacing by which an exact coordinate may miss its place.
-const MISS: f64 = 0.01;
-/// Part of a spacing by which a rounded coordinate may miss its place: with a gap it would be half a spacing.
-const MOST_ROUNDED: f64 = 0.3;
-/// Part of the range of coordinates within which two are the same.
-const SAME: f64 = 1e-6;
+/// Largest deviation of an exact coordinate from its node, relative to the spacing (chosen).
+const EXACT_TOLERANCE: f64 = 0.01;
+/// Largest deviation of a rounded coordinate from its node, relative to the spacing (chosen; a gap makes it 0.5).
+const MAX_ROUNDING_TOLERANCE: f64 = 0.3;
+/// Distance within which two coordinates are equal, relative to the range of all (chosen).
+const DUPLICATE_TOLERANCE: f64 = 1e-6;
 
 /// Equally spaced coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,26 +15,28 @@ pub(super) struct Axis {
     pub(super) first: f64,
     pub(super) step: f64,
     pub(super) count: usize,
-    /// By how much a coordinate may miss its place.
+    /// Largest deviation of a coordinate from its node, in the unit of the coordinates.
     tolerance: f64,
 }
 
 impl Axis {
-    /// The axis of coordinates in any order, written with so many `significant` digits: with as many points as there are
-    /// different coordinates, or, where some are left out, with their median or smallest distance; rounded coordinates with the
-    /// fewest points of which no more than a half are left out.
+    /// Axis of coordinates in any order, written with a number of `significant` digits.
+    ///
+    /// Candidates for the number of intervals are that of different coordinates, then those by the median and the smallest
+    /// distance, which differ if points are left out. Rounded coordinates take the smallest number for which at most half of
+    /// the nodes are empty.
     ///
     /// # Errors
-    /// What is wrong with coordinates that are not equally spaced.
+    /// A description of coordinates that are not equally spaced.
     pub(super) fn of(mut values: Vec<f64>, significant: i32) -> Result<Self, String> {
         values.sort_by(f64::total_cmp);
         let ends = values.first().copied().zip(values.last().copied());
         let (first, last) = ends.ok_or("no points")?;
         let range = last - first;
-        // One unit of the last digit of the largest.
+        // Resolution: one unit of the last digit of the largest coordinate.
         let digits = first.abs().max(last.abs()).log10().floor();
         let resolution = 10.0_f64.powf(digits + 1.0 - f64::from(significant));
-        values.dedup_by(|next, before| *next - *before <= SAME * range);
+        values.dedup_by(|next, before| *next - *before <= DUPLICATE_TOLERANCE * range);
         let mut steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         steps.sort_by(f64::total_cmp);
         let (Some(smallest), true) = (steps.first().copied(), range > 0.0) else {
@@ -42,46 +44,54 @@ impl Axis {
                 "coordinates from {first} to {last}, where a grid has two or more"
             ));
         };
-        let (median, fewest) = (steps[steps.len() / 2], steps.len());
+        let (median, n_intervals) = (steps[steps.len() / 2], steps.len());
         let axis = |count: f64, tolerance: f64| Self {
             first,
             step: range / count,
             count: whole_part(count) + 1,
             tolerance,
         };
-        let likely = [fewest as f64, range / median, range / smallest].map(f64::round);
-        let likely = likely.into_iter().filter(|count| count.is_finite());
-        let exact = likely.map(|count| axis(count, MISS * range / count));
-        // Rounding hides the distance of neighbours.
-        let rounded = (fewest..=2 * fewest).map(|count| {
+        let exact = [n_intervals as f64, range / median, range / smallest]
+            .map(f64::round)
+            .into_iter()
+            .filter(|count| count.is_finite())
+            .map(|count| axis(count, EXACT_TOLERANCE * range / count));
+        // Rounded coordinates do not show their spacing: try all numbers of intervals.
+        let rounded = (n_intervals..=2 * n_intervals).map(|count| {
             let count = count as f64;
-            axis(count, resolution.min(MOST_ROUNDED * range / count))
+            axis(
+                count,
+                resolution.min(MAX_ROUNDING_TOLERANCE * range / count),
+            )
         });
-        let found = exact.chain(rounded).find(|axis| axis.has_all(&values));
+        let found = exact
+            .chain(rounded)
+            .find(|axis| axis.has_distinct_nodes(&values));
         found.ok_or_else(|| Self::irregular(&values, range))
     }
 
-    /// Whether all coordinates, which are different, have places of their own.
-    fn has_all(&self, values: &[f64]) -> bool {
-        let places: Option<Vec<usize>> = values.iter().map(|value| self.place(*value)).collect();
-        places.is_some_and(|places| places.windows(2).all(|pair| pair[0] < pair[1]))
+    /// Whether all coordinates, which are different, lie on different nodes.
+    fn has_distinct_nodes(&self, values: &[f64]) -> bool {
+        let nodes: Option<Vec<usize>> = values.iter().map(|value| self.node(*value)).collect();
+        nodes.is_some_and(|nodes| nodes.windows(2).all(|pair| pair[0] < pair[1]))
     }
 
-    /// The place of a coordinate, counted from 0; `None` if it is beside the grid.
-    pub(super) fn place(&self, value: f64) -> Option<usize> {
-        let place = (value - self.first) / self.step;
-        let miss = (place - place.round()).abs() * self.step;
-        // Of the first and last coordinate the rounding is a part, too.
-        let slack = 1e-9 * self.step;
-        (miss <= self.tolerance + slack).then(|| whole_part(place.round().max(0.0)))
+    /// Index of the node at a coordinate; `None` if the coordinate is off the grid.
+    pub(super) fn node(&self, value: f64) -> Option<usize> {
+        let node = (value - self.first) / self.step;
+        let deviation = (node - node.round()).abs() * self.step;
+        // The step itself has the rounding of the first and the last coordinate.
+        let edge_rounding = 1e-9 * self.step;
+        (deviation <= self.tolerance + edge_rounding).then(|| whole_part(node.round().max(0.0)))
     }
 
+    /// Description of coordinates off any grid, with the one of the largest deviation.
     fn irregular(values: &[f64], range: f64) -> String {
         let step = range / (values.len() - 1) as f64;
-        let miss =
+        let deviation =
             |(index, value): &(usize, &f64)| (*value - values[0] - *index as f64 * step).abs();
-        let places = values.iter().enumerate();
-        let worst = places.max_by(|one, other| miss(one).total_cmp(&miss(other)));
+        let nodes = values.iter().enumerate();
+        let worst = nodes.max_by(|one, other| deviation(one).total_cmp(&deviation(other)));
         let value = worst.map_or(values[0], |(_, value)| *value);
         format!(
             "coordinates as {value} beside a grid of {step:e}; interpolate scattered points to a grid first"
@@ -89,7 +99,7 @@ impl Axis {
     }
 }
 
-/// Digits of a number from the first that is not 0 on.
+/// Number of significant digits of a number in a text.
 #[cfg(any(test, feature = "topography"))]
 pub(super) fn significant_digits(cell: &str) -> i32 {
     let (mantissa, _) = cell.split_once(['e', 'E']).unwrap_or((cell, ""));
@@ -101,12 +111,8 @@ pub(super) fn significant_digits(cell: &str) -> i32 {
 mod tests {
     use super::*;
 
-    fn written(
-        step: f64,
-        places: impl Iterator<Item = u32>,
-        digits: usize,
-    ) -> Result<Axis, String> {
-        let cells = places.map(|place| format!("{:.digits$e}", f64::from(place) * step));
+    fn written(step: f64, nodes: impl Iterator<Item = u32>, digits: usize) -> Result<Axis, String> {
+        let cells = nodes.map(|node| format!("{:.digits$e}", f64::from(node) * step));
         let cells: Vec<String> = cells.collect();
         let significant = cells.iter().map(|cell| significant_digits(cell)).max();
         let values = cells.iter().map(|cell| cell.parse().expect("a number"));
@@ -123,8 +129,8 @@ mod tests {
             (15, 0.1),
         ] {
             for gap in [99, 0, 1, 20, 46] {
-                let places = (0..48).filter(|place| *place != gap);
-                let axis = written(step, places, digits).expect("an axis");
+                let nodes = (0..48).filter(|node| *node != gap);
+                let axis = written(step, nodes, digits).expect("an axis");
                 let count = if gap == 0 { 47 } else { 48 };
                 let off = axis.step / step - 1.0;
                 assert!(
@@ -133,7 +139,7 @@ mod tests {
                 );
             }
         }
-        let scattered = (0..20).map(|place| f64::from(place) + 0.1 * f64::from(place * place % 7));
+        let scattered = (0..20).map(|node| f64::from(node) + 0.1 * f64::from(node * node % 7));
         Axis::of(scattered.collect(), 9).expect_err("no grid");
         Axis::of(vec![1.0, 1.0], 1).expect_err("one column");
     }

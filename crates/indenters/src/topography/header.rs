@@ -1,4 +1,4 @@
-//! What the lines above the heights of a text say about units and sizes.
+//! Units and sizes stated in the lines above the heights of a text.
 
 use super::TopographyError;
 use super::text::shown;
@@ -7,21 +7,22 @@ use super::units::{length, metres};
 /// Units and sizes that a text states.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Stated {
-    /// Unit of the heights, \[m], as it is written.
+    /// Unit of the heights: its length \[m] and its spelling.
     pub(super) heights: Option<(f64, String)>,
-    /// Unit of x and y, \[m], as it is written.
+    /// Unit of x and y: its length \[m] and its spelling.
     pub(super) lateral: Option<(f64, String)>,
     /// Lengths of the map along x and y, \[m].
     pub(super) size: Option<[f64; 2]>,
 }
 
 impl Stated {
-    /// What the lines of a head state: names of columns with their units as `x [um]`, `X/µm` or `z_nm`; pairs as
-    /// `Value units: nm`; and the size in Gwyddion's text, two lengths and the unit of the values, line after line, in any
-    /// language.
+    /// Units and sizes in the lines of a header.
+    ///
+    /// Recognised are names of columns with units such as `x [um]`, `X/µm` or `z_nm`; pairs such as `Value units: nm`; and
+    /// the size in a text of Gwyddion: width, height and unit of the values in three successive lines, in any language.
     ///
     /// # Errors
-    /// [`TopographyError::Line`] for names of columns with units that are no lengths, or others of x than of y.
+    /// [`TopographyError::Line`] for names of columns whose units are no lengths, or differ between x and y.
     pub(super) fn of(head: &[(usize, &str)]) -> Result<Self, TopographyError> {
         let mut stated = Self::default();
         for &(line, text) in head {
@@ -45,14 +46,14 @@ impl Stated {
             } else if let Some(unit) = z.filter(|_| !is_size(text)) {
                 stated.heights = known_unit(unit).or(stated.heights);
             }
-            if let Some((of, unit)) = unit_of(text) {
+            if let Some((of, unit)) = stated_unit(text) {
                 stated.heights = known_unit(unit);
-                if of == UnitOf::All {
+                if of == StatedQuantity::Everything {
                     stated.lateral = stated.lateral.or_else(|| known_unit(unit));
                 }
             }
         }
-        let values: Vec<_> = head.iter().map(|(_, text)| value(text)).collect();
+        let values: Vec<_> = head.iter().map(|(_, text)| value_text(text)).collect();
         for (three, (line, _)) in values.windows(3).zip(&head[head.len().min(2)..]) {
             let size = (three[0].and_then(length), three[1].and_then(length));
             let ((Some(x), Some(y)), Some(unit)) = (size, three[2]) else {
@@ -71,7 +72,7 @@ impl Stated {
         Ok(stated)
     }
 
-    /// The units, for people; `None` if there are none.
+    /// Note on the stated units and sizes; `None` if there are none.
     pub(super) fn note(&self) -> Option<String> {
         let name = |unit: &Option<(f64, String)>, of: &str| {
             unit.as_ref().map(|(_, unit)| format!("{of} in {unit}"))
@@ -88,31 +89,31 @@ impl Stated {
     }
 }
 
-/// What stands behind the colon or the sign of equality.
-fn value(line: &str) -> Option<&str> {
-    let (_, value) = line.split_once([':', '='])?;
-    Some(value.trim())
+/// Text after a colon or an equals sign.
+fn value_text(line: &str) -> Option<&str> {
+    let (_, value_text) = line.split_once([':', '='])?;
+    Some(value_text.trim())
 }
 
 fn known_unit(unit: &str) -> Option<(f64, String)> {
     metres(unit).map(|length| (length, unit.to_owned()))
 }
 
-/// Whether a line gives a number, as `Height (um): 72`, in the place of a name of a column.
+/// Whether a line states a size such as `Height (um): 72` rather than the name of a column.
 fn is_size(line: &str) -> bool {
-    value(line).is_some_and(|value| value.replace(',', ".").parse::<f64>().is_ok())
+    value_text(line).is_some_and(|value_text| value_text.replace(',', ".").parse::<f64>().is_ok())
 }
 
-/// What a unit in a head is the unit of.
+/// The quantity of a stated unit.
 #[derive(Clone, Copy, PartialEq)]
-enum UnitOf {
+enum StatedQuantity {
     Heights,
-    /// Nothing else is named.
-    All,
+    /// Heights and x and y: the line names no quantity.
+    Everything,
 }
 
-/// The unit of `Value units: nm`, `Z unit = um`, `Height unit: µm` or `Unit: µm`.
-fn unit_of(line: &str) -> Option<(UnitOf, &str)> {
+/// The unit in a line such as `Value units: nm`, `Z unit = um`, `Height unit: µm` or `Unit: µm`, and its quantity.
+fn stated_unit(line: &str) -> Option<(StatedQuantity, &str)> {
     let (key, unit) = line.split_once([':', '='])?;
     let key = key.to_lowercase();
     let words = key.split(|letter: char| !letter.is_alphanumeric());
@@ -125,25 +126,26 @@ fn unit_of(line: &str) -> Option<(UnitOf, &str)> {
     let is_unit = has(&["unit", "units", "zunit", "zunits"]) && metres(unit).is_some();
     let is_lateral = has(&["x", "y", "xy", "lateral"]);
     match words.len() {
-        1 if has(&["unit", "units"]) && is_unit => Some((UnitOf::All, unit)),
-        _ if is_unit && has(&of_heights) && !is_lateral => Some((UnitOf::Heights, unit)),
+        1 if has(&["unit", "units"]) && is_unit => Some((StatedQuantity::Everything, unit)),
+        _ if is_unit && has(&of_heights) && !is_lateral => Some((StatedQuantity::Heights, unit)),
         _ => None,
     }
 }
 
-/// The units behind the names of x, y and z in a line of names.
+/// The units after the names of x, y and z in a line of column names.
 fn units_of_columns(line: &str) -> [Option<&str>; 3] {
     let names: [&[&str]; 3] = [&["x"], &["y"], &["z", "height", "heights"]];
     names.map(|names| names.iter().find_map(|name| unit_behind(line, name)))
 }
 
-/// The unit behind a word, in brackets or after a stroke or an underline.
+/// The unit after a word, in brackets or after a slash or an underscore.
 fn unit_behind<'a>(line: &'a str, name: &str) -> Option<&'a str> {
     let mut start = 0;
     while let Some(word) = line[start..].find(char::is_alphanumeric) {
         let begin = start + word;
-        let end = line[begin..].find(|letter: char| !letter.is_alphanumeric());
-        let end = end.map_or(line.len(), |length| begin + length);
+        let end = line[begin..]
+            .find(|letter: char| !letter.is_alphanumeric())
+            .map_or(line.len(), |length| begin + length);
         start = end;
         if !line[begin..end].eq_ignore_ascii_case(name) {
             continue;

@@ -1,33 +1,34 @@
-//! A text of one line of heights for each y, and what looks like one and is none.
+//! Reader of a text with one line of heights per y, with checks for labels, lists of points and several blocks.
 
 use super::grid::Axis;
 use super::header::Stated;
 use super::text::{Sheet, is_comment, text_of};
 use super::{FORMATS, LateralUnit, Memory, Topography, TopographyError};
 
-/// Part by which the spacing that is given may be off from that of a size that is rounded in the head of a file.
-const SIZE_ROUNDING: f64 = 0.01;
-/// Part of their distance by which coordinates that were rounded may be off, in at least `MANY` of them.
-const LABEL_ROUNDING: f64 = 0.3;
-const MANY: usize = 8;
-/// Coordinates that are fewer are compared with this tolerance.
-const EXACT: f64 = 1e-6;
-/// Numbers that are no longer a line by accident.
-const FEWEST: usize = 4;
-/// Columns of a list of points: x, y, z and what scanners add, as colours and normals.
-const MOST_COLUMNS_OF_POINTS: usize = 10;
+/// Largest relative difference between the given spacing and that of the size in the header, which is rounded (chosen).
+const SPACING_TOLERANCE: f64 = 0.01;
+/// Largest deviation of a rounded label from equal spacing, relative to the spacing (chosen).
+const ROUNDED_LABEL_TOLERANCE: f64 = 0.3;
+/// Number of labels from which they may be rounded (chosen).
+const MIN_ROUNDED_LABELS: usize = 8;
+/// Largest deviation of fewer labels from equal spacing, relative to the spacing (chosen).
+const EXACT_LABEL_TOLERANCE: f64 = 1e-6;
+/// Smallest number of equally spaced numbers that are not a coincidence (chosen).
+const MIN_LABELS: usize = 4;
+/// Largest number of columns of a list of points: x, y, z, and colours and normals that scanners add (chosen).
+const MAX_POINT_COLUMNS: usize = 10;
 
 pub(super) fn read(
     contents: &[u8],
     spacing: Option<[f64; 2]>,
     memory: Memory,
 ) -> Result<Topography, TopographyError> {
-    memory.holds_text(contents)?;
+    memory.require_text(contents)?;
     let text = text_of(contents);
     let sheet = Sheet::of(&text)?;
     let found = rows(&text, &sheet, spacing);
     found.map_err(|error| match error {
-        // Above the rows stands something that no text of rows needs.
+        // Skipped lines above the rows suggest another format.
         TopographyError::Line { line, problem } if sheet.skipped().is_some() => {
             let problem = format!("{problem}; {FORMATS}");
             TopographyError::Line { line, problem }
@@ -41,8 +42,8 @@ fn rows(
     sheet: &Sheet<'_>,
     spacing: Option<[f64; 2]>,
 ) -> Result<Topography, TopographyError> {
-    check_blocks(text, sheet)?;
-    // The spacing has no unit but metres.
+    check_single_block(text, sheet)?;
+    // A unit of x and y has no effect: the spacing is given in metres.
     let stated = Stated {
         lateral: None,
         ..Stated::of(&sheet.head)?
@@ -54,7 +55,7 @@ fn rows(
     })?;
     let shape @ [_, columns] = [sheet.rows.len(), sheet.width()];
     let first = sheet.rows[0].0;
-    if let Some(problem) = no_heights(&heights, columns) {
+    if let Some(problem) = reason_for_refusal(&heights, columns) {
         return Err(TopographyError::Line {
             line: first,
             problem,
@@ -70,9 +71,10 @@ fn rows(
     Ok(surface)
 }
 
-/// Refuses a second block of heights, behind an empty line, a comment or both, as of a second channel. Files may have an empty
-/// line or a comment above every line.
-fn check_blocks(text: &str, sheet: &Sheet<'_>) -> Result<(), TopographyError> {
+/// Refuses a second block of heights after an empty line or a comment, as of a second channel.
+///
+/// An empty line or a comment between all rows is allowed.
+fn check_single_block(text: &str, sheet: &Sheet<'_>) -> Result<(), TopographyError> {
     let pairs = sheet.rows.windows(2);
     let begins = pairs.filter(|pair| pair[1].0 - pair[0].0 > 1);
     let begins: Vec<usize> = begins.map(|pair| pair[1].0).collect();
@@ -81,21 +83,22 @@ fn check_blocks(text: &str, sheet: &Sheet<'_>) -> Result<(), TopographyError> {
     }
     let line = begins[0];
     let between = text.lines().take(line - 1).collect::<Vec<_>>();
-    let names = between
+    let name = between
         .iter()
         .rev()
-        .take_while(|line| line.trim().is_empty() || is_comment(line));
-    let name = names.filter(|line| !line.trim().is_empty()).last();
-    let name = name.map_or(String::new(), |name| {
-        format!(" ('{}')", super::text::shown(name.trim()))
-    });
+        .take_while(|line| line.trim().is_empty() || is_comment(line))
+        .filter(|line| !line.trim().is_empty())
+        .last()
+        .map_or(String::new(), |name| {
+            format!(" ('{}')", super::text::shown(name.trim()))
+        });
     let problem = format!(
         "a second block of heights begins{name}: a file of one channel is needed, without empty lines between its rows"
     );
     Err(TopographyError::Line { line, problem })
 }
 
-/// The spacing that is given, or that of the size in the head of the file.
+/// The given spacing, or that of the size in the header of the file, \[m].
 fn spacing_of(
     [rows, columns]: [usize; 2],
     stated: &Stated,
@@ -106,7 +109,8 @@ fn spacing_of(
         .map(|[x, y]| [x / columns as f64, y / rows as f64]);
     match (given, of_size) {
         (Some(given), Some(of_size)) => {
-            let is_off = |axis: usize| (given[axis] / of_size[axis] - 1.0).abs() > SIZE_ROUNDING;
+            let is_off =
+                |axis: usize| (given[axis] / of_size[axis] - 1.0).abs() > SPACING_TOLERANCE;
             if is_off(0) || is_off(1) {
                 let ([x, y], [dx, dy]) = (of_size, given);
                 let problem = format!(
@@ -122,8 +126,8 @@ fn spacing_of(
     }
 }
 
-/// Why numbers in rows are no heights of a grid; `None` if nothing says so.
-fn no_heights(heights: &[f64], columns: usize) -> Option<String> {
+/// Reason for which numbers in rows are not heights of a grid; `None` if there is none.
+fn reason_for_refusal(heights: &[f64], columns: usize) -> Option<String> {
     let rows: Vec<&[f64]> = heights.chunks_exact(columns).collect();
     let is_empty = |row: &&[f64]| row.last().is_some_and(|height| height.is_nan());
     if columns > 1 && rows.iter().all(is_empty) {
@@ -138,10 +142,10 @@ fn no_heights(heights: &[f64], columns: usize) -> Option<String> {
         ));
     }
     let column = |at: usize| rows.iter().map(|row| row[at]).collect::<Vec<f64>>();
-    // The corner of two axes is no part of them.
+    // Compare rows and columns without the corner, which belongs to neither axis.
     let along_x: Vec<Vec<f64>> = rows.iter().map(|row| row[1..].to_vec()).collect();
     let along_y: Vec<Vec<f64>> = (0..columns).map(|at| column(at)[1..].to_vec()).collect();
-    let problem = match [are_labelled(&along_x), are_labelled(&along_y)] {
+    let problem = match [first_is_label(&along_x), first_is_label(&along_y)] {
         [true, true] => "the first row and the first column are an index or axes, and no heights",
         [true, false] => "the first row is an index or an axis, and no heights",
         [false, true] => "the first column is an index or an axis, and no heights",
@@ -152,37 +156,45 @@ fn no_heights(heights: &[f64], columns: usize) -> Option<String> {
     ))
 }
 
-/// Whether the first of some lines of numbers counts the others' places in equal steps, which those themselves do not.
-fn are_labelled(lines: &[Vec<f64>]) -> bool {
+/// Whether the first of some lines is a label: its numbers are equally spaced, and those of most other lines are not.
+fn first_is_label(lines: &[Vec<f64>]) -> bool {
     let [first, second, others @ ..] = lines else {
         return false;
     };
-    let is_last = others.last().is_some_and(|last| counts(last));
-    let counting = others.iter().filter(|line| counts(line)).count();
-    counts(first) && !counts(second) && !is_last && 2 * counting <= others.len()
+    let is_last = others.last().is_some_and(|last| is_equally_spaced(last));
+    let n_equally_spaced = others.iter().filter(|line| is_equally_spaced(line)).count();
+    is_equally_spaced(first)
+        && !is_equally_spaced(second)
+        && !is_last
+        && 2 * n_equally_spaced <= others.len()
 }
 
-/// Whether numbers go up or down in equal steps.
-fn counts(numbers: &[f64]) -> bool {
+/// Whether numbers increase or decrease in equal steps.
+fn is_equally_spaced(numbers: &[f64]) -> bool {
     let n = numbers.len();
-    if n < FEWEST {
+    if n < MIN_LABELS {
         return false;
     }
     let step = (numbers[n - 1] - numbers[0]) / (n - 1) as f64;
-    let tolerance = if n < MANY { EXACT } else { LABEL_ROUNDING } * step.abs();
-    let miss = |(place, number): (usize, &f64)| (number - numbers[0] - place as f64 * step).abs();
-    // NaN misses.
+    let tolerance = if n < MIN_ROUNDED_LABELS {
+        EXACT_LABEL_TOLERANCE
+    } else {
+        ROUNDED_LABEL_TOLERANCE
+    } * step.abs();
+    let deviation =
+        |(place, number): (usize, &f64)| (number - numbers[0] - place as f64 * step).abs();
+    // The comparison refuses NaN.
     step != 0.0
         && numbers
             .iter()
             .enumerate()
-            .map(miss)
-            .all(|miss| miss <= tolerance)
+            .map(deviation)
+            .all(|deviation| deviation <= tolerance)
 }
 
-/// Whether the first two of three or more columns are the places of a grid.
+/// Whether the first two of three or more columns are coordinates of a grid.
 fn is_list_of_points(rows: &[&[f64]], columns: usize) -> bool {
-    if !(3..=MOST_COLUMNS_OF_POINTS).contains(&columns) || rows.len() < FEWEST {
+    if !(3..=MAX_POINT_COLUMNS).contains(&columns) || rows.len() < MIN_LABELS {
         return false;
     }
     let axes = [0, 1].map(|axis| {

@@ -1,8 +1,7 @@
-//! Surfaces from the heights that files and arrays hold.
+//! Topographies: measured heights from files and arrays.
 //!
-//! One convention holds for all of them: heights point out of the body, so that summits touch first; a row runs along x, the
-//! direction of motion; and y grows from row to row, in the order of the file. Heights that were not measured are NaN until
-//! they are filled.
+//! Heights point out of the body, so that summits touch first. A row runs along x, the direction of motion, and y grows from
+//! row to row in the order of the file. Heights that were not measured are NaN until they are filled.
 
 #[cfg(feature = "topography")]
 mod asc;
@@ -32,122 +31,127 @@ pub use units::length;
 #[cfg(feature = "topography")]
 use units::metres;
 
-/// The formats that are read, and the ways for others.
+/// List of the supported formats, and advice for others.
 const FORMATS: &str = "the formats that are read are asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), npy (NumPy), sdf \
     (ISO 25178-71), sur (Digital Surf), x3p (ISO 25178-72), xyz (x, y and z in each line) and texts of one line of heights for \
     each y; in Python vf.HeightMap.from_topography(SurfaceTopography.read_topography(FILE)) takes those of many instruments, as \
     Zygo dat, Keyence vk4, NT-MDT mdt and Bruker spm, and numpy.save(\"map.npy\", heights) any array";
 
-/// Why a file is no surface.
+/// The reason for which a file is refused as a surface.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TopographyError {
     /// The contents are not of the format.
     #[error("{format} is needed, but there is {found}")]
     Format {
-        /// What is needed.
+        /// Expected format.
         format: &'static str,
-        /// What there is instead, and where.
+        /// Actual contents, and their place.
         found: String,
     },
-    /// The contents are of no format that is read.
+    /// The contents are in none of the supported formats.
     #[error("{found}; {FORMATS}")]
     Unknown {
-        /// What there is instead.
+        /// Actual contents.
         found: String,
     },
     /// The heights do not fit into the memory that is allowed.
     #[error("{points} heights need {needed} bytes of memory to be read, and {allowed} are allowed")]
     Memory {
-        /// How many there may be.
+        /// Largest possible number of heights.
         points: u64,
-        /// What they take, \[bytes].
+        /// Memory for the heights, \[bytes].
         needed: u64,
-        /// What reading may take, \[bytes].
+        /// Memory limit, \[bytes].
         allowed: u64,
     },
-    /// A line of heights is none.
+    /// A line is no row of heights.
     #[error("line {line}: {problem}")]
     Line {
-        /// Counted from 1.
+        /// Line number, which counts from 1.
         line: usize,
-        /// What is needed, and what is there.
+        /// What is needed and what was found.
         problem: String,
     },
-    /// The array of heights is none, or one of other numbers.
+    /// The contents are no array of two dimensions with supported numbers.
     #[error("{problem}")]
     Array {
-        /// What is needed, and what is there.
+        /// What is needed and what was found.
         problem: String,
     },
-    /// The distances of the points are missing, or there already.
+    /// The spacing is missing, or given for a file that states its own.
     #[error("spacing: {problem}")]
     Spacing {
         /// What is needed.
         problem: String,
     },
-    /// Points were not measured.
+    /// Some heights were not measured.
     #[error(
         "{missing} of {points} heights are missing: fill them, or cut out a part without holes"
     )]
     Missing {
-        /// How many.
+        /// Number of missing heights.
         missing: usize,
-        /// Of how many.
+        /// Number of all heights.
         points: usize,
     },
-    /// The heights are no surface.
+    /// The heights are refused as a height map.
     #[error(transparent)]
     Surface(#[from] IndenterError),
 }
 
-/// A surface by its heights.
+/// A measured surface: heights on a grid with equally spaced points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Topography {
-    /// Rows, one for each y, and columns, one for each x.
+    /// Numbers of rows, one for each y, and of columns, one for each x.
     pub shape: [usize; 2],
     /// Distances of neighbouring points along x and y, \[m].
     pub spacing: [f64; 2],
     /// Heights out of the body row by row, \[m]; NaN where they are missing.
     pub heights: Vec<f64>,
-    /// Whether the file says in which unit its heights are.
+    /// Whether the file states the unit of its heights.
     pub states_unit: bool,
     /// Unit of the spacing.
     pub lateral_unit: LateralUnit,
-    /// Heights that were filled by [`filled`](Self::filled).
+    /// Number of heights that [`filled`](Self::filled) has filled.
     pub n_filled: usize,
-    /// What was assumed when the file was read, in sentences: units of its head, lines that were skipped.
+    /// Notes on what the reader assumed: units stated in the header, skipped lines.
     pub notes: Vec<String>,
 }
 
-/// In which unit the distances of the points of a file are.
+/// Source of the unit of the spacing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LateralUnit {
-    /// In metres, as they were given or as the file states.
+    /// Given in metres, or stated by the file.
     #[default]
     Stated,
-    /// The file does not state it: metres unless said otherwise.
+    /// Not stated by the file: metres by default.
     Unstated,
-    /// The file states no unit, and has x, y and heights in its columns: that of the heights unless said otherwise.
+    /// Not stated by a file with columns of x, y and heights: that of the heights by default.
     AsHeights,
 }
 
 impl Topography {
-    /// The surface in the contents of a file, by their beginning or else by its extension; beside the contents it takes at most
-    /// so much `memory` \[bytes].
+    /// Reads the surface in the contents of a file.
     ///
-    /// With the feature `topography`, asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), sdf (ISO 25178-71), sur (Digital
-    /// Surf), x3p (ISO 25178-72) and xyz (rows of x, y and z) have a `spacing` of their own. All others need one, along x and y
-    /// \[m]: npy is an array of NumPy of the shape (n_y, n_x), in which NaN is a missing height, and everything else a text of
-    /// one line of heights for each y, in which a cell that is empty or says that it is no number (`nan`, `NA`, `--`) is one, and
-    /// whose head may state a size. Commas, semicolons, tabs or blanks separate its cells. A comma is a decimal mark where
-    /// commas do not separate. Lines above the rows that are no numbers are skipped, with a note; units that they state count.
+    /// The format follows from the signature of the contents, or else from the extension. The reader uses at most `memory`
+    /// \[bytes] in addition to the contents.
+    ///
+    /// With the feature `topography`, files with their own spacing are read: asc (Esri's ASCII grid), gsf (Gwyddion Simple
+    /// Field), sdf (ISO 25178-71), sur (Digital Surf), x3p (ISO 25178-72) and xyz (rows of x, y and z). All others need the
+    /// `spacing` along x and y \[m]. A file npy is an array of NumPy of the shape (n_y, n_x), in which NaN is a missing height.
+    ///
+    /// Everything else is a text with one line of heights per y. Its cells are separated by commas, semicolons, tabs or
+    /// blanks. A comma is a decimal mark if the separator is not a comma. An empty cell, `nan`, `NA` or `--` is a missing
+    /// height. Lines above the rows are skipped with a note; units and a size that they state are used.
     ///
     /// # Errors
-    /// [`TopographyError::Unknown`] and [`TopographyError::Format`] where the contents are not of such a format;
-    /// [`TopographyError::Line`] for a line of a text that is shorter or longer than the others or holds anything else, and for
-    /// a text that is no grid of heights; [`TopographyError::Array`] for another array; [`TopographyError::Memory`] before more
-    /// is taken; [`TopographyError::Spacing`] where it is missing, there already, or not that of the file.
+    /// - [`TopographyError::Unknown`] and [`TopographyError::Format`] for contents of no supported format;
+    /// - [`TopographyError::Line`] for a line of a text that is longer or shorter than the others or has a cell that is no
+    ///   number, and for a text that is no grid of heights;
+    /// - [`TopographyError::Array`] for an unsupported array;
+    /// - [`TopographyError::Memory`] if the heights do not fit into the memory;
+    /// - [`TopographyError::Spacing`] if the spacing is missing, superfluous, or differs from that of the file.
     pub fn read(
         extension: &str,
         contents: &[u8],
@@ -162,19 +166,19 @@ impl Topography {
                 let spacing = spacing.ok_or_else(TopographyError::without_spacing)?;
                 let found = numpy::read(contents, spacing, memory);
                 found.map_err(|unread| match unread {
-                    Unread::Other(problem) => TopographyError::Array { problem },
-                    Unread::Known(error) => error,
+                    ReadFailure::Other(problem) => TopographyError::Array { problem },
+                    ReadFailure::Known(error) => error,
                 })
             }
             _ if spacing.is_some() => {
                 let problem = "a measured surface has its own; leave this out".to_owned();
                 Err(TopographyError::Spacing { problem })
             }
-            format => measured(format, contents, memory),
+            format => read_measured(format, contents, memory),
         }
     }
 
-    /// From heights row by row, of a file that does not state their unit.
+    /// The surface with heights row by row, whose unit is not stated.
     pub const fn of_rows(shape: [usize; 2], spacing: [f64; 2], heights: Vec<f64>) -> Self {
         Self {
             shape,
@@ -187,14 +191,16 @@ impl Topography {
         }
     }
 
-    /// With every height times a factor: −1 where the heights given point into the body.
+    /// The surface with its heights multiplied by a factor; −1 for heights that point into the body.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {
         self.heights.iter_mut().for_each(|height| *height *= factor);
         self
     }
 
-    /// Seen along another direction of motion, so many quarters of a turn from x towards y: that direction becomes x.
+    /// The surface for another direction of motion, a number of `quarters` of a turn from x towards y.
+    ///
+    /// The new direction of motion becomes x.
     #[must_use]
     pub fn turned(mut self, quarters: usize) -> Self {
         for _ in 0..quarters % 4 {
@@ -209,7 +215,7 @@ impl Topography {
         self
     }
 
-    /// Lengths along x and y of a map that repeats itself, \[m].
+    /// Periods along x and y of a periodic map, \[m].
     pub fn periods(&self) -> [f64; 2] {
         let [rows, columns] = self.shape;
         [
@@ -218,12 +224,12 @@ impl Topography {
         ]
     }
 
-    /// How many heights are missing.
+    /// Number of missing heights.
     pub fn missing(&self) -> usize {
         self.heights.iter().filter(|height| height.is_nan()).count()
     }
 
-    /// With every missing height the mean of its known neighbours, of four, from the edges of holes inwards.
+    /// The surface with its holes filled from their edges inwards by the mean of the known ones of four neighbours.
     #[must_use]
     pub fn filled(mut self) -> Self {
         let columns = self.shape[1];
@@ -232,13 +238,16 @@ impl Topography {
             let before = self.heights.clone();
             for index in (0..before.len()).filter(|index| before[*index].is_nan()) {
                 let column = index % columns;
-                let beside = [
+                let neighbours = [
                     index.checked_sub(columns),
                     Some(index + columns),
                     (column > 0).then(|| index - 1),
                     (column + 1 < columns).then_some(index + 1),
                 ];
-                let known = beside.into_iter().flatten().filter_map(|at| before.get(at));
+                let known = neighbours
+                    .into_iter()
+                    .flatten()
+                    .filter_map(|at| before.get(at));
                 let known: Vec<f64> = known.copied().filter(|height| !height.is_nan()).collect();
                 if !known.is_empty() {
                     self.heights[index] = known.iter().sum::<f64>() / known.len() as f64;
@@ -251,7 +260,7 @@ impl Topography {
         }
     }
 
-    /// Slopes of the plane of least squares along x and y, of heights none of which is missing.
+    /// Slopes along x and y of the least-squares plane; no height may be missing.
     pub fn tilt(&self) -> [f64; 2] {
         [0, 1].map(|axis| {
             let mut sums = [0.0; 2];
@@ -259,7 +268,7 @@ impl Topography {
                 let at = self.place(index)[axis];
                 sums = [sums[0] + at * height, sums[1] + at * at];
             }
-            // A single line of points has no slope across.
+            // A single line of points has no slope across it.
             if sums[1] > 0.0 {
                 sums[0] / sums[1] / self.spacing[axis]
             } else {
@@ -268,14 +277,14 @@ impl Topography {
         })
     }
 
-    /// Place of a point along x and y, in points from the middle.
+    /// Coordinates of a point along x and y from the middle, in units of the spacing.
     fn place(&self, index: usize) -> [f64; 2] {
         let [rows, columns] = self.shape;
         [(index % columns, columns), (index / columns, rows)]
             .map(|(place, count)| place as f64 - 0.5 * (count as f64 - 1.0))
     }
 
-    /// Without its plane of least squares, of heights none of which is missing.
+    /// The surface without its least-squares plane; no height may be missing.
     #[must_use]
     pub fn levelled(mut self) -> Self {
         let tilt = self.tilt();
@@ -291,7 +300,7 @@ impl Topography {
     /// The rigid body with this surface, whose highest points touch first.
     ///
     /// # Errors
-    /// [`TopographyError::Missing`] where heights are missing; those of [`HeightMap::new`].
+    /// [`TopographyError::Missing`] if heights are missing; the errors of [`HeightMap::new`].
     pub fn body(&self) -> Result<HeightMap, TopographyError> {
         let points = self.heights.len();
         let missing = self.missing();
@@ -299,7 +308,7 @@ impl Topography {
             return Err(TopographyError::Missing { missing, points });
         }
         let [rows, columns] = self.shape;
-        // The map has its heights into the body, and y fastest.
+        // Heights of the map point into the body, with y fastest.
         let height = |index: usize| -self.heights[index % rows * columns + index / rows];
         let heights = (0..points).map(height).collect();
         Ok(HeightMap::new([columns, rows], self.spacing, heights)?)
@@ -307,7 +316,7 @@ impl Topography {
 }
 
 #[cfg(feature = "topography")]
-fn measured(
+fn read_measured(
     format: Format,
     contents: &[u8],
     memory: Memory,
@@ -333,13 +342,13 @@ fn measured(
         _ => return xyz::read(contents, memory),
     };
     found.map_err(|unread| match unread {
-        Unread::Other(found) => TopographyError::Format { format, found },
-        Unread::Known(error) => error,
+        ReadFailure::Other(found) => TopographyError::Format { format, found },
+        ReadFailure::Known(error) => error,
     })
 }
 
 #[cfg(not(feature = "topography"))]
-fn measured(format: Format, _: &[u8], _: Memory) -> Result<Topography, TopographyError> {
+fn read_measured(format: Format, _: &[u8], _: Memory) -> Result<Topography, TopographyError> {
     let found = format!("a file in the format {format:?}");
     let format = "the feature `topography` of the crate `indenters`";
     Err(TopographyError::Format { format, found })
@@ -352,20 +361,21 @@ impl TopographyError {
     }
 }
 
-/// Why a reader gives up.
-enum Unread {
-    /// The contents are not of the format: what there is instead.
+/// The reason for which a reader refuses the contents.
+enum ReadFailure {
+    /// The contents are not in the format: description of what was found.
     Other(String),
+    /// An error with its own variant.
     Known(TopographyError),
 }
 
-impl From<String> for Unread {
+impl From<String> for ReadFailure {
     fn from(found: String) -> Self {
         Self::Other(found)
     }
 }
 
-impl From<TopographyError> for Unread {
+impl From<TopographyError> for ReadFailure {
     fn from(error: TopographyError) -> Self {
         Self::Known(error)
     }

@@ -1,19 +1,20 @@
-//! Arrays of heights as `numpy.save` writes them: a header in the notation of Python, then the numbers.
+//! Reader of arrays in the format of `numpy.save`: a header in the notation of Python, then the numbers.
 
 use super::memory::Memory;
-use super::{Topography, Unread};
+use super::{ReadFailure, Topography};
 
+/// Signature of the format.
 const MAGIC: &[u8] = b"\x93NUMPY";
-const SINGLE: usize = size_of::<f32>();
-const DOUBLE: usize = size_of::<f64>();
+const F32_BYTES: usize = size_of::<f32>();
+const F64_BYTES: usize = size_of::<f64>();
 
-/// Little-endian floats of the shape (n_y, n_x), in which NaN stands for a missing height.
+/// Reads little-endian floats of the shape (n_y, n_x), in which NaN is a missing height.
 pub(super) fn read(
     contents: &[u8],
     spacing: [f64; 2],
     memory: Memory,
-) -> Result<Topography, Unread> {
-    let (header, numbers) = parts(contents)?;
+) -> Result<Topography, ReadFailure> {
+    let (header, numbers) = split_header(contents)?;
     let size = size_of_number(header)?;
     let by_column = is_by_column(header)?;
     let shape @ [rows, columns] = shape(header)?;
@@ -23,12 +24,12 @@ pub(super) fn read(
         let needed = format!("{rows} x {columns} numbers of {size} bytes are needed");
         return Err(format!("{needed}, but there are {bytes} bytes").into());
     }
-    memory.holds(Some(numbers.len() / size))?;
-    let mut heights: Vec<f64> = if size == SINGLE {
-        let number = |bytes: &[u8; SINGLE]| f32::from_le_bytes(*bytes).into();
+    memory.require_heights(Some(numbers.len() / size))?;
+    let mut heights: Vec<f64> = if size == F32_BYTES {
+        let number = |bytes: &[u8; F32_BYTES]| f32::from_le_bytes(*bytes).into();
         numbers.as_chunks().0.iter().map(number).collect()
     } else {
-        let number = |bytes: &[u8; DOUBLE]| f64::from_le_bytes(*bytes);
+        let number = |bytes: &[u8; F64_BYTES]| f64::from_le_bytes(*bytes);
         numbers.as_chunks().0.iter().map(number).collect()
     };
     if by_column {
@@ -44,8 +45,8 @@ pub(super) fn read(
     Ok(Topography::of_rows(shape, spacing, heights))
 }
 
-/// The header, and the bytes of the numbers.
-fn parts(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
+/// Splits a file into its header and the bytes of the numbers.
+fn split_header(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
     let (start, length) = match bytes.strip_prefix(MAGIC) {
         Some([1, 0, low, high, ..]) => (10, u32::from(u16::from_le_bytes([*low, *high]))),
         Some([2 | 3, 0, a, b, c, d, ..]) => (12, u32::from_le_bytes([*a, *b, *c, *d])),
@@ -53,27 +54,27 @@ fn parts(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
     };
     let needed = usize::try_from(length).map_or(usize::MAX, |length| length.saturating_add(start));
     let length = bytes.len();
-    let short = || format!("the header ends after {needed} bytes, but the file has {length}");
-    let header = bytes.get(start..needed).ok_or_else(short)?;
+    let too_short = || format!("the header ends after {needed} bytes, but the file has {length}");
+    let header = bytes.get(start..needed).ok_or_else(too_short)?;
     let header = std::str::from_utf8(header).map_err(|_| without("anything in UTF-8"))?;
     Ok((header, &bytes[needed..]))
 }
 
-/// The header does not say something as NumPy does.
+/// Message for a header without an entry of NumPy.
 fn without(what: &str) -> String {
     format!("the header does not say {what}")
 }
 
-/// What follows a key.
-fn after<'a>(header: &'a str, key: &str) -> Option<&'a str> {
+/// The rest of the header from the value of a key on.
+fn value_of<'a>(header: &'a str, key: &str) -> Option<&'a str> {
     let (_, value) = header.split_once(key)?;
     Some(value.trim_start().strip_prefix(':')?.trim_start())
 }
 
 fn size_of_number(header: &str) -> Result<usize, String> {
-    match after(header, "'descr'") {
-        Some(value) if value.starts_with("'<f8'") => Ok(DOUBLE),
-        Some(value) if value.starts_with("'<f4'") => Ok(SINGLE),
+    match value_of(header, "'descr'") {
+        Some(value) if value.starts_with("'<f8'") => Ok(F64_BYTES),
+        Some(value) if value.starts_with("'<f4'") => Ok(F32_BYTES),
         Some(value) => {
             let letters = value.chars().filter(|letter| !letter.is_control());
             let letters = letters.take_while(|letter| *letter != ',').take(40);
@@ -87,9 +88,9 @@ fn size_of_number(header: &str) -> Result<usize, String> {
     }
 }
 
-/// Whether the first index is the fastest, as of a transposed array.
+/// Whether the first index is the fastest, as in a transposed array.
 fn is_by_column(header: &str) -> Result<bool, String> {
-    match after(header, "'fortran_order'") {
+    match value_of(header, "'fortran_order'") {
         Some(value) if value.starts_with("True") => Ok(true),
         Some(value) if value.starts_with("False") => Ok(false),
         _ => Err(without(
@@ -100,7 +101,7 @@ fn is_by_column(header: &str) -> Result<bool, String> {
 
 fn shape(header: &str) -> Result<[usize; 2], String> {
     let lengths = || {
-        let tuple = after(header, "'shape'")?.strip_prefix('(')?;
+        let tuple = value_of(header, "'shape'")?.strip_prefix('(')?;
         let (tuple, _) = tuple.split_once(')')?;
         // A tuple may end with a comma.
         let lengths = tuple.trim().split_terminator(',');

@@ -1,35 +1,35 @@
-//! ISO 25178-71, a header and heights as text or binary, and the older BCR with the same header
+//! Reader of ISO 25178-71, and of the older BCR with the same header: a header and heights as text or binary
 //! (<https://physics.nist.gov/VSC/jsp/DataFormat.jsp>).
 
 use std::str::FromStr;
 
 use super::text::{shown, text_of};
-use super::{Memory, Topography, Unread};
+use super::{Memory, ReadFailure, Topography};
 
-/// Bytes of the version.
-const VERSION: usize = 8;
-/// Bytes of manufacturer and dates behind it.
-const DATES: usize = 34;
+/// Length of the version, \[bytes].
+const VERSION_BYTES: usize = 8;
+/// Length of manufacturer and dates after the version, \[bytes].
+const MANUFACTURER_AND_DATES_BYTES: usize = 34;
 
-/// The header.
+/// The header of a file.
 struct Head {
     columns: usize,
     rows: usize,
-    /// Distances of points along x and y, and what a height is multiplied by, \[m].
+    /// Distances of points along x and y, and unit of the heights, \[m].
     scales: [f64; 3],
-    kind: Kind,
+    data_type: DataType,
 }
 
-/// The type of a height.
+/// Number format of a height; integers with their length in bytes.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum DataType {
     Unsigned(usize),
     Signed(usize),
     Single,
     Double,
 }
 
-impl Kind {
+impl DataType {
     fn of(number: i64) -> Result<Self, String> {
         Ok(match number {
             0 => Self::Unsigned(1),
@@ -52,7 +52,7 @@ impl Kind {
         }
     }
 
-    /// The number that stands for a missing height: the least one.
+    /// Marker of a missing height: the smallest number of the format; `None` for unsigned integers.
     fn missing(self) -> Option<f64> {
         match self {
             Self::Unsigned(_) => None,
@@ -62,7 +62,7 @@ impl Kind {
         }
     }
 
-    /// The number in some bytes, NaN for a missing one.
+    /// The number in little-endian bytes; NaN if it is missing.
     fn number(self, bytes: &[u8]) -> f64 {
         let whole = bytes
             .iter()
@@ -77,10 +77,10 @@ impl Kind {
             Self::Single => f64::from(f32::from_bits(u32::try_from(whole).unwrap_or_default())),
             Self::Double => f64::from_bits(whole),
         };
-        self.known(number)
+        self.nan_if_missing(number)
     }
 
-    fn known(self, number: f64) -> f64 {
+    fn nan_if_missing(self, number: f64) -> f64 {
         if self.missing().is_some_and(|missing| number <= missing) {
             f64::NAN
         } else {
@@ -90,8 +90,8 @@ impl Kind {
 }
 
 impl Head {
-    /// Refuses what no reader understands: compression, checks and sizes of nothing.
-    fn checked(self, compression: i64, check: i64) -> Result<Self, String> {
+    /// Refuses compression, checksums, an empty grid, and scales that are no lengths.
+    fn validated(self, compression: i64, check: i64) -> Result<Self, String> {
         for (name, number) in [("Compression", compression), ("CheckType", check)] {
             if number != 0 {
                 return Err(format!("{name} = {number}, where 0 is needed"));
@@ -118,25 +118,25 @@ impl Head {
     }
 }
 
-pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
     match contents.first() {
         Some(b'a') => {
-            memory.holds_text(contents)?;
-            return Ok(text(&text_of(contents))?);
+            memory.require_text(contents)?;
+            return Ok(read_text(&text_of(contents))?);
         }
         Some(b'b') => {}
         _ => return Err("another beginning".to_owned().into()),
     }
     let (head, rest) = binary_head(contents)?;
     let points = head.columns.checked_mul(head.rows);
-    let needed = points.and_then(|points| points.checked_mul(head.kind.bytes()));
+    let needed = points.and_then(|points| points.checked_mul(head.data_type.bytes()));
     let Some((data, trailer)) = needed.and_then(|needed| rest.split_at_checked(needed)) else {
         let (Head { columns, rows, .. }, given) = (head, rest.len());
         return Err(format!("{given} bytes for {columns} × {rows} points").into());
     };
-    memory.holds(points)?;
-    let heights = data.chunks_exact(head.kind.bytes());
-    let heights = heights.map(|bytes| head.kind.number(bytes)).collect();
+    memory.require_heights(points)?;
+    let heights = data.chunks_exact(head.data_type.bytes());
+    let heights = heights.map(|bytes| head.data_type.number(bytes)).collect();
     let mut surface = head.surface(heights);
     if !trailer.is_empty() {
         let bytes = trailer.len();
@@ -147,17 +147,17 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread
     Ok(surface)
 }
 
-/// The header in binary, and what follows it.
+/// Splits binary contents into the header and the bytes after it.
 fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
     let mut rest = contents
-        .get(VERSION + DATES..)
+        .get(VERSION_BYTES + MANUFACTURER_AND_DATES_BYTES..)
         .ok_or("the end within the header")?;
     let mut take = |count: usize| {
         let bytes = rest.split_off(..count).ok_or("the end within the header")?;
         Ok::<_, String>(bytes)
     };
     // Counts have two bytes in the first version, and four in the second.
-    let size = if contents[1..VERSION].ends_with(b"2.0") {
+    let size = if contents[1..VERSION_BYTES].ends_with(b"2.0") {
         4
     } else {
         2
@@ -173,7 +173,7 @@ fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
     let [columns, rows] = [count()?, count()?];
     let mut real = || {
         let bytes = take(8)?;
-        Ok::<_, String>(Kind::Double.number(bytes))
+        Ok::<_, String>(DataType::Double.number(bytes))
     };
     let [x, y, z, _resolution] = [real()?, real()?, real()?, real()?];
     let codes = take(3)?;
@@ -181,17 +181,17 @@ fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
         columns,
         rows,
         scales: [x, y, z],
-        kind: Kind::of(codes[1].into())?,
+        data_type: DataType::of(codes[1].into())?,
     };
-    Ok((head.checked(codes[0].into(), codes[2].into())?, rest))
+    Ok((head.validated(codes[0].into(), codes[2].into())?, rest))
 }
 
-/// A header of names and values, and heights between two stars, as many in a line as the writer likes.
-fn text(text: &str) -> Result<Topography, String> {
+/// Reads a text: a header of names and values, and heights between two stars, any number in a line.
+fn read_text(text: &str) -> Result<Topography, String> {
     let mut parts = text.split('*');
     let parts = parts.next().zip(parts.next());
     let (names, data) = parts.ok_or("no '*' behind the header")?;
-    let names = Names(names);
+    let names = Entries(names);
     let head = Head {
         columns: names.parsed("NumPoints")?,
         rows: names.parsed("NumProfiles")?,
@@ -200,20 +200,25 @@ fn text(text: &str) -> Result<Topography, String> {
             names.parsed("Yscale")?,
             names.parsed("Zscale")?,
         ],
-        kind: Kind::of(names.parsed("DataType")?)?,
+        data_type: DataType::of(names.parsed("DataType")?)?,
     };
-    let head = head.checked(names.parsed("Compression")?, names.parsed("CheckType")?)?;
+    let head = head.validated(names.parsed("Compression")?, names.parsed("CheckType")?)?;
     let height = |word: &str| {
         if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
             return Ok(f64::NAN);
         }
-        let height = word.replace(',', ".").parse::<f64>();
-        let height = height.ok().filter(|height| height.is_finite());
-        let height = height.ok_or_else(|| format!("a height '{}'", shown(word)))?;
-        Ok(head.kind.known(height))
+        let height = word
+            .replace(',', ".")
+            .parse::<f64>()
+            .ok()
+            .filter(|height| height.is_finite())
+            .ok_or_else(|| format!("a height '{}'", shown(word)))?;
+        Ok(head.data_type.nan_if_missing(height))
     };
-    let heights = data.split_whitespace().map(height);
-    let heights = heights.collect::<Result<Vec<f64>, String>>()?;
+    let heights = data
+        .split_whitespace()
+        .map(height)
+        .collect::<Result<Vec<f64>, String>>()?;
     if head.columns.checked_mul(head.rows) != Some(heights.len()) {
         let (Head { columns, rows, .. }, count) = (head, heights.len());
         return Err(format!("{count} heights for {columns} × {rows} points"));
@@ -221,10 +226,10 @@ fn text(text: &str) -> Result<Topography, String> {
     Ok(head.surface(heights))
 }
 
-/// Lines of names and values.
-struct Names<'a>(&'a str);
+/// Lines of the header, each with a name and a value.
+struct Entries<'a>(&'a str);
 
-impl Names<'_> {
+impl Entries<'_> {
     fn parsed<N: FromStr>(&self, name: &str) -> Result<N, String> {
         let mut pairs = self.0.lines().filter_map(|line| line.split_once('='));
         let found = pairs.find(|(key, _)| key.trim().eq_ignore_ascii_case(name));

@@ -1,32 +1,32 @@
-//! Texts of numbers: how their cells are separated, which lines are rows, and what stands above them.
+//! Texts of numbers: detection of the separator, of the rows and of the header above them.
 
 use super::{FORMATS, TopographyError};
 
-/// What stands in the place of a height that was not measured, beside nothing and the NaN of C.
-const MISSING: [&str; 16] = [
+/// Words for a missing height, besides an empty cell and NaN.
+const MISSING_WORDS: [&str; 16] = [
     "na", "n/a", "#n/a", "#nv", "<na>", "null", "none", "bad", "-", "--", "---", "***", "nodata",
     "1.#qnan", "-1.#ind", "nan(ind)",
 ];
-/// Part of a text by which the separator is found, \[bytes].
-const SAMPLE: usize = 1 << 20;
-/// What spreadsheets write in the place of a number, which is no comment.
+/// Length of the beginning of a text from which the separator is found, \[bytes] (chosen).
+const SAMPLED_BYTES: usize = 1 << 20;
+/// Error values of spreadsheets, which begin with `#` and are no comments.
 const FAILED_FORMULAS: [&str; 8] = ["N/A", "NV", "DIV", "VALUE", "WERT", "NUM", "REF", "NAME"];
 
-/// How numbers are separated.
+/// Separator of the cells and number of cells in a row.
 #[derive(Clone, Copy)]
 pub(super) struct Notation {
     separator: char,
-    /// Cells of a row.
+    /// Number of cells in a row.
     width: usize,
 }
 
 impl Notation {
-    /// The separator for which the most lines consist of equally many numbers, of several the one with the most cells.
+    /// The separator for which the most lines consist of equally many numbers; among several, the one with the most cells.
     pub(super) fn of(text: &str) -> Self {
         let mut size = 0;
         let sample = lines(text).take_while(|(_, line)| {
             size += line.len();
-            size <= SAMPLE + line.len()
+            size <= SAMPLED_BYTES + line.len()
         });
         let sample: Vec<&str> = sample.map(|(_, line)| line).collect();
         let found = [';', '\t', ',', ' '].map(|separator| {
@@ -34,18 +34,18 @@ impl Notation {
                 separator,
                 width: 0,
             };
-            let (rows, width) = notation.rows_of(&sample);
+            let (rows, width) = notation.count_rows(&sample);
             (rows, Self { width, ..notation })
         });
         let best = found.into_iter().rev().max_by_key(|(rows, notation)| {
-            // A single cell is a number for every separator that the text has not.
+            // A line with a single number is a row for any separator that it does not contain.
             (*rows, notation.width)
         });
         best.map_or(found[0].1, |(_, notation)| notation)
     }
 
-    /// The most lines with equally many numbers, and how many numbers these have.
-    fn rows_of(self, sample: &[&str]) -> (usize, usize) {
+    /// Largest number of lines with equally many numbers, and the number of numbers in each.
+    fn count_rows(self, sample: &[&str]) -> (usize, usize) {
         let mut counts = std::collections::BTreeMap::new();
         for line in sample {
             let cells = self.cells(line);
@@ -71,7 +71,7 @@ impl Notation {
         cells.map(unquoted).collect()
     }
 
-    /// A finite number, with a decimal point, or a decimal comma where commas do not separate.
+    /// A finite number with a decimal point, or with a decimal comma if the separator is not a comma.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
         let marks = cell.bytes().filter(|byte| b".,".contains(byte)).count();
         if marks > 1 || (self.separator == ',' && cell.contains(',')) {
@@ -87,7 +87,7 @@ impl Notation {
                 .replace('−', "-")
                 .parse()
                 .ok()?,
-            None => cell.parse().ok().or_else(|| foreign(cell))?,
+            None => cell.parse().ok().or_else(|| parse_foreign(cell))?,
         };
         number.is_finite().then_some(number)
     }
@@ -97,7 +97,9 @@ impl Notation {
         let is_missing = || {
             cell.is_empty()
                 || cell.parse::<f64>().is_ok_and(f64::is_nan)
-                || MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word))
+                || MISSING_WORDS
+                    .iter()
+                    .any(|word| cell.eq_ignore_ascii_case(word))
         };
         self.number(cell)
             .or_else(|| is_missing().then_some(f64::NAN))
@@ -111,8 +113,9 @@ impl Notation {
             && cells.iter().all(|cell| self.height(cell).is_some())
     }
 
-    /// Whether a line above the rows is a part of a preamble: it has letters, and at most half of its words are numbers. A row
-    /// that was damaged has more.
+    /// Whether a line above the rows belongs to a preamble: it has letters, and at most half of its words are numbers.
+    ///
+    /// A damaged row has more numbers.
     fn is_preamble(&self, line: &str) -> bool {
         let words = line.split([' ', '\t', ',', ';', ':', '=', '"']);
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
@@ -122,8 +125,8 @@ impl Notation {
     }
 }
 
-/// A number with the minus of typesetters, or the exponent of Fortran.
-fn foreign(cell: &str) -> Option<f64> {
+/// A number with a typographic minus or with an exponent of Fortran.
+fn parse_foreign(cell: &str) -> Option<f64> {
     cell.replace('−', "-").replace(['D', 'd'], "e").parse().ok()
 }
 
@@ -131,20 +134,22 @@ fn unquoted(cell: &str) -> &str {
     cell.trim().trim_matches('"').trim()
 }
 
-/// The rows of a text, and what stands above them.
+/// The rows of a text and the lines above them.
 pub(super) struct Sheet<'a> {
     pub(super) notation: Notation,
-    /// Lines of numbers and their places, counted from 1.
+    /// Rows of numbers with their line numbers, which count from 1.
     pub(super) rows: Vec<(usize, &'a str)>,
-    /// Comments and other lines above the rows.
+    /// Lines above the rows, comments included.
     pub(super) head: Vec<(usize, &'a str)>,
-    /// Whether the last line has no end, as of a file that was cut, or of a program that writes none.
-    is_open: bool,
-    /// Lines above the rows that are no comments.
+    /// Whether the last line has no newline; the file may have been truncated.
+    lacks_final_newline: bool,
+    /// Lines above the rows other than comments.
     preamble: Vec<(usize, &'a str)>,
 }
 
 impl<'a> Sheet<'a> {
+    /// Finds the rows of a text.
+    ///
     /// # Errors
     /// [`TopographyError::Line`] without rows, and for a line above them that is a damaged row.
     pub(super) fn of(text: &'a str) -> Result<Self, TopographyError> {
@@ -161,19 +166,19 @@ impl<'a> Sheet<'a> {
         let head = text.lines().enumerate().take(begin - 1);
         Ok(Self {
             notation,
-            is_open: !text.ends_with(['\n', '\r']),
+            lacks_final_newline: !text.ends_with(['\n', '\r']),
             head: head.map(|(index, line)| (index + 1, line)).collect(),
             preamble: above,
             rows,
         })
     }
 
-    /// Numbers of a row, in the order of its cells.
+    /// Number of cells in a row.
     pub(super) const fn width(&self) -> usize {
         self.notation.width
     }
 
-    /// That lines above the rows were skipped; `None` if there are none.
+    /// Note on the skipped lines above the rows; `None` if there are none.
     pub(super) fn skipped(&self) -> Option<String> {
         let ((first, text), (last, _)) = (self.preamble.first()?, self.preamble.last()?);
         Some(if first == last {
@@ -186,33 +191,35 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    /// Hands on the cells of each row and their numbers, NaN where they are missing.
+    /// Calls `visit` with the line number, the cells and the numbers of each row; missing numbers are NaN.
     ///
     /// # Errors
-    /// [`TopographyError::Line`] for a line of another length or with another cell, and for a text with decimal points and
-    /// decimal commas.
+    /// [`TopographyError::Line`] for a row of another length or with a cell that is no number, for a truncated last number,
+    /// and for a text with both decimal points and decimal commas.
     pub(super) fn for_each_row(
         &self,
-        mut take: impl FnMut(usize, &[&'a str], &[f64]) -> Result<(), TopographyError>,
+        mut visit: impl FnMut(usize, &[&'a str], &[f64]) -> Result<(), TopographyError>,
     ) -> Result<(), TopographyError> {
         let mut marks: [Option<(usize, &str)>; 2] = [None, None];
-        let mut digits = Digits::default();
+        let mut digits = DigitCounts::default();
         for &(line, text) in &self.rows {
             let cells = self.notation.cells(text);
-            let numbers = cells.iter().map(|cell| self.notation.height(cell));
-            let numbers = numbers.collect::<Option<Vec<f64>>>();
-            let numbers = numbers.filter(|numbers| numbers.len() == self.width());
-            let numbers = numbers.ok_or_else(|| self.notation.wrong_row(line, &cells))?;
+            let numbers = cells
+                .iter()
+                .map(|cell| self.notation.height(cell))
+                .collect::<Option<Vec<f64>>>()
+                .filter(|numbers| numbers.len() == self.width())
+                .ok_or_else(|| self.notation.wrong_row(line, &cells))?;
             for (first, mark) in marks.iter_mut().zip([',', '.']) {
                 let found = cells.iter().find(|cell| cell.contains(mark));
                 *first = first.or_else(|| found.map(|cell| (line, *cell)));
             }
-            digits.see(&cells);
-            take(line, &cells, &numbers)?;
+            digits.record(&cells);
+            visit(line, &cells, &numbers)?;
         }
         let last = self.rows.last().map_or(1, |(line, _)| *line);
-        if self.is_open
-            && let Some(problem) = digits.cut()
+        if self.lacks_final_newline
+            && let Some(problem) = digits.truncated_end()
         {
             return Err(TopographyError::Line {
                 line: last,
@@ -232,16 +239,18 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Decimals and exponents of the numbers of a text: those of the last one, and those of all others if they are as many.
+/// Numbers of digits of the last number of a text and of all others, from which a truncation is detected.
 #[derive(Default)]
-struct Digits<'a> {
+struct DigitCounts<'a> {
+    /// Numbers of decimals and of characters of the exponent of the first number.
     others: Option<[usize; 2]>,
+    /// Whether the numbers before the last one differ in these counts.
     differ: bool,
     last: Option<&'a str>,
 }
 
-impl<'a> Digits<'a> {
-    fn see(&mut self, cells: &[&'a str]) {
+impl<'a> DigitCounts<'a> {
+    fn record(&mut self, cells: &[&'a str]) {
         for cell in cells
             .iter()
             .filter(|cell| cell.starts_with(|first: char| !first.is_alphabetic()))
@@ -253,7 +262,7 @@ impl<'a> Digits<'a> {
         }
     }
 
-    /// As many decimals, and letters of the exponent.
+    /// Numbers of decimals and of characters of the exponent.
     fn of(cell: &str) -> [usize; 2] {
         let (mantissa, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, ""));
         let decimals = mantissa
@@ -262,8 +271,8 @@ impl<'a> Digits<'a> {
         [decimals.len(), exponent.len()]
     }
 
-    /// That the last number has less digits than all others.
-    fn cut(&self) -> Option<String> {
+    /// Message if the last number has fewer digits than all others, which agree.
+    fn truncated_end(&self) -> Option<String> {
         let (last, others) = (self.last?, self.others?);
         let is_shorter = Self::of(last)
             .iter()
@@ -276,7 +285,7 @@ impl<'a> Digits<'a> {
 }
 
 impl Notation {
-    /// Why a line is no row.
+    /// Error for a line that is no row.
     fn wrong_row(&self, line: usize, cells: &[&str]) -> TopographyError {
         let wrong = cells.iter().position(|cell| self.height(cell).is_none());
         let problem = match wrong {
@@ -285,8 +294,8 @@ impl Notation {
                 format!("{needed} values are needed, but there are {found}")
             }
             Some(column) => {
-                let thousands = thousands(cells[column]);
-                // Of a first row with the names of two axes in the corner all other cells are numbers.
+                let thousands_hint = thousands_hint(cells[column]);
+                // A table with axes has their names in the corner, and numbers in all other cells of the first row.
                 let others = cells[1..].iter().all(|cell| self.number(cell).is_some());
                 let corner = if column == 0 && others {
                     "; are the first row and column an index or axes?"
@@ -294,7 +303,7 @@ impl Notation {
                     ""
                 };
                 format!(
-                    "column {}: a finite height is needed, and not '{}'{thousands}{corner}",
+                    "column {}: a finite height is needed, and not '{}'{thousands_hint}{corner}",
                     column + 1,
                     shown(cells[column])
                 )
@@ -305,25 +314,27 @@ impl Notation {
     }
 }
 
-/// That no line is a row.
+/// Error for a text without a row.
 fn without_rows(lines: &[(usize, &str)]) -> TopographyError {
     let Some(&(line, text)) = lines.first() else {
         let problem = "numbers are needed, and the text is empty but for comments".to_owned();
         return TopographyError::Line { line: 1, problem };
     };
-    // The separator is unknown: the first word says most.
-    let word = text.split([';', '\t', ' ']).find(|word| !word.is_empty());
-    let word = word.unwrap_or_default();
-    let thousands = thousands(word);
+    // The separator is unknown; show the first word.
+    let word = text
+        .split([';', '\t', ' '])
+        .find(|word| !word.is_empty())
+        .unwrap_or_default();
+    let thousands_hint = thousands_hint(word);
     let problem = format!(
-        "no line is a row of numbers; this one begins with '{}'{thousands}; {FORMATS}",
+        "no line is a row of numbers; this one begins with '{}'{thousands_hint}; {FORMATS}",
         shown(word)
     );
     TopographyError::Line { line, problem }
 }
 
-/// A question about a number that has a comma and a point, for messages.
-fn thousands(cell: &str) -> &'static str {
+/// Hint for messages about a number with both a comma and a point.
+fn thousands_hint(cell: &str) -> &'static str {
     let is_number = !cell.contains(char::is_alphabetic);
     if is_number && cell.contains(',') && cell.contains('.') {
         " (is there a separator of thousands?)"
@@ -332,13 +343,13 @@ fn thousands(cell: &str) -> &'static str {
     }
 }
 
-/// The begin of a cell, for messages.
+/// The first 40 characters of a cell, for messages.
 pub(super) fn shown(cell: &str) -> String {
     let letters = cell.chars().filter(|letter| !letter.is_control());
     letters.take(40).collect()
 }
 
-/// The lines that are neither empty nor comments, counted from 1.
+/// Lines that are neither empty nor comments, with their line numbers, which count from 1.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text
         .lines()
@@ -356,12 +367,11 @@ pub(super) fn is_comment(line: &str) -> bool {
     }
 }
 
-/// The text of a file in UTF-16 where a byte-order mark or the zeros of ASCII say so, in UTF-8, or in Latin-1; missing heights
-/// of two words are one.
+/// The text of a file in UTF-16, UTF-8 or Latin-1; a missing height of two words ("no data") becomes `nan`.
 pub(super) fn text_of(contents: &[u8]) -> String {
-    let mut text = decoded(contents);
+    let mut text = decode(contents);
     if !text.contains('\n') {
-        // Lines of old Macintoshes.
+        // Carriage returns separate the lines.
         text = text.replace('\r', "\n");
     }
     if text.contains("No Data") || text.contains("no data") {
@@ -370,11 +380,12 @@ pub(super) fn text_of(contents: &[u8]) -> String {
     text
 }
 
-fn decoded(contents: &[u8]) -> String {
+/// Decodes UTF-16 if there is a byte-order mark or if ASCII letters have zero bytes, then UTF-8, else Latin-1.
+fn decode(contents: &[u8]) -> String {
     let is_zero = |at: usize| contents.get(at) == Some(&0) && contents.get(at + 2) == Some(&0);
-    let is_big = contents.starts_with(b"\xfe\xff") || (is_zero(0) && !is_zero(1));
-    if is_big || contents.starts_with(b"\xff\xfe") || is_zero(1) {
-        let unit = if is_big {
+    let is_big_endian = contents.starts_with(b"\xfe\xff") || (is_zero(0) && !is_zero(1));
+    if is_big_endian || contents.starts_with(b"\xff\xfe") || is_zero(1) {
+        let unit = if is_big_endian {
             u16::from_be_bytes
         } else {
             u16::from_le_bytes

@@ -1,10 +1,11 @@
-//! Units of length as files and people write them.
+//! Units of length in their common spellings.
 
-/// Metres in a unit of length; `None` if it is none. The names are those of instruments, in small letters or as SI writes
-/// them, and `æm` is what MS-DOS made of `µm`.
+/// Length of a unit, \[m]; `None` if it is no unit of length.
+///
+/// The spellings are those of instruments; `æm` is `µm` in the wrong code page.
 pub(super) fn metres(unit: &str) -> Option<f64> {
-    let unit = unit.trim_matches(|end: char| end.is_whitespace() || end == '\0');
-    Some(match unit {
+    let name = unit.trim_matches(|end: char| end.is_whitespace() || end == '\0');
+    Some(match name {
         "m" | "meter" | "metre" | "meters" | "metres" => 1.0,
         "cm" => 1e-2,
         "mm" | "millimeter" | "millimetre" => 1e-3,
@@ -17,13 +18,13 @@ pub(super) fn metres(unit: &str) -> Option<f64> {
     })
 }
 
-/// A length with a unit, as `10 um`, `1.5e-3mm` or `0,25 µm`, in metres; `None` if it is none.
+/// A length with a unit, such as `10 um`, `1.5e-3mm` or `0,25 µm`, in metres; `None` if the text is no length.
 #[must_use]
 pub fn length(text: &str) -> Option<f64> {
     let text = text.trim();
     let is_part = |letter: char| letter.is_ascii_digit() || "+-.,".contains(letter);
     let mut end = text.find(|letter| !is_part(letter))?;
-    // An exponent is a part of the number, and not the begin of the unit.
+    // An exponent belongs to the number, not to the unit.
     let exponent = text[end..].strip_prefix(['e', 'E']);
     if let Some(exponent) = exponent.filter(|rest| rest.starts_with(is_part)) {
         let length = exponent.find(|letter| !is_part(letter))?;

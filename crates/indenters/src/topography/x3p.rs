@@ -1,4 +1,4 @@
-//! ISO 25178-72: a zip archive with a description in XML and the heights in binary, x fastest, all in metres.
+//! Reader of ISO 25178-72: a zip archive with a description in XML and binary heights, x fastest, all in metres.
 
 use std::io::{Cursor, Read as _};
 use std::str::FromStr;
@@ -7,26 +7,26 @@ use roxmltree::{Document, Node};
 use zip::ZipArchive;
 
 use super::memory::Memory;
-use super::{Topography, Unread};
+use super::{ReadFailure, Topography};
 
-/// The description is written by a program, and short, \[bytes].
-const LARGEST_MAIN: u64 = 1 << 20;
-/// Each of its attributes, which has a sign of equality, is compared with all others.
-const MOST_ATTRIBUTES: usize = 4096;
-/// An archive has a description, heights, and little else.
-const MOST_PARTS: usize = 1000;
-/// Bytes that may follow the heights, as where a writer fills a block.
-const FILLED: u64 = 4096;
+/// Bound on the length of the description, \[bytes] (chosen).
+const MAX_DESCRIPTION_BYTES: u64 = 1 << 20;
+/// Bound on the number of attributes in the description (chosen), because the parser compares each with all others.
+const MAX_ATTRIBUTES: usize = 4096;
+/// Bound on the number of parts of an archive (chosen); it needs a description and heights only.
+const MAX_ARCHIVE_PARTS: usize = 1000;
+/// Largest padding after the heights, \[bytes] (chosen: a block of a file).
+const MAX_PADDING_BYTES: u64 = 4096;
 
-pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
-    let mut archive = opened(contents)?;
-    let mut part = |name: &str, most: u64| part(&mut archive, name, most);
-    let main = part("main.xml", LARGEST_MAIN)?;
-    if main.iter().filter(|byte| **byte == b'=').count() > MOST_ATTRIBUTES {
-        return Err(format!("main.xml: more than {MOST_ATTRIBUTES} attributes").into());
+pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
+    let mut archive = open_archive(contents)?;
+    let mut read_part = |name: &str, max_bytes: u64| read_part(&mut archive, name, max_bytes);
+    let main = read_part("main.xml", MAX_DESCRIPTION_BYTES)?;
+    if main.iter().filter(|byte| **byte == b'=').count() > MAX_ATTRIBUTES {
+        return Err(format!("main.xml: more than {MAX_ATTRIBUTES} attributes").into());
     }
     let main = String::from_utf8(main).map_err(|error| error.to_string())?;
-    let main = Main(Document::parse(&main).map_err(|error| error.to_string())?);
+    let main = Description(Document::parse(&main).map_err(|error| error.to_string())?);
     let axes = ["CX", "CY"].map(|axis| main.text(&format!("Record1/Axes/{axis}/AxisType")));
     if axes != ["I", "I"] || main.number::<usize>("Record3/MatrixDimension/SizeZ")? != 1 {
         let [x, y] = axes;
@@ -40,24 +40,26 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread
     let is_integer = ["I", "L"].contains(&kind);
     let valid = main.text("Record3/DataLink/ValidPointsLink");
     let points = columns.checked_mul(rows);
-    memory.holds(points)?;
+    memory.require_heights(points)?;
     let points = points.unwrap_or_default();
     let bytes = bytes_of(kind).ok_or_else(|| format!("the type '{kind:.40}'"))?;
     let link = main.text("Record3/DataLink/PointDataLink");
     let lengths = [points.saturating_mul(bytes), points.div_ceil(8)];
-    let [most, bits] = lengths.map(|length| (length as u64).saturating_add(FILLED));
+    let [max_bytes, bits] = lengths.map(|length| (length as u64).saturating_add(MAX_PADDING_BYTES));
     let heights = Heights {
         kind,
         step: if is_integer { increment("Z")? } else { 1.0 },
-        data: part(link, most)?,
-        valid: (!valid.is_empty()).then(|| part(valid, bits)).transpose()?,
+        data: read_part(link, max_bytes)?,
+        valid: (!valid.is_empty())
+            .then(|| read_part(valid, bits))
+            .transpose()?,
     };
-    if points == 0 || !heights.are(points) {
+    if points == 0 || !heights.are_complete(points) {
         let given = heights.data.len();
         let points = format!("{columns} × {rows} points");
         return Err(format!("{given} bytes of type '{kind}' for {points}").into());
     }
-    let heights = (0..points).map(|index| heights.at(index));
+    let heights = (0..points).map(|index| heights.height(index));
     Ok(Topography {
         states_unit: true,
         ..Topography::of_rows([rows, columns], spacing, heights.collect())
@@ -66,35 +68,37 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread
 
 type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
 
-fn opened(contents: &[u8]) -> Result<Archive<'_>, String> {
+fn open_archive(contents: &[u8]) -> Result<Archive<'_>, String> {
     let parts = contents.windows(4).filter(|start| *start == b"PK\x01\x02");
-    if parts.take(MOST_PARTS + 1).count() > MOST_PARTS {
-        return Err(format!("an archive of more than {MOST_PARTS} parts"));
+    if parts.take(MAX_ARCHIVE_PARTS + 1).count() > MAX_ARCHIVE_PARTS {
+        return Err(format!("an archive of more than {MAX_ARCHIVE_PARTS} parts"));
     }
     ZipArchive::new(Cursor::new(contents)).map_err(|error| error.to_string())
 }
 
-/// The bytes of a part, of which there are at most so many.
-fn part(archive: &mut Archive<'_>, name: &str, most: u64) -> Result<Vec<u8>, String> {
+/// Reads a part of the archive of at most `max_bytes`.
+fn read_part(archive: &mut Archive<'_>, name: &str, max_bytes: u64) -> Result<Vec<u8>, String> {
     let wrong = |error: &dyn std::fmt::Display| format!("{name:.40}: {error}");
     let file = archive.by_name(name).map_err(|error| wrong(&error))?;
     let mut bytes = Vec::new();
-    if file.size() <= most {
-        // It may be larger than the archive says.
-        let read = file.take(most.saturating_add(1)).read_to_end(&mut bytes);
+    if file.size() <= max_bytes {
+        // The part may be larger than the archive states.
+        let read = file
+            .take(max_bytes.saturating_add(1))
+            .read_to_end(&mut bytes);
         read.map_err(|error| wrong(&error))?;
-        if bytes.len() as u64 <= most {
+        if bytes.len() as u64 <= max_bytes {
             return Ok(bytes);
         }
     }
-    Err(wrong(&format!("more than {most} bytes")))
+    Err(wrong(&format!("more than {max_bytes} bytes")))
 }
 
-/// The description.
-struct Main<'a>(Document<'a>);
+/// The description of the surface.
+struct Description<'a>(Document<'a>);
 
-impl Main<'_> {
-    /// What stands under these names, empty without them.
+impl Description<'_> {
+    /// Text of the element at a path of names; empty if there is none.
     fn text(&self, path: &str) -> &str {
         let named = |node: Node<'_, '_>, name: &str| node.tag_name().name() == name;
         let mut names = path.split('/');
@@ -118,7 +122,7 @@ struct Heights<'a> {
     valid: Option<Vec<u8>>,
 }
 
-/// Bytes of a height.
+/// Length of a number of this type, \[bytes]; `None` for an unknown type.
 fn bytes_of(kind: &str) -> Option<usize> {
     let kinds = [("I", 2), ("L", 4), ("F", 4), ("D", 8)];
     let found = kinds.into_iter().find(|(known, _)| *known == kind);
@@ -126,25 +130,25 @@ fn bytes_of(kind: &str) -> Option<usize> {
 }
 
 impl Heights<'_> {
-    fn are(&self, points: usize) -> bool {
+    fn are_complete(&self, points: usize) -> bool {
         let are_there = |bytes| points <= self.data.len() / bytes;
         let have_bits = |bits: &Vec<u8>| points.div_ceil(8) <= bits.len();
         bytes_of(self.kind).is_some_and(are_there) && self.valid.as_ref().is_none_or(have_bits)
     }
 
-    fn at(&self, index: usize) -> f64 {
+    fn height(&self, index: usize) -> f64 {
         let is_valid = |bits: &Vec<u8>| bits[index / 8] >> (index % 8) & 1 == 1;
         if !self.valid.as_ref().is_none_or(is_valid) {
             return f64::NAN;
         }
-        let at = &self.data[bytes_of(self.kind).unwrap_or_default() * index..];
-        let four = || std::array::from_fn(|byte| at[byte]);
+        let height = &self.data[bytes_of(self.kind).unwrap_or_default() * index..];
+        let four = || std::array::from_fn(|byte| height[byte]);
         self.step
             * match self.kind {
-                "I" => f64::from(i16::from_le_bytes([at[0], at[1]])),
+                "I" => f64::from(i16::from_le_bytes([height[0], height[1]])),
                 "L" => f64::from(i32::from_le_bytes(four())),
                 "F" => f64::from(f32::from_le_bytes(four())),
-                _ => f64::from_le_bytes(std::array::from_fn(|byte| at[byte])),
+                _ => f64::from_le_bytes(std::array::from_fn(|byte| height[byte])),
             }
     }
 }

@@ -1,4 +1,4 @@
-//! Rows of x, y and z, in any order; points of the grid that are left out are missing.
+//! Reader of rows of x, y and z in any order; points of the grid that are left out are missing.
 
 use super::grid::{Axis, significant_digits};
 use super::header::Stated;
@@ -9,7 +9,7 @@ use super::{LateralUnit, Memory, Topography, TopographyError};
 type Point = ([f64; 2], f64);
 
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, TopographyError> {
-    memory.holds_text(contents)?;
+    memory.require_text(contents)?;
     let text = text_of(contents);
     let sheet = Sheet::of(&text)?;
     let first = sheet.rows[0].0;
@@ -24,7 +24,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
     let stated = Stated::of(&sheet.head)?;
     let (points, digits) = points(&sheet)?;
     let axis = |which: usize, name: &str| {
-        let values = points.iter().map(|(place, _)| place[which]).collect();
+        let values = points.iter().map(|(element, _)| element[which]).collect();
         let axis = Axis::of(values, digits[which]);
         axis.map_err(|found| {
             wrong(
@@ -34,7 +34,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         })
     };
     let axes = [axis(0, "x")?, axis(1, "y")?];
-    let heights = on_grid(axes, &points, &sheet, memory)?;
+    let heights = place_on_grid(axes, &points, &sheet, memory)?;
     let [x, y] = axes;
     let unit = stated.heights.as_ref().map_or(1.0, |(unit, _)| *unit);
     let lateral = stated.lateral.as_ref().map_or(1.0, |(unit, _)| *unit);
@@ -51,7 +51,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
     Ok(surface)
 }
 
-/// x and y, and z, of each line, and the most significant digits of x and of y.
+/// Points of all lines, and the largest numbers of significant digits of x and of y.
 fn points(sheet: &Sheet<'_>) -> Result<(Vec<Point>, [i32; 2]), TopographyError> {
     let (mut points, mut digits) = (Vec::new(), [0; 2]);
     sheet.for_each_row(|line, cells, numbers| {
@@ -71,8 +71,8 @@ fn points(sheet: &Sheet<'_>) -> Result<(Vec<Point>, [i32; 2]), TopographyError> 
     Ok((points, digits))
 }
 
-/// The heights row by row of the grid.
-fn on_grid(
+/// Heights of the grid row by row; NaN without a point.
+fn place_on_grid(
     [x, y]: [Axis; 2],
     points: &[Point],
     sheet: &Sheet<'_>,
@@ -82,29 +82,30 @@ fn on_grid(
         let line = sheet.rows[index].0;
         TopographyError::Line { line, problem }
     };
-    let places = x.count.checked_mul(y.count);
-    if places.is_none_or(|places| places / 100 > points.len()) {
+    let n_elements = x.count.checked_mul(y.count);
+    if n_elements.is_none_or(|n_elements| n_elements / 100 > points.len()) {
         let (count, [nx, ny]) = (points.len(), [x.count, y.count]);
         return Err(wrong(0, format!("{count} points of a grid of {nx} × {ny}")));
     }
-    // Beside the points themselves.
-    memory.holds(places.and_then(|places| places.checked_add(points.len())))?;
-    let place_of = |[at_x, at_y]: [f64; 2]| Some(y.place(at_y)? * x.count + x.place(at_x)?);
+    // The points are in memory, too.
+    memory
+        .require_heights(n_elements.and_then(|n_elements| n_elements.checked_add(points.len())))?;
+    let element_at = |[at_x, at_y]: [f64; 2]| Some(y.node(at_y)? * x.count + x.node(at_x)?);
     let mut heights = vec![f64::NAN; x.count * y.count];
     let mut is_there = vec![false; heights.len()];
     for (index, (at, height)) in points.iter().enumerate() {
         let [at_x, at_y] = at;
-        let place = place_of(*at).ok_or_else(|| {
+        let element = element_at(*at).ok_or_else(|| {
             let grid = format!("a grid of {:e} × {:e}", x.step, y.step);
             wrong(
                 index,
                 format!("a point at x = {at_x}, y = {at_y} beside {grid}"),
             )
         })?;
-        if std::mem::replace(&mut is_there[place], true) {
+        if std::mem::replace(&mut is_there[element], true) {
             let before = points
                 .iter()
-                .position(|(at, _)| place_of(*at) == Some(place));
+                .position(|(at, _)| element_at(*at) == Some(element));
             let line = before.map_or(0, |before| sheet.rows[before].0);
             return Err(wrong(
                 index,
@@ -114,7 +115,7 @@ fn on_grid(
                 ),
             ));
         }
-        heights[place] = *height;
+        heights[element] = *height;
     }
     Ok(heights)
 }
