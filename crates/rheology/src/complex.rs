@@ -1,4 +1,4 @@
-//! Response to an oscillation: real and imaginary parts.
+//! Complex modulus and complex compliance in oscillation.
 
 /// Complex modulus G* = G' + i G''.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ pub struct ComplexCompliance {
     pub loss: f64,
 }
 
-/// Ω²/(1 + Ω²) and Ω/(1 + Ω²) for Ω ≥ 0, without an overflow of the square.
+/// Debye functions Ω²/(1 + Ω²) and Ω/(1 + Ω²) for Ω ≥ 0, without an overflow of the square.
 pub(crate) fn debye(omega: f64) -> [f64; 2] {
     if omega <= 1.0 {
         let denominator = 1.0 + omega * omega;

@@ -1,9 +1,9 @@
-//! What can be wrong with a material.
+//! Errors of materials and of their identification.
 
 use numerics::{InvalidParameter, MessageNumber};
 use thiserror::Error;
 
-/// Why a material, or an argument of one of its functions, is refused.
+/// The reason for which a material, or an argument of one of its functions, is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RheologyError {
@@ -20,15 +20,15 @@ pub enum RheologyError {
         list: &'static str,
         /// Position in the list, from 0.
         index: usize,
-        /// The parameter.
+        /// The refused parameter.
         refused: InvalidParameter,
     },
-    /// Nothing resists a deformation.
+    /// A relaxation spectrum without stiffness and viscosity.
     #[error(
         "a material needs an equilibrium modulus, a viscosity or a branch with a modulus greater than 0"
     )]
     NoStiffness,
-    /// Nothing yields to a stress.
+    /// A creep spectrum without compliance and fluidity.
     #[error(
         "a material needs an instantaneous compliance, a fluidity or an element with a compliance greater than 0"
     )]
@@ -36,22 +36,22 @@ pub enum RheologyError {
     /// A temperature at which the WLF law has no meaning.
     #[error("the temperature must be above {}, the pole of the WLF law, but is {}", MessageNumber(*pole), MessageNumber(*temperature))]
     BelowWlfPole {
-        /// The temperature.
+        /// The refused temperature.
         temperature: f64,
-        /// The temperature at which the shift factor becomes infinite.
+        /// Temperature at which the shift factor becomes infinite.
         pole: f64,
     },
-    /// A temperature at which a law of shifting is not known to hold.
+    /// A temperature outside the measured range of a shift law.
     #[error(
         "the temperature must be from {} °C to {} °C, the range of the shift law, but is {} °C",
         MessageNumber(*lowest), MessageNumber(*highest), MessageNumber(*temperature)
     )]
     OutsideShiftLaw {
-        /// The temperature, \[°C].
+        /// The refused temperature, \[°C].
         temperature: f64,
-        /// The lowest of the range, \[°C].
+        /// Lowest temperature of the range, \[°C].
         lowest: f64,
-        /// The highest, \[°C].
+        /// Highest temperature of the range, \[°C].
         highest: f64,
     },
     /// Shifts that neither the law of Williams, Landel and Ferry nor that of Arrhenius describes.
@@ -61,17 +61,17 @@ pub enum RheologyError {
         MessageNumber(*nearest), MessageNumber(*temperature)
     )]
     NoShiftLaw {
-        /// The temperature that is wanted.
+        /// Reference temperature asked for.
         temperature: f64,
-        /// That of the nearest isotherm.
+        /// Temperature of the nearest isotherm.
         nearest: f64,
     },
     /// Too few measurements.
     #[error("at least {needed} points are needed, but there are {given}")]
     TooFewPoints {
-        /// How many are needed.
+        /// Number of points needed.
         needed: usize,
-        /// How many there are.
+        /// Number of points given.
         given: usize,
     },
     /// Isotherms that overlap with no other, because they have one frequency.
@@ -82,11 +82,11 @@ pub enum RheologyError {
          number the isotherms in a column Set"
     )]
     OneFrequency {
-        /// How many have one frequency.
+        /// Number of isotherms with one frequency.
         count: usize,
         /// Number of isotherms.
         given: usize,
-        /// Temperature of the first of them.
+        /// Temperature of the first isotherm with one frequency.
         temperature: f64,
     },
     /// Two isotherms that cannot be shifted onto each other.
@@ -96,9 +96,9 @@ pub enum RheologyError {
         MessageNumber(*first), MessageNumber(*second)
     )]
     NoOverlap {
-        /// Temperature of one.
+        /// Temperature of one isotherm.
         first: f64,
-        /// Temperature of the other.
+        /// Temperature of the other isotherm.
         second: f64,
     },
     /// Storage and loss moduli that are those of a relaxing material only when they are exchanged.
@@ -110,19 +110,19 @@ pub enum RheologyError {
         100.0 * swapped
     )]
     SwappedModuli {
-        /// Root mean square relative error of the best series as they are.
+        /// Root mean square relative error of the best series for the moduli as given.
         given: f64,
-        /// The same of the exchanged ones.
+        /// Root mean square relative error of the best series for the exchanged moduli.
         swapped: f64,
     },
-    /// Moduli that change as those of no relaxing material do.
+    /// Moduli whose trend contradicts every relaxing material.
     #[cfg(feature = "fit")]
     #[error("these are the moduli of no relaxing material: {what}")]
     WrongTrend {
-        /// What they do.
+        /// Description of the trend.
         what: &'static str,
     },
-    /// Moduli from which every Prony series is far away.
+    /// Moduli that no Prony series approximates.
     #[cfg(feature = "fit")]
     #[error(
         "these are the moduli of no relaxing material: the best series is off by {:.0} % in the storage (or relaxation) modulus \
@@ -131,32 +131,32 @@ pub enum RheologyError {
         100.0 * loss
     )]
     NoMaterial {
-        /// Root mean square error of G', or of G(t), relative to its own size.
+        /// Root mean square relative error of G' or of G(t).
         storage: f64,
-        /// The same of G''.
+        /// Root mean square relative error of G''.
         loss: f64,
     },
-    /// The moduli of a Prony series did not settle.
+    /// The active set of the nonnegative least squares did not converge.
     #[cfg(feature = "fit")]
     #[error("the moduli did not settle in {changes} changes of their signs")]
     FitNotConverged {
-        /// Number of changes tried.
+        /// Number of changes of the active set.
         changes: usize,
     },
-    /// No Prony series comes as close to a continuous spectrum as was asked.
+    /// No Prony series approximates a continuous spectrum to the error asked for.
     #[error(
         "a Prony series with a relative error of {asked:e} was asked for, {reached:e} was reached"
     )]
     ExpansionNotReached {
-        /// The relative error asked for.
+        /// Relative error asked for.
         asked: f64,
-        /// The smallest relative error reached.
+        /// Smallest relative error reached.
         reached: f64,
     },
 }
 
-/// Puts the place in a list into the error about one of its members.
-pub(crate) fn in_list(
+/// Converts the error of a member of a list into one with the name of the list and the index of the member.
+pub(crate) fn with_list_index(
     list: &'static str,
     index: usize,
 ) -> impl Fn(InvalidParameter) -> RheologyError {

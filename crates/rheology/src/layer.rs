@@ -1,25 +1,26 @@
-//! How much less a layer bonded to a rigid base gives way to a wave of pressure than the half space of its material.
+//! Compliance of a layer bonded to a rigid base, relative to the half space, for a wave of pressure.
 //!
 //! ```text
 //! û = 2 p̂ M(|q|t)/(|q| E*)
 //! M(s) = [(3 − 4ν) sinh 2s − 2s]/[5 + 2s² − 4ν(3 − 2ν) + (3 − 4ν) cosh 2s]
 //! ```
 //!
-//! With a constant Poisson ratio it is the same at all times, whatever the material remembers.
+//! With a constant Poisson ratio the ratio does not depend on time, whatever the relaxation spectrum.
 
-/// From here on M is 1 less a deficit that is small enough to be subtracted.
-const SHORT_WAVE: f64 = 24.0;
-/// Above, the exponentials underflow.
-const SHORTEST_WAVE: f64 = 1e3;
+/// Argument s above which M is computed as 1 − [`layer_deficit`], without cancellation (chosen).
+const DEFICIT_FORM_FROM: f64 = 24.0;
+/// Argument s above which the exponentials underflow.
+const MAX_ARGUMENT: f64 = 1e3;
 
-/// Ratio M(s) of the compliance of a layer on a rigid base to that of the half space, for a wave of pressure with s = |q|t ≥ 0
-/// and −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
+/// Ratio M(s) of the compliance of a layer on a rigid base to that of the half space, for s = |q|t ≥ 0 and −1 < ν ≤ 1/2.
+///
+/// Accurate to rounding. The limits are `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 if ν = 1/2, and 1 for short waves.
 pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
-    if s > SHORT_WAVE {
+    if s > DEFICIT_FORM_FROM {
         return 1.0 - layer_deficit(s, poisson_ratio);
     }
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
-    // Times 2 e^(−2s), so that nothing overflows; the difference sinh 2s − 2s is a series where it would cancel.
+    // Numerator and denominator are multiplied by 2 e^(−2s) against overflow; a series replaces sinh 2s − 2s for small s.
     let excess = if s < 0.5 {
         let square = 4.0 * s * s;
         let series = (1..=10).rev().fold(0.0, |sum, n| {
@@ -33,20 +34,21 @@ pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
     numerator / denominator(s, poisson_ratio)
 }
 
-/// 1 − M(s) without cancellation.
+/// Deficit 1 − M(s) without cancellation.
 pub fn layer_deficit(s: f64, poisson_ratio: f64) -> f64 {
-    let s = s.min(SHORTEST_WAVE);
+    let s = s.min(MAX_ARGUMENT);
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
     let rest = kappa * decay + 2.0 * s * (1.0 + s) + constant(poisson_ratio);
     2.0 * decay * rest / denominator(s, poisson_ratio)
 }
 
-/// 2 e^(−2s) times the denominator of M.
+/// Denominator of M, multiplied by 2 e^(−2s).
 fn denominator(s: f64, poisson_ratio: f64) -> f64 {
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
     2.0 * decay * (constant(poisson_ratio) + 2.0 * s * s) + kappa * (1.0 + decay * decay)
 }
 
+/// Constant 5 − 4ν(3 − 2ν) in the denominator of M.
 fn constant(poisson_ratio: f64) -> f64 {
     5.0 - 4.0 * poisson_ratio * (3.0 - 2.0 * poisson_ratio)
 }

@@ -1,11 +1,12 @@
-//! Linear viscoelastic materials as friction of rubber needs them.
+//! Linear viscoelastic materials for the friction of rubber.
 //!
-//! [`Viscous`] is the material of the theory (Kürschner 2014, ZAMM 94, Eq. 3); [`StandardSolid`] is the elastomer whose
-//! middle frequency range it stands for (Eq. 2, Fig. 1). [`Elastic`], [`KelvinVoigt`], [`Maxwell`] and [`Prony`] are
-//! the others, [`Compressible`] gives any of them a Poisson ratio. [`Springpot`] and
-//! [`FractionalMaxwell`] become one of them by a Prony series with a stated error. Every [`Material`] is described
-//! twice and exactly, by its [`RelaxationSpectrum`] and by its [`CreepSpectrum`]; both give moduli and compliances over
-//! time and frequency, and [`ExponentialStep`] is all that a contact solver asks of them.
+//! [`Viscous`] is the material of the theory (Kürschner 2014, ZAMM 94, Eq. 3). It approximates the middle frequency range of
+//! an elastomer, the [`StandardSolid`] (Eq. 2, Fig. 1). Further materials are [`Elastic`], [`KelvinVoigt`], [`Maxwell`] and
+//! [`Prony`]; [`Compressible`] adds a Poisson ratio to any of them. [`Springpot`] and [`FractionalMaxwell`] are expanded
+//! into a Prony series with a stated error.
+//!
+//! Every [`Material`] has two exactly equivalent descriptions, its [`RelaxationSpectrum`] and its [`CreepSpectrum`]. Both
+//! give moduli and compliances over time and frequency; a contact solver needs an [`ExponentialStep`] only.
 //!
 //! ```
 //! use rheology::{Material, RheologyError, StandardSolid, StandardSolidParameters, Viscous};
@@ -40,7 +41,7 @@ mod step;
 mod time_temperature;
 mod window;
 
-/// The program of that page compiles.
+/// The example in the README, compiled as a doc test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;

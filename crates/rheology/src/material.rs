@@ -1,4 +1,4 @@
-//! What every material has: two spectra, and the moduli and compliances that follow.
+//! The trait of materials: two spectra, and the moduli and compliances that follow.
 
 use std::fmt::Debug;
 
@@ -9,14 +9,14 @@ use crate::{ComplexCompliance, ComplexModulus, CreepSpectrum, RelaxationSpectrum
 
 /// A linear viscoelastic material with a constant Poisson ratio.
 ///
-/// Both spectra describe the same shear: s Ĝ(s) · s Ĵ(s) = 1, which the solvers check by [`check_spectra`]. Ask for the spectrum
-/// once if you need many values.
+/// Both spectra describe the same shear, s Ĝ(s) · s Ĵ(s) = 1, which the solvers check by [`check_spectra`]. For many values,
+/// obtain the spectrum once.
 #[auto_impl(&, Box, Arc)]
 pub trait Material: Debug + Send + Sync {
-    /// How stress relaxes at constant strain.
+    /// Relaxation spectrum: the stress at constant strain.
     fn relaxation(&self) -> RelaxationSpectrum;
 
-    /// How strain creeps at constant stress.
+    /// Creep spectrum: the strain at constant stress.
     fn creep(&self) -> CreepSpectrum;
 
     /// Poisson ratio ν, −1 < ν ≤ 1/2; 1/2 is incompressible.
@@ -73,17 +73,16 @@ pub trait Material: Debug + Send + Sync {
     }
 }
 
-/// Largest |G*(ω) J*(ω) − 1| of two spectra that describe the same material. Conversions between them are exact to 1e-9.
-const MAX_CONTRADICTION: f64 = 1e-6;
+/// Largest |G*(ω) J*(ω) − 1| for two spectra of the same material (chosen: conversions are accurate to 1e-9).
+const MAX_SPECTRUM_MISMATCH: f64 = 1e-6;
 
 /// Refuses a material whose [`relaxation`](Material::relaxation) and [`creep`](Material::creep) contradict each other.
 ///
-/// The product of complex modulus and complex compliance is 1 at every angular frequency. It is formed at the inverse of each
-/// relaxation and retardation time, and a thousand times below and above all of them; where it leaves the range of f64 nothing is
-/// said.
+/// The product of complex modulus and complex compliance must be 1 at every angular frequency. It is tested at the inverse of
+/// each relaxation and retardation time, and a thousand times below and above all of them. Products that overflow are skipped.
 ///
 /// # Errors
-/// [`InvalidParameter`] with the largest deviation of the product from 1 that was found.
+/// [`InvalidParameter`] with the largest deviation of the product from 1.
 pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidParameter> {
     let (relaxation, creep) = (material.relaxation(), material.creep());
     let branches = relaxation.branches().iter();
@@ -115,5 +114,11 @@ pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidP
     }
     let parameter = "largest |G*(ω) J*(ω) - 1| of relaxation() and creep()";
     let allowed = "at most 1e-6: both spectra must describe the same material (to_creep and to_relaxation make one of the other)";
-    in_range(parameter, largest, largest <= MAX_CONTRADICTION, allowed).map(drop)
+    in_range(
+        parameter,
+        largest,
+        largest <= MAX_SPECTRUM_MISMATCH,
+        allowed,
+    )
+    .map(drop)
 }

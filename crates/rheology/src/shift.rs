@@ -1,10 +1,10 @@
-//! How the times and the moduli of a material change with its temperature: G*(ω, T) = b_T G*(a_T ω, T_r).
+//! Laws for the change of times and moduli with temperature: G*(ω, T) = b_T G*(a_T ω, T_r).
 
 use numerics::{InvalidParameter, in_range, positive};
 
 use crate::{ArrheniusShift, RheologyError, WlfShift};
 
-/// What is to be added to °C for K.
+/// Absolute temperature of 0 °C, \[K].
 pub const KELVIN_AT_ZERO_CELSIUS: f64 = 273.15;
 
 /// A law of time–temperature superposition, and where it was found.
@@ -53,10 +53,10 @@ pub enum ShiftLaw {
 }
 
 impl Shift {
-    /// log₁₀ of the factor of all times from the temperature of the material to another one \[°C].
+    /// Logarithm log₁₀ a_T of the factor of all times at a temperature \[°C].
     ///
     /// # Errors
-    /// [`RheologyError::OutsideShiftLaw`] outside of the range of temperatures, [`RheologyError::InvalidParameter`] for constants
+    /// [`RheologyError::OutsideShiftLaw`] outside the range of temperatures; [`RheologyError::InvalidParameter`] for constants
     /// that are not greater than 0.
     pub fn log10_factor(&self, temperature: f64) -> Result<f64, RheologyError> {
         self.check_range(temperature)?;
@@ -70,11 +70,11 @@ impl Shift {
         }
     }
 
-    /// b_T: the factor of all moduli from the temperature of the material to another one \[°C].
+    /// Factor b_T of all moduli at a temperature \[°C].
     ///
     /// # Errors
-    /// [`RheologyError::OutsideShiftLaw`] outside of the range of temperatures or of the table, [`RheologyError::InvalidParameter`]
-    /// for a temperature that is not above absolute zero and for a table that is not in order.
+    /// [`RheologyError::OutsideShiftLaw`] outside the range of temperatures or of the table;
+    /// [`RheologyError::InvalidParameter`] for a temperature that is not above absolute zero, and for an unordered table.
     pub fn modulus_factor(&self, temperature: f64) -> Result<f64, RheologyError> {
         self.check_range(temperature)?;
         match &self.vertical {
@@ -86,16 +86,16 @@ impl Shift {
             }
             Some(VerticalLaw::Table(table)) => {
                 check_table(table)?;
-                let log = |temperature| log_factor(table, temperature);
+                let log = |temperature| interpolate_log_factor(table, temperature);
                 Ok((log(temperature)? - log(self.temperature)?).exp())
             }
         }
     }
 
-    /// The same law beside the material of another temperature \[°C].
+    /// The law with another reference temperature \[°C].
     ///
     /// # Errors
-    /// As for [`Self::log10_factor`].
+    /// The errors of [`Self::log10_factor`].
     pub fn about(&self, temperature: f64) -> Result<Self, RheologyError> {
         self.log10_factor(temperature)?;
         let law = match self.law {
@@ -113,11 +113,11 @@ impl Shift {
     }
 
     fn check_range(&self, temperature: f64) -> Result<(), RheologyError> {
-        within(temperature, self.temperature_range)
+        check_within(temperature, self.temperature_range)
     }
 }
 
-fn within(temperature: f64, [lowest, highest]: [f64; 2]) -> Result<(), RheologyError> {
+fn check_within(temperature: f64, [lowest, highest]: [f64; 2]) -> Result<(), RheologyError> {
     if (lowest..=highest).contains(&temperature) {
         return Ok(());
     }
@@ -149,9 +149,9 @@ fn check_table(table: &[[f64; 2]]) -> Result<(), InvalidParameter> {
     .map(drop)
 }
 
-/// ln of the factor in a table that is in order and not empty.
-fn log_factor(table: &[[f64; 2]], temperature: f64) -> Result<f64, RheologyError> {
-    within(temperature, [table[0][0], table[table.len() - 1][0]])?;
+/// ln of the factor at a temperature, from a table that is ordered and not empty.
+fn interpolate_log_factor(table: &[[f64; 2]], temperature: f64) -> Result<f64, RheologyError> {
+    check_within(temperature, [table[0][0], table[table.len() - 1][0]])?;
     let next = table.partition_point(|entry| entry[0] < temperature);
     let [above, above_factor] = table[next];
     let log = above_factor.ln();

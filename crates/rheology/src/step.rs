@@ -1,13 +1,14 @@
-//! One step in time, exact for any ratio of step and time constants.
+//! Exponential time step, exact for any ratio of step and time constants.
 //!
 //! ```text
 //! u_new = α w_new + history    α = J(Δt)                  w held at w_new over the step
 //!                              α = (1/Δt) ∫₀^Δt J dt      w linear from w_old to w_new
 //! ```
-//! The history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input, and, where
-//! the input is linear, of the input before. A held input is of the first order in Δt and a linear one of the second; but a
-//! surface whose displacement is prescribed answers a linear input with β/α of the error of the step before and the other sign,
-//! where β is the response to w_old. Without an instantaneous compliance β/α is 1 for short steps.
+//! The history is a sum over history variables, which decay by e^(−Δt/λ) in a step and then gain their share of the input
+//! and, for a linear input, of the previous input. A held input is of the first order in Δt, a linear one of the second.
+//!
+//! With a prescribed displacement a linear input alternates: the error of a step is −β/α times that of the previous one,
+//! where β is the response to w_old. Without an instantaneous compliance β/α tends to 1 for short steps.
 
 use crate::{ComplexCompliance, CreepSpectrum, RheologyError};
 use numerics::positive;
@@ -18,30 +19,33 @@ use numerics::positive;
 /// [`history`](Self::history), solves for the input, then calls [`advance`](Self::advance).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExponentialStep {
-    /// What the input adds at once, without a field.
+    /// Instantaneous compliance, \[1/Pa].
     direct: f64,
     fields: Vec<Field>,
     /// Whether the state ends with the last input.
     keeps_input: bool,
-    /// Part of the step in which the input is linear and not held.
+    /// Fraction of the step in which the input is linear rather than held.
     linear_share: f64,
 }
 
-/// A decay e^(−Δt/λ), 1 for free flow, and the gains per unit of input and of the input before.
+/// Coefficients of one history variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Field {
+    /// Decay e^(−Δt/λ) in a step, 1 for free flow.
     decay: f64,
+    /// Gain per unit of input, \[1/Pa].
     gain: f64,
+    /// Gain per unit of the previous input, \[1/Pa].
     gain_before: f64,
 }
 
-/// Ratio β/α up to which an input is linear over the whole of a step: errors of one step are a thirtieth after ten.
-const LARGEST_ALTERNATION: f64 = 0.7;
+/// Largest ratio β/α for an input that is linear over the whole step (chosen: 0.7¹⁰ ≈ 1/35 after ten steps).
+const MAX_ALTERNATION: f64 = 0.7;
 
 impl ExponentialStep {
-    /// From load potential w \[Pa m] to displacement u \[m], with w held at its new value over a `time_step` \[s].
+    /// Step from load potential w \[Pa m] to displacement u \[m], with w held at its new value over a `time_step` \[s].
     ///
-    /// One field per retardation element, and one for free flow; none for an elastic material.
+    /// It has one field per retardation element, and one for free flow; none for an elastic material.
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when the step, or its compliance, is not finite and greater than zero.
@@ -54,7 +58,7 @@ impl ExponentialStep {
         });
         let delayed = spectrum.elements().iter().map(|element| Field {
             decay: (-time_step / element.retardation_time).exp(),
-            gain: element.yielded(time_step),
+            gain: element.delayed_compliance(time_step),
             gain_before: 0.0,
         });
         let step = Self {
@@ -67,14 +71,14 @@ impl ExponentialStep {
         Ok(step)
     }
 
-    /// The same with w linear over the step, from its value at the end of the step before, as far as prescribed displacements do
-    /// not make it alternate: w is held in the other part of the step, which is all of it for short steps on a material without
-    /// instantaneous compliance.
+    /// Step with w linear from its value at the end of the previous step, as far as prescribed displacements permit.
     ///
-    /// One more field than [`creep`](Self::creep) for a material that has any.
+    /// In a fraction of the step that would cause alternation, w is held at its new value. This is the whole step for short
+    /// steps on a material without instantaneous compliance. The state has one more field than for [`creep`](Self::creep),
+    /// unless the material is elastic.
     ///
     /// # Errors
-    /// Like [`creep`](Self::creep).
+    /// The errors of [`creep`](Self::creep).
     pub fn creep_linear(spectrum: &CreepSpectrum, time_step: f64) -> Result<Self, RheologyError> {
         let mut step = Self::creep(spectrum, time_step)?;
         let delayed = spectrum.elements().iter().map(|one| one.lead(time_step));
@@ -85,7 +89,7 @@ impl ExponentialStep {
             .map(|(lead, field)| lead * field.gain)
             .sum();
         let alternation = whole / (step.response() - whole);
-        let share = ((1.0 - alternation) / (1.0 - LARGEST_ALTERNATION)).clamp(0.0, 1.0);
+        let share = ((1.0 - alternation) / (1.0 - MAX_ALTERNATION)).clamp(0.0, 1.0);
         for (lead, field) in leads.zip(&mut step.fields) {
             field.gain_before = share * lead * field.gain;
             field.gain -= field.gain_before;
@@ -96,19 +100,18 @@ impl ExponentialStep {
         Ok(step)
     }
 
-    /// Part of the step in which the input is linear, from 0 to 1; in the rest of it the new input is held.
+    /// Fraction of the step in which the input is linear, from 0 to 1; in the remainder the new input is held.
     pub const fn linear_share(&self) -> f64 {
         self.linear_share
     }
 
-    /// What one unit of input adds to the output of its step: α \[1/Pa].
+    /// Response α to a unit input at the end of the step, \[1/Pa].
     pub fn response(&self) -> f64 {
         let gains: f64 = self.fields.iter().map(|field| field.gain).sum();
         self.direct + gains
     }
 
-    /// Output of the last of very many steps whose inputs turn by an `angle` \[rad] from each to the next, over the last
-    /// input: the complex compliance at the frequency angle/Δt, of inputs that are held, or linear, over each step.
+    /// Complex compliance of the discrete steps for an oscillating input with a phase `angle` ωΔt \[rad] per step.
     pub fn turning_response(&self, angle: f64) -> ComplexCompliance {
         let mut response = ComplexCompliance {
             storage: self.direct,
@@ -121,7 +124,7 @@ impl ExponentialStep {
             gain_before,
         } in &self.fields
         {
-            // (gain + gain_before e^(−i angle))/(1 − decay e^(−i angle)), without cancellation for small angles.
+            // (gain + gain_before e^(−i ωΔt))/(1 − decay e^(−i ωΔt)), without cancellation for small angles.
             let [real, imaginary] = [
                 (1.0 - decay) + 2.0 * decay * (0.5 * angle).sin().powi(2),
                 decay * sin,
@@ -134,7 +137,7 @@ impl ExponentialStep {
         response
     }
 
-    /// Number of stored values per point.
+    /// Number of history variables per point.
     pub fn n_fields(&self) -> usize {
         self.fields.len() + usize::from(self.keeps_input)
     }
@@ -164,7 +167,7 @@ impl ExponentialStep {
         }
     }
 
-    /// Moves the state to the end of the step, given the `input` of every point: w at the end of the step.
+    /// Advances the state to the end of the step; `input` is w of every point at the end of the step, \[Pa m].
     ///
     /// # Panics
     /// If `state` does not have `n_fields() · input.len()` values.

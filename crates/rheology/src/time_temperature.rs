@@ -1,4 +1,4 @@
-//! Time–temperature superposition: a change of temperature multiplies every time by a factor a_T.
+//! Time–temperature superposition: a change of temperature multiplies all times by a factor a_T.
 //!
 //! ```text
 //! WLF:        log₁₀ a_T = −C₁ (T − T_r)/(C₂ + T − T_r)
@@ -12,7 +12,7 @@ use numerics::{finite, positive};
 /// Gas constant R, [J/(mol K)].
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
-/// The law of Williams, Landel and Ferry, for any scale of temperature with the step of one kelvin.
+/// The law of Williams, Landel and Ferry; temperatures may be in °C or in K.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WlfShift {
@@ -62,7 +62,7 @@ impl WlfShift {
         Ok(-self.c1 * above_reference / (self.c2 + above_reference))
     }
 
-    /// The same law about another reference temperature.
+    /// The law with another reference temperature.
     ///
     /// # Errors
     /// [`RheologyError::BelowWlfPole`] at and below T_r − C₂.
@@ -72,17 +72,20 @@ impl WlfShift {
         Self::new(self.c1 * self.c2 / c2, c2, reference_temperature)
     }
 
-    /// The law that comes closest to measured pairs of temperature and log₁₀ a_T.
+    /// Least-squares fit of the law to measured pairs of temperature and log₁₀ a_T.
     ///
-    /// Linear in the constants: C₁ ΔT + C₂ log₁₀ a_T = −ΔT log₁₀ a_T, with weights that make it the least squares of log₁₀ a_T.
+    /// The equation C₁ ΔT + C₂ log₁₀ a_T = −ΔT log₁₀ a_T is linear in the constants. Iteratively updated weights make its least
+    /// squares those of log₁₀ a_T.
     ///
     /// # Errors
     /// [`RheologyError::TooFewPoints`] with fewer than two temperatures besides the reference;
     /// [`RheologyError::InvalidParameter`] when no positive constants describe the pairs.
     pub fn through(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
-        let shifts = shifts.iter();
-        let pairs = shifts.map(|[t, log]| [t - reference_temperature, *log]);
-        let pairs: Vec<[f64; 2]> = pairs.filter(|[difference, _]| *difference != 0.0).collect();
+        let pairs: Vec<[f64; 2]> = shifts
+            .iter()
+            .map(|[t, log]| [t - reference_temperature, *log])
+            .filter(|[difference, _]| *difference != 0.0)
+            .collect();
         if pairs.len() < 2 {
             return Err(RheologyError::TooFewPoints {
                 needed: 2,
@@ -90,8 +93,8 @@ impl WlfShift {
             });
         }
         let mut constants = linear_constants(&pairs, |_| 1.0);
-        // An error of log₁₀ a_T is C₂ + ΔT times as large in the linear equation, which is known once C₂ is.
-        for _ in 0..REWEIGHTED {
+        // An error of log₁₀ a_T enters the linear equation with the factor C₂ + ΔT, the inverse root of the weight.
+        for _ in 0..N_REWEIGHTINGS {
             let [_, c2] = constants;
             constants = linear_constants(&pairs, |difference| (c2 + difference).powi(-2));
         }
@@ -100,10 +103,10 @@ impl WlfShift {
     }
 }
 
-/// Times that the weights of the linear equations are found anew.
-const REWEIGHTED: usize = 30;
+/// Number of updates of the weights of the linear equations (chosen).
+const N_REWEIGHTINGS: usize = 30;
 
-/// C₁ and C₂ of the least squares of the linear equations for pairs of ΔT and log₁₀ a_T.
+/// Weighted least-squares solution C₁ and C₂ of the linear equations for pairs of ΔT and log₁₀ a_T.
 fn linear_constants(pairs: &[[f64; 2]], weight: impl Fn(f64) -> f64) -> [f64; 2] {
     let [mut dd, mut dl, mut ll, mut ddl, mut dll] = [0.0; 5];
     for &[d, l] in pairs {
@@ -130,7 +133,7 @@ impl ArrheniusShift {
         })
     }
 
-    /// The law that comes closest to pairs of a temperature > 0 \[K] and log₁₀ a_T.
+    /// Least-squares fit of the law to pairs of a temperature > 0 \[K] and log₁₀ a_T.
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when no positive energy describes the pairs.
@@ -145,7 +148,7 @@ impl ArrheniusShift {
         Self::new(products / squares, reference_temperature)
     }
 
-    /// The activation energy, [J/mol].
+    /// Activation energy E_a, [J/mol].
     pub const fn activation_energy(&self) -> f64 {
         self.activation_energy
     }
@@ -164,7 +167,7 @@ impl ArrheniusShift {
 }
 
 impl RelaxationSpectrum {
-    /// The material at another temperature: all times multiplied by the shift factor a_T > 0.
+    /// The spectrum at another temperature, with all times multiplied by the shift factor a_T > 0.
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when the factor, or a time, is not finite and greater than zero.

@@ -1,7 +1,7 @@
-//! Which part of a dissipated power comes from frequencies at which a material was not measured.
+//! Fraction of the dissipated power from frequencies outside the measured window of a material.
 //!
-//! In a stationary state every wave of the stress oscillates at one frequency, and dissipates in proportion to its square and to
-//! ω J''(ω). Over a band in which the square has a constant density
+//! In a stationary state every wave of the stress oscillates at one frequency and dissipates a power proportional to its square
+//! and to ω J''(ω). Over a band in which the square has a constant density
 //!
 //! ```text
 //! ∫ ω J''(ω) dω = ω/η_f + Σ J_k/λ_k² (x − atan x),        x = ω λ_k
@@ -11,34 +11,35 @@ use numerics::fourier_power;
 
 use crate::CreepSpectrum;
 
-/// Waves per decade of the spectrum along a line; the longest over the length of the contact or of the slowest retardation, and
-/// the shortest over the shortest distance of two points, beyond which jumps have a thousandth of their power.
-const PER_DECADE: f64 = 40.0;
-const LONGEST: f64 = 1e-2;
-const SHORTEST: f64 = 1e2;
+/// Number of waves per decade of the spectrum along a line (chosen).
+const WAVES_PER_DECADE: f64 = 40.0;
+/// Smallest wave number times the length of the contact, or times the distance slid in the longest retardation time (chosen).
+const MIN_WAVE_NUMBER_FACTOR: f64 = 1e-2;
+/// Largest wave number times the shortest distance of two points (chosen): beyond it a jump has a thousandth of its power.
+const MAX_WAVE_NUMBER_FACTOR: f64 = 1e2;
 
-/// What the stress of a stationary state has at some angular frequencies.
+/// Spectral weight of the stress of a stationary state in a band of angular frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StressBand {
-    /// Lowest and highest of them, \[rad/s]; the same twice for one wave.
+    /// Lowest and highest angular frequency, \[rad/s]; equal for a single wave.
     pub band: [f64; 2],
-    /// Square of the stress times the compliance of the body over that of the material, in any unit: its mean density over
-    /// the band times the width, or that of the one wave.
+    /// Integral over the band of the squared stress times the ratio of the compliances of body and material, in any unit.
     pub weight: f64,
 }
 
-/// Parts of a dissipated power that come from outside of a window of frequencies.
+/// Fractions of the dissipated power from outside a window of frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideWindow {
-    /// From below it, 0 to 1.
+    /// Fraction from frequencies below the window, 0 to 1.
     pub below: f64,
-    /// From above it, 0 to 1.
+    /// Fraction from frequencies above the window, 0 to 1.
     pub above: f64,
 }
 
 impl CreepSpectrum {
-    /// The parts of the dissipated power that come from below and above a `window` of angular frequencies \[rad/s]; none where
-    /// nothing is dissipated.
+    /// Fractions of the dissipated power from below and above a window of angular frequencies \[rad/s].
+    ///
+    /// `None` without dissipation.
     pub fn outside_window(
         &self,
         [lowest, highest]: [f64; 2],
@@ -74,8 +75,10 @@ impl CreepSpectrum {
         })
     }
 
-    /// The frequencies of a stationary load per length that slides at a `velocity` \[m/s]: straight between `points` of
-    /// increasing positions \[m], with a `compliance` that depends on the wave number [1/m], in any unit.
+    /// Bands of the frequencies of a stationary line load that slides at a `velocity` \[m/s].
+    ///
+    /// The load per length is linear between `points` of increasing positions \[m]. The `compliance` is a function of the wave
+    /// number [1/m], in any unit.
     pub fn bands_along(
         &self,
         points: &[[f64; 2]],
@@ -84,13 +87,13 @@ impl CreepSpectrum {
     ) -> Vec<StressBand> {
         let steps = points.windows(2).map(|pair| pair[1][0] - pair[0][0]);
         let shortest = steps.clone().filter(|step| *step > 0.0);
-        let shortest = SHORTEST / shortest.fold(f64::INFINITY, f64::min);
+        let shortest = MAX_WAVE_NUMBER_FACTOR / shortest.fold(f64::INFINITY, f64::min);
         let slowest = self.elements().last().map(|one| one.retardation_time);
         let length = steps.sum::<f64>();
-        let longest = LONGEST / length.max(velocity * slowest.unwrap_or(0.0));
-        let step = 10_f64.powf(PER_DECADE.recip());
+        let longest = MIN_WAVE_NUMBER_FACTOR / length.max(velocity * slowest.unwrap_or(0.0));
+        let step = 10_f64.powf(WAVES_PER_DECADE.recip());
         let waves = std::iter::successors(Some(longest), |wave| Some(wave * step));
-        // As wide as the waves are apart, around their middle.
+        // Bands around the waves that meet halfway in the logarithm.
         let ends = [step.sqrt().recip(), step.sqrt()].map(|end| end * velocity);
         let band = |wave: f64| StressBand {
             band: ends.map(|end| end * wave),
@@ -99,7 +102,7 @@ impl CreepSpectrum {
         waves.take_while(|w| *w < shortest).map(band).collect()
     }
 
-    /// ω J''(ω).
+    /// Loss rate ω J''(ω).
     fn loss_rate(&self, omega: f64) -> f64 {
         let elements = self.elements().iter();
         let rates = elements.map(|element| {
@@ -109,19 +112,19 @@ impl CreepSpectrum {
         self.fluidity() + rates.sum::<f64>()
     }
 
-    /// ∫ ω J'' dω from zero.
+    /// Integral ∫ ω J'' dω from zero.
     fn loss_integral(&self, omega: f64) -> f64 {
         let elements = self.elements().iter();
         let integrals = elements.map(|element| {
             let time = element.retardation_time;
-            element.compliance * (above_its_angle(omega * time) / time / time)
+            element.compliance * (difference_from_arctangent(omega * time) / time / time)
         });
         self.fluidity() * omega + integrals.sum::<f64>()
     }
 }
 
-/// x − atan x for x ≥ 0, of which little is left where x is small: there the series, to 1e-9.
-fn above_its_angle(x: f64) -> f64 {
+/// Difference x − atan x for x ≥ 0; for small x by its power series, with a relative error below 1e-9.
+fn difference_from_arctangent(x: f64) -> f64 {
     if x > 0.1 {
         return x - x.atan();
     }

@@ -1,44 +1,53 @@
-//! A pair of isotherms that do not overlap, by the law of the pairs around it.
+//! Shift of a pair of isotherms that do not overlap, by a WLF law through the pairs around it.
 
 use std::f64::consts::LN_10;
 
 use nalgebra::{Matrix2, Vector2};
 use numerics::golden_section;
 
-/// A pair whose shift is known.
-pub(super) struct Known {
-    /// What it is called by.
+/// A pair of isotherms with a known shift.
+pub(super) struct KnownShift {
+    /// Index of the pair in the list of links.
     pub(super) link: usize,
-    /// Those of both isotherms, \[K].
+    /// Temperatures of both isotherms, \[K].
     pub(super) temperatures: [f64; 2],
-    /// ln of the factor of the frequencies of the second isotherm over that of the first.
+    /// ln of the ratio of the frequency factors, second isotherm over first.
     pub(super) log_factor: f64,
 }
 
-/// Pairs beside the one that is sought, the nearest ones: farther away the law may be another one, as on the other side of the glass
-/// transition.
-const N_PAIRS: usize = 4;
-/// Distance from the law within which it holds, in ln a: a tenth of a decade, or this part of the shift of a pair, because temperatures
-/// of isotherms that are ten kelvins apart are known to half a kelvin.
-pub(super) const HOLDS: f64 = 0.1 * LN_10;
-const HOLDS_IN_PART: f64 = 0.15;
-/// ln of how far below the coldest isotherm the pole of the law may be, \[K].
-const POLES: [f64; 2] = [0.0, 9.0];
+/// Largest number of known pairs, the nearest ones (chosen): on the other side of a glass transition another law holds.
+const MAX_PAIRS: usize = 4;
+/// Largest misfit of ln a for which the law holds: a tenth of a decade (chosen).
+pub(super) const LAW_TOLERANCE: f64 = 0.1 * LN_10;
+/// Largest misfit relative to the shift of a pair (chosen: 0.5 K and 0.5 K of error in pairs 10 K apart).
+const LAW_RELATIVE_TOLERANCE: f64 = 0.15;
+/// Range of ln of the distance of the pole below the coldest isotherm, \[K] (chosen: 1 K to 8000 K).
+const LOG_POLE_RANGE: [f64; 2] = [0.0, 9.0];
 
-/// The shift of a pair of temperatures \[K] by the law of Williams, Landel and Ferry through those of the pairs nearest to it, and
-/// the part of each of these in it; none of fewer than two, or where the law does not hold for them.
+/// A shift by the law, and its dependence on the known shifts.
+pub(super) struct LawShift {
+    /// ln of the ratio of the frequency factors of the pair.
+    pub(super) log_factor: f64,
+    /// Links of the known pairs with the derivatives of `log_factor` by their shifts.
+    pub(super) weights: Vec<(usize, f64)>,
+}
+
+/// Shift of a pair of temperatures \[K] by the WLF law through the shifts of the nearest known pairs.
 ///
-/// With C₂ = T_r it is the law of Arrhenius.
-pub(super) fn bridged(mut known: Vec<Known>, sought: [f64; 2]) -> Option<(f64, Vec<(usize, f64)>)> {
+/// `None` for fewer than two known pairs, and if the law does not describe them. With a pole at absolute zero it is the law
+/// of Arrhenius.
+pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Option<LawShift> {
+    // Take the nearest pairs.
     let middle = |[one, other]: [f64; 2]| one.midpoint(other);
-    let distance = |pair: &Known| (middle(pair.temperatures) - middle(sought)).abs();
+    let distance = |pair: &KnownShift| (middle(pair.temperatures) - middle(sought)).abs();
     known.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
-    known.truncate(N_PAIRS);
+    known.truncate(MAX_PAIRS);
     if known.len() < 2 {
         return None;
     }
     let temperatures = known.iter().map(|pair| pair.temperatures).chain([sought]);
     let coldest = temperatures.flatten().fold(f64::INFINITY, f64::min);
+    // Fit the law: the steepness is linear, the pole is searched.
     let law = |log_pole: f64| {
         let mut law = Law {
             coldest,
@@ -46,78 +55,85 @@ pub(super) fn bridged(mut known: Vec<Known>, sought: [f64; 2]) -> Option<(f64, V
             steepness: 0.0,
         };
         let [products, squares] = known.iter().fold([0.0; 2], |[products, squares], pair| {
-            let own = law.per_steepness(pair.temperatures);
+            let own = law.shift_per_steepness(pair.temperatures);
             [products + own * pair.log_factor, squares + own * own]
         });
         law.steepness = products / squares;
         law
     };
-    let off = |law: &Law, pair: &Known| law.shift(pair.temperatures) - pair.log_factor;
+    let misfit = |law: &Law, pair: &KnownShift| law.shift(pair.temperatures) - pair.log_factor;
     let squares = |log_pole: f64| {
         let law = law(log_pole);
         known
             .iter()
-            .map(|pair| off(&law, pair).powi(2))
+            .map(|pair| misfit(&law, pair).powi(2))
             .sum::<f64>()
     };
-    let law = law(golden_section(squares, POLES));
+    let law = law(golden_section(squares, LOG_POLE_RANGE));
     let holds = known.iter().all(|pair| {
-        let holds = HOLDS.max(HOLDS_IN_PART * pair.log_factor.abs());
-        off(&law, pair).abs() <= holds
+        let tolerance = LAW_TOLERANCE.max(LAW_RELATIVE_TOLERANCE * pair.log_factor.abs());
+        misfit(&law, pair).abs() <= tolerance
     });
     if !holds || law.steepness <= 0.0 {
         return None;
     }
+    // Propagate the known shifts through the least squares.
     let derivatives: Vec<Vector2<f64>> = known
         .iter()
         .map(|pair| law.derivatives(pair.temperatures))
         .collect();
     let normal: Matrix2<f64> = derivatives.iter().map(|own| own * own.transpose()).sum();
-    // With a pole far away the two constants are one.
-    let ridge = Matrix2::from_diagonal(&(normal.diagonal() * ROUNDING));
+    // For a distant pole the two constants are not independent.
+    let ridge = Matrix2::from_diagonal(&(normal.diagonal() * NORMAL_ROUNDING));
     let of_sought = (normal + ridge).try_inverse()? * law.derivatives(sought);
-    let parts = known
+    let weights = known
         .iter()
         .zip(&derivatives)
         .map(|(pair, own)| (pair.link, own.dot(&of_sought)));
-    Some((law.shift(sought), parts.collect()))
+    Some(LawShift {
+        log_factor: law.shift(sought),
+        weights: weights.collect(),
+    })
 }
 
-/// Part of the diagonal of the normal equations that is rounding.
-const ROUNDING: f64 = 1e-9;
+/// Ridge of the normal equations, relative to their diagonal (chosen: above rounding).
+const NORMAL_ROUNDING: f64 = 1e-9;
 
-/// d ln a/dT = −k/(T − T_∞)².
+/// WLF law d ln a/dT = −k/(T − T_∞)².
 struct Law {
+    /// Lowest temperature of the isotherms T_c, \[K].
     coldest: f64,
-    /// How far below the coldest isotherm T_∞ is.
+    /// Distance T_c − T_∞ of the pole, \[K].
     pole: f64,
-    /// k in the unit of `pole`.
+    /// Steepness k/(T_c − T_∞).
     steepness: f64,
 }
 
 impl Law {
-    /// Of the pole at both temperatures, over its distance from the coldest.
-    fn inverses(&self, temperatures: [f64; 2]) -> [f64; 2] {
+    /// Ratios (T_c − T_∞)/(T − T_∞) at both temperatures.
+    fn relative_poles(&self, temperatures: [f64; 2]) -> [f64; 2] {
         temperatures.map(|temperature| self.pole / (temperature - self.coldest + self.pole))
     }
 
-    fn per_steepness(&self, temperatures: [f64; 2]) -> f64 {
-        let [from, to] = self.inverses(temperatures);
+    /// Shift ln a of a pair per unit of steepness.
+    fn shift_per_steepness(&self, temperatures: [f64; 2]) -> f64 {
+        let [from, to] = self.relative_poles(temperatures);
         to - from
     }
 
+    /// Shift ln a of a pair.
     fn shift(&self, temperatures: [f64; 2]) -> f64 {
-        self.steepness * self.per_steepness(temperatures)
+        self.steepness * self.shift_per_steepness(temperatures)
     }
 
-    /// By the steepness and by ln of the pole.
+    /// Derivatives of the shift by the steepness and by ln of the pole distance.
     fn derivatives(&self, temperatures: [f64; 2]) -> Vector2<f64> {
-        // p/(T − T_c + p) changes by its own part that is left to 1.
+        // d r/d ln p = r (1 − r) for r = p/(T − T_c + p).
         let [from, to] = self
-            .inverses(temperatures)
+            .relative_poles(temperatures)
             .map(|inverse| inverse * (1.0 - inverse));
         Vector2::new(
-            self.per_steepness(temperatures),
+            self.shift_per_steepness(temperatures),
             self.steepness * (to - from),
         )
     }

@@ -1,9 +1,9 @@
-//! Creep compliance as a relaxation modulus.
+//! Conversion of a measured creep compliance into a relaxation modulus.
 //!
 //! ```text
 //! J(t) = J₀ + t/η + Σ J_k (1 − e^(−t/λ_k)),    J₀, 1/η, J_k ≥ 0
 //! ```
-//! is fitted to the relative errors of J with retardation times that are spaced equally in the logarithm, and its exact
+//! The series is fitted to the relative errors of J, with retardation times equally spaced in the logarithm. Its exact
 //! [`RelaxationSpectrum`](crate::RelaxationSpectrum) gives G(t) at the same times.
 
 use nalgebra::{DMatrix, DVector};
@@ -11,7 +11,7 @@ use numerics::{in_range, positive};
 
 use super::curve::RelaxationPoint;
 use super::nnls::nnls;
-use crate::error::in_list;
+use crate::error::with_list_index;
 use crate::{CreepSpectrum, RetardationElement, RheologyError};
 
 /// Creep compliance at one time after a step of stress.
@@ -23,12 +23,12 @@ pub struct CreepPoint {
     pub compliance: f64,
 }
 
-/// Retardation times per decade.
-const PER_DECADE: f64 = 8.0;
-/// Largest root mean square relative error of a series with that many.
-const LARGEST_ERROR: f64 = 0.2;
+/// Number of retardation times per decade (chosen).
+const TIMES_PER_DECADE: f64 = 8.0;
+/// Largest root mean square relative error of the series for a creeping material (chosen).
+const MAX_RMS_ERROR: f64 = 0.2;
 
-/// The relaxation moduli of a material with these creep compliances, at the same times.
+/// Relaxation moduli at the times of measured creep compliances.
 ///
 /// # Errors
 /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a time is not greater than the one
@@ -37,10 +37,11 @@ const LARGEST_ERROR: f64 = 0.2;
 pub fn relaxation_of_creep(points: &[CreepPoint]) -> Result<Vec<RelaxationPoint>, RheologyError> {
     let mut last = 0.0;
     for (index, point) in points.iter().enumerate() {
-        let holds = point.time.is_finite() && point.time > last;
+        let is_increasing = point.time.is_finite() && point.time > last;
         let allowed = "finite, greater than 0 and greater than the one before";
-        in_range("time", point.time, holds, allowed).map_err(in_list("points", index))?;
-        positive("compliance", point.compliance).map_err(in_list("points", index))?;
+        in_range("time", point.time, is_increasing, allowed)
+            .map_err(with_list_index("points", index))?;
+        positive("compliance", point.compliance).map_err(with_list_index("points", index))?;
         last = point.time;
     }
     let [first, .., _] = points else {
@@ -57,11 +58,12 @@ pub fn relaxation_of_creep(points: &[CreepPoint]) -> Result<Vec<RelaxationPoint>
     points.iter().map(point).collect()
 }
 
+/// Nonnegative least-squares fit of the creep series, with times from the shortest to the longest.
 fn creep_spectrum(
     points: &[CreepPoint],
     [shortest, longest]: [f64; 2],
 ) -> Result<CreepSpectrum, RheologyError> {
-    let steps = (PER_DECADE * (longest / shortest).log10()).ceil();
+    let steps = (TIMES_PER_DECADE * (longest / shortest).log10()).ceil();
     let places = std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
     let times: Vec<f64> = places
         .map(|k| shortest * (longest / shortest).powf(k / steps))
@@ -77,17 +79,19 @@ fn creep_spectrum(
     });
     let compliances = nnls(&matrix, &DVector::from_element(points.len(), 1.0))?;
     let error = (&matrix * &compliances).add_scalar(-1.0).norm() / (points.len() as f64).sqrt();
-    if error > LARGEST_ERROR {
+    if error > MAX_RMS_ERROR {
         let what =
             "no sum of retarded compliances comes near to J(t), which rises ever more slowly";
         return Err(RheologyError::WrongTrend { what });
     }
-    let elements = times.iter().zip(compliances.iter().skip(2));
-    let elements = elements.filter(|(_, compliance)| **compliance > 0.0);
-    let elements = elements.map(|(retardation_time, compliance)| RetardationElement {
-        compliance: *compliance,
-        retardation_time: *retardation_time,
-    });
+    let elements = times
+        .iter()
+        .zip(compliances.iter().skip(2))
+        .filter(|(_, compliance)| **compliance > 0.0)
+        .map(|(retardation_time, compliance)| RetardationElement {
+            compliance: *compliance,
+            retardation_time: *retardation_time,
+        });
     CreepSpectrum::new(compliances[0], compliances[1] / longest, elements.collect())
 }
 

@@ -1,9 +1,9 @@
-//! What was measured, over frequency or over time.
+//! Measured curves of moduli over frequency or over time.
 
 use super::superposition::{Link, LinkedBy};
-use super::system::{LEAST_PART, Measurement, Quantity};
+use super::system::{MIN_RELATIVE_SIZE, Measurement, Quantity};
 use crate::RheologyError;
-use crate::error::in_list;
+use crate::error::with_list_index;
 use numerics::{InvalidParameter, in_range, not_negative, positive};
 
 /// Moduli at one frequency of oscillation.
@@ -19,10 +19,9 @@ pub struct ModulusPoint {
 }
 
 impl ModulusPoint {
-    /// What errors of storage and loss modulus are relative to, \[Pa]: to their own sizes, or to a thousandth of |G*| where that
-    /// is larger.
+    /// Scales of the relative errors of storage and loss modulus, \[Pa]: the modulus, but at least a thousandth of |G*|.
     pub fn sizes(&self) -> [f64; 2] {
-        let least = LEAST_PART * self.storage.hypot(self.loss);
+        let least = MIN_RELATIVE_SIZE * self.storage.hypot(self.loss);
         [self.storage, self.loss].map(|modulus| modulus.max(least))
     }
 }
@@ -41,30 +40,30 @@ pub struct RelaxationPoint {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredCurve {
-    /// One for every measured number.
+    /// Measured numbers; two per frequency, one per time.
     pub(super) rows: Vec<Measurement>,
-    /// The shortest and the longest time that the curve covers, 1/ω or t.
+    /// Shortest and longest time of the curve, 1/ω or t, \[s].
     pub(super) time_window: [f64; 2],
-    /// How it was joined, if it is a master curve.
+    /// Isotherms of a master curve; `None` for a single curve.
     pub(super) joined: Option<JoinedIsotherms>,
 }
 
-/// Isotherms on one curve, in any order.
+/// Isotherms of a master curve, in any order.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct JoinedIsotherms {
-    /// In the unit of the table.
+    /// Temperatures in the unit of the table.
     pub(super) temperatures: Vec<f64>,
-    /// ln of the factors of their frequencies.
+    /// Shifts ln a of the frequencies.
     pub(super) log_factors: Vec<f64>,
-    /// What says where each of them is, each after the one that it was shifted onto; none where that was given.
+    /// Pairs of isotherms shifted onto each other, from the reference outwards.
     pub(super) links: Vec<Link>,
-    /// ln of factors of their moduli that there may be or not; none where that is known.
+    /// Undecided ln b of the moduli; empty if they are decided.
     pub(super) undecided: Vec<f64>,
 }
 
 impl JoinedIsotherms {
-    /// The isotherm that stayed where it was while others were shifted onto it; none where all shifts were given.
+    /// Reference isotherm, onto which the others were shifted; `None` if all shifts were given.
     pub(super) fn reference(&self) -> Option<usize> {
         let finds_shift = |link: &Link| match link.by {
             LinkedBy::Overlap { finds_shift, .. } => finds_shift,
@@ -75,7 +74,7 @@ impl JoinedIsotherms {
         self.links.iter().any(finds_shift).then_some(first.fixed)
     }
 
-    /// d ln a/dT from the neighbours of every isotherm; 0 of a single one.
+    /// Slope d ln a/dT at every isotherm, by central differences; 0 for a single isotherm.
     pub(super) fn secants(&self) -> Vec<f64> {
         let n = self.temperatures.len();
         let mut order: Vec<usize> = (0..n).collect();
@@ -101,7 +100,7 @@ impl MeasuredCurve {
     /// greater than the one before it, or a modulus is not finite, negative, or both of a point are zero.
     pub fn oscillation(points: Vec<ModulusPoint>) -> Result<Self, RheologyError> {
         let magnitude = |point: &ModulusPoint, last: f64| {
-            increasing("angular_frequency", point.angular_frequency, last)?;
+            check_increasing("angular_frequency", point.angular_frequency, last)?;
             not_negative("storage", point.storage)?;
             not_negative("loss", point.loss)?;
             positive("modulus", point.storage.hypot(point.loss))
@@ -109,13 +108,13 @@ impl MeasuredCurve {
         let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {
-            let magnitude = magnitude(point, last).map_err(in_list("points", index))?;
+            let magnitude = magnitude(point, last).map_err(with_list_index("points", index))?;
             last = point.angular_frequency;
             let row = |quantity, value| Measurement {
                 quantity,
                 at: last,
                 value,
-                size: value.max(LEAST_PART * magnitude),
+                size: value.max(MIN_RELATIVE_SIZE * magnitude),
                 weight: magnitude.recip(),
                 isotherm: 0,
             };
@@ -131,8 +130,8 @@ impl MeasuredCurve {
         })
     }
 
-    /// The same curve as one of isotherms, with the isotherm of every point.
-    pub(super) fn of_isotherms(mut self, places: &[usize], joined: JoinedIsotherms) -> Self {
+    /// The curve as a master curve, with the isotherm of every point.
+    pub(super) fn with_isotherms(mut self, places: &[usize], joined: JoinedIsotherms) -> Self {
         for (row, isotherm) in self
             .rows
             .iter_mut()
@@ -150,23 +149,23 @@ impl MeasuredCurve {
     /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a time is not greater
     /// than the one before it, or a modulus is not finite and greater than zero.
     pub fn relaxation(points: Vec<RelaxationPoint>) -> Result<Self, RheologyError> {
-        Self::relaxing(&points, |point| point.modulus)
+        Self::relaxation_with_sizes(&points, |point| point.modulus)
     }
 
-    /// A curve of relaxation whose errors are relative to a size greater than 0.
-    pub(super) fn relaxing(
+    /// A curve measured in relaxation, with errors relative to a `size` > 0 \[Pa] of each point.
+    pub(super) fn relaxation_with_sizes(
         points: &[RelaxationPoint],
         size: impl Fn(&RelaxationPoint) -> f64,
     ) -> Result<Self, RheologyError> {
         let checked = |point: &RelaxationPoint, last: f64| {
-            increasing("time", point.time, last)?;
+            check_increasing("time", point.time, last)?;
             not_negative("modulus", point.modulus)?;
             positive("modulus", size(point))
         };
         let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {
-            let size = checked(point, last).map_err(in_list("points", index))?;
+            let size = checked(point, last).map_err(with_list_index("points", index))?;
             last = point.time;
             rows.push(Measurement {
                 quantity: Quantity::Relaxation,
@@ -185,13 +184,13 @@ impl MeasuredCurve {
         })
     }
 
-    /// The lowest and the highest angular frequency that the curve covers, \[rad/s], 1/t of a relaxation.
+    /// Lowest and highest angular frequency of the curve, \[rad/s]; 1/t for a relaxation.
     pub fn frequencies(&self) -> [f64; 2] {
         let [shortest, longest] = self.time_window;
         [longest.recip(), shortest.recip()]
     }
 
-    /// The curve of oscillation with the names of its moduli exchanged.
+    /// The curve with storage and loss modulus exchanged; `None` for a relaxation.
     pub(super) fn swapped(&self) -> Option<Self> {
         let swapped = |row: &Measurement| {
             let quantity = match row.quantity {
@@ -209,13 +208,18 @@ impl MeasuredCurve {
     }
 }
 
-fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, InvalidParameter> {
-    let holds = value.is_finite() && value > last;
+/// Checks that a frequency or time is finite and greater than the one before.
+fn check_increasing(
+    parameter: &'static str,
+    value: f64,
+    last: f64,
+) -> Result<f64, InvalidParameter> {
+    let is_increasing = value.is_finite() && value > last;
     let allowed = "finite, greater than 0 and greater than the one before";
-    in_range(parameter, value, holds, allowed)
+    in_range(parameter, value, is_increasing, allowed)
 }
 
-/// The first and the last frequency or time.
+/// First and last frequency or time of at least two points.
 fn ends(rows: &[Measurement], given: usize) -> Result<[f64; 2], RheologyError> {
     match rows {
         [first, .., last] if given >= 2 => Ok([first.at, last.at]),

@@ -1,8 +1,8 @@
-//! The Prony series that stands for a relaxation function, with its error.
+//! Prony series of a relaxation function, with its error.
 //!
-//! G* at one frequency depends on all times, so the function is sampled beyond the range of times that matters, until the rest
-//! matters no more. The difference ΔG of function and series gives that of the moduli: with ΔG linear between samples t_0,
-//! t_1, … and constant beyond them,
+//! G* at one frequency depends on all times. Therefore the function is sampled beyond the requested range until its tail
+//! changes G* by less than a fraction of the tolerance. The difference ΔG of function and series gives that of the moduli.
+//! With ΔG linear between samples t_0, t_1, … and constant beyond them,
 //!
 //! ```text
 //! ΔG*(ω) = iω ∫ ΔG e^(−iωt) dt = ΔG(t_0) + Σ [ΔG(t_k+1) − ΔG(t_k)] e^(−iωm) sin(ωh)/(ωh)
@@ -16,24 +16,26 @@ use super::identify::{Control, Ending, IdentifyOptions, MAX_BRANCHES, series_of}
 use crate::fractional::{PronyExpansion, validate};
 use crate::{RelaxationSpectrum, RheologyError};
 
-/// Branches per decade that are tried.
-const DENSITIES: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
+/// Numbers of branches per decade, tried in this order (chosen).
+const BRANCHES_PER_DECADE: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
+/// Number of samples per decade of time, and of frequencies at which the error is found (chosen).
 const SAMPLES_PER_DECADE: f64 = 32.0;
-/// Part of the error that may come from times that are not sampled.
-const BEYOND: f64 = 0.1;
-const MAX_DECADES_BEYOND: i32 = 30;
+/// Fraction of the tolerance for each tail of the function, at times that are not sampled (chosen).
+const TAIL_ERROR_FRACTION: f64 = 0.1;
+/// Bound on the number of decades beyond an end of the range (chosen).
+const MAX_TAIL_DECADES: i32 = 30;
 
-/// The series that is within `relative_error` of a relaxation function G(t) \[Pa] over a range of times, the shortest and
-/// the longest for which it is needed \[s]: in G(t) there, and in G* at the frequencies 1/t.
+/// Prony series within `relative_error` of a relaxation function G(t) \[Pa] over a range of times \[s].
 ///
-/// The function is asked for times beyond the range too, as far as they matter for G*. It must fall as that of a material
-/// does, as a sum or an integral of decaying exponentials.
+/// The error bounds G(t) in the range and G* at the frequencies 1/t. The function is also evaluated beyond the range, as far
+/// as it matters for G*. It must be completely monotone: a sum or an integral of decaying exponentials.
 ///
 /// # Errors
-/// [`RheologyError::InvalidParameter`] when the range is empty or the error outside 1e-12 to 0.1;
-/// [`RheologyError::InvalidElement`] for a sample that is not finite, or not greater than 0 within the range;
-/// [`RheologyError::ExpansionNotReached`] when the function is that of no material, when it is as sharp as a single
-/// exponential, or when rounding is larger than the error asked for; [`RheologyError::FitNotConverged`].
+/// - [`RheologyError::InvalidParameter`] when the range is empty or the error outside 1e-12 to 0.1;
+/// - [`RheologyError::InvalidElement`] for a sample that is not finite, or not greater than 0 within the range;
+/// - [`RheologyError::ExpansionNotReached`] when the function is not completely monotone, when it is as sharp as a single
+///   exponential, or when rounding exceeds the error asked for;
+/// - [`RheologyError::FitNotConverged`] when a fit does not converge.
 pub fn expand(
     relaxation_modulus: &dyn Fn(f64) -> f64,
     time_range: [f64; 2],
@@ -41,22 +43,25 @@ pub fn expand(
 ) -> Result<PronyExpansion, RheologyError> {
     let [shortest, longest] = time_range;
     validate([longest.recip(), shortest.recip()], relative_error)?;
-    let law = Law {
+    let function = RelaxationFunction {
         relaxation_modulus,
         time_range,
     };
-    let [(first, before), (last, after)] = [(shortest, 0.1), (longest, 10.0)]
-        .map(|(end, factor)| law.rest(end, factor, BEYOND * relative_error));
-    let samples = law.samples([first, last]);
-    let curve = law.curve(&samples)?;
+    // Sample the function, with both tails.
+    let [before, after] = [(shortest, 0.1), (longest, 10.0)]
+        .map(|(end, factor)| function.tail(end, factor, TAIL_ERROR_FRACTION * relative_error));
+    let ends = [before.time, after.time];
+    let samples = function.samples(ends);
+    let curve = function.curve(&samples)?;
+    // Fit with more and more branches.
     let mut reached = f64::INFINITY;
-    for per_decade in DENSITIES {
-        let n_branches = spaced([first, last], per_decade).count();
+    for per_decade in BRANCHES_PER_DECADE {
+        let n_branches = log_spaced(ends, per_decade).count();
         if n_branches > MAX_BRANCHES {
             break;
         }
-        let spectrum = series_of(&curve, &equally_spaced(n_branches))?.spectrum;
-        let error = law.error_of(&spectrum, &samples)? + before + after;
+        let spectrum = series_of(&curve, &fixed_branches(n_branches))?.spectrum;
+        let error = function.error_of(&spectrum, &samples)? + before.error + after.error;
         if error <= relative_error {
             return Ok(PronyExpansion {
                 spectrum,
@@ -72,7 +77,8 @@ pub fn expand(
     })
 }
 
-const fn equally_spaced(n_branches: usize) -> IdentifyOptions {
+/// Options for branches at fixed times, without smoothing.
+const fn fixed_branches(n_branches: usize) -> IdentifyOptions {
     IdentifyOptions {
         ending: Ending::Solid,
         control: Control::Smooth {
@@ -82,8 +88,8 @@ const fn equally_spaced(n_branches: usize) -> IdentifyOptions {
     }
 }
 
-/// Numbers equally spaced in the logarithm, at least so many in every decade, with both ends.
-fn spaced([first, last]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
+/// Numbers equally spaced in the logarithm, at least `per_decade` per decade, with both ends.
+fn log_spaced([first, last]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let log_ratio = (last / first).ln();
     let n = (per_decade * log_ratio / LN_10).ceil();
     let part = move |k: &f64| k / n;
@@ -92,24 +98,35 @@ fn spaced([first, last]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64>
     parts.map(move |k| first * (log_ratio * part(&k)).exp())
 }
 
-/// A relaxation function, and the times for which it is needed.
-struct Law<'a> {
+/// A relaxation function and its range of times.
+struct RelaxationFunction<'a> {
     relaxation_modulus: &'a dyn Fn(f64) -> f64,
     time_range: [f64; 2],
 }
 
-impl Law<'_> {
-    /// The first time after decades beyond an end of the range whose rest adds less than a tolerance to the modulus at 1/end,
-    /// and this rest, relative to G at the end: of a change of G at t, G*(1/end) feels the part t/end, or end/t.
-    fn rest(&self, end: f64, factor: f64, tolerance: f64) -> (f64, f64) {
+/// The end of the sampled times on one side, and the effect of the neglected tail.
+struct Tail {
+    /// First or last sampled time, \[s].
+    time: f64,
+    /// Estimated change of G* by the neglected tail, relative to G at the end of the range.
+    error: f64,
+}
+
+impl RelaxationFunction<'_> {
+    /// How far beyond an `end` of the range to sample G(t) so that the neglected tail changes G*(1/end) by less than
+    /// `tolerance`.
+    ///
+    /// A change of G at the time t contributes to G*(1/end) with the factor t/end before the range, or end/t after it.
+    /// `factor` is 0.1 before the range and 10 after it.
+    fn tail(&self, end: f64, factor: f64, tolerance: f64) -> Tail {
         let modulus = |decade: i32| (self.relaxation_modulus)(end * factor.powi(decade));
-        let felt = |decade: i32| {
+        let effect = |decade: i32| {
             let change = modulus(decade + 1) - modulus(decade);
             (change / modulus(0)).abs() * 0.1_f64.powi(decade)
         };
-        // The changes of all decades from this one on, if they go on to fall in this ratio.
-        let rest = |decade: i32| {
-            let [this, next] = [felt(decade), felt(decade + 1)];
+        // Sum of the effects from this decade on, as a geometric series.
+        let tail = |decade: i32| {
+            let [this, next] = [effect(decade), effect(decade + 1)];
             let falls = this > next;
             if falls {
                 this * this / (this - next)
@@ -117,39 +134,45 @@ impl Law<'_> {
                 this + next
             }
         };
-        let decades = 1..MAX_DECADES_BEYOND;
+        let decades = 1..MAX_TAIL_DECADES;
         let found = decades.clone().find(|&decade| {
-            let falls_or_nothing = felt(decade + 1) <= felt(decade);
-            falls_or_nothing && rest(decade) <= tolerance
+            let falls_or_nothing = effect(decade + 1) <= effect(decade);
+            falls_or_nothing && tail(decade) <= tolerance
         });
-        let decade = found.unwrap_or(MAX_DECADES_BEYOND);
-        (end * factor.powi(decade), rest(decade))
+        let decade = found.unwrap_or(MAX_TAIL_DECADES);
+        Tail {
+            time: end * factor.powi(decade),
+            error: tail(decade),
+        }
     }
 
+    /// Samples of the function, equally spaced in the logarithm.
     fn samples(&self, ends: [f64; 2]) -> Vec<RelaxationPoint> {
         let point = |time| RelaxationPoint {
             time,
             modulus: (self.relaxation_modulus)(time),
         };
-        spaced(ends, SAMPLES_PER_DECADE).map(point).collect()
+        log_spaced(ends, SAMPLES_PER_DECADE).map(point).collect()
     }
 
-    /// Errors within the range and before it are relative to G; after it to what G*(1/longest) feels of them, if that is larger,
-    /// because the function of a fluid vanishes.
+    /// Samples as a curve for the fit.
+    ///
+    /// Errors are relative to G. After the range the scale is at least that of the effect on G*(1/longest), because the
+    /// function of a fluid vanishes.
     fn curve(&self, samples: &[RelaxationPoint]) -> Result<MeasuredCurve, RheologyError> {
         let [_, longest] = self.time_range;
         let last = (self.relaxation_modulus)(longest);
-        MeasuredCurve::relaxing(samples, |point| {
-            let felt = last * longest / point.time;
+        MeasuredCurve::relaxation_with_sizes(samples, |point| {
+            let min_size = last * longest / point.time;
             if point.time <= longest {
                 point.modulus
             } else {
-                point.modulus.max(felt)
+                point.modulus.max(min_size)
             }
         })
     }
 
-    /// The largest relative error of G at the samples within the range, and of G* at its frequencies.
+    /// Largest relative error of G at the samples within the range, and of G* at its frequencies.
     fn error_of(
         &self,
         series: &RelaxationSpectrum,
@@ -165,9 +188,9 @@ impl Law<'_> {
                 worst = worst.max((difference / point.modulus).abs());
             }
         }
-        for time in spaced(self.time_range, SAMPLES_PER_DECADE) {
+        for time in log_spaced(self.time_range, SAMPLES_PER_DECADE) {
             let omega = time.recip();
-            let [storage, loss] = transformed(&differences, omega);
+            let [storage, loss] = modulus_difference(&differences, omega);
             let found = series.complex_modulus(omega)?;
             let exact = (found.storage + storage).hypot(found.loss + loss);
             worst = worst.max(storage.hypot(loss) / exact);
@@ -176,8 +199,8 @@ impl Law<'_> {
     }
 }
 
-/// Real and imaginary part of ΔG*(ω), of pairs of time and ΔG.
-fn transformed(differences: &[[f64; 2]], omega: f64) -> [f64; 2] {
+/// Real and imaginary part of ΔG*(ω), from pairs of time and ΔG.
+fn modulus_difference(differences: &[[f64; 2]], omega: f64) -> [f64; 2] {
     let mut sum = [differences[0][1], 0.0];
     for pair in differences.windows(2) {
         let [[start, before], [end, after]] = [pair[0], pair[1]];

@@ -1,4 +1,4 @@
-//! The Prony series behind a measured curve.
+//! Identification of a Prony series from a measured curve.
 
 mod plausible;
 
@@ -13,42 +13,42 @@ use super::sign_changes::SignChanges;
 use super::system::{Measurement, Quantity};
 use crate::{PronyExpansion, RelaxationBranch, RelaxationSpectrum, RheologyError};
 
-/// What happens after a long time.
+/// Behaviour at long times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// A lone spring holds.
+    /// Solid: equilibrium modulus ≥ 0, fitted.
     Solid,
-    /// Everything flows.
+    /// Liquid: no equilibrium modulus.
     Liquid,
 }
 
-/// How many branches there are, and where.
+/// Number and relaxation times of the branches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// At most this many branches, their times moved to the best places.
+    /// At most this many branches with fitted relaxation times.
     Branches(usize),
-    /// The fewest branches whose error is at most `1 + tolerance` times the error of a series with four branches per
-    /// decade.
+    /// The fewest branches whose error is at most `1 + tolerance` times that of four branches per decade.
     Parsimony {
-        /// Excess error allowed, greater than 0.
+        /// Allowed relative excess of the error, greater than 0.
         tolerance: f64,
     },
-    /// This many branches, their times equally spaced in the logarithm, with moduli that vary smoothly (Tikhonov).
+    /// This many branches with times equally spaced in the logarithm and Tikhonov regularisation of the moduli.
     Smooth {
         /// Number of branches.
         n_branches: usize,
-        /// Weight of the second differences of the moduli, each relative to the measured modulus at its time, against
-        /// the relative errors; at least 0.
+        /// Regularisation parameter ≥ 0: weight of the second differences of the moduli against the relative errors.
+        ///
+        /// Each modulus is scaled by its effect on the relative errors.
         weight: f64,
     },
 }
 
-/// What is sought.
+/// Options of an identification.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IdentifyOptions {
-    /// Solid or liquid.
+    /// Behaviour at long times.
     pub ending: Ending,
-    /// Number and places of the branches.
+    /// Number and relaxation times of the branches.
     pub control: Control,
 }
 
@@ -65,38 +65,38 @@ impl Default for IdentifyOptions {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RelativeError {
-    /// Root of the mean square.
+    /// Root mean square of the errors.
     pub rms: f64,
-    /// The largest.
+    /// Largest error.
     pub max: f64,
 }
 
-/// A Prony series, and how well it fits.
+/// An identified Prony series with its errors.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Identification {
-    /// The series.
+    /// Identified relaxation spectrum.
     pub spectrum: RelaxationSpectrum,
-    /// The shortest and the longest time of the curve, 1/ω or t, \[s].
+    /// Shortest and longest time of the curve, 1/ω or t, \[s].
     pub time_range: [f64; 2],
-    /// Root of the mean over all points of the squared relative error |G*_fit/G* − 1|², or of (G_fit(t)/G(t) − 1)².
+    /// Root mean square over all points of |G*_fit/G* − 1|, or of G_fit(t)/G(t) − 1.
     pub rms_relative_error: f64,
-    /// The largest of these relative errors.
+    /// Largest |G*_fit/G* − 1|, or |G_fit(t)/G(t) − 1|, of all points.
     pub max_relative_error: f64,
-    /// Errors of G' by itself, relative to [`ModulusPoint::sizes`](super::ModulusPoint::sizes); none of G(t).
+    /// Errors of G' relative to [`ModulusPoint::sizes`](super::ModulusPoint::sizes); `None` for G(t).
     pub storage_error: Option<RelativeError>,
-    /// The same of G''.
+    /// Errors of G'' relative to [`ModulusPoint::sizes`](super::ModulusPoint::sizes); `None` for G(t).
     pub loss_error: Option<RelativeError>,
-    /// Signs of the errors of G' along the frequency; none of G(t).
+    /// Sign changes of the errors of G' along the frequency; `None` for G(t).
     pub storage_sign_changes: Option<SignChanges>,
-    /// The same of G''.
+    /// Sign changes of the errors of G'' along the frequency; `None` for G(t).
     pub loss_sign_changes: Option<SignChanges>,
-    /// How well the moduli are known; none where that leaves the range of `f64`.
+    /// Covariance of the moduli; `None` on overflow.
     pub covariance: Option<ModuliCovariance>,
 }
 
-/// The series as one that stands for what was measured, with the largest error at the points.
+/// The identified series as an expansion of the measured curve, with the largest error at the points.
 impl From<Identification> for PronyExpansion {
     fn from(found: Identification) -> Self {
         Self {
@@ -107,24 +107,30 @@ impl From<Identification> for PronyExpansion {
     }
 }
 
-/// How far beyond the measured window, as a factor m, a time may move. Beyond the window the loss modulus of a branch is then at most
-/// (m + 1/m)/2 = 1.25 times what it is at the end of the window: a branch far outside would be an invention of its flank.
+/// Factor m by which a relaxation time may leave the measured window (chosen).
+///
+/// The loss modulus of a branch then exceeds its value at the end of the window by at most (m + 1/m)/2 = 1.25. A branch
+/// farther outside would be determined by its flank only.
 const WINDOW_MARGIN: f64 = 2.0;
-const DENSE_PER_DECADE: f64 = 4.0;
+/// Number of branches per decade of the reference series that shows the attainable error (chosen).
+const DENSE_BRANCHES_PER_DECADE: f64 = 4.0;
+/// Largest number of branches (chosen).
 pub(super) const MAX_BRANCHES: usize = 200;
 
-/// The Prony series with moduli ≥ 0 that has the least mean squared relative error.
+/// Prony series with moduli ≥ 0 and the smallest mean squared relative error.
 ///
 /// # Errors
-/// [`RheologyError::InvalidParameter`] when an option is out of range; [`RheologyError::FitNotConverged`];
-/// [`RheologyError::NoStiffness`] when no branch can lower the error; [`RheologyError::SwappedModuli`],
-/// [`RheologyError::WrongTrend`] and [`RheologyError::NoMaterial`] when the moduli are those of no relaxing material.
+/// - [`RheologyError::InvalidParameter`] when an option is out of range;
+/// - [`RheologyError::FitNotConverged`] when the least squares do not converge;
+/// - [`RheologyError::NoStiffness`] when no branch can lower the error;
+/// - [`RheologyError::SwappedModuli`], [`RheologyError::WrongTrend`] and [`RheologyError::NoMaterial`] when the moduli are
+///   those of no relaxing material.
 pub fn identify(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
-    let found = fitted(curve, options).and_then(|(problem, series)| {
-        let found = problem.assessed(curve, &series)?;
+    let found = fit_series(curve, options).and_then(|(problem, series)| {
+        let found = problem.assess(curve, &series)?;
         let covariance = covariance(&problem.rows, curve, &found.spectrum);
         Ok(Identification {
             covariance,
@@ -137,79 +143,89 @@ pub fn identify(
     found
 }
 
-/// The same, however badly it fits, without a covariance.
+/// Identified series without covariance and without a test of its plausibility.
 pub(super) fn series_of(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
-    let (problem, series) = fitted(curve, options)?;
-    problem.assessed(curve, &series)
+    let (problem, series) = fit_series(curve, options)?;
+    problem.assess(curve, &series)
 }
 
-/// The series, and the rows with the weights that it was fitted with.
-fn fitted(
+/// Fits the series; the returned problem has the weights that were used.
+fn fit_series(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
-) -> Result<(Measured, Series), RheologyError> {
-    let mut problem = Measured {
+) -> Result<(FitProblem, Series), RheologyError> {
+    let mut problem = FitProblem {
         rows: curve.rows.clone(),
         window: curve.time_window,
         ending: options.ending,
     };
-    problem.weigh()?;
+    problem.set_weights()?;
     let series = match options.control {
-        Control::Branches(n_branches) => problem.refined(legal(n_branches)?)?,
-        Control::Parsimony { tolerance } => problem.fewest(positive("tolerance", tolerance)?)?,
+        Control::Branches(n_branches) => {
+            problem.fit_moduli_and_times(valid_branch_count(n_branches)?)?
+        }
+        Control::Parsimony { tolerance } => {
+            problem.fit_fewest_branches(positive("tolerance", tolerance)?)?
+        }
         Control::Smooth { n_branches, weight } => {
-            let times = problem.spaced(legal(n_branches)?);
-            problem.solved(times, not_negative("weight", weight)?)?
+            let times = problem.log_spaced_times(valid_branch_count(n_branches)?);
+            problem.fit_moduli(times, not_negative("weight", weight)?)?
         }
     };
     Ok((problem, series))
 }
 
-/// Part of |G*| below which the errors of a modulus count relative to this part.
-const OWN: f64 = 0.1;
-/// Times by which G' may be off more for the sake of G'', before they are taken for moduli that contradict each other.
-const CONTRADICTS: f64 = 3.0;
+/// Smallest scale of the errors of a modulus in the fit, relative to |G*| (chosen).
+const MIN_WEIGHT_SCALE: f64 = 0.1;
+/// Largest ratio of the errors of G' with individual weights and with weights by |G*| (chosen).
+///
+/// Beyond it the moduli contradict each other.
+const MAX_STORAGE_ERROR_RATIO: f64 = 3.0;
 
-struct Measured {
+/// The weighted data of a fit.
+struct FitProblem {
     rows: Vec<Measurement>,
+    /// Shortest and longest time of the curve, \[s].
     window: [f64; 2],
     ending: Ending,
 }
 
-impl Measured {
-    /// Divides G' and G'' by their own sizes instead of |G*|, unless they contradict each other: then G'', which is mostly the
-    /// smaller one, would spoil G'.
-    fn weigh(&mut self) -> Result<(), RheologyError> {
+impl FitProblem {
+    /// Weights G' and G'' by their own sizes instead of |G*|, unless they contradict each other.
+    ///
+    /// With contradicting moduli G'', mostly the smaller one, would degrade the fit of G'.
+    fn set_weights(&mut self) -> Result<(), RheologyError> {
         let before = self.storage_error()?;
         let by_magnitude = self.rows.clone();
         for row in &mut self.rows {
-            row.weight = row.value.max(OWN / row.weight).recip();
+            row.weight = row.value.max(MIN_WEIGHT_SCALE / row.weight).recip();
         }
-        if self.storage_error()? > CONTRADICTS * before {
+        if self.storage_error()? > MAX_STORAGE_ERROR_RATIO * before {
             self.rows = by_magnitude;
         }
         Ok(())
     }
 
-    /// What many branches leave of G'.
+    /// Root mean square error of G' for the dense series.
     fn storage_error(&self) -> Result<f64, RheologyError> {
-        let series = self.solved(self.spaced(self.dense()), 0.0)?;
+        let series = self.fit_moduli(self.log_spaced_times(self.dense_branch_count()), 0.0)?;
         let error = self.error_of(&series, Quantity::Storage);
         Ok(error.map_or(0.0, |error| error.rms))
     }
 
-    /// Four branches per decade of the window.
-    fn dense(&self) -> usize {
+    /// Number of branches of the dense series.
+    fn dense_branch_count(&self) -> usize {
         let decades = (self.window[1] / self.window[0]).log10();
-        let inner = (1..MAX_BRANCHES).take_while(|&k| k as f64 <= DENSE_PER_DECADE * decades);
+        let inner =
+            (1..MAX_BRANCHES).take_while(|&k| k as f64 <= DENSE_BRANCHES_PER_DECADE * decades);
         2 + inner.count()
     }
 
-    /// Times equally spaced in the logarithm, from end to end of the measured window.
-    fn spaced(&self, n_branches: usize) -> Vec<f64> {
+    /// Relaxation times equally spaced in the logarithm, from end to end of the measured window.
+    fn log_spaced_times(&self, n_branches: usize) -> Vec<f64> {
         let [shortest, longest] = self.window;
         if n_branches == 1 {
             return vec![(shortest * longest).sqrt()];
@@ -219,8 +235,8 @@ impl Measured {
         (0..n_branches).map(time).collect()
     }
 
-    /// The best moduli at given times; `smoothing` weighs their second differences.
-    fn solved(&self, times: Vec<f64>, smoothing: f64) -> Result<Series, RheologyError> {
+    /// Nonnegative least-squares fit of the moduli at given times; `smoothing` weights their second differences.
+    fn fit_moduli(&self, times: Vec<f64>, smoothing: f64) -> Result<Series, RheologyError> {
         let is_solid = self.ending == Ending::Solid;
         let [n_rows, n_branches] = [self.rows.len(), times.len()];
         let n_columns = n_branches + usize::from(is_solid);
@@ -231,6 +247,7 @@ impl Measured {
         });
         let mut target =
             DVector::from_iterator(n_rows, self.rows.iter().map(|row| row.weight * row.value));
+        // Append the Tikhonov rows.
         if smoothing > 0.0 && n_branches > 2 {
             let differences = second_differences(&matrix.columns(0, n_branches)) * smoothing;
             matrix = matrix.resize_vertically(n_rows + n_branches - 2, 0.0);
@@ -240,33 +257,35 @@ impl Measured {
         }
         let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();
         let spring = is_solid.then(|| moduli.pop()).flatten();
-        let branches = moduli.into_iter().zip(times);
-        let branches = branches.map(|(modulus, time)| RelaxationBranch::new(modulus, time));
+        let branches = moduli
+            .into_iter()
+            .zip(times)
+            .map(|(modulus, time)| RelaxationBranch::new(modulus, time));
         Ok(Series {
             spring,
             branches: branches.collect(),
         })
     }
 
-    /// At most `n_branches`, with their times at a local optimum.
-    fn refined(&self, n_branches: usize) -> Result<Series, RheologyError> {
+    /// Series of at most `n_branches` with relaxation times at a local optimum.
+    fn fit_moduli_and_times(&self, n_branches: usize) -> Result<Series, RheologyError> {
         let [shortest, longest] = self.window;
         let window = [shortest / WINDOW_MARGIN, longest * WINDOW_MARGIN];
-        let start = self.solved(self.spaced(n_branches), 0.0)?;
-        let moved = refine(&self.rows, start.revived(), window);
+        let start = self.fit_moduli(self.log_spaced_times(n_branches), 0.0)?;
+        let moved = refine(&self.rows, start.with_positive_moduli(), window);
         let times = moved.branches.iter().map(|branch| branch.relaxation_time);
-        let end = self.solved(times.collect(), 0.0)?;
+        let end = self.fit_moduli(times.collect(), 0.0)?;
         let better = end.squares(&self.rows) < start.squares(&self.rows);
         Ok(if better { end } else { start })
     }
 
-    /// The fewest branches that are nearly as good as many.
-    fn fewest(&self, tolerance: f64) -> Result<Series, RheologyError> {
-        let dense = self.dense();
-        let best = self.solved(self.spaced(dense), 0.0)?;
+    /// Series with the fewest branches whose error is within the `tolerance` of the dense series.
+    fn fit_fewest_branches(&self, tolerance: f64) -> Result<Series, RheologyError> {
+        let dense_branch_count = self.dense_branch_count();
+        let best = self.fit_moduli(self.log_spaced_times(dense_branch_count), 0.0)?;
         let allowed = (1.0 + tolerance).powi(2) * best.squares(&self.rows);
-        for n_branches in 1..dense {
-            let series = self.refined(n_branches)?;
+        for n_branches in 1..dense_branch_count {
+            let series = self.fit_moduli_and_times(n_branches)?;
             if series.squares(&self.rows) <= allowed {
                 return Ok(series);
             }
@@ -274,8 +293,8 @@ impl Measured {
         Ok(best)
     }
 
-    /// The errors of a series, by the sizes of the curve itself.
-    fn assessed(
+    /// Errors of a series with the weights of the curve.
+    fn assess(
         &self,
         curve: &MeasuredCurve,
         series: &Series,
@@ -300,11 +319,12 @@ impl Measured {
         })
     }
 
-    /// Of a modulus by itself.
+    /// Relative errors of one measured quantity; `None` without measurements of it.
     fn error_of(&self, series: &Series, quantity: Quantity) -> Option<RelativeError> {
         let rows = self.rows.iter().filter(|row| row.quantity == quantity);
-        let errors = rows.map(|row| (series.value(row) - row.value).abs() / row.size);
-        let errors: Vec<f64> = errors.collect();
+        let errors: Vec<f64> = rows
+            .map(|row| (series.value(row) - row.value).abs() / row.size)
+            .collect();
         let squares: f64 = errors.iter().map(|error| error * error).sum();
         let of_all = |n: usize| RelativeError {
             rms: (squares / n as f64).sqrt(),
@@ -314,10 +334,10 @@ impl Measured {
     }
 
     fn sign_changes_of(&self, series: &Series, quantity: Quantity) -> Option<SignChanges> {
-        SignChanges::of(&self.rows, quantity, |row| series.value(row) - row.value)
+        SignChanges::count(&self.rows, quantity, |row| series.value(row) - row.value)
     }
 
-    /// Squared relative error of every point; the two rows of a frequency are one point.
+    /// Squared relative errors of all points; the two rows of a frequency are one point.
     fn point_errors(&self, series: &Series) -> Vec<f64> {
         let square = |row: &Measurement| (row.weight * (series.value(row) - row.value)).powi(2);
         let points = self
@@ -328,8 +348,8 @@ impl Measured {
 }
 
 impl Series {
-    /// Branches that the first guess left out come back small, where they can grow.
-    fn revived(&self) -> Self {
+    /// The series with small positive moduli in place of zeros, from which they can grow.
+    fn with_positive_moduli(&self) -> Self {
         let mut series = self.clone();
         let moduli = series.branches.iter().map(|branch| branch.modulus);
         let grown: Vec<f64> = moduli.filter(|&modulus| modulus > 0.0).collect();
@@ -343,8 +363,7 @@ impl Series {
     }
 }
 
-/// One row x_k − 2 x_(k+1) + x_(k+2) for every second difference of neighbouring moduli, in units of what each does to the
-/// weighted data.
+/// Matrix of the second differences x_k − 2 x_(k+1) + x_(k+2) of the moduli, each scaled by its effect on the weighted data.
 fn second_differences(columns: &DMatrixView<f64>) -> DMatrix<f64> {
     let n_branches = columns.ncols();
     DMatrix::from_fn(n_branches - 2, n_branches, |row, k| {
@@ -357,7 +376,8 @@ fn second_differences(columns: &DMatrixView<f64>) -> DMatrix<f64> {
     })
 }
 
-fn legal(n_branches: usize) -> Result<usize, InvalidParameter> {
-    let holds = (1..=MAX_BRANCHES).contains(&n_branches);
-    in_range("n_branches", n_branches as f64, holds, "from 1 to 200").map(|_| n_branches)
+/// Checks a number of branches.
+fn valid_branch_count(n_branches: usize) -> Result<usize, InvalidParameter> {
+    let is_valid = (1..=MAX_BRANCHES).contains(&n_branches);
+    in_range("n_branches", n_branches as f64, is_valid, "from 1 to 200").map(|_| n_branches)
 }

@@ -1,4 +1,4 @@
-//! One curve over many decades from isotherms over a few.
+//! Master curves: one curve over many decades from isotherms over a few.
 
 use std::f64::consts::LN_10;
 
@@ -17,16 +17,16 @@ pub struct Isotherm {
     pub points: Vec<ModulusPoint>,
 }
 
-/// Where an isotherm is on a master curve: G*(ω, T) = b_T G*(a_T ω, T_r).
+/// Shift factors of an isotherm on a master curve: G*(ω, T) = b_T G*(a_T ω, T_r).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IsothermShift {
     /// Temperature, in the unit of the reference temperature.
     pub temperature: f64,
-    /// log₁₀ a_T.
+    /// Logarithm log₁₀ a_T of the horizontal shift.
     pub log10_factor: f64,
-    /// b_T.
+    /// Vertical shift b_T.
     pub modulus_factor: f64,
-    /// Whether it overlaps too little with its neighbour, so that the law of the others says where it, and what is beyond it, belongs.
+    /// Whether the shift follows from the law of other pairs, because a pair between it and the reference overlaps too little.
     pub placed_by_law: bool,
 }
 
@@ -35,25 +35,25 @@ pub struct IsothermShift {
 pub struct MasterCurve {
     /// All points at increasing reduced frequencies a_T ω, their moduli divided by b_T.
     pub curve: MeasuredCurve,
-    /// The same points, \[rad/s] and \[Pa].
+    /// Points of the curve, \[rad/s] and \[Pa].
     pub points: Vec<ModulusPoint>,
-    /// The isotherm of every point, by its place in `shifts`; of points that were averaged that of one of them.
+    /// Index in `shifts` of the isotherm of every point; of one of them for an averaged point.
     pub isotherms: Vec<usize>,
-    /// Temperature that the curve belongs to.
+    /// Temperature of the curve.
     pub reference_temperature: f64,
-    /// In the order of the isotherms.
+    /// Shifts in the order of the isotherms.
     pub shifts: Vec<IsothermShift>,
-    /// How the moduli change with temperature.
+    /// Change of the moduli with temperature.
     pub vertical: VerticalShift,
-    /// Why they are taken to.
+    /// Reason for this change.
     pub vertical_choice: VerticalChoice,
 }
 
 impl MasterCurve {
-    /// The same at another temperature, at which all times are `10^log10_factor` and all moduli `modulus_factor` > 0 of those at this one.
+    /// The curve at another temperature, with all times multiplied by `10^log10_factor` and all moduli by `modulus_factor` > 0.
     ///
     /// # Errors
-    /// Those of [`MeasuredCurve::oscillation`], where a frequency or a modulus leaves the range of `f64`.
+    /// The errors of [`MeasuredCurve::oscillation`] if a frequency or a modulus overflows or underflows.
     pub fn about(
         mut self,
         temperature: f64,
@@ -72,7 +72,7 @@ impl MasterCurve {
         }
         let mut curve = MeasuredCurve::oscillation(self.points.clone())?;
         if let Some(joined) = self.curve.joined.take() {
-            curve = curve.of_isotherms(&self.isotherms, joined);
+            curve = curve.with_isotherms(&self.isotherms, joined);
         }
         Ok(Self {
             curve,
@@ -82,11 +82,12 @@ impl MasterCurve {
     }
 }
 
-/// The master curve at the temperature of the isotherm that is nearest to the one asked for, with log₁₀ a_T given as a function of
-/// temperature.
+/// Master curve with log₁₀ a_T given as a function of temperature.
+///
+/// Its temperature is that of the isotherm nearest to the `temperature` asked for.
 ///
 /// # Errors
-/// Those of `log10_factor`, of [`MeasuredCurve::oscillation`], and [`RheologyError::TooFewPoints`] without an isotherm.
+/// The errors of `log10_factor` and of [`MeasuredCurve::oscillation`]; [`RheologyError::TooFewPoints`] without an isotherm.
 pub fn shifted_master_curve(
     isotherms: &[Isotherm],
     temperature: f64,
@@ -102,33 +103,35 @@ pub fn shifted_master_curve(
         .iter_mut()
         .for_each(|log_factor| *log_factor -= reference);
     let superposed = superpose(isotherms, &chain.pairs, Some(&known), options)?;
-    joined(isotherms, &chain, superposed)
+    join(isotherms, &chain, superposed)
 }
 
-/// The master curve with every isotherm shifted onto its neighbour, so that both moduli lie on one line where they overlap.
+/// Master curve with every isotherm shifted onto its neighbour, so that both moduli agree in the overlap.
 ///
-/// Each modulus is weighed by what it says: on a plateau of the storage modulus the loss modulus decides. Where the two contradict
-/// each other the storage modulus does: it is the one that is measured well, and on a material that is not quite
-/// thermorheologically simple the loss moduli would pull the curves apart. An isotherm that has too little in common with its
-/// neighbour is placed by the law of Williams, Landel and Ferry through the shifts around it.
+/// Each modulus is weighted by its information on the shift: on a plateau of the storage modulus the loss modulus decides. If
+/// the two contradict each other, the storage modulus decides, because it is measured better; on a material that is not
+/// quite thermorheologically simple, the loss moduli would separate the curves. An isotherm that overlaps too little with
+/// its neighbour is placed by the WLF law through the shifts around it.
 ///
-/// The isotherm nearest to the temperature asked for stays where it is; the curve belongs to its temperature.
+/// The reference is the isotherm nearest to the `temperature` asked for; the curve belongs to its temperature.
 ///
 /// # Errors
-/// [`RheologyError::OneFrequency`] when one of several isotherms has one point; [`RheologyError::NoOverlap`] when two neighbours
-/// stay farther apart than a quarter of their moduli, and no law of others bridges that; [`RheologyError::TooFewPoints`]
-/// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
+/// - [`RheologyError::OneFrequency`] when one of several isotherms has one point;
+/// - [`RheologyError::NoOverlap`] when the moduli of two neighbours differ by more than a quarter at every shift, and no law
+///   of others bridges them;
+/// - [`RheologyError::TooFewPoints`] without an isotherm, or for one with fewer than two points;
+/// - the errors of [`MeasuredCurve::oscillation`].
 pub fn automatic_master_curve(
     isotherms: &[Isotherm],
     temperature: f64,
     options: &SuperpositionOptions,
 ) -> Result<MasterCurve, RheologyError> {
-    let single = |isotherm: &&Isotherm| isotherm.points.len() == 1;
-    if let Some(first) = isotherms.iter().find(single)
+    let is_single = |isotherm: &&Isotherm| isotherm.points.len() == 1;
+    if let Some(first) = isotherms.iter().find(is_single)
         && isotherms.len() > 1
     {
         return Err(RheologyError::OneFrequency {
-            count: isotherms.iter().filter(single).count(),
+            count: isotherms.iter().filter(is_single).count(),
             given: isotherms.len(),
             temperature: first.temperature,
         });
@@ -138,29 +141,30 @@ pub fn automatic_master_curve(
         MeasuredCurve::oscillation(isotherm.points.clone())?;
     }
     let superposed = superpose(isotherms, &chain.pairs, None, options)?;
-    joined(isotherms, &chain, superposed)
+    join(isotherms, &chain, superposed)
 }
 
-/// In which order isotherms are shifted onto one another.
+/// Order in which isotherms are shifted onto one another.
 struct Chain {
-    /// The isotherm that stays where it is.
+    /// The reference isotherm.
     reference: usize,
-    /// Of an isotherm and its neighbour that is farther from the reference, from that one outwards.
+    /// Pairs of neighbours from the reference outwards, the isotherm nearer to it first.
     pairs: Vec<[usize; 2]>,
 }
 
 impl Chain {
-    /// From the isotherm whose temperature is nearest.
+    /// Chain from the isotherm whose temperature is nearest.
     fn new(isotherms: &[Isotherm], temperature: f64) -> Result<Self, RheologyError> {
         let mut order: Vec<usize> = (0..isotherms.len()).collect();
         let temperature_of = |place: usize| isotherms[place].temperature;
         order.sort_by(|&a, &b| temperature_of(a).total_cmp(&temperature_of(b)));
         let distance = |place: &usize| (temperature_of(order[*place]) - temperature).abs();
-        let nearest = (0..order.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let nearest = nearest.ok_or(RheologyError::TooFewPoints {
-            needed: 1,
-            given: 0,
-        })?;
+        let nearest = (0..order.len())
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .ok_or(RheologyError::TooFewPoints {
+                needed: 1,
+                given: 0,
+            })?;
         let upwards = (nearest + 1..order.len()).map(|place| [place - 1, place]);
         let downwards = (0..nearest).rev().map(|place| [place + 1, place]);
         let pairs = upwards
@@ -173,7 +177,8 @@ impl Chain {
     }
 }
 
-fn joined(
+/// Master curve of superposed isotherms.
+fn join(
     isotherms: &[Isotherm],
     chain: &Chain,
     superposed: Superposed,
@@ -201,7 +206,7 @@ fn joined(
     });
     let mut shifted: Vec<(usize, ModulusPoint)> = shifted.collect();
     shifted.sort_by(|(_, a), (_, b)| a.angular_frequency.total_cmp(&b.angular_frequency));
-    // Two isotherms may meet at one reduced frequency: there the mean of both is the measurement.
+    // Average the moduli of isotherms that meet at one reduced frequency.
     shifted.dedup_by(|(_, next), (_, kept)| {
         let same = next.angular_frequency <= kept.angular_frequency;
         if same {
@@ -218,7 +223,7 @@ fn joined(
         undecided: superposed.undecided,
     };
     Ok(MasterCurve {
-        curve: MeasuredCurve::oscillation(points.clone())?.of_isotherms(&places, isotherms),
+        curve: MeasuredCurve::oscillation(points.clone())?.with_isotherms(&places, isotherms),
         points,
         isotherms: places,
         reference_temperature: shifts[chain.reference].temperature,

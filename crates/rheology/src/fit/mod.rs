@@ -1,4 +1,4 @@
-//! Materials from measurements: master curves, and the Prony series behind them.
+//! Materials from measurements: master curves and Prony series.
 
 mod bridge;
 mod covariance;

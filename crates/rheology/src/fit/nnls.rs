@@ -1,20 +1,19 @@
-//! Least squares with unknowns that must not be negative.
+//! Nonnegative least squares by the active-set method of Lawson & Hanson (1974, Solving Least Squares Problems, ch. 23, DOI
+//! 10.1137/1.9781611971217).
 //!
-//! The active-set method of Lawson & Hanson (1974, Solving Least Squares Problems, ch. 23, DOI
-//! 10.1137/1.9781611971217), with orthogonal factorisations throughout: columns of neighbouring relaxation times are
-//! too alike for normal equations.
+//! All factorisations are orthogonal, because columns of neighbouring relaxation times are nearly parallel.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::RheologyError;
 
-/// The x ≥ 0 that minimises |A x − b|, for a matrix without a column of zeros.
+/// Solution x ≥ 0 that minimises |A x − b|, for a matrix without a column of zeros.
 pub(super) fn nnls(
     matrix: &DMatrix<f64>,
     target: &DVector<f64>,
 ) -> Result<DVector<f64>, RheologyError> {
     let norms = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|a| a.norm()));
-    let (matrix, target) = compressed(matrix, &norms, target);
+    let (matrix, target) = compress(matrix, &norms, target);
     let tolerance = 1e2 * f64::EPSILON * target.norm();
     let mut set = ActiveSet {
         solution: DVector::zeros(matrix.ncols()),
@@ -23,13 +22,13 @@ pub(super) fn nnls(
         passive: Vec::new(),
     };
     let max_changes = 10 * norms.len() + 10;
-    // Rounding can call for an unknown that then wants to be negative; it waits until the others have moved.
+    // Rounding can admit an unknown that would become negative; it is refused until another one has entered.
     let mut refused = Vec::new();
     for _ in 0..max_changes {
-        let Some(entering) = set.steepest(&refused, tolerance) else {
+        let Some(entering) = set.entering_unknown(&refused, tolerance) else {
             return Ok(set.solution.component_div(&norms));
         };
-        set.enter(entering);
+        set.add_unknown(entering);
         if set.solution[entering] > 0.0 {
             refused.clear();
         } else {
@@ -41,17 +40,18 @@ pub(super) fn nnls(
     })
 }
 
+/// The normalised problem and the current iterate.
 struct ActiveSet {
     matrix: DMatrix<f64>,
     target: DVector<f64>,
     solution: DVector<f64>,
-    /// The unknowns that may differ from zero.
+    /// Indices of the passive set, the unknowns that may differ from zero.
     passive: Vec<usize>,
 }
 
 impl ActiveSet {
-    /// The unknown at zero whose growth lowers the residual most.
-    fn steepest(&self, refused: &[usize], tolerance: f64) -> Option<usize> {
+    /// Index of the unknown at zero with the largest negative gradient; `None` if the iterate is optimal.
+    fn entering_unknown(&self, refused: &[usize], tolerance: f64) -> Option<usize> {
         let residuals = &self.target - &self.matrix * &self.solution;
         let gradients = self.matrix.tr_mul(&residuals);
         let best = (0..gradients.len())
@@ -60,41 +60,51 @@ impl ActiveSet {
         (gradients[best] > tolerance).then_some(best)
     }
 
-    /// Lets one more unknown grow, then moves to the unconstrained minimum, dropping what would become negative.
-    fn enter(&mut self, index: usize) {
+    /// Adds an unknown to the passive set, then moves to the minimum on the set and drops unknowns that reach zero.
+    fn add_unknown(&mut self, index: usize) {
         self.passive.push(index);
         while !self.passive.is_empty() {
             let minimum = least_squares(self.matrix.select_columns(&self.passive), &self.target);
-            let blocking = self.first_to_vanish(&minimum);
-            let fraction = blocking.map_or(1.0, |(_, fraction)| fraction);
+            let blocking = self.blocking_unknown(&minimum);
+            let fraction = blocking.as_ref().map_or(1.0, |blocking| blocking.fraction);
             for (&i, &goal) in self.passive.iter().zip(&minimum) {
                 self.solution[i] += fraction * (goal - self.solution[i]);
             }
-            let Some((place, _)) = blocking else {
+            let Some(blocking) = blocking else {
                 return;
             };
-            let dropped = self.passive.remove(place);
+            let dropped = self.passive.remove(blocking.passive_index);
             self.solution[dropped] = 0.0;
         }
     }
 
-    /// The place among the passive unknowns of the one that reaches zero first between here and `minimum`, and at
-    /// which fraction of the distance.
-    fn first_to_vanish(&self, minimum: &DVector<f64>) -> Option<(usize, f64)> {
+    /// The passive unknown that reaches zero first on the way to `minimum`; `None` if none does.
+    fn blocking_unknown(&self, minimum: &DVector<f64>) -> Option<Blocking> {
         let moving = self.passive.iter().zip(minimum).enumerate();
         let falling = moving.filter(|(_, (_, goal))| **goal <= 0.0);
-        let fractions = falling.map(|(place, (&i, goal))| {
+        let candidates = falling.map(|(passive_index, (&i, goal))| {
             let now = self.solution[i];
-            // One that stands at zero and has nowhere to go blocks at once.
+            // An unknown at zero blocks the whole step.
             let fraction = if now > 0.0 { now / (now - goal) } else { 0.0 };
-            (place, fraction)
+            Blocking {
+                passive_index,
+                fraction,
+            }
         });
-        fractions.min_by(|a, b| a.1.total_cmp(&b.1))
+        candidates.min_by(|a, b| a.fraction.total_cmp(&b.fraction))
     }
 }
 
-/// The same problem with unit columns and at most as many rows as columns and target together.
-fn compressed(
+/// An unknown that limits a step.
+struct Blocking {
+    /// Its index in the passive set.
+    passive_index: usize,
+    /// Fraction of the step at which it reaches zero.
+    fraction: f64,
+}
+
+/// The problem with unit columns, reduced by a QR factorisation to at most `ncols + 1` rows.
+fn compress(
     matrix: &DMatrix<f64>,
     norms: &DVector<f64>,
     target: &DVector<f64>,
@@ -112,7 +122,7 @@ fn compressed(
     (all.remove_column(last), target)
 }
 
-/// The x that minimises |A x − b|.
+/// Least-squares solution x, which minimises |A x − b|.
 fn least_squares(matrix: DMatrix<f64>, target: &DVector<f64>) -> DVector<f64> {
     let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
     let qr = matrix.qr();
@@ -122,7 +132,7 @@ fn least_squares(matrix: DMatrix<f64>, target: &DVector<f64>) -> DVector<f64> {
     let mut solution = DVector::zeros(triangle.ncols());
     for row in (0..triangle.nrows()).rev() {
         let diagonal = triangle[(row, row)];
-        // A column that depends on those before it adds nothing.
+        // A column that depends on previous ones gets the coefficient 0.
         if diagonal.abs() > f64::EPSILON * norms[row] {
             let known = triangle.row(row).transpose().dot(&solution);
             solution[row] = (right[row] - known) / diagonal;

@@ -1,92 +1,97 @@
-//! Two isotherms on one line: the shift at which their moduli meet.
+//! Shift of two overlapping isotherms at which their moduli agree.
 //!
-//! Lines are straight between points of ln ω and ln G' or ln G''. A residual is that of a point of one isotherm beside the line of
-//! the other; those of both count, and near the ends of a line they count less, so that nothing jumps where points come to overlap.
+//! Curves are piecewise linear in ln ω and ln G' or ln G''. A residual is the distance of a point of one isotherm from the curve
+//! of the other; the residuals of both are used. Their weights taper to zero at the ends of a curve, so that the sum of
+//! squares is continuous in the shift.
 
 use numerics::golden_section;
 
 use super::curve::ModulusPoint;
 
-/// ln of frequencies and of a modulus, straight in between.
-pub(super) struct Line(Vec<[f64; 2]>);
+/// Points of ln ω and ln of a modulus, with linear interpolation.
+pub(super) struct LogCurve(Vec<[f64; 2]>);
 
-/// The storage and the loss modulus of an isotherm.
-pub(super) struct Lines([Line; 2]);
+/// Curves of the storage and the loss modulus of an isotherm.
+pub(super) struct LogCurves([LogCurve; 2]);
 
-/// A line at some frequency.
-struct Reading {
+/// Value of a curve at a frequency.
+struct Interpolated {
+    /// ln of the modulus.
     value: f64,
-    /// From 0 at the ends of the line to 1 from the second point on.
+    /// Weight from 0 at the ends of the curve to 1 from the second point on.
     weight: f64,
 }
 
-/// Residuals of ln of a modulus, the moved isotherm less the one that stays.
+/// Sums of the residuals of ln of a modulus, moved isotherm less fixed one.
 #[derive(Debug, Clone, Copy, Default)]
 struct Residuals {
-    /// Sum of the weights, of the weighted residuals, and of their squares.
+    /// Sum of the weights.
     weight: f64,
+    /// Weighted sum of the residuals.
     sum: f64,
+    /// Weighted sum of the squares of the residuals.
     squares: f64,
 }
 
-/// An isotherm beside the one that it is shifted onto.
+/// An isotherm and the one that it is shifted onto.
 pub(super) struct Pair<'a> {
-    pub(super) fixed: &'a Lines,
-    pub(super) moved: &'a Lines,
-    /// Variances that residuals of ln G' and ln G'' have by the scatter of points alone.
+    pub(super) fixed: &'a LogCurves,
+    pub(super) moved: &'a LogCurves,
+    /// Variances of the residuals of ln G' and ln G'' from the scatter of points alone.
     pub(super) scatter: [f64; 2],
 }
 
-/// What is known of the factor of the moduli of an isotherm over those of the one that stays.
+/// Prior of the modulus factor b of the moved isotherm relative to the fixed one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ModulusFactor {
-    /// ln of it, or of what it is about.
+    /// Mean of ln b.
     pub(super) centre: f64,
-    /// How far it may be from there, as a standard deviation; none where it is known.
+    /// Standard deviation of ln b; `None` if b is given.
     pub(super) spread: Option<f64>,
 }
 
-/// Where an isotherm is put.
+/// Placement of the moved isotherm relative to the fixed one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// ln of the factor of its frequencies, over that of the isotherm that stays.
+    /// Shift ln a of the frequencies.
     pub(super) log_factor: f64,
-    /// ln of the factor of its moduli, over that of the isotherm that stays.
+    /// Shift ln b of the moduli.
     pub(super) log_modulus: f64,
-    /// What the residuals of ln G' and ln G'' are weighed by.
+    /// Variances with which the residuals of ln G' and ln G'' are weighted.
     pub(super) variances: [f64; 2],
-    /// Mean squares of these residuals.
+    /// Mean squares of the residuals of ln G' and ln G''.
     pub(super) mean_squares: [f64; 2],
-    /// Weight of the residuals of each, about their number.
+    /// Sums of the weights of the residuals of ln G' and ln G'', about their numbers.
     pub(super) overlaps: [f64; 2],
 }
 
 impl Place {
-    /// Whether the isotherms overlap as little as they may, so that they may be farther apart in truth.
-    pub(super) fn is_at_the_end(&self) -> bool {
-        self.overlaps[0] < 1.2 * LEAST_OVERLAP
+    /// Whether the overlap is near the smallest admissible one, so that the true shift may be larger.
+    pub(super) fn has_minimal_overlap(&self) -> bool {
+        self.overlaps[0] < 1.2 * MIN_OVERLAP
     }
 }
 
-/// Weight of residuals below which isotherms have too little in common: about one and a half intervals between points.
-const LEAST_OVERLAP: f64 = 2.5;
-/// Isotherms whose storage moduli are a quarter apart do not meet.
-const FAR: f64 = 0.23;
-/// Shifts that are tried, from just touching at one end to just touching at the other.
+/// Smallest sum of weights of an overlap, about one and a half intervals between points (chosen).
+const MIN_OVERLAP: f64 = 2.5;
+/// Largest root mean square distance of ln G' for isotherms that meet: a quarter of the modulus (chosen).
+const MAX_RMS_DISTANCE: f64 = 0.23;
+/// Number of trial shifts, from contact at one end to contact at the other (chosen).
 const N_TRIALS: u32 = 1000;
-impl Lines {
+
+impl LogCurves {
     pub(super) fn new(points: &[ModulusPoint]) -> Self {
         let line = |modulus: fn(&ModulusPoint) -> f64| {
             let logs = points
                 .iter()
                 .map(|point| [point.angular_frequency, modulus(point)].map(f64::ln));
             // A modulus of zero has no logarithm.
-            Line(logs.filter(|point| point[1].is_finite()).collect())
+            LogCurve(logs.filter(|point| point[1].is_finite()).collect())
         };
         Self([line(|point| point.storage), line(|point| point.loss)])
     }
 
-    /// Squares of the scatter of single points of G' and G'', one for each point that has two neighbours on each side.
+    /// Squared scatter of single points of G' and G'', one for each point with two neighbours on each side.
     pub(super) fn scatter(&self) -> [Vec<f64>; 2] {
         [0, 1].map(|quantity| {
             let points = self.0[quantity].0.windows(5);
@@ -95,8 +100,8 @@ impl Lines {
     }
 }
 
-/// The squared distance of the third of five points from the cubic through the others, over the variance of that distance if each
-/// point has the variance 1.
+/// Squared distance of the third of five points from the cubic through the others, divided by its variance for unit
+/// variances of the points.
 fn squared_scatter(five: &[[f64; 2]]) -> f64 {
     let others = [0, 1, 3, 4];
     let factor = |own: usize| -> f64 {
@@ -113,23 +118,24 @@ fn squared_scatter(five: &[[f64; 2]]) -> f64 {
     distance * distance / variance
 }
 
-impl Line {
+impl LogCurve {
     fn ends(&self) -> [f64; 2] {
         [self.0.first(), self.0.last()].map(|point| point.map_or(f64::NAN, |p| p[0]))
     }
 
-    fn at(&self, log_frequency: f64) -> Option<Reading> {
+    /// Linear interpolation; `None` outside the curve.
+    fn interpolate(&self, log_frequency: f64) -> Option<Interpolated> {
         let next = self.0.partition_point(|point| point[0] < log_frequency);
         let [below, above] = [self.0.get(next.checked_sub(1)?)?, self.0.get(next)?];
         let part = (log_frequency - below[0]) / (above[0] - below[0]);
-        Some(Reading {
+        Some(Interpolated {
             value: below[1] + part * (above[1] - below[1]),
             weight: taper(next, self.0.len(), part),
         })
     }
 }
 
-/// The weight of a residual in the interval before point `next` of a line of so many points.
+/// Weight of a residual at a fraction `part` of the interval before point `next` of a curve of `n_points`.
 pub(super) fn taper(next: usize, n_points: usize, part: f64) -> f64 {
     let from_start = if next == 1 { part } else { 1.0 };
     let to_end = if next + 1 == n_points {
@@ -141,13 +147,13 @@ pub(super) fn taper(next: usize, n_points: usize, part: f64) -> f64 {
 }
 
 impl Residuals {
-    fn new(fixed: &Line, moved: &Line, shift: f64) -> Self {
+    fn new(fixed: &LogCurve, moved: &LogCurve, shift: f64) -> Self {
         let mut residuals = Self::default();
         for (points, line, offset, sign) in
             [(moved, fixed, shift, 1.0), (fixed, moved, -shift, -1.0)]
         {
             for [log_frequency, log_modulus] in &points.0 {
-                if let Some(other) = line.at(log_frequency + offset) {
+                if let Some(other) = line.interpolate(log_frequency + offset) {
                     let residual = sign * (log_modulus - other.value);
                     residuals.weight += other.weight;
                     residuals.sum += other.weight * residual;
@@ -158,7 +164,7 @@ impl Residuals {
         residuals
     }
 
-    /// Sum of the squares when the moved moduli are divided by a factor.
+    /// Weighted sum of squares after division of the moved moduli by a factor.
     fn squares(&self, log_modulus: f64) -> f64 {
         let squares = self.squares - log_modulus * (2.0 * self.sum - log_modulus * self.weight);
         squares.max(0.0)
@@ -180,7 +186,7 @@ impl Pair<'_> {
 
     fn place(&self, log_factor: f64, factor: ModulusFactor, variances: [f64; 2]) -> Place {
         let residuals = self.residuals(log_factor);
-        let log_modulus = factor.log(&residuals, variances);
+        let log_modulus = factor.best_log_modulus(&residuals, variances);
         Place {
             log_factor,
             log_modulus,
@@ -190,75 +196,90 @@ impl Pair<'_> {
         }
     }
 
-    /// The place at a shift that is known; none where the isotherms have too little in common there.
-    pub(super) fn at(&self, log_factor: f64, factor: ModulusFactor) -> Option<Place> {
+    /// Placement at a given shift; `None` if the isotherms overlap too little there.
+    pub(super) fn place_at(&self, log_factor: f64, factor: ModulusFactor) -> Option<Place> {
         let place = self.place(log_factor, factor, self.scatter);
         let variances = [0, 1].map(|k| self.scatter[k] + place.mean_squares[k]);
-        (place.overlaps[0] >= LEAST_OVERLAP).then_some(Place { variances, ..place })
+        (place.overlaps[0] >= MIN_OVERLAP).then_some(Place { variances, ..place })
     }
 
-    /// Whether the isotherms, where they overlap at a shift, are near each other.
-    pub(super) fn allows(&self, log_factor: f64, factor: ModulusFactor) -> bool {
-        let place = self.at(log_factor, factor);
-        place.is_none_or(|place| place.mean_squares[0] <= FAR * FAR)
+    /// Whether the isotherms agree in their overlap at a given shift; true without overlap.
+    pub(super) fn is_compatible(&self, log_factor: f64, factor: ModulusFactor) -> bool {
+        let place = self.place_at(log_factor, factor);
+        place.is_none_or(|place| place.mean_squares[0] <= MAX_RMS_DISTANCE * MAX_RMS_DISTANCE)
     }
 
-    /// The shift at which both moduli meet best; none where the storage moduli stay apart.
+    /// Placement with the best agreement of both moduli; `None` if the storage moduli disagree at every shift.
     ///
-    /// The storage modulus is the one that is measured well, and where the two contradict each other it decides: the loss
-    /// modulus is weighed by what it is off at the shifts that the storage modulus allows. On a plateau that allows them
-    /// all, and the loss modulus decides.
-    pub(super) fn best(&self, factor: ModulusFactor) -> Option<Place> {
+    /// The storage modulus is measured better and decides if the two contradict each other: the variance of the loss modulus
+    /// is its smallest mean square at shifts that the storage modulus admits. A plateau of the storage modulus admits all
+    /// shifts, so that the loss modulus decides.
+    pub(super) fn best_place(&self, factor: ModulusFactor) -> Option<Place> {
         let [fixed, moved] = [self.fixed, self.moved].map(|lines| lines.0[0].ends());
         let [lowest, highest] = [fixed[0] - moved[1], fixed[1] - moved[0]];
         let step = (highest - lowest) / f64::from(N_TRIALS);
-        let trials = (1..N_TRIALS).map(|k| lowest + step * f64::from(k));
-        let trials = trials.map(|shift| (shift, self.residuals(shift)));
-        let enough = |trial: &(f64, [Residuals; 2])| trial.1[0].weight >= LEAST_OVERLAP;
-        let trials: Vec<(f64, [Residuals; 2])> = trials.filter(enough).collect();
-        // What each storage modulus leaves by itself.
+        let trials: Vec<Trial> = (1..N_TRIALS)
+            .map(|k| lowest + step * f64::from(k))
+            .map(|shift| Trial {
+                shift,
+                residuals: self.residuals(shift),
+            })
+            .filter(|trial| trial.residuals[0].weight >= MIN_OVERLAP)
+            .collect();
+        // Variance of the storage modulus: its smallest mean square with the best factor for it alone.
         let of_storage = |[own, _]: &[Residuals; 2]| {
             let alone = [*own, Residuals::default()];
-            own.squares(factor.log(&alone, self.scatter))
+            own.squares(factor.best_log_modulus(&alone, self.scatter))
         };
         let least_storage = trials
             .iter()
-            .map(|(_, both)| of_storage(both) / both[0].weight);
-        let least_storage = least_storage.fold(f64::INFINITY, f64::min);
-        if least_storage > FAR * FAR {
+            .map(|trial| of_storage(&trial.residuals) / trial.residuals[0].weight)
+            .fold(f64::INFINITY, f64::min);
+        if least_storage > MAX_RMS_DISTANCE * MAX_RMS_DISTANCE {
             return None;
         }
         let storage = self.scatter[0] + least_storage;
-        // Within three standard deviations of the sum of the squares that is expected.
-        let allowed = trials.iter().filter(|(_, both)| {
-            let weight = both[0].weight;
-            of_storage(both) <= storage * (weight + 3.0 * (2.0 * weight).sqrt())
-        });
-        let least_loss =
-            allowed.map(|(_, both)| both[1].mean_square(factor.log(both, self.scatter)));
-        let least_loss = least_loss.fold(f64::INFINITY, f64::min);
-        // What is left of G'' beyond its scatter is no noise: it is alike at all points, which together say no more than one of them.
-        let n_points = trials.iter().map(|(_, both)| both[0].weight);
-        let n_points = n_points.fold(0.0, f64::max);
+        // Variance of the loss modulus, from shifts within three standard deviations of the expected sum of squares.
+        let least_loss = trials
+            .iter()
+            .map(|trial| &trial.residuals)
+            .filter(|both| {
+                let weight = both[0].weight;
+                of_storage(both) <= storage * (weight + 3.0 * (2.0 * weight).sqrt())
+            })
+            .map(|both| both[1].mean_square(factor.best_log_modulus(both, self.scatter)))
+            .fold(f64::INFINITY, f64::min);
+        // A misfit of G'' beyond its scatter is common to all points, which together count as one.
+        let n_points = trials
+            .iter()
+            .map(|trial| trial.residuals[0].weight)
+            .fold(0.0, f64::max);
         let contradiction = (least_loss - self.scatter[1]).max(0.0);
         let variances = [
             storage,
             self.scatter[1] + least_loss + n_points * contradiction,
         ];
         let cost = |residuals: &[Residuals; 2]| factor.cost(residuals, variances);
+        // Minimise the cost: the best trial, then golden section around it.
         let best = trials
             .iter()
-            .min_by(|a, b| cost(&a.1).total_cmp(&cost(&b.1)))?;
-        let within = [best.0 - step, best.0 + step];
+            .min_by(|a, b| cost(&a.residuals).total_cmp(&cost(&b.residuals)))?;
+        let within = [best.shift - step, best.shift + step];
         let shift = golden_section(|shift| cost(&self.residuals(shift)), within);
         let found = self.place(shift, factor, variances);
-        Some(found).filter(|found| found.mean_squares[0] <= FAR * FAR)
+        Some(found).filter(|found| found.mean_squares[0] <= MAX_RMS_DISTANCE * MAX_RMS_DISTANCE)
     }
 }
 
+/// Residuals of both moduli at a trial shift.
+struct Trial {
+    shift: f64,
+    residuals: [Residuals; 2],
+}
+
 impl ModulusFactor {
-    /// ln of the factor that suits residuals of these variances best.
-    fn log(self, residuals: &[Residuals; 2], variances: [f64; 2]) -> f64 {
+    /// Posterior mean of ln b for residuals with these variances.
+    fn best_log_modulus(self, residuals: &[Residuals; 2], variances: [f64; 2]) -> f64 {
         let Some(spread) = self.spread else {
             return self.centre;
         };
@@ -270,9 +291,9 @@ impl ModulusFactor {
         (sum + known * self.centre) / (weight + known)
     }
 
-    /// What is minimised: half the squares over their variances, less what is expected of as many residuals.
+    /// Cost that is minimised: half of the sum of squares over the variances, less its expectation.
     fn cost(self, residuals: &[Residuals; 2], variances: [f64; 2]) -> f64 {
-        let log_modulus = self.log(residuals, variances);
+        let log_modulus = self.best_log_modulus(residuals, variances);
         let away = log_modulus - self.centre;
         let known = self.spread.map_or(0.0, |spread| (away / spread).powi(2));
         let parts = residuals.iter().zip(variances);

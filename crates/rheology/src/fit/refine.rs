@@ -1,4 +1,4 @@
-//! Better relaxation times: least squares in the logarithms of moduli and times, which keeps both positive.
+//! Nonlinear least squares in the logarithms of moduli and relaxation times, which keeps both positive.
 
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
 use numerics::least_squares::{ParameterRange, QuadraticModel, minimise};
@@ -6,46 +6,55 @@ use numerics::least_squares::{ParameterRange, QuadraticModel, minimise};
 use super::system::Measurement;
 use crate::RelaxationBranch;
 
-/// A series while it is refined: the lone spring, if there is one, and the branches.
+/// A Prony series during the fit: the equilibrium modulus, if there is one, and the branches.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
     pub(super) spring: Option<f64>,
     pub(super) branches: Vec<RelaxationBranch>,
 }
 
-/// A step that improves the sum of squares by less than this is the last one.
-const SUFFICIENT: f64 = 1e-4;
-/// No quantity changes by more than a factor of e² at once.
-const LARGEST_STEP: f64 = 2.0;
+/// Relative improvement of the sum of squares below which the iteration ends (chosen).
+const SUFFICIENT_IMPROVEMENT: f64 = 1e-4;
+/// Largest change of a logarithm in one step (chosen).
+const MAX_LOG_STEP: f64 = 2.0;
 
-/// Moves moduli and times, all of them positive, to a local minimum of the squared residuals; the times stay within the
-/// `window`.
+/// Moves positive moduli and times to a local minimum of the squared residuals, with the times in the `window` \[s].
 pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> Series {
     let range = |bounds| ParameterRange {
         bounds,
-        largest_step: LARGEST_STEP,
+        largest_step: MAX_LOG_STEP,
     };
     let anywhere = range([f64::NEG_INFINITY, f64::INFINITY]);
     let within = range(window.map(f64::ln));
     let spring = start.spring.map(|_| anywhere);
     let branches = start.branches.iter().flat_map(|_| [anywhere, within]);
     let ranges: Vec<ParameterRange> = spring.into_iter().chain(branches).collect();
-    let linearise = |logarithms: &[f64]| Some(start.at(logarithms).linearised(rows));
-    let found = minimise(linearise, start.logarithms(), &ranges, SUFFICIENT);
-    found.map_or_else(|| start.clone(), |found| start.at(&found.parameters))
+    let linearise = |logarithms: &[f64]| Some(start.with_logarithms(logarithms).linearise(rows));
+    let found = minimise(
+        linearise,
+        start.logarithms(),
+        &ranges,
+        SUFFICIENT_IMPROVEMENT,
+    );
+    found.map_or_else(
+        || start.clone(),
+        |found| start.with_logarithms(&found.parameters),
+    )
 }
 
 impl Series {
-    /// Of the spring, and of modulus and time of every branch.
+    /// Logarithms of the equilibrium modulus, then of modulus and time of every branch.
     fn logarithms(&self) -> Vec<f64> {
-        let branches = self.branches.iter();
-        let branches = branches.flat_map(|branch| [branch.modulus, branch.relaxation_time]);
+        let branches = self
+            .branches
+            .iter()
+            .flat_map(|branch| [branch.modulus, branch.relaxation_time]);
         let parameters = self.spring.into_iter().chain(branches);
         parameters.map(f64::ln).collect()
     }
 
-    /// A series of the same form.
-    fn at(&self, logarithms: &[f64]) -> Self {
+    /// The series of the same form with other logarithms.
+    fn with_logarithms(&self, logarithms: &[f64]) -> Self {
         let (spring, branches) = logarithms.split_at(usize::from(self.spring.is_some()));
         let branch = |pair: &[f64]| RelaxationBranch::new(pair[0].exp(), pair[1].exp());
         Self {
@@ -54,6 +63,7 @@ impl Series {
         }
     }
 
+    /// Value of the series for a measured number.
     pub(super) fn value(&self, row: &Measurement) -> f64 {
         let branches = self.branches.iter();
         let relaxing =
@@ -67,7 +77,7 @@ impl Series {
         rows.iter().map(error).map(|error| error * error).sum()
     }
 
-    fn linearised(&self, rows: &[Measurement]) -> QuadraticModel {
+    fn linearise(&self, rows: &[Measurement]) -> QuadraticModel {
         let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
         let mut slopes = DMatrix::zeros(n, rows.len());
         let errors = rows.iter().zip(slopes.column_iter_mut());
@@ -81,7 +91,7 @@ impl Series {
         }
     }
 
-    /// Value of the series; into `slopes` go its weighted derivatives by the logarithms of spring, moduli and times.
+    /// Value of the series; `slopes` receives its weighted derivatives by the logarithms of the parameters.
     fn slopes(&self, row: &Measurement, mut slopes: DVectorViewMut<f64>) -> f64 {
         let mut entries = slopes.iter_mut();
         let mut put = |slope: f64| {

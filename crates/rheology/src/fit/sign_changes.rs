@@ -1,30 +1,33 @@
-//! Whether what a fit leaves of the data looks like noise.
+//! Test of the residuals of a fit for randomness, by their sign changes.
 
 use super::system::{Measurement, Quantity};
 
-/// Changes of the sign of residuals along frequency or time, isotherm by isotherm, beside those of noise, which changes its sign every
-/// other time (Geary 1970, Biometrika 57, 123).
+/// Sign changes of residuals along frequency or time, isotherm by isotherm.
+///
+/// Independent noise changes its sign with the probability 1/2 (Geary 1970, Biometrika 57, 123).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SignChanges {
-    /// How many there are.
+    /// Number of sign changes.
     pub found: u32,
-    /// How many there are from one point to the next at most.
+    /// Largest possible number: that of neighbouring points.
     pub possible: u32,
 }
 
-/// Standard deviations below the number expected of noise from where on chance is no explanation.
-const BY_CHANCE: f64 = 4.0;
+/// Distance below the number expected of noise, in standard deviations, that chance does not explain (chosen).
+const CHANCE_STANDARD_DEVIATIONS: f64 = 4.0;
 
 impl SignChanges {
-    /// Whether there are too few for noise: the series does not have the form of the data, or isotherms do not lie on one curve.
+    /// Whether there are too few sign changes for noise.
+    ///
+    /// The series then does not have the form of the data, or the isotherms do not lie on one curve.
     pub fn are_too_few(&self) -> bool {
         let possible = f64::from(self.possible);
-        f64::from(self.found) < 0.5 * (possible - BY_CHANCE * possible.sqrt())
+        f64::from(self.found) < 0.5 * (possible - CHANCE_STANDARD_DEVIATIONS * possible.sqrt())
     }
 
-    /// Those of a modulus, with the residual of every row; none without rows.
-    pub(super) fn of(
+    /// Sign changes of one measured quantity; `None` without measurements of it.
+    pub(super) fn count(
         rows: &[Measurement],
         quantity: Quantity,
         residual: impl Fn(&Measurement) -> f64,
@@ -33,7 +36,7 @@ impl SignChanges {
         let mut signs: Vec<(usize, bool)> = of_quantity
             .map(|row| (row.isotherm, residual(row) > 0.0))
             .collect();
-        // Within an isotherm the order of the frequencies stays.
+        // The stable sort keeps the order of the frequencies within an isotherm.
         signs.sort_by_key(|(isotherm, _)| *isotherm);
         let mut changes = Self {
             found: 0,

@@ -1,29 +1,29 @@
-//! Isotherms shifted onto their neighbours, in frequency and in modulus: G*(ω, T) = b_T G*(a_T ω, T_r).
+//! Time–temperature superposition of isotherms onto their neighbours: G*(ω, T) = b_T G*(a_T ω, T_r).
 //!
-//! Moduli of rubber are entropic and scale with T ρ, so that b_T ≈ T/T_r (Ferry 1980, Viscoelastic Properties of Polymers, ch. 11);
-//! other b_T say how the material changes with temperature, or how the geometry of the sample does.
+//! Moduli of rubber are entropic and scale with T ρ, so that b_T ≈ T/T_r (Ferry 1980, Viscoelastic Properties of Polymers,
+//! ch. 11). Other b_T show a change of the material, or of the geometry of the sample, with temperature.
 
-use super::bridge::{HOLDS, Known, bridged};
+use super::bridge::{KnownShift, LAW_TOLERANCE, LawShift, shift_by_law};
 use super::master_curve::Isotherm;
-use super::overlap::{Lines, ModulusFactor, Pair, Place};
+use super::overlap::{LogCurves, ModulusFactor, Pair, Place};
 use crate::{KELVIN_AT_ZERO_CELSIUS, RheologyError};
 use numerics::positive;
 
-/// How the moduli of isotherms change with temperature, besides their times.
+/// Vertical shift: the change of the moduli of isotherms with temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum VerticalShift {
-    /// Not at all: b_T = 1.
+    /// No change: b_T = 1.
     None,
-    /// With the absolute temperature, as of an ideal rubber: b_T = T/T_r.
+    /// Change with the absolute temperature, as for an ideal rubber: b_T = T/T_r.
     Entropic,
-    /// By a factor of each isotherm of its own.
+    /// A free factor for each isotherm.
     Free,
 }
 
 impl VerticalShift {
-    /// All kinds with their names.
+    /// All kinds of vertical shift with their names.
     pub const NAMED: [(&'static str, Self); 3] = [
         ("none", Self::None),
         ("entropic", Self::Entropic),
@@ -31,25 +31,25 @@ impl VerticalShift {
     ];
 }
 
-/// Why the moduli are taken to change as they do.
+/// Reason for the choice of the vertical shift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum VerticalChoice {
-    /// It was asked for.
+    /// The vertical shift was given.
     Given,
-    /// The isotherms lie on one another better than with the other kinds.
+    /// The isotherms agree significantly better than with the other kinds.
     FoundInData,
-    /// The isotherms lie on one another as well without and with the absolute temperature: b_T = 1.
+    /// The isotherms agree equally well with b_T = 1 and b_T = T/T_r; b_T = 1 is taken.
     NotInData,
 }
 
-/// How isotherms are to be put onto one curve.
+/// Options of the superposition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SuperpositionOptions {
-    /// How moduli change; without it what the isotherms show.
+    /// Vertical shift; `None` lets the isotherms decide.
     pub vertical: Option<VerticalShift>,
-    /// What is to be added to the temperatures of the isotherms for K; by default they are in °C.
+    /// Absolute temperature of the zero of the temperature scale, \[K]; by default that of °C.
     pub kelvin_at_zero: f64,
 }
 
@@ -62,7 +62,7 @@ impl Default for SuperpositionOptions {
     }
 }
 
-/// An isotherm beside the one that it was shifted onto.
+/// A pair of isotherms, one shifted onto the other.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Link {
@@ -71,54 +71,56 @@ pub(super) struct Link {
     pub(super) by: LinkedBy,
 }
 
-/// What says where an isotherm belongs.
+/// Source of the shift of a pair.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) enum LinkedBy {
-    /// The residuals where both overlap.
+    /// The residuals in the overlap.
     Overlap {
-        /// What residuals of ln G' and ln G'' are weighed by.
+        /// Variances with which the residuals of ln G' and ln G'' are weighted.
         variances: [f64; 2],
-        /// Whether the shift of the frequencies was found, and not known before.
+        /// Whether ln a was fitted rather than given.
         finds_shift: bool,
-        /// What was known of ln b before, where it was found, as a standard deviation.
+        /// Prior standard deviation of ln b; `None` if b was given.
         modulus_spread: Option<f64>,
     },
-    /// The law of other pairs: places in the list of links, and what the shift of each is a part of this one.
+    /// The law of other pairs: their links, and the derivatives of this shift by theirs.
     Law(Vec<(usize, f64)>),
-    /// Nothing but a law that was given.
+    /// A given law.
     Given,
 }
 
-/// Where all isotherms are.
+/// Result of the superposition.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Superposed {
-    /// ln of the factors of their frequencies and of their moduli, in the order of the isotherms.
+    /// Shifts ln a in the order of the isotherms.
     pub(super) log_factors: Vec<f64>,
+    /// Shifts ln b in the order of the isotherms.
     pub(super) log_moduli: Vec<f64>,
-    /// Each after the one that its isotherm was shifted onto.
+    /// Pairs from the reference outwards.
     pub(super) links: Vec<Link>,
     pub(super) vertical: VerticalShift,
     pub(super) choice: VerticalChoice,
-    /// ln of the factors of the moduli that would be those of an ideal rubber, where the data do not show whether they are; else none.
+    /// Shifts ln b of an ideal rubber if the data leave them undecided, else empty.
     pub(super) undecided: Vec<f64>,
 }
 
-/// How much likelier, in ln, one kind of b_T without constants must be than the other one before it counts as found.
-const DECIDED: f64 = 3.0;
-/// Free factors within this of the kind without constants are what one instrument makes of one sample from isotherm to isotherm,
-/// and no property of the material: three times the scatter of factors that the covariance of the moduli assumes.
-const BY_INSTRUMENT: f64 = 0.03;
-/// Isotherms meet where their residuals are within this many times those of the scatter of their points.
-const MEETS: f64 = 2.0;
-/// What is known of ln b of neighbours before they are looked at, where it is free: some 10 % beside the kind without constants.
-const MODULUS_SPREAD: f64 = 0.1;
-/// A pair whose residuals are this many times those of the pair in the middle was put together by force.
-const FORCED: f64 = 4.0;
-
-/// Puts every isotherm onto the neighbour that is nearer to the one that stays, by chains of pairs from that one outwards.
+/// Smallest ln of the likelihood ratio that decides between two kinds of vertical shift (chosen).
+const MIN_LOG_LIKELIHOOD_RATIO: f64 = 3.0;
+/// Largest deviation of ln b from the kind without constants that an instrument explains.
 ///
-/// `known` has ln a_T of all isotherms where a law was given.
+/// Derived: three times the prior scale of the factors in the covariance of the moduli.
+const INSTRUMENT_FACTOR: f64 = 0.03;
+/// Largest ratio of the residuals to the scatter of single points for isotherms that agree (chosen).
+const MAX_RESIDUAL_RATIO: f64 = 2.0;
+/// Prior standard deviation of a free ln b around the kind without constants (chosen).
+const PRIOR_MODULUS_SPREAD: f64 = 0.1;
+/// Ratio of the residuals of a pair to the median beyond which its placement is rejected (chosen).
+const FORCED_RESIDUAL_RATIO: f64 = 4.0;
+
+/// Shifts every isotherm onto its neighbour nearer to the reference, along a chain of pairs from the reference outwards.
+///
+/// `known` has ln a_T of all isotherms if a law was given.
 pub(super) fn superpose(
     isotherms: &[Isotherm],
     chain: &[[usize; 2]],
@@ -128,45 +130,60 @@ pub(super) fn superpose(
     for isotherm in isotherms {
         positive("temperature", isotherm.temperature + options.kelvin_at_zero)?;
     }
-    let lines: Vec<Lines> = isotherms
+    let curves: Vec<LogCurves> = isotherms
         .iter()
-        .map(|one| Lines::new(&one.points))
+        .map(|one| LogCurves::new(&one.points))
         .collect();
-    let neighbours = Neighbours {
+    let superposition = Superposition {
         isotherms,
         chain,
         known,
         options,
-        scatter: scatter(&lines),
-        lines,
+        scatter: scatter(&curves),
+        curves,
     };
-    let bound = |vertical| neighbours.placed(vertical, None);
-    let freed = |about| neighbours.placed(about, Some(MODULUS_SPREAD));
-    let (kind, choice, placed) = match options.vertical {
+    let bound = |vertical| superposition.place_pairs(vertical, None);
+    let freed = |about| superposition.place_pairs(about, Some(PRIOR_MODULUS_SPREAD));
+    let selected = match options.vertical {
         Some(VerticalShift::Free) => {
-            let about = neighbours
-                .chosen()
-                .map_or(VerticalShift::None, |(about, ..)| about);
-            (VerticalShift::Free, VerticalChoice::Given, freed(about)?)
+            let about = superposition
+                .select_vertical()
+                .map_or(VerticalShift::None, |selected| selected.vertical);
+            Selected {
+                vertical: VerticalShift::Free,
+                choice: VerticalChoice::Given,
+                placed: freed(about)?,
+            }
         }
-        Some(given) => (given, VerticalChoice::Given, bound(given)?),
+        Some(given) => Selected {
+            vertical: given,
+            choice: VerticalChoice::Given,
+            placed: bound(given)?,
+        },
         None => {
-            let (kind, choice, placed) = neighbours.chosen()?;
-            match freed(kind) {
-                Ok(freed) if neighbours.are_free(&placed, &freed) => {
-                    (VerticalShift::Free, VerticalChoice::FoundInData, freed)
+            let selected = superposition.select_vertical()?;
+            match freed(selected.vertical) {
+                Ok(freed)
+                    if superposition.free_factors_are_significant(&selected.placed, &freed) =>
+                {
+                    Selected {
+                        vertical: VerticalShift::Free,
+                        choice: VerticalChoice::FoundInData,
+                        placed: freed,
+                    }
                 }
-                _ => (kind, choice, placed),
+                _ => selected,
             }
         }
     };
-    Ok(neighbours.joined(kind, choice, placed))
+    Ok(superposition.assemble(selected))
 }
 
-/// Variances of residuals of ln G' and ln G'' by the scatter of single points, from the median of all isotherms, which does not ask
-/// for the curvature.
-fn scatter(lines: &[Lines]) -> [f64; 2] {
-    let of_all: Vec<[Vec<f64>; 2]> = lines.iter().map(Lines::scatter).collect();
+/// Variances of the residuals of ln G' and ln G'' from the scatter of single points.
+///
+/// The median over all isotherms is insensitive to a few points of strong curvature.
+fn scatter(curves: &[LogCurves]) -> [f64; 2] {
+    let of_all: Vec<[Vec<f64>; 2]> = curves.iter().map(LogCurves::scatter).collect();
     [0, 1].map(|quantity| {
         let mut squares: Vec<f64> = of_all
             .iter()
@@ -174,32 +191,34 @@ fn scatter(lines: &[Lines]) -> [f64; 2] {
             .collect();
         squares.sort_by(f64::total_cmp);
         let median = squares.get(squares.len() / 2).copied();
-        let variance = median.map_or(UNKNOWN_SCATTER.powi(2), |median| median / MEDIAN_OF_SQUARE);
-        BESIDE_A_LINE * variance.max(LEAST_SCATTER.powi(2))
+        let variance = median.map_or(DEFAULT_SCATTER.powi(2), |median| {
+            median / MEDIAN_OF_SQUARED_NORMAL
+        });
+        RESIDUAL_VARIANCE_RATIO * variance.max(MIN_SCATTER.powi(2))
     })
 }
 
-/// Of a number with the variance 1 and a normal distribution.
-const MEDIAN_OF_SQUARE: f64 = 0.455;
-/// The variance of a point less that of a line between two others, which is a half to one of a point.
-const BESIDE_A_LINE: f64 = 1.5;
-/// Of isotherms of fewer than five points, relative.
-const UNKNOWN_SCATTER: f64 = 0.01;
-/// No instrument is better than that, relative.
-const LEAST_SCATTER: f64 = 1e-4;
+/// Median of the square of a standard normal variable.
+const MEDIAN_OF_SQUARED_NORMAL: f64 = 0.455;
+/// Variance of the distance of a point from the line through two others, relative to that of a point (derived: 1.5 to 2).
+const RESIDUAL_VARIANCE_RATIO: f64 = 1.5;
+/// Relative scatter that is assumed for isotherms of fewer than five points (chosen).
+const DEFAULT_SCATTER: f64 = 0.01;
+/// Smallest relative scatter of points, the limit of instruments (chosen).
+const MIN_SCATTER: f64 = 1e-4;
 
-/// A pair of isotherms, put together.
+/// The placement of a pair of isotherms.
 #[derive(Debug, Clone, PartialEq)]
 struct Placed {
     log_factor: f64,
     log_modulus: f64,
-    /// Where they overlap.
+    /// Placement in the overlap; `None` without overlap.
     place: Option<Place>,
     by: LinkedBy,
 }
 
 impl Placed {
-    /// Where both overlap best.
+    /// Placement with the best agreement in the overlap.
     fn found(place: Place, modulus_spread: Option<f64>) -> Self {
         Self {
             log_factor: place.log_factor,
@@ -213,7 +232,7 @@ impl Placed {
         }
     }
 
-    /// At a shift that is known.
+    /// Placement at a given shift.
     fn given(log_factor: f64, factor: ModulusFactor, place: Option<Place>) -> Self {
         let free = place.zip(factor.spread);
         Self {
@@ -229,29 +248,41 @@ impl Placed {
     }
 }
 
-struct Neighbours<'a> {
-    isotherms: &'a [Isotherm],
-    chain: &'a [[usize; 2]],
-    known: Option<&'a [f64]>,
-    options: &'a SuperpositionOptions,
-    scatter: [f64; 2],
-    lines: Vec<Lines>,
+/// A vertical shift with the placements of all pairs.
+struct Selected {
+    vertical: VerticalShift,
+    choice: VerticalChoice,
+    placed: Vec<Placed>,
 }
 
-impl Neighbours<'_> {
+/// The isotherms that are superposed.
+struct Superposition<'a> {
+    isotherms: &'a [Isotherm],
+    /// Pairs from the reference outwards, the isotherm nearer to it first.
+    chain: &'a [[usize; 2]],
+    /// Given ln a_T of all isotherms.
+    known: Option<&'a [f64]>,
+    options: &'a SuperpositionOptions,
+    /// Variances of the residuals of ln G' and ln G'' from the scatter of points.
+    scatter: [f64; 2],
+    curves: Vec<LogCurves>,
+}
+
+impl Superposition<'_> {
     fn pair(&self, [fixed, moved]: [usize; 2]) -> Pair<'_> {
         Pair {
-            fixed: &self.lines[fixed],
-            moved: &self.lines[moved],
+            fixed: &self.curves[fixed],
+            moved: &self.curves[moved],
             scatter: self.scatter,
         }
     }
 
+    /// Absolute temperature of an isotherm, \[K].
     fn kelvin(&self, isotherm: usize) -> f64 {
         self.isotherms[isotherm].temperature + self.options.kelvin_at_zero
     }
 
-    /// ln of the ratio of the moduli of two isotherms by a kind of b_T without constants.
+    /// Shift ln b between two isotherms for a vertical shift without constants.
     fn log_modulus(&self, vertical: VerticalShift, [fixed, moved]: [usize; 2]) -> f64 {
         match vertical {
             VerticalShift::Entropic => (self.kelvin(moved) / self.kelvin(fixed)).ln(),
@@ -259,8 +290,8 @@ impl Neighbours<'_> {
         }
     }
 
-    /// All pairs with the factors of the moduli of a kind without constants, or about them.
-    fn placed(
+    /// Placements of all pairs with a vertical shift without constants, or with free ones around it.
+    fn place_pairs(
         &self,
         vertical: VerticalShift,
         spread: Option<f64>,
@@ -274,12 +305,12 @@ impl Neighbours<'_> {
         if let Some(known) = self.known {
             let at = |(pair, factor): (&[usize; 2], &ModulusFactor)| {
                 let log_factor = known[pair[1]] - known[pair[0]];
-                let place = self.pair(*pair).at(log_factor, *factor);
+                let place = self.pair(*pair).place_at(log_factor, *factor);
                 Placed::given(log_factor, *factor, place)
             };
             return Ok(pairs.map(at).collect());
         }
-        let places = pairs.map(|(pair, factor)| self.pair(*pair).best(*factor));
+        let places = pairs.map(|(pair, factor)| self.pair(*pair).best_place(*factor));
         let places: Vec<Option<Place>> = places.collect();
         let forced = forced(&places);
         let of_link = |link: usize| {
@@ -287,14 +318,14 @@ impl Neighbours<'_> {
             let law = forced[link]
                 .then(|| self.by_law(&places, &forced, link))
                 .flatten();
-            if let Some((log_factor, parts)) = law
-                && self.belongs(link, log_factor, factor, places[link])
+            if let Some(law) = law
+                && self.belongs_to_law(link, law.log_factor, factor, places[link])
             {
                 return Ok(Placed {
-                    log_factor,
+                    log_factor: law.log_factor,
                     log_modulus: factor.centre,
                     place: None,
-                    by: LinkedBy::Law(parts),
+                    by: LinkedBy::Law(law.weights),
                 });
             }
             let [first, second] = self.chain[link].map(|one| self.isotherms[one].temperature);
@@ -304,8 +335,8 @@ impl Neighbours<'_> {
         (0..places.len()).map(of_link).collect()
     }
 
-    /// Whether a pair belongs where the law puts it rather than where it meets best.
-    fn belongs(
+    /// Whether the shift by the law replaces the best placement of a pair.
+    fn belongs_to_law(
         &self,
         link: usize,
         log_factor: f64,
@@ -314,67 +345,75 @@ impl Neighbours<'_> {
     ) -> bool {
         let pair = self.pair(self.chain[link]);
         let is_elsewhere = place.is_none_or(|place| {
-            // What overlaps as little as it may is farther apart where the law says so.
-            let is_beyond = place.is_at_the_end() && pair.at(log_factor, factor).is_none();
-            is_beyond || (place.log_factor - log_factor).abs() > HOLDS
+            // A pair with the smallest admissible overlap may be farther apart by the law.
+            let is_beyond =
+                place.has_minimal_overlap() && pair.place_at(log_factor, factor).is_none();
+            is_beyond || (place.log_factor - log_factor).abs() > LAW_TOLERANCE
         });
-        is_elsewhere && pair.allows(log_factor, factor)
+        is_elsewhere && pair.is_compatible(log_factor, factor)
     }
 
-    /// The shift of a pair by the law of the others around it, and their parts in it.
-    fn by_law(
-        &self,
-        places: &[Option<Place>],
-        forced: &[bool],
-        link: usize,
-    ) -> Option<(f64, Vec<(usize, f64)>)> {
+    /// Shift of a pair by the law of the accepted pairs around it.
+    fn by_law(&self, places: &[Option<Place>], forced: &[bool], link: usize) -> Option<LawShift> {
         let temperatures = |link: usize| self.chain[link].map(|one| self.kelvin(one));
-        let known = (0..places.len()).filter(|other| !forced[*other]);
-        let known = known.filter_map(|other| {
-            Some(Known {
-                link: other,
-                temperatures: temperatures(other),
-                log_factor: places[other]?.log_factor,
-            })
-        });
-        bridged(known.collect(), temperatures(link))
+        let known = (0..places.len())
+            .filter(|other| !forced[*other])
+            .filter_map(|other| {
+                Some(KnownShift {
+                    link: other,
+                    temperatures: temperatures(other),
+                    log_factor: places[other]?.log_factor,
+                })
+            });
+        shift_by_law(known.collect(), temperatures(link))
     }
 
-    /// The kind without constants that the pairs are nearer to each other with.
-    fn chosen(&self) -> Result<(VerticalShift, VerticalChoice, Vec<Placed>), RheologyError> {
-        let without = self.placed(VerticalShift::None, None);
-        let Ok(entropic) = self.placed(VerticalShift::Entropic, None) else {
-            return Ok((VerticalShift::None, VerticalChoice::NotInData, without?));
+    /// The vertical shift without constants for which the pairs agree better.
+    fn select_vertical(&self) -> Result<Selected, RheologyError> {
+        let without = self.place_pairs(VerticalShift::None, None);
+        let Ok(entropic) = self.place_pairs(VerticalShift::Entropic, None) else {
+            return Ok(Selected {
+                vertical: VerticalShift::None,
+                choice: VerticalChoice::NotInData,
+                placed: without?,
+            });
         };
         let Ok(without) = without else {
-            return Ok((
-                VerticalShift::Entropic,
-                VerticalChoice::FoundInData,
-                entropic,
-            ));
+            return Ok(Selected {
+                vertical: VerticalShift::Entropic,
+                choice: VerticalChoice::FoundInData,
+                placed: entropic,
+            });
         };
-        let likelier = self.likelier(&entropic, &without);
-        let choice = if likelier.abs() > DECIDED {
+        let log_likelihood_ratio = self.log_likelihood_ratio(&entropic, &without);
+        let choice = if log_likelihood_ratio.abs() > MIN_LOG_LIKELIHOOD_RATIO {
             VerticalChoice::FoundInData
         } else {
             VerticalChoice::NotInData
         };
-        Ok(if likelier > DECIDED {
-            (VerticalShift::Entropic, choice, entropic)
+        let (vertical, placed) = if log_likelihood_ratio > MIN_LOG_LIKELIHOOD_RATIO {
+            (VerticalShift::Entropic, entropic)
         } else {
-            (VerticalShift::None, choice, without)
+            (VerticalShift::None, without)
+        };
+        Ok(Selected {
+            vertical,
+            choice,
+            placed,
         })
     }
 
-    /// ln of the ratio of the likelihoods of two ways to put the pairs together, each with the variances that it needs.
-    fn likelier(&self, one: &[Placed], other: &[Placed]) -> f64 {
-        let pairs = one.iter().zip(other);
-        let pairs = pairs.filter_map(|(one, other)| Some((one.place?, other.place?)));
+    /// ln of the likelihood ratio of two lists of placements, each with its maximum-likelihood variances.
+    fn log_likelihood_ratio(&self, one: &[Placed], other: &[Placed]) -> f64 {
+        let pairs = one
+            .iter()
+            .zip(other)
+            .filter_map(|(one, other)| Some((one.place?, other.place?)));
         let parts = pairs.flat_map(|(one, other)| {
             [0, 1].map(|quantity| {
                 let variance =
                     |place: &Place| place.mean_squares[quantity] + self.scatter[quantity];
-                // Each point is in two residuals: in that of its own and in those of the points beside it.
+                // Each point enters two residuals: its own, and those of neighbouring points of the other isotherm.
                 let points = 0.5 * other.overlaps[quantity];
                 0.5 * points * (variance(&other) / variance(&one)).ln()
             })
@@ -382,35 +421,38 @@ impl Neighbours<'_> {
         parts.sum()
     }
 
-    /// Whether the free factors are found in the data: likelier by more than their number costs (Schwarz 1978, Ann. Stat. 6, 461),
-    /// farther from what they are without than what instruments make, and with them both moduli meet within their scatter, which
-    /// factors that only make up for a wrong shift do not achieve.
-    fn are_free(&self, without: &[Placed], freed: &[Placed]) -> bool {
+    /// Whether the data determine free factors of the moduli; three conditions must hold:
+    /// - their likelihood exceeds the cost of their number (Schwarz 1978, Ann. Stat. 6, 461);
+    /// - they deviate from the factors without constants by more than an instrument explains;
+    /// - most pairs agree within the scatter of points, unlike with factors that compensate a wrong shift.
+    fn free_factors_are_significant(&self, without: &[Placed], freed: &[Placed]) -> bool {
         let overlaps = without.iter().filter_map(|placed| placed.place);
         let points: f64 = overlaps.clone().flat_map(|place| place.overlaps).sum();
         let costs = 0.5 * (0.5 * points).max(1.0).ln() * overlaps.count() as f64;
         let [free, bound] =
-            [freed, without].map(|placed| self.summed(placed, |one| one.log_modulus));
+            [freed, without].map(|placed| self.sum_along_chain(placed, |one| one.log_modulus));
         let away = free
             .iter()
             .zip(&bound)
             .map(|(free, bound)| (free - bound).abs());
         let meet = |place: Place| {
             let mut parts = place.mean_squares.iter().zip(self.scatter);
-            parts.all(|(square, scatter)| *square <= MEETS * MEETS * scatter)
+            parts.all(|(square, scatter)| {
+                *square <= MAX_RESIDUAL_RATIO * MAX_RESIDUAL_RATIO * scatter
+            })
         };
         let places: Vec<bool> = freed
             .iter()
             .filter_map(|placed| placed.place.map(meet))
             .collect();
         let apart = places.iter().filter(|meets| !**meets).count();
-        self.likelier(freed, without) > costs + DECIDED
-            && away.fold(0.0, f64::max) > BY_INSTRUMENT
+        self.log_likelihood_ratio(freed, without) > costs + MIN_LOG_LIKELIHOOD_RATIO
+            && away.fold(0.0, f64::max) > INSTRUMENT_FACTOR
             && 2 * apart < places.len()
     }
 
-    /// Sums along the chains, by the isotherms.
-    fn summed(&self, placed: &[Placed], of_pair: impl Fn(&Placed) -> f64) -> Vec<f64> {
+    /// Sums of a quantity of the pairs along the chain, for every isotherm.
+    fn sum_along_chain(&self, placed: &[Placed], of_pair: impl Fn(&Placed) -> f64) -> Vec<f64> {
         let mut sums = vec![0.0; self.isotherms.len()];
         for ([fixed, moved], placed) in self.chain.iter().zip(placed) {
             sums[*moved] = sums[*fixed] + of_pair(placed);
@@ -418,17 +460,18 @@ impl Neighbours<'_> {
         sums
     }
 
-    fn joined(
-        &self,
-        vertical: VerticalShift,
-        choice: VerticalChoice,
-        placed: Vec<Placed>,
-    ) -> Superposed {
+    /// Superposition of all isotherms from the placements of the pairs.
+    fn assemble(&self, selected: Selected) -> Superposed {
+        let Selected {
+            vertical,
+            choice,
+            placed,
+        } = selected;
         let log_factors = match self.known {
             Some(known) => known.to_vec(),
-            None => self.summed(&placed, |one| one.log_factor),
+            None => self.sum_along_chain(&placed, |one| one.log_factor),
         };
-        let log_moduli = self.summed(&placed, |one| one.log_modulus);
+        let log_moduli = self.sum_along_chain(&placed, |one| one.log_modulus);
         let undecided = match choice {
             VerticalChoice::NotInData => {
                 let reference = self.chain.first().map_or(0, |[fixed, _]| *fixed);
@@ -455,7 +498,7 @@ impl Neighbours<'_> {
     }
 }
 
-/// Which pairs do not overlap, or only by force: as little as they may, or with residuals far above those of the others.
+/// Rejected placements: no overlap, the smallest admissible overlap, or residuals far above the median.
 fn forced(places: &[Option<Place>]) -> Vec<bool> {
     let medians = [0, 1].map(|quantity| {
         let squares = places
@@ -464,7 +507,7 @@ fn forced(places: &[Option<Place>]) -> Vec<bool> {
             .map(|place| place.mean_squares[quantity]);
         let mut squares: Vec<f64> = squares.collect();
         squares.sort_by(f64::total_cmp);
-        // Of two pairs the better one.
+        // The median; of two pairs the better one.
         squares
             .get(squares.len().saturating_sub(1) / 2)
             .copied()
@@ -472,8 +515,10 @@ fn forced(places: &[Option<Place>]) -> Vec<bool> {
     });
     let is_forced = |place: &Place| {
         let parts = place.mean_squares.iter().zip(medians);
-        let is_far = |(own, median): (&f64, f64)| *own > FORCED * FORCED * median;
-        place.is_at_the_end() || parts.into_iter().any(is_far)
+        let is_far = |(own, median): (&f64, f64)| {
+            *own > FORCED_RESIDUAL_RATIO * FORCED_RESIDUAL_RATIO * median
+        };
+        place.has_minimal_overlap() || parts.into_iter().any(is_far)
     };
     places
         .iter()

@@ -3,10 +3,11 @@
 //! ```text
 //! G'(ω) = G_∞ + Σ G_k Ω²/(1 + Ω²)    G''(ω) = Σ G_k Ω/(1 + Ω²)    G(t) = G_∞ + Σ G_k e^(−t/τ_k)
 //! ```
-//! Every row is divided by the size of its number, so that the sum of squares is that of relative errors.
+//! Every row is divided by the scale of its number, so that the sum of squares is that of relative errors.
 
 use crate::complex::debye;
 
+/// A measured quantity: G'(ω), G''(ω) or G(t).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) enum Quantity {
@@ -20,22 +21,23 @@ pub(super) enum Quantity {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Measurement {
     pub(super) quantity: Quantity,
-    /// ω or t.
+    /// Angular frequency ω \[rad/s] or time t \[s].
     pub(super) at: f64,
+    /// Measured modulus, \[Pa].
     pub(super) value: f64,
-    /// What errors of this number by itself are relative to.
+    /// Scale of the relative error of this number, \[Pa].
     pub(super) size: f64,
-    /// Of its error in the squares; inverse of the magnitude of the modulus until more is known.
+    /// Weight of its error in the least squares, \[1/Pa]; initially the inverse of |G*| or of G(t).
     pub(super) weight: f64,
-    /// Of a master curve; 0 of a single curve.
+    /// Index of the isotherm of a master curve; 0 for a single curve.
     pub(super) isotherm: usize,
 }
 
-/// Errors of a modulus that is a smaller part of |G*| are relative to this part: no instrument tells it from zero.
-pub(super) const LEAST_PART: f64 = 1e-3;
+/// Smallest scale of the errors of a modulus, relative to |G*| (chosen): no instrument distinguishes it from zero.
+pub(super) const MIN_RELATIVE_SIZE: f64 = 1e-3;
 
 impl Measurement {
-    /// What a spring of unit modulus contributes.
+    /// Response of a spring of unit modulus.
     pub(super) const fn spring(&self) -> f64 {
         match self.quantity {
             Quantity::Storage | Quantity::Relaxation => 1.0,
@@ -43,7 +45,7 @@ impl Measurement {
         }
     }
 
-    /// What a branch of unit modulus contributes, and its derivative by ln τ.
+    /// Response of a branch of unit modulus, and its derivative by ln τ.
     pub(super) fn branch(&self, relaxation_time: f64) -> [f64; 2] {
         let [in_phase, out_of_phase] = debye(self.at * relaxation_time);
         match self.quantity {

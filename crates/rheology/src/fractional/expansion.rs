@@ -4,9 +4,10 @@
 //! G*(ω) = ∫ H(ln s) iω/(s + iω) d ln s    ≈    h Σ_j H(j h) iω/(s_j + iω),    s_j = s_0 e^(j h) = 1/τ_j
 //! ```
 //! with s_0 in the middle of the band, so that the series does not depend on the unit of time.
-//! The integrand is analytic in a strip around the real axis of ln s: the trapezoidal rule errs by about
-//! 2 e^(−2π d/h), with half the width d ≤ π/2 of the strip, where s = −iω (Trefethen & Weideman 2014, SIAM Rev. 56, 385,
-//! DOI 10.1137/130932132). Slower branches than the band can distinguish act as a spring, faster ones as a dashpot.
+//!
+//! The integrand is analytic in a strip of half-width d ≤ π/2 around the real axis of ln s, up to the pole s = −iω. The error
+//! of the trapezoidal rule is about 2 e^(−2π d/h) (Trefethen & Weideman 2014, SIAM Rev. 56, 385, DOI 10.1137/130932132).
+//! Branches much slower than the band act as a spring, much faster ones as a dashpot.
 
 use std::f64::consts::PI;
 use std::iter::successors;
@@ -14,40 +15,44 @@ use std::iter::successors;
 use crate::{ComplexModulus, RelaxationBranch, RelaxationSpectrum, RheologyError};
 use numerics::{InvalidParameter, in_range, positive};
 
-/// A Prony series, and how far it is from what it stands for.
+/// A Prony series of a continuous spectrum or of a measured curve, with its error.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PronyExpansion {
-    /// The series.
+    /// Relaxation spectrum of the series.
     pub spectrum: RelaxationSpectrum,
-    /// Largest |G*/G*_exact − 1| at the frequencies 1/t of the range, found on 32 frequencies per decade; of a relaxation
-    /// function also the largest |G/G_exact − 1| in the range.
+    /// Largest |G*/G*_exact − 1| over the frequencies 1/t of the range, from 32 frequencies per decade.
+    ///
+    /// For a relaxation function it also bounds |G/G_exact − 1| in the range; for a measured curve it is the largest error at
+    /// the points.
     pub relative_error: f64,
-    /// The shortest and the longest time for which it holds, 1/ω, \[s].
+    /// Shortest and longest time of validity, 1/ω, \[s].
     pub time_range: [f64; 2],
 }
 
-/// A continuous spectrum, its exact modulus, and what the expansion must know of them.
-pub(super) struct Continuous<'a> {
-    /// Logarithm of the modulus \[Pa] per unit of ln s, at ln s with the rate s \[1/s]. Logarithms, because slow and
-    /// fast branches add up far beyond the rates that are numbers.
+/// A continuous spectrum with its exact modulus and the properties that determine the expansion.
+pub(super) struct ContinuousSpectrum<'a> {
+    /// Logarithm of the density H \[Pa] as a function of ln s, with the rate s \[1/s].
+    ///
+    /// Logarithms, because the sums over slow and fast branches extend to rates that overflow or underflow.
     pub(super) log_density: &'a dyn Fn(f64) -> f64,
     /// Exact complex modulus at ω > 0.
     pub(super) exact: &'a dyn Fn(f64) -> Result<ComplexModulus, RheologyError>,
-    /// Half the width of the strip around real ln s in which the density is analytic.
-    pub(super) strip: f64,
+    /// Half-width of the strip around real ln s in which the density is analytic.
+    pub(super) strip_half_width: f64,
     /// Exponent a of the density towards slow rates, H ~ s^a.
     pub(super) exponent: f64,
     /// Whether the moduli of all fast branches have a finite sum.
     pub(super) has_glass_modulus: bool,
 }
 
-/// Number of times that the nodes are made denser and the range wider before giving up.
-const MAX_ROUNDS: u32 = 12;
+/// Bound on the number of refinements, each with denser nodes over a wider range (chosen).
+const MAX_REFINEMENTS: u32 = 12;
+/// Number of frequencies per decade at which the error is found (chosen).
 const SAMPLES_PER_DECADE: f64 = 32.0;
 
-impl Continuous<'_> {
-    /// The series that is within `relative_error` of the exact modulus over a band of angular frequencies \[rad/s].
+impl ContinuousSpectrum<'_> {
+    /// Series within `relative_error` of the exact modulus over a band of angular frequencies \[rad/s].
     pub(super) fn expand(
         &self,
         band: [f64; 2],
@@ -55,7 +60,7 @@ impl Continuous<'_> {
     ) -> Result<PronyExpansion, RheologyError> {
         validate(band, relative_error)?;
         let mut best = f64::INFINITY;
-        for round in 0..MAX_ROUNDS {
+        for round in 0..MAX_REFINEMENTS {
             let target = relative_error * 0.25_f64.powf(f64::from(round));
             let spectrum = self.series(band, target)?;
             let reached = self.error_of(&spectrum, band)?;
@@ -79,15 +84,15 @@ impl Continuous<'_> {
         [low, high]: [f64; 2],
         target: f64,
     ) -> Result<RelaxationSpectrum, RheologyError> {
-        let step = 2.0 * PI * self.strip.min(0.5 * PI) / (2.0 / target).ln();
-        // What acts as a spring errs by (s/ω)^(1 + a), what acts as a dashpot by (ω/s)^(2 − a).
+        let step = 2.0 * PI * self.strip_half_width.min(0.5 * PI) / (2.0 / target).ln();
+        // Branches that act as a spring have the error (s/ω)^(1 + a), those that act as a dashpot (ω/s)^(2 − a).
         let slowest = low * target.powf(1.0 / (1.0 + self.exponent));
         let fastest = high * target.powf(-1.0 / (2.0 - self.exponent));
         let middle = 0.5 * (low.ln() + high.ln());
         let [first, last] = [slowest, fastest].map(|rate| (rate.ln() - middle) / step);
         let [first, last] = [first.floor(), last.ceil()];
         let log_rate = |index: f64| middle + index * step;
-        // The k-th moment of the node's relaxation time: its modulus and its viscosity.
+        // Moments of the relaxation time at a node: its modulus (k = 0) and its viscosity (k = 1).
         let moment = |k: f64, index: f64| {
             let log_rate = log_rate(index);
             step * ((self.log_density)(log_rate) - k * log_rate).exp()
@@ -125,7 +130,7 @@ impl Continuous<'_> {
     }
 }
 
-/// Σ over k = 1, 2, … of terms that fall at least geometrically in the end.
+/// Sum over k = 1, 2, … of terms that eventually decrease at least geometrically.
 fn sum(term: impl Fn(u32) -> f64) -> f64 {
     let mut sum = 0.0;
     for k in 1..=MAX_TERMS {
@@ -138,22 +143,28 @@ fn sum(term: impl Fn(u32) -> f64) -> f64 {
     sum
 }
 
-/// The slowest decay, e^(−0.01 h) per term with h > 0.1, is over before.
+/// Bound on the number of terms (derived: the slowest decay is e^(−0.01 h) per term with h > 0.1).
 const MAX_TERMS: u32 = 100_000;
 
+/// Checks a band of frequencies and a relative error.
 pub(crate) fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(), RheologyError> {
     positive("lowest_frequency", low)?;
     positive("highest_frequency", high)?;
-    let holds = high > low;
+    let is_valid = high > low;
     let allowed = "greater than the lowest frequency";
-    in_range("highest_frequency", high, holds, allowed)?;
-    let holds = (1e-12..=0.1).contains(&relative_error);
-    in_range("relative_error", relative_error, holds, "from 1e-12 to 0.1")?;
+    in_range("highest_frequency", high, is_valid, allowed)?;
+    let is_valid = (1e-12..=0.1).contains(&relative_error);
+    in_range(
+        "relative_error",
+        relative_error,
+        is_valid,
+        "from 1e-12 to 0.1",
+    )?;
     Ok(())
 }
 
 /// Checks that the exponent of a fractional element is neither that of a spring nor that of a dashpot.
 pub(super) fn fractional_exponent(exponent: f64) -> Result<f64, InvalidParameter> {
-    let holds = (0.01..=0.99).contains(&exponent);
-    in_range("exponent", exponent, holds, "from 0.01 to 0.99")
+    let is_valid = (0.01..=0.99).contains(&exponent);
+    in_range("exponent", exponent, is_valid, "from 0.01 to 0.99")
 }

@@ -1,4 +1,4 @@
-//! A springpot in series with a spring.
+//! The fractional Maxwell element: a springpot in series with a spring.
 //!
 //! ```text
 //! G*(ω) = G z/(1 + z),  z = (iωτ)^a    G(t) = G E_a(−(t/τ)^a)
@@ -8,17 +8,17 @@
 
 use std::f64::consts::PI;
 
-use super::expansion::{Continuous, PronyExpansion, fractional_exponent};
+use super::expansion::{ContinuousSpectrum, PronyExpansion, fractional_exponent};
 use crate::{ComplexModulus, RheologyError};
 use numerics::{not_negative, positive};
 
-/// What a [`FractionalMaxwell`] is made of.
+/// Parameters of a [`FractionalMaxwell`] element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FractionalMaxwellParameters {
     /// Shear modulus G > 0 of the spring, \[Pa].
     pub shear_modulus: f64,
-    /// Time τ > 0 at which spring and springpot give way alike, \[s].
+    /// Relaxation time τ > 0: spring and springpot have compliances of equal magnitude at ω = 1/τ, \[s].
     pub relaxation_time: f64,
     /// Exponent 0.01 ≤ a ≤ 0.99 of the springpot.
     pub exponent: f64,
@@ -66,7 +66,7 @@ impl FractionalMaxwell {
         })
     }
 
-    /// A Prony series that stands for this element over a band [ω_min, ω_max] of angular frequencies \[rad/s].
+    /// Prony series of this element over a band [ω_min, ω_max] of angular frequencies \[rad/s].
     ///
     /// Below the band it ends in a spring.
     ///
@@ -79,11 +79,11 @@ impl FractionalMaxwell {
         relative_error: f64,
     ) -> Result<PronyExpansion, RheologyError> {
         let exponent = self.parameters.exponent;
-        let continuous = Continuous {
+        let continuous = ContinuousSpectrum {
             log_density: &|log_rate| self.log_density(log_rate),
             exact: &|omega| self.complex_modulus(omega),
-            // Where r^a = −e^(±iπa).
-            strip: PI * (1.0 - exponent) / exponent,
+            // The density has its poles where r^a = −e^(±iπa).
+            strip_half_width: PI * (1.0 - exponent) / exponent,
             exponent,
             has_glass_modulus: true,
         };

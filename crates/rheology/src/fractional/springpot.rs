@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::expansion::{Continuous, PronyExpansion, fractional_exponent};
+use super::expansion::{ContinuousSpectrum, PronyExpansion, fractional_exponent};
 use crate::{ComplexModulus, RheologyError};
 use numerics::{not_negative, positive};
 
@@ -67,7 +67,7 @@ impl Springpot {
         (0.5 * PI * self.exponent).tan()
     }
 
-    /// A Prony series that stands for this element over a band [ω_min, ω_max] of angular frequencies \[rad/s].
+    /// Prony series of this element over a band [ω_min, ω_max] of angular frequencies \[rad/s].
     ///
     /// Below the band it ends in a spring, above it in a dashpot.
     ///
@@ -80,10 +80,10 @@ impl Springpot {
         relative_error: f64,
     ) -> Result<PronyExpansion, RheologyError> {
         let scale = self.coefficient * (PI * self.exponent).sin() / PI;
-        let continuous = Continuous {
+        let continuous = ContinuousSpectrum {
             log_density: &|log_rate| scale.ln() + self.exponent * log_rate,
             exact: &|omega| self.complex_modulus(omega),
-            strip: f64::INFINITY,
+            strip_half_width: f64::INFINITY,
             exponent: self.exponent,
             has_glass_modulus: false,
         };

@@ -10,7 +10,7 @@ use crate::{
 };
 use numerics::positive;
 
-/// A material of positive parameters: its type, its constructor and what gives them back.
+/// Defines a material with positive parameters: the struct, its checked constructor `new`, and its getters.
 macro_rules! elementary {
     (
         $(#[$doc:meta])*
@@ -96,31 +96,31 @@ elementary! {
 impl Material for Elastic {
     /// G(t) = G.
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::legal(self.shear_modulus, 0.0, Vec::new())
+        RelaxationSpectrum::from_valid(self.shear_modulus, 0.0, Vec::new())
     }
 
     /// J(t) = 1/G.
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::legal(self.shear_modulus.recip(), 0.0, Vec::new())
+        CreepSpectrum::from_valid(self.shear_modulus.recip(), 0.0, Vec::new())
     }
 }
 
 impl Material for Viscous {
     /// G(t) = η δ(t).
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::legal(0.0, self.viscosity, Vec::new())
+        RelaxationSpectrum::from_valid(0.0, self.viscosity, Vec::new())
     }
 
     /// J(t) = t/η.
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::legal(0.0, self.viscosity.recip(), Vec::new())
+        CreepSpectrum::from_valid(0.0, self.viscosity.recip(), Vec::new())
     }
 }
 
 impl Material for KelvinVoigt {
     /// G(t) = G + η δ(t).
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::legal(self.shear_modulus, self.viscosity, Vec::new())
+        RelaxationSpectrum::from_valid(self.shear_modulus, self.viscosity, Vec::new())
     }
 
     /// J(t) = (1 − e^(−G t/η))/G.
@@ -129,7 +129,7 @@ impl Material for KelvinVoigt {
             compliance: self.shear_modulus.recip(),
             retardation_time: self.viscosity / self.shear_modulus,
         };
-        CreepSpectrum::legal(0.0, 0.0, vec![element])
+        CreepSpectrum::from_valid(0.0, 0.0, vec![element])
     }
 }
 
@@ -137,12 +137,12 @@ impl Material for Maxwell {
     /// G(t) = G e^(−G t/η).
     fn relaxation(&self) -> RelaxationSpectrum {
         let branch = RelaxationBranch::new(self.shear_modulus, self.viscosity / self.shear_modulus);
-        RelaxationSpectrum::legal(0.0, 0.0, vec![branch])
+        RelaxationSpectrum::from_valid(0.0, 0.0, vec![branch])
     }
 
     /// J(t) = 1/G + t/η.
     fn creep(&self) -> CreepSpectrum {
         let [compliance, fluidity] = [self.shear_modulus, self.viscosity].map(f64::recip);
-        CreepSpectrum::legal(compliance, fluidity, Vec::new())
+        CreepSpectrum::from_valid(compliance, fluidity, Vec::new())
     }
 }

@@ -1,9 +1,9 @@
-//! Materials given by a spectrum, or by another material.
+//! [`Prony`], a material given by a spectrum, and [`Compressible`], which gives a material another Poisson ratio.
 
 use crate::{CreepSpectrum, Material, RelaxationSpectrum, RheologyError};
 use numerics::in_range;
 
-/// A material of any number of elements, incompressible: its relaxation modulus is a Prony series.
+/// An incompressible material whose relaxation modulus is a Prony series.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Prony {
@@ -15,7 +15,7 @@ impl Prony {
     /// Maxwell branches in parallel, with or without a lone spring and a lone dashpot.
     ///
     /// # Errors
-    /// [`RheologyError`] when a compliance or a time of its creep is outside the range of `f64`.
+    /// [`RheologyError`] when a compliance or a time of its creep overflows or underflows.
     pub fn new(relaxation: RelaxationSpectrum) -> Result<Self, RheologyError> {
         let creep = relaxation.to_creep()?;
         Ok(Self { relaxation, creep })
@@ -24,7 +24,7 @@ impl Prony {
     /// A Kelvin chain: Kelvin–Voigt elements in series, with or without a lone spring and a lone dashpot.
     ///
     /// # Errors
-    /// [`RheologyError`] when a modulus or a time of its relaxation is outside the range of `f64`.
+    /// [`RheologyError`] when a modulus or a time of its relaxation overflows or underflows.
     pub fn from_creep(creep: CreepSpectrum) -> Result<Self, RheologyError> {
         let relaxation = creep.to_relaxation()?;
         Ok(Self { relaxation, creep })
@@ -56,9 +56,9 @@ impl Compressible {
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when the ratio is outside that range.
     pub fn new(material: &dyn Material, poisson_ratio: f64) -> Result<Self, RheologyError> {
-        let holds = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
+        let is_in_range = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
         let allowed = "greater than -1 and at most 0.5";
-        in_range("poisson_ratio", poisson_ratio, holds, allowed)?;
+        in_range("poisson_ratio", poisson_ratio, is_in_range, allowed)?;
         Ok(Self {
             relaxation: material.relaxation(),
             creep: material.creep(),

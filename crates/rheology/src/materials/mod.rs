@@ -1,4 +1,4 @@
-//! The materials by name.
+//! Named materials.
 
 pub(crate) mod elementary;
 pub(crate) mod generalised;

@@ -5,8 +5,8 @@
 //! γ = G₁/G₂    Ω = ω η/G₂
 //! ```
 //!
-//! The paper defines Ω as ω G₂/η, which has the dimension 1/s²; its formulas and its figure are right with
-//! Ω = ω η/G₂ = ω τ, and that is what is used here.
+//! The paper defines Ω as ω G₂/η, which has the dimension 1/s². Its formulas and its figure are right with
+//! Ω = ω η/G₂ = ω τ, the definition of this module.
 
 use std::f64::consts::SQRT_2;
 
@@ -16,11 +16,11 @@ use crate::{
 };
 use numerics::positive;
 
-/// What a [`StandardSolid`] is made of.
+/// Parameters of a [`StandardSolid`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StandardSolidParameters {
-    /// Shear modulus G₁ of the spring that stands alone, \[Pa]; what is left after a long time.
+    /// Equilibrium shear modulus G₁ of the parallel spring, \[Pa].
     pub equilibrium_modulus: f64,
     /// Shear modulus G₂ of the spring in series with the dashpot, \[Pa].
     pub maxwell_modulus: f64,
@@ -39,9 +39,9 @@ pub struct StandardSolid {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LossPeak {
-    /// Where it lies, \[rad/s].
+    /// Angular frequency of the maximum, \[rad/s].
     pub angular_frequency: f64,
-    /// Its height.
+    /// Loss tangent at the maximum.
     pub loss_tangent: f64,
 }
 
@@ -59,21 +59,24 @@ impl StandardSolid {
         positive("maxwell_modulus", parameters.maxwell_modulus)?;
         positive("viscosity", parameters.viscosity)?;
         let solid = Self { parameters };
-        // Three legal numbers may still be too many decades apart for their quotients to exist.
+        // Quotients of valid parameters may still overflow or underflow.
         positive("glass_modulus", solid.glass_modulus())?;
         positive("stiffness_ratio", solid.stiffness_ratio())?;
         positive("relaxation_time", solid.relaxation_time())?;
         positive("retardation_time", solid.retardation_time())?;
-        positive("retardation_compliance", solid.element().compliance)?;
+        positive(
+            "retardation_compliance",
+            solid.retardation_element().compliance,
+        )?;
         Ok(solid)
     }
 
-    /// The moduli and the viscosity that it was made of.
+    /// Moduli and viscosity of the solid.
     pub const fn parameters(&self) -> StandardSolidParameters {
         self.parameters
     }
 
-    /// Modulus of the first instant G₁ + G₂, \[Pa].
+    /// Instantaneous modulus G₁ + G₂, \[Pa].
     pub fn glass_modulus(&self) -> f64 {
         self.parameters.equilibrium_modulus + self.parameters.maxwell_modulus
     }
@@ -83,18 +86,18 @@ impl StandardSolid {
         self.parameters.equilibrium_modulus / self.parameters.maxwell_modulus
     }
 
-    /// Time τ = η/G₂ in which the stress relaxes at constant strain, \[s].
+    /// Relaxation time τ = η/G₂, \[s].
     pub fn relaxation_time(&self) -> f64 {
         self.parameters.viscosity / self.parameters.maxwell_modulus
     }
 
-    /// Time λ = η/G₁ + η/G₂ in which the strain creeps at constant stress, \[s].
+    /// Retardation time λ = η/G₁ + η/G₂, \[s].
     pub fn retardation_time(&self) -> f64 {
         self.parameters.viscosity / self.parameters.equilibrium_modulus + self.relaxation_time()
     }
 
-    /// What creeps: G₂/(G₁ (G₁ + G₂)) over the time λ.
-    fn element(&self) -> RetardationElement {
+    /// Retardation element with the compliance G₂/(G₁ (G₁ + G₂)) and the time λ.
+    fn retardation_element(&self) -> RetardationElement {
         let maxwell_share = self.parameters.maxwell_modulus / self.glass_modulus();
         RetardationElement {
             compliance: maxwell_share / self.parameters.equilibrium_modulus,
@@ -102,7 +105,7 @@ impl StandardSolid {
         }
     }
 
-    /// Where the loss tangent is largest, Ω² = γ/(1 + γ), and how large: 1/(2 √(γ (1 + γ))).
+    /// Maximum of the loss tangent, 1/(2 √(γ (1 + γ))) at Ω² = γ/(1 + γ).
     pub fn loss_peak(&self) -> LossPeak {
         let gamma = self.stiffness_ratio();
         LossPeak {
@@ -121,11 +124,11 @@ impl StandardSolid {
         if margin <= 0.0 {
             return None;
         }
-        // 1 − 4 γ (1 + γ), factored so that it keeps its digits where the window vanishes.
+        // Discriminant 1 − 4 γ (1 + γ), factored against cancellation for a narrow window.
         let discriminant = 4.0 * margin * (margin + 2.0 * gamma + 1.0);
         let sum = 1.0 + discriminant.sqrt();
         let tau = self.relaxation_time();
-        // The lower root from the product of both, which does not cancel.
+        // The lower root follows from the product of both, without cancellation.
         Some([2.0 * gamma / sum / tau, 0.5 * sum / (1.0 + gamma) / tau])
     }
 }
@@ -133,11 +136,15 @@ impl StandardSolid {
 impl Material for StandardSolid {
     fn relaxation(&self) -> RelaxationSpectrum {
         let branch = RelaxationBranch::new(self.parameters.maxwell_modulus, self.relaxation_time());
-        RelaxationSpectrum::legal(self.parameters.equilibrium_modulus, 0.0, vec![branch])
+        RelaxationSpectrum::from_valid(self.parameters.equilibrium_modulus, 0.0, vec![branch])
     }
 
     /// J(t) = 1/(G₁ + G₂) + G₂/(G₁ (G₁ + G₂)) (1 − e^(−t/λ)).
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::legal(self.glass_modulus().recip(), 0.0, vec![self.element()])
+        CreepSpectrum::from_valid(
+            self.glass_modulus().recip(),
+            0.0,
+            vec![self.retardation_element()],
+        )
     }
 }

@@ -1,11 +1,11 @@
-//! How strain creeps after a step of stress.
+//! Creep spectrum: the strain after a step of stress.
 //!
 //! ```text
 //! J(t) = J₀ + t/η_f + Σ J_k (1 − e^(−t/λ_k))
 //! J'(ω) = J₀ + Σ J_k/(1 + Ω_k²)    J''(ω) = 1/(ω η_f) + Σ J_k Ω_k/(1 + Ω_k²)    Ω_k = ω λ_k
 //! ```
 
-use super::decays::normal_form;
+use super::decays::{Decay, DecayNames, normal_form};
 use crate::RheologyError;
 use crate::complex::{ComplexCompliance, debye};
 use numerics::not_negative;
@@ -16,7 +16,7 @@ use numerics::not_negative;
 pub struct RetardationElement {
     /// Compliance J_k of the spring, \[1/Pa].
     pub compliance: f64,
-    /// Time λ_k in which it yields to all but 1/e, \[s].
+    /// Retardation time λ_k, \[s].
     pub retardation_time: f64,
 }
 
@@ -47,14 +47,22 @@ impl CreepSpectrum {
     ) -> Result<Self, RheologyError> {
         not_negative("instantaneous_compliance", instantaneous_compliance)?;
         not_negative("fluidity", fluidity)?;
-        let decays = elements.iter().map(|e| (e.compliance, e.retardation_time));
-        let names = ["elements", "compliance", "retardation_time"];
-        let elements = normal_form(names, decays.collect())?.into_iter();
-        let elements = elements.map(|(compliance, retardation_time)| RetardationElement {
-            compliance,
-            retardation_time,
+        let decays = elements.iter().map(|element| Decay {
+            amplitude: element.compliance,
+            time: element.retardation_time,
         });
-        let spectrum = Self::legal(instantaneous_compliance, fluidity, elements.collect());
+        let names = DecayNames {
+            list: "elements",
+            amplitude: "compliance",
+            time: "retardation_time",
+        };
+        let elements = normal_form(&names, decays.collect())?
+            .into_iter()
+            .map(|decay| RetardationElement {
+                compliance: decay.amplitude,
+                retardation_time: decay.time,
+            });
+        let spectrum = Self::from_valid(instantaneous_compliance, fluidity, elements.collect());
         let sum = spectrum.recoverable_compliance();
         if sum == 0.0 && fluidity == 0.0 {
             return Err(RheologyError::NoCompliance);
@@ -64,8 +72,8 @@ impl CreepSpectrum {
         Ok(spectrum)
     }
 
-    /// The spectrum of legal numbers, the elements in increasing order of distinct times.
-    pub(crate) const fn legal(
+    /// The spectrum of valid numbers, with elements in increasing order of distinct times.
+    pub(crate) const fn from_valid(
         instantaneous_compliance: f64,
         fluidity: f64,
         elements: Vec<RetardationElement>,
@@ -77,7 +85,7 @@ impl CreepSpectrum {
         }
     }
 
-    /// Compliance J₀ of the first instant, \[1/Pa].
+    /// Instantaneous compliance J₀, \[1/Pa].
     pub const fn instantaneous_compliance(&self) -> f64 {
         self.instantaneous_compliance
     }
@@ -92,11 +100,12 @@ impl CreepSpectrum {
         &self.elements
     }
 
-    /// Whether nothing depends on time.
+    /// Whether the compliance does not depend on time.
     pub fn is_elastic(&self) -> bool {
         self.elements.is_empty() && self.fluidity == 0.0
     }
 
+    /// Compliance J₀ + Σ J_k without flow, \[1/Pa].
     fn recoverable_compliance(&self) -> f64 {
         let elements: f64 = self.elements.iter().map(|e| e.compliance).sum();
         self.instantaneous_compliance + elements
@@ -122,7 +131,11 @@ impl CreepSpectrum {
     /// [`RheologyError::InvalidParameter`] when the time is not finite or below zero.
     pub fn creep_compliance(&self, time: f64) -> Result<f64, RheologyError> {
         let time = not_negative("time", time)?;
-        let delayed: f64 = self.elements.iter().map(|e| e.yielded(time)).sum();
+        let delayed: f64 = self
+            .elements
+            .iter()
+            .map(|e| e.delayed_compliance(time))
+            .sum();
         Ok(self.instantaneous_compliance + self.fluidity * time + delayed)
     }
 
@@ -158,27 +171,28 @@ impl RetardationElement {
         self.compliance / self.retardation_time
     }
 
-    /// J_k (1 − e^(−t/λ_k)), \[1/Pa].
-    pub(crate) fn yielded(&self, time: f64) -> f64 {
+    /// Delayed compliance J_k (1 − e^(−t/λ_k)) at a time t \[s], \[1/Pa].
+    pub(crate) fn delayed_compliance(&self, time: f64) -> f64 {
         let x = time / self.retardation_time;
-        // As the spring vanishes this becomes t/η, while x leaves the normal numbers and loses its digits.
+        // The limit t/η of a vanishing spring, because a subnormal x has lost its digits.
         if x < f64::EPSILON {
             return self.fluidity() * time;
         }
         -self.compliance * (-x).exp_m1()
     }
 
-    /// By which part of a step an input that is held over steps moves the element too early,
-    /// m = λ/Δt − 1/(e^(Δt/λ) − 1): a half for short steps, λ/Δt for long ones.
+    /// Fraction m = λ/Δt − 1/(e^(Δt/λ) − 1) of a step by which an input held over the step acts too early.
+    ///
+    /// It is 1/2 for short steps and λ/Δt for long ones.
     pub fn lead(&self, time_step: f64) -> f64 {
         0.5 * (1.0 - langevin(0.5 * time_step / self.retardation_time))
     }
 }
 
-/// ℒ(y) = coth y − 1/y for y > 0.
+/// Langevin function ℒ(y) = coth y − 1/y for y > 0.
 fn langevin(y: f64) -> f64 {
     if y < 0.02 {
-        // The next term is below rounding.
+        // Power series; the next term is below rounding.
         let square = y * y;
         return y / 3.0 * (1.0 - square / 15.0 * (1.0 - 2.0 * square / 21.0));
     }

@@ -1,42 +1,56 @@
-//! Normal form of a list of decays: times increasing and distinct, no amplitude zero.
+//! Normal form of a list of decays: increasing, distinct times and positive amplitudes.
 
 use crate::RheologyError;
-use crate::error::in_list;
+use crate::error::with_list_index;
 use numerics::{in_range, not_negative, positive};
 
-/// Times closer than this, relatively, are one.
+/// Relative difference below which two times are merged.
 ///
-/// With the mean time in place of two times that differ by δ every response changes by less than δ²/8, here 1e-17.
-const SAME_TIME: f64 = 1e-8;
+/// Derived: the mean time in place of two times that differ by δ changes every response by less than δ²/8, here 1e-17.
+const MERGE_TOLERANCE: f64 = 1e-8;
 
-/// Sorts `(amplitude, time)` pairs by time, drops amplitudes of zero and joins equal times: amplitudes add, times are
-/// averaged with the amplitude as weight.
+/// An exponential decay.
+#[derive(Clone, Copy)]
+pub(super) struct Decay {
+    pub(super) amplitude: f64,
+    /// Time constant, \[s].
+    pub(super) time: f64,
+}
+
+/// Names of a list of decays and of its columns, for messages.
+pub(super) struct DecayNames {
+    pub(super) list: &'static str,
+    pub(super) amplitude: &'static str,
+    pub(super) time: &'static str,
+}
+
+/// Sorts decays by time, drops amplitudes of zero and merges equal times.
 ///
-/// The names of the list, of amplitudes and of times are those of its errors.
+/// Merged amplitudes are added; merged times are averaged with the amplitudes as weights.
 pub(super) fn normal_form(
-    [list, amplitude, time]: [&'static str; 3],
-    mut decays: Vec<(f64, f64)>,
-) -> Result<Vec<(f64, f64)>, RheologyError> {
-    for (index, decay) in decays.iter().enumerate() {
-        not_negative(amplitude, decay.0)
-            .and_then(|_| positive(time, decay.1))
-            .and_then(|_| in_range(time, decay.1, decay.1.is_normal(), "at least 3e-308"))
-            .map_err(in_list(list, index))?;
+    names: &DecayNames,
+    mut decays: Vec<Decay>,
+) -> Result<Vec<Decay>, RheologyError> {
+    for (index, &Decay { amplitude, time }) in decays.iter().enumerate() {
+        not_negative(names.amplitude, amplitude)
+            .and_then(|_| positive(names.time, time))
+            .and_then(|_| in_range(names.time, time, time.is_normal(), "at least 3e-308"))
+            .map_err(with_list_index(names.list, index))?;
     }
-    decays.retain(|&(amplitude, _)| amplitude > 0.0);
-    decays.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let mut merged: Vec<(f64, f64)> = Vec::with_capacity(decays.len());
-    // The first time of the cluster: compared with the running mean a long row of times would melt into one.
+    decays.retain(|decay| decay.amplitude > 0.0);
+    decays.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let mut merged: Vec<Decay> = Vec::with_capacity(decays.len());
+    // Compare with the first time of a cluster: comparison with the running mean could merge a long series of times.
     let mut first = 0.0;
-    for (amplitude, time) in decays {
+    for decay in decays {
         match merged.last_mut() {
-            Some(last) if time - first <= SAME_TIME * first => {
-                last.0 += amplitude;
-                last.1 += (time - last.1) * (amplitude / last.0);
+            Some(last) if decay.time - first <= MERGE_TOLERANCE * first => {
+                last.amplitude += decay.amplitude;
+                last.time += (decay.time - last.time) * (decay.amplitude / last.amplitude);
             }
             _ => {
-                first = time;
-                merged.push((amplitude, time));
+                first = decay.time;
+                merged.push(decay);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! The two descriptions of a material: how stress relaxes and how strain creeps.
+//! Relaxation and creep spectra, the two descriptions of a material, and their conversion.
 
 mod conversion;
 pub(crate) mod creep;

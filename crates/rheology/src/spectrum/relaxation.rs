@@ -1,11 +1,11 @@
-//! How stress relaxes after a step of strain.
+//! Relaxation spectrum: the stress after a step of strain.
 //!
 //! ```text
 //! G(t) = G_∞ + η₀ δ(t) + Σ G_k e^(−t/τ_k)
 //! G'(ω) = G_∞ + Σ G_k Ω_k²/(1 + Ω_k²)    G''(ω) = ω η₀ + Σ G_k Ω_k/(1 + Ω_k²)    Ω_k = ω τ_k
 //! ```
 
-use super::decays::normal_form;
+use super::decays::{Decay, DecayNames, normal_form};
 use crate::RheologyError;
 use crate::complex::{ComplexModulus, debye};
 use numerics::not_negative;
@@ -16,7 +16,7 @@ use numerics::not_negative;
 pub struct RelaxationBranch {
     /// Shear modulus G_k of the spring, \[Pa].
     pub modulus: f64,
-    /// Time τ_k in which its stress decays to 1/e, \[s].
+    /// Relaxation time τ_k, \[s].
     pub relaxation_time: f64,
 }
 
@@ -48,11 +48,19 @@ impl RelaxationSpectrum {
     ) -> Result<Self, RheologyError> {
         not_negative("equilibrium_modulus", equilibrium_modulus)?;
         not_negative("viscosity", viscosity)?;
-        let decays = branches.iter().map(|b| (b.modulus, b.relaxation_time));
-        let names = ["branches", "modulus", "relaxation_time"];
-        let branches = normal_form(names, decays.collect())?.into_iter();
-        let branches = branches.map(|(modulus, time)| RelaxationBranch::new(modulus, time));
-        let spectrum = Self::legal(equilibrium_modulus, viscosity, branches.collect());
+        let decays = branches.iter().map(|branch| Decay {
+            amplitude: branch.modulus,
+            time: branch.relaxation_time,
+        });
+        let names = DecayNames {
+            list: "branches",
+            amplitude: "modulus",
+            time: "relaxation_time",
+        };
+        let branches = normal_form(&names, decays.collect())?
+            .into_iter()
+            .map(|decay| RelaxationBranch::new(decay.amplitude, decay.time));
+        let spectrum = Self::from_valid(equilibrium_modulus, viscosity, branches.collect());
         let sum = spectrum.spring_moduli();
         if sum == 0.0 && viscosity == 0.0 {
             return Err(RheologyError::NoStiffness);
@@ -62,8 +70,8 @@ impl RelaxationSpectrum {
         Ok(spectrum)
     }
 
-    /// The spectrum of legal numbers, the branches in increasing order of distinct times.
-    pub(crate) const fn legal(
+    /// The spectrum of valid numbers, with branches in increasing order of distinct times.
+    pub(crate) const fn from_valid(
         equilibrium_modulus: f64,
         viscosity: f64,
         branches: Vec<RelaxationBranch>,
@@ -75,7 +83,7 @@ impl RelaxationSpectrum {
         }
     }
 
-    /// Modulus G_∞ of the lone spring, \[Pa], what is left after a long time; 0 for a fluid.
+    /// Equilibrium modulus G_∞ of the lone spring, \[Pa]; 0 for a fluid.
     pub const fn equilibrium_modulus(&self) -> f64 {
         self.equilibrium_modulus
     }
@@ -90,12 +98,13 @@ impl RelaxationSpectrum {
         &self.branches
     }
 
+    /// Sum G_∞ + Σ G_k of the moduli, \[Pa].
     fn spring_moduli(&self) -> f64 {
         let branches: f64 = self.branches.iter().map(|b| b.modulus).sum();
         self.equilibrium_modulus + branches
     }
 
-    /// Modulus G(0) of the first instant, \[Pa]; infinite with a lone dashpot.
+    /// Instantaneous modulus G(0), \[Pa]; infinite with a lone dashpot.
     pub fn glass_modulus(&self) -> f64 {
         if self.viscosity > 0.0 {
             return f64::INFINITY;
@@ -109,8 +118,9 @@ impl RelaxationSpectrum {
         self.viscosity + branches.sum::<f64>()
     }
 
-    /// Relaxation modulus G(t), \[Pa], at a time t ≥ 0 \[s] after the strain was applied; infinite at t = 0 with a
-    /// lone dashpot, whose impulse is over at every later time.
+    /// Relaxation modulus G(t), \[Pa], at a time t ≥ 0 \[s] after the strain was applied.
+    ///
+    /// It is infinite at t = 0 with a lone dashpot, whose impulse does not contribute at later times.
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when the time is not finite or below zero.
@@ -141,7 +151,7 @@ impl RelaxationSpectrum {
         Ok(modulus)
     }
 
-    /// Loss tangent tan δ = G''/G' at an angular frequency ω ≥ 0 \[rad/s]; infinite where G' vanishes.
+    /// Loss tangent tan δ = G''/G' at an angular frequency ω ≥ 0 \[rad/s]; infinite if G' vanishes.
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
@@ -153,7 +163,7 @@ impl RelaxationSpectrum {
         Ok(self.loss_tangent_of_vanishing_storage(angular_frequency))
     }
 
-    /// tan δ from G''/ω and G'/ω: far below all 1/τ the squares of a fluid's G' underflow, these do not.
+    /// Loss tangent from G''/ω and G'/ω, which do not underflow for a fluid far below all 1/τ.
     fn loss_tangent_of_vanishing_storage(&self, omega: f64) -> f64 {
         let over_branches = |part: fn([f64; 2]) -> f64| {
             let branches = self.branches.iter();
@@ -169,10 +179,10 @@ impl RelaxationSpectrum {
         if is_solid { 0.0 } else { f64::INFINITY }
     }
 
-    /// Both materials side by side, under the same strain.
+    /// Parallel connection of two materials, under the same strain.
     ///
     /// # Errors
-    /// [`RheologyError::InvalidParameter`] when a sum leaves the range of `f64`.
+    /// [`RheologyError::InvalidParameter`] when a sum overflows.
     pub fn in_parallel_with(&self, other: &Self) -> Result<Self, RheologyError> {
         Self::new(
             self.equilibrium_modulus + other.equilibrium_modulus,
@@ -183,7 +193,7 @@ impl RelaxationSpectrum {
 }
 
 impl RelaxationBranch {
-    /// A branch of a modulus \[Pa] and a relaxation time, \[s].
+    /// A branch with a modulus \[Pa] and a relaxation time \[s].
     pub const fn new(modulus: f64, relaxation_time: f64) -> Self {
         Self {
             modulus,

@@ -1,11 +1,11 @@
-//! Roots of the equation that relaxation and retardation times share.
+//! Roots of the secular equation of relaxation and retardation times.
 //!
 //! ```text
 //! S(x) = Σ w_i/(x − p_i) − e = 0    w_i > 0,  0 ≤ p_0 < p_1 < …,  e ≥ 0
 //! ```
-//! S falls from +∞ to −∞ between two poles, and from +∞ to −e above the last one: one root in every gap, and one above
-//! when e > 0. A root is kept as its offset from the nearer pole: differences of roots and poles then never cancel,
-//! however close they are.
+//! S decreases from +∞ to −∞ between two poles, and from +∞ to −e above the last one. There is one root in every gap, and
+//! one above all poles if e > 0. A root is stored as its offset from the nearer pole, so that differences of roots and poles
+//! do not cancel.
 
 /// A pole p ≥ 0 and its weight w > 0.
 #[derive(Debug, Clone, Copy)]
@@ -14,17 +14,18 @@ pub(super) struct Pole {
     pub(super) weight: f64,
 }
 
-/// A root x, and −1/(x S'(x)), which stays within the range of `f64` where −1/S' does not.
+/// A root x of the equation.
 pub(super) struct Root {
     pub(super) position: f64,
+    /// Value −1/(x S'(x)), which does not overflow if −1/S' does.
     pub(super) relative_inverse_slope: f64,
 }
 
-/// All roots in increasing order.
+/// All roots in increasing order; `level` is e.
 pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
     let equation = Secular { poles, level };
     let gaps = (1..poles.len()).map(|upper| equation.root_in_gap(upper));
-    let mut places: Vec<Place> = gaps.collect();
+    let mut places: Vec<RootPosition> = gaps.collect();
     if level > 0.0 && !poles.is_empty() {
         places.push(equation.root_above());
     }
@@ -43,29 +44,29 @@ struct Secular<'a> {
 
 /// A point at an offset from the pole `near` of at most half the gap on that side.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct RootPosition {
     near: usize,
     offset: f64,
 }
 
-/// The positive and the negative terms of S at one point, and their derivatives by the logarithm of the distance from the
-/// pole `near`, all without sign.
+/// Magnitudes of the sums of the positive and the negative terms of S at one point.
 struct Balance {
     up: f64,
     down: f64,
+    /// Magnitudes of the derivatives of `up` and `down` by the logarithm of the distance from the pole `near`.
     slopes: [f64; 2],
 }
 
 impl Secular<'_> {
     /// The root between the poles `upper − 1` and `upper`.
-    fn root_in_gap(&self, upper: usize) -> Place {
+    fn root_in_gap(&self, upper: usize) -> RootPosition {
         let [below, above] = [self.poles[upper - 1], self.poles[upper]];
         let half_gap = 0.5 * (above.position - below.position);
-        let middle = self.balance(Place {
+        let middle = self.balance(RootPosition {
             near: upper - 1,
             offset: half_gap,
         });
-        // The near term alone is at most the terms of the other sign, and those are largest in the middle.
+        // Lower bound of the distance: the nearest term is at most the sum of the other sign, which is largest in the middle.
         if middle.up <= middle.down {
             let least = (below.weight / middle.down).min(half_gap);
             return self.root_beside(upper - 1, 1.0, [least, half_gap]);
@@ -75,25 +76,26 @@ impl Secular<'_> {
     }
 
     /// The root above the last pole: w_last/e ≤ x − p_last ≤ Σ w/e.
-    fn root_above(&self) -> Place {
+    fn root_above(&self) -> RootPosition {
         let last = self.poles.len() - 1;
         let total: f64 = self.poles.iter().map(|pole| pole.weight).sum();
         let bracket = [self.poles[last].weight, total].map(|weight| weight / self.level);
         self.root_beside(last, 1.0, bracket)
     }
 
-    /// The root at a distance within the bracket from the pole `near`, above it (`side` = 1) or below it (−1).
+    /// The root above (`side` = 1) or below (−1) the pole `near`, at a distance within the bracket.
     ///
-    /// Newton's method for ln(up/down) = 0 in the logarithm of the distance, where it is nearly straight; bisection where
-    /// that leaves the bracket or stops halving its steps.
-    fn root_beside(&self, near: usize, side: f64, [mut low, mut high]: [f64; 2]) -> Place {
+    /// Newton's method for ln(up/down) = 0 in the logarithm of the distance, in which the function is nearly linear.
+    /// Bisection replaces a step that leaves the bracket or is longer than half of the previous one.
+    fn root_beside(&self, near: usize, side: f64, [mut low, mut high]: [f64; 2]) -> RootPosition {
+        /// Relative tolerance of the distance: a few roundings.
         const TOLERANCE: f64 = 4.0 * f64::EPSILON;
-        // Exact under other units, unlike the product of two roots.
+        // Geometric mean as low √(high/low), which scales exactly with the unit.
         let middle = |low: f64, high: f64| match high / low {
             ratio if ratio.is_finite() => low * ratio.sqrt(),
             _ => low.sqrt() * high.sqrt(),
         };
-        let place = |distance: f64| Place {
+        let place = |distance: f64| RootPosition {
             near,
             offset: side * distance,
         };
@@ -101,7 +103,7 @@ impl Secular<'_> {
         let mut last_step = f64::INFINITY;
         while high > low * (1.0 + TOLERANCE) {
             let Balance { up, down, slopes } = self.balance(place(distance));
-            // Positive while the root is farther from the pole.
+            // Positive if the root is farther from the pole.
             let excess = side * (up / down).ln();
             let step = excess / (slopes[0] / up + slopes[1] / down);
             if step.abs() <= TOLERANCE {
@@ -116,7 +118,7 @@ impl Secular<'_> {
             let trusted = newton > low && newton < high && step.abs() <= 0.5 * last_step;
             let next = if trusted { newton } else { middle(low, high) };
             if next <= low || next >= high {
-                // No number lies between the ends, which are too small to have all their digits.
+                // The bracket of subnormal ends cannot be divided.
                 break;
             }
             last_step = (next / distance).ln().abs();
@@ -125,7 +127,8 @@ impl Secular<'_> {
         place(distance)
     }
 
-    fn balance(&self, place: Place) -> Balance {
+    /// Positive and negative terms of S at a point.
+    fn balance(&self, place: RootPosition) -> Balance {
         let mut balance = Balance {
             up: 0.0,
             down: self.level,
@@ -134,7 +137,7 @@ impl Secular<'_> {
         for (index, pole) in self.poles.iter().enumerate() {
             let difference = self.above_pole(place, index);
             let term = (pole.weight / difference).abs();
-            // As a ratio of lengths, because the square of a difference may underflow.
+            // A ratio of lengths, because the square of a difference may underflow.
             let slope = term * (place.offset / difference).abs();
             if difference > 0.0 {
                 balance.up += term;
@@ -147,8 +150,8 @@ impl Secular<'_> {
         balance
     }
 
-    /// x − p_i.
-    fn above_pole(&self, place: Place, pole: usize) -> f64 {
+    /// Difference x − p_i without cancellation.
+    fn above_pole(&self, place: RootPosition, pole: usize) -> f64 {
         (self.poles[place.near].position - self.poles[pole].position) + place.offset
     }
 
@@ -157,14 +160,14 @@ impl Secular<'_> {
     /// ```text
     /// S(x) = −e Π(x − x_l)/Π(x − p_l)         −S'(x_k) = e Π_{l≠k} |x_k − x_l| / Π |x_k − p_l|
     /// ```
-    /// and the same with Σ w in place of −e when e = 0 and there is a root less. As a sum, −S' = Σ w/(x − p)², each slope
-    /// would be right for its own rounded root, but together they would describe no material: where two poles lie within
-    /// δ, moduli off by ε/δ. The product belongs to the roots as they are, all of them (Gu & Eisenstat 1994, SIAM J.
-    /// Matrix Anal. Appl. 15, 1266).
-    fn relative_inverse_slope(&self, places: &[Place], index: usize) -> f64 {
+    /// and, for e = 0 with one root less, the same with Σ w in place of −e. The sum −S' = Σ w/(x − p)² would be accurate for
+    /// each rounded root alone. Together such slopes would describe no material: for poles at a distance δ, moduli would
+    /// have errors ε/δ. The product is consistent with all rounded roots (Gu & Eisenstat 1994, SIAM J. Matrix Anal. Appl.
+    /// 15, 1266).
+    fn relative_inverse_slope(&self, places: &[RootPosition], index: usize) -> f64 {
         let place = places[index];
         let position = self.poles[place.near].position + place.offset;
-        // Root and pole of the same gap in one factor: the product stays between 1 and the ratio of two differences.
+        // Combine root and pole of the same gap in one factor, so that the product does not overflow.
         let factors = places.iter().enumerate().map(|(l, other)| {
             let from_pole = self.above_pole(place, l);
             if l == index {

@@ -1,29 +1,29 @@
-//! The fit near its end, where it is linear in the data.
+//! Linearisation of the fit around its solution.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::outer_square;
 use super::scatter::Scatter;
-use super::shifts::Joined;
-use super::squared;
+use super::shifts::ShiftEffects;
 use crate::RelaxationSpectrum;
 use crate::fit::system::Measurement;
 
-/// Part of the trace of XᵀX below which it is rounding.
-const ROUNDING: f64 = 1e-12;
+/// Smallest ridge of the normal equations, relative to the trace of XᵀX (chosen: above rounding).
+const TRACE_ROUNDING: f64 = 1e-12;
 
-/// Weighted data near the series.
+/// Weighted data, linearised around the series.
 pub(super) struct Linear {
-    /// X: what a relative change of each modulus adds to the weighted data.
+    /// Matrix X: derivatives of the weighted data by the relative changes of the moduli.
     pub(super) columns: DMatrix<f64>,
-    /// A: the relative changes of the moduli that errors of the data make.
+    /// Matrix A: derivatives of the relative changes of the moduli by the weighted data.
     pub(super) gain: DMatrix<f64>,
-    /// Of the weighted data, by ln ω.
+    /// Derivatives of the weighted data by ln ω.
     pub(super) slopes: DVector<f64>,
-    /// Data less series, weighted.
+    /// Weighted residuals, data less series.
     pub(super) residuals: DVector<f64>,
 }
 
-/// The spring and the branches.
+/// Equilibrium modulus and moduli of the branches, \[Pa].
 pub(super) fn moduli(spectrum: &RelaxationSpectrum) -> Vec<f64> {
     let branches = spectrum.branches().iter().map(|branch| branch.modulus);
     std::iter::once(spectrum.equilibrium_modulus())
@@ -55,9 +55,9 @@ impl Linear {
         let residuals = DVector::from_iterator(rows.len(), values) - columns.column_sum();
         let normal = columns.tr_mul(&columns);
         let degrees = rows.len().saturating_sub(n_columns).max(1) as f64;
-        // A modulus is known to itself: its relative change is 0 ± 1.
+        // Prior of a modulus that is not negative: its relative change is 0 ± 1.
         let scatter = residuals.norm_squared() / degrees;
-        let ridge = scatter.max(ROUNDING * normal.trace());
+        let ridge = scatter.max(TRACE_ROUNDING * normal.trace());
         let normal = normal + DMatrix::identity(n_columns, n_columns) * ridge;
         let gain = normal.cholesky()?.solve(&columns.transpose());
         Some(Self {
@@ -68,57 +68,58 @@ impl Linear {
         })
     }
 
-    /// C of the relative changes of the moduli.
-    pub(super) fn covariance(&self, joined: &Joined, scatter: &Scatter) -> DMatrix<f64> {
+    /// Covariance matrix C of the relative changes of the moduli.
+    pub(super) fn covariance(&self, effects: &ShiftEffects, scatter: &Scatter) -> DMatrix<f64> {
         let n = self.gain.nrows();
         let unknown = DMatrix::identity(n, n) - &self.gain * &self.columns;
-        let gain = &self.gain - (&self.gain * &joined.slopes) * &joined.astray;
-        let of_factors = &gain * &joined.factors;
-        let of_temperatures = &self.gain * &joined.by_temperature;
-        let of_undecided = &gain * &joined.undecided;
-        squared(&unknown)
-            + squared(&scatter.scaled(&gain))
-            + squared(&of_factors) * scatter.factor
-            + squared(&of_temperatures) * scatter.temperature
-            // They are there or not, which is equally likely.
-            + squared(&of_undecided) * 0.5
+        let gain = &self.gain - (&self.gain * &effects.slopes) * &effects.shift_gain;
+        let of_factors = &gain * &effects.factors;
+        let of_temperatures = &self.gain * &effects.by_temperature;
+        let of_undecided = &gain * &effects.undecided;
+        outer_square(&unknown)
+            + outer_square(&scatter.scaled(&gain))
+            + outer_square(&of_factors) * scatter.factor
+            + outer_square(&of_temperatures) * scatter.temperature
+            // An undecided vertical shift is present with the probability 1/2.
+            + outer_square(&of_undecided) * 0.5
     }
 }
 
-/// R = 1 − D B − X A T: what is left of errors of the data when the isotherms are shifted and the series is fitted, as 1 less the
-/// product of two narrow matrices.
+/// Residual operator R = 1 − D B − X A T, which maps errors of the data to residuals of shifted isotherms and fitted series.
+///
+/// It is stored as 1 less the product of two narrow matrices.
 pub(super) struct Residuals {
     left: DMatrix<f64>,
     right: DMatrix<f64>,
 }
 
 impl Residuals {
-    pub(super) fn new(fit: &Linear, joined: &Joined) -> Self {
-        let [n_shifts, n_moduli] = [joined.astray.nrows(), fit.gain.nrows()];
-        let gain = &fit.gain - (&fit.gain * &joined.slopes) * &joined.astray;
+    pub(super) fn new(fit: &Linear, effects: &ShiftEffects) -> Self {
+        let [n_shifts, n_moduli] = [effects.shift_gain.nrows(), fit.gain.nrows()];
+        let gain = &fit.gain - (&fit.gain * &effects.slopes) * &effects.shift_gain;
         let n_rows = fit.columns.nrows();
         let mut left = DMatrix::zeros(n_rows, n_shifts + n_moduli);
-        left.columns_mut(0, n_shifts).copy_from(&joined.slopes);
+        left.columns_mut(0, n_shifts).copy_from(&effects.slopes);
         left.columns_mut(n_shifts, n_moduli).copy_from(&fit.columns);
         let mut right = DMatrix::zeros(n_shifts + n_moduli, n_rows);
-        right.rows_mut(0, n_shifts).copy_from(&joined.astray);
+        right.rows_mut(0, n_shifts).copy_from(&effects.shift_gain);
         right.rows_mut(n_shifts, n_moduli).copy_from(&gain);
         Self { left, right }
     }
 
-    /// R M.
-    pub(super) fn of(&self, errors: &DMatrix<f64>) -> DMatrix<f64> {
+    /// Product R M.
+    pub(super) fn apply(&self, errors: &DMatrix<f64>) -> DMatrix<f64> {
         errors - &self.left * (&self.right * errors)
     }
 
-    /// Mᵀ R.
-    pub(super) fn seen_by(&self, weights: &DMatrix<f64>) -> DMatrix<f64> {
+    /// Product Mᵀ R.
+    pub(super) fn transpose_apply(&self, weights: &DMatrix<f64>) -> DMatrix<f64> {
         weights.transpose() - weights.tr_mul(&self.left) * &self.right
     }
 
-    /// The diagonal of R Rᵀ: the part of the variance of every number that is left.
-    pub(super) fn parts(&self) -> Vec<f64> {
-        let products = &self.left * squared(&self.right);
+    /// Diagonal of R Rᵀ: the fraction of the variance of every number that remains in its residual.
+    pub(super) fn remaining_variances(&self) -> Vec<f64> {
+        let products = &self.left * outer_square(&self.right);
         let part = |row: usize| {
             let left = self.left.row(row);
             let own = (left * self.right.column(row))[(0, 0)];

@@ -1,16 +1,17 @@
-//! How well the moduli of a fitted series are known.
+//! Covariance of the moduli of a fitted series.
 //!
-//! For relative changes x of the moduli the weighted errors of the data are e = X x + ε, and a series of least squares takes up
-//! x = A ε. Each modulus is known to itself at least, because it is not negative, so that A = (XᵀX + λ)⁻¹ Xᵀ and
+//! The weighted errors of the data are e = X x + ε for relative changes x of the moduli, and least squares give x = A ε.
+//! The prior of a relative change is 0 ± 1, because a modulus is not negative: A = (XᵀX + λ)⁻¹ Xᵀ and
 //!
 //! ```text
-//! C = (1 − A X)(1 − A X)ᵀ + A T Σ Tᵀ Aᵀ
+//! C = (1 − A X)(1 − A X)ᵀ + A T Σ Tᵀ Aᵀ,        T = 1 − D B
 //! ```
-//! where directions that the data do not know keep the first term. Σ has the scatter of single points, apart for G' and G'', and
-//! that of a factor common to all moduli of an isotherm; T = 1 − D B says that an isotherm which is shifted onto its
-//! neighbour goes astray by B ε in ln ω, and D what its points are then off by. Added to that is the error of the temperature of
-//! the isotherm that stays where it is, by which all times are off together, and where the isotherms do not show whether their moduli
-//! change with the absolute temperature, half the square of what that makes of the moduli.
+//! - The first term is the prior of directions that the data do not determine.
+//! - Σ has the scatter of single points, separately for G' and G'', and that of a factor common to an isotherm.
+//! - B ε is the error of the shifts ln a_T of the isotherms, D their effect on the weighted data.
+//!
+//! Two terms are added: the error of the temperature of the reference isotherm, which changes all times by one factor; and,
+//! if the isotherms leave undecided whether their moduli change with the absolute temperature, half the square of that effect.
 
 mod linear;
 mod scatter;
@@ -23,38 +24,42 @@ use super::system::Measurement;
 use crate::RelaxationSpectrum;
 use linear::{Linear, Residuals};
 use scatter::Scatter;
-use shifts::Joined;
+use shifts::ShiftEffects;
 
 /// Covariance of the moduli of a series, and the scatter behind it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct ModuliCovariance {
-    /// Covariances over the products of the two moduli, row by row: the equilibrium modulus, and the branches in the order of their
-    /// times. Rows and columns of a modulus of 0 are 0.
+    /// Covariances relative to the products of the two moduli, row by row: equilibrium modulus, then branches by time.
+    ///
+    /// Rows and columns of a modulus of 0 are 0.
     pub relative: Vec<Vec<f64>>,
-    /// Relative scatter of single points of G' and G'', or of G(t), without what the points of an isotherm have in common.
+    /// Relative scatter of single points of G' and G'', or of G(t), without the common factor of an isotherm.
     pub noise: Vec<f64>,
-    /// Relative scatter of a factor that all moduli of an isotherm have in common; none of a single curve.
+    /// Relative scatter of the common factor of the moduli of an isotherm; `None` for a single curve.
     pub factor: Option<f64>,
-    /// Scatter of the temperatures of the isotherms, \[K]; none where it leaves no trace.
+    /// Scatter of the temperatures of the isotherms, \[K]; `None` if it has no effect.
     pub temperature: Option<f64>,
-    /// Whether moduli that change with the absolute temperature, of which the isotherms do not show whether they do, are in it as
-    /// likely as not.
+    /// Whether the isotherms leave undecided that moduli change with the absolute temperature.
+    ///
+    /// The covariance then includes the change with the probability 1/2.
     pub vertical_is_undecided: bool,
-    /// Standard errors of ln a_T and of ln b_T of the isotherms, in their order, by the scatter of points and factors: 0 of the one that
-    /// stays where it is and of what was given; none of a single curve. What an isotherm is off by in temperature is not in it.
+    /// Standard errors of ln a_T and of ln b_T of the isotherms in their order; empty for a single curve.
+    ///
+    /// They come from the scatter of points and factors, without errors of the temperatures. They are 0 for the reference
+    /// isotherm and for given shifts.
     pub shift_errors: Vec<[f64; 2]>,
 }
 
 impl ModuliCovariance {
-    /// Relative standard errors of the moduli: the equilibrium modulus, and the branches; 0 of a modulus of 0.
+    /// Relative standard errors of the moduli: equilibrium modulus, then branches; 0 for a modulus of 0.
     pub fn standard_errors(&self) -> Vec<f64> {
         let rows = self.relative.iter().enumerate();
         rows.map(|(place, row)| row[place].sqrt()).collect()
     }
 
-    /// How it was found, as a sentence.
+    /// Description of the method and of the scatter, as a sentence.
     pub fn in_words(&self) -> String {
         let percent = |part: f64| format!("{:.2} %", 100.0 * part);
         let noise: Vec<String> = self.noise.iter().copied().map(percent).collect();
@@ -63,13 +68,13 @@ impl ModuliCovariance {
             _ => format!("{} of G(t)", noise.join(", ")),
         };
         let factor = self.factor.map(|factor| {
-            let [found, assumed] = [factor, scatter::FACTOR].map(percent);
+            let [found, assumed] = [factor, scatter::FACTOR_SCALE].map(percent);
             format!(
                 ", {found} of a factor that an isotherm has in common (assumed before: {assumed})"
             )
         });
         let temperature = self.temperature.map(|temperature| {
-            let assumed = scatter::TEMPERATURE;
+            let assumed = scatter::TEMPERATURE_SCALE;
             format!(", {temperature:.2} K of the temperatures of isotherms (assumed before: {assumed} K)")
         });
         let [factor, temperature] = [factor, temperature].map(Option::unwrap_or_default);
@@ -84,17 +89,18 @@ impl ModuliCovariance {
     }
 }
 
-/// The covariance for a series that was fitted to these weighted rows; none where the numbers leave the range of `f64`.
+/// Covariance of the moduli of a series fitted to weighted rows; `None` on overflow.
 pub(super) fn covariance(
     rows: &[Measurement],
     curve: &MeasuredCurve,
     spectrum: &RelaxationSpectrum,
 ) -> Option<ModuliCovariance> {
     let fit = Linear::new(rows, spectrum)?;
-    let joined = Joined::new(&fit, rows, curve.joined.as_ref());
+    let joined = ShiftEffects::new(&fit, rows, curve.joined.as_ref());
     let residuals = Residuals::new(&fit, &joined);
     let scatter = Scatter::new(&fit, rows, &joined, &residuals);
     let found = fit.covariance(&joined, &scatter);
+    // Insert rows and columns of zeros for moduli of 0.
     let moduli = linear::moduli(spectrum);
     let mut places = moduli.iter().scan(0, |next, modulus| {
         let place = (*modulus > 0.0).then_some(*next);
@@ -102,7 +108,7 @@ pub(super) fn covariance(
         Some(place)
     });
     let places: Vec<Option<usize>> = places.by_ref().collect();
-    // Both halves are the same number.
+    // Read one triangle, so that the matrix is symmetric to the last bit.
     let entry = |row: Option<usize>, column: Option<usize>| {
         row.zip(column).map_or(0.0, |(row, column)| {
             found[(row.max(column), row.min(column))]
@@ -116,14 +122,14 @@ pub(super) fn covariance(
         noise: scatter.noise_by_quantity(),
         factor: (joined.factors.ncols() > 1).then(|| scatter.factor.sqrt()),
         temperature: joined
-            .knows_temperature()
+            .has_temperature_effect()
             .then(|| scatter.temperature.sqrt()),
         vertical_is_undecided: joined.undecided.ncols() > 0,
         shift_errors: joined.shift_errors(&scatter),
     })
 }
 
-/// M Mᵀ.
-fn squared(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+/// Product M Mᵀ.
+fn outer_square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     matrix * matrix.transpose()
 }

@@ -1,30 +1,29 @@
-//! How much single points, the factors of isotherms and their temperatures scatter.
+//! Variance components: scatter of single points, of the factors of isotherms and of their temperatures.
 //!
-//! The scatter of a few isotherms is hardly known, and least of all that it is 0. It has therefore a distribution beforehand,
-//! half of a normal one, and what counts is the mean of its square when the residuals are known (Gelman 2006, DOI
-//! 10.1214/06-BA117A): without information that is what is assumed, and with many isotherms what they show.
+//! A few isotherms determine their scatter poorly. It has therefore a half-normal prior, and the posterior mean of its
+//! square is used (Gelman 2006, DOI 10.1214/06-BA117A). Without information it is the prior; many isotherms override it.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::linear::{Linear, Residuals};
-use super::shifts::Joined;
-use super::squared;
+use super::outer_square;
+use super::shifts::ShiftEffects;
 use crate::fit::system::{Measurement, Quantity};
 
-/// What geometry, clamps and gauges of one instrument make of the same sample from one isotherm to the next, relative.
-pub(super) const FACTOR: f64 = 0.01;
-/// How well the temperature of a sample is known, \[K].
-pub(super) const TEMPERATURE: f64 = 0.5;
+/// Prior scale of the relative factor of an isotherm (chosen): geometry, clamps and gauges of one instrument.
+pub(super) const FACTOR_SCALE: f64 = 0.01;
+/// Prior scale of the temperature error of an isotherm, \[K] (chosen).
+pub(super) const TEMPERATURE_SCALE: f64 = 0.5;
 
-/// Variances.
+/// Variance components.
 pub(super) struct Scatter {
-    /// Of the weighted error of every number, as of independent ones.
+    /// Variances of the weighted errors of all numbers, enlarged for the correlation of neighbours.
     noise: DVector<f64>,
-    /// The same of each quantity that was measured.
+    /// Variance of each measured quantity.
     quantities: Vec<f64>,
-    /// Of the relative factor of an isotherm.
+    /// Variance of the relative factor of an isotherm.
     pub(super) factor: f64,
-    /// Of the temperature of an isotherm, \[K²].
+    /// Variance of the temperature of an isotherm, \[K²].
     pub(super) temperature: f64,
 }
 
@@ -32,7 +31,7 @@ impl Scatter {
     pub(super) fn new(
         fit: &Linear,
         rows: &[Measurement],
-        joined: &Joined,
+        effects: &ShiftEffects,
         residuals: &Residuals,
     ) -> Self {
         let mut scatter = Self {
@@ -41,59 +40,63 @@ impl Scatter {
             factor: 0.0,
             temperature: 0.0,
         };
-        scatter.know_noise(fit, rows, joined, residuals);
-        if joined.factors.ncols() > 1 {
-            let seen = Seen::new(&joined.factors, fit, joined, residuals, &scatter);
-            scatter.factor = seen.mean_square(FACTOR);
+        scatter.set_noise(fit, rows, effects, residuals);
+        if effects.factors.ncols() > 1 {
+            let in_residuals =
+                EffectInResiduals::new(&effects.factors, fit, effects, residuals, &scatter);
+            scatter.factor = in_residuals.mean_square(FACTOR_SCALE);
         }
-        scatter.temperature = match &joined.law {
+        scatter.temperature = match &effects.law {
             Some(law) => {
                 let by_temperature = &law.left * &law.by_temperature;
-                let astray = scatter.scaled(&law.astray);
-                let factors = &law.astray * &joined.factors;
-                let others = squared(&astray) + squared(&factors) * scatter.factor;
-                let found = Seen {
+                let shift_gain = scatter.scaled(&law.shift_gain);
+                let factors = &law.shift_gain * &effects.factors;
+                let others = outer_square(&shift_gain) + outer_square(&factors) * scatter.factor;
+                let found = EffectInResiduals {
                     sum: &law.left * &law.deviations,
                     others: &law.left * others * &law.left,
-                    own: squared(&by_temperature),
+                    own: outer_square(&by_temperature),
                 };
-                found.mean_square(TEMPERATURE)
+                found.mean_square(TEMPERATURE_SCALE)
             }
-            None if joined.by_temperature.ncols() > 1 => {
-                let effect = &joined.by_temperature;
-                Seen::new(effect, fit, joined, residuals, &scatter).mean_square(TEMPERATURE)
+            None if effects.by_temperature.ncols() > 1 => {
+                let effect = &effects.by_temperature;
+                EffectInResiduals::new(effect, fit, effects, residuals, &scatter)
+                    .mean_square(TEMPERATURE_SCALE)
             }
-            None => TEMPERATURE * TEMPERATURE,
+            None => TEMPERATURE_SCALE * TEMPERATURE_SCALE,
         };
         scatter
     }
 
-    /// What of the residuals is not common to an isotherm, over the part that is left of it; where neighbouring points are alike,
-    /// as if there were fewer.
-    fn know_noise(
+    /// Estimates the noise from the residuals without the common factor of each isotherm.
+    ///
+    /// The sum of squares is divided by the degrees of freedom that remain. Positive correlation of neighbours enlarges the
+    /// variance, as for a smaller number of independent points.
+    fn set_noise(
         &mut self,
         fit: &Linear,
         rows: &[Measurement],
-        joined: &Joined,
+        effects: &ShiftEffects,
         residuals: &Residuals,
     ) {
-        let parts = residuals.parts();
-        let squares: Vec<f64> = joined
+        let remaining = residuals.remaining_variances();
+        let squares: Vec<f64> = effects
             .factors
             .column_iter()
             .map(|one| one.norm_squared())
             .collect();
-        let of_isotherms = joined.factors.column_iter().zip(&squares);
-        // All points of an isotherm may have been averaged with those of others; its sums are then 0.
+        let of_isotherms = effects.factors.column_iter().zip(&squares);
+        // Sums are 0 for an isotherm all of whose points were averaged with those of others.
         let means = of_isotherms
             .map(|(factors, squares)| factors.dot(&fit.residuals) / squares.max(f64::MIN_POSITIVE));
         let means = DVector::from_vec(means.collect::<Vec<_>>());
-        let alone = &fit.residuals - &joined.factors * means;
-        let taken = |row: usize| {
+        let without_factors = &fit.residuals - &effects.factors * means;
+        let used_by_factor = |row: usize| {
             let isotherm = rows[row].isotherm;
             squares
                 .get(isotherm)
-                .map_or(0.0, |all| joined.factors[(row, isotherm)].powi(2) / all)
+                .map_or(0.0, |all| effects.factors[(row, isotherm)].powi(2) / all)
         };
         for quantity in [Quantity::Storage, Quantity::Loss, Quantity::Relaxation] {
             let own: Vec<usize> = (0..rows.len())
@@ -102,18 +105,21 @@ impl Scatter {
             if own.is_empty() {
                 continue;
             }
-            let sum: f64 = own.iter().map(|row| alone[*row].powi(2)).sum();
-            let degrees: f64 = own.iter().map(|row| parts[*row] - taken(*row)).sum();
+            let sum: f64 = own.iter().map(|row| without_factors[*row].powi(2)).sum();
+            let degrees: f64 = own
+                .iter()
+                .map(|row| remaining[*row] - used_by_factor(*row))
+                .sum();
             let variance = sum / degrees.max(1.0);
             self.quantities.push(variance);
-            let correlation = correlation(rows, &own, &alone);
+            let correlation = correlation(rows, &own, &without_factors);
             for row in own {
                 self.noise[row] = variance * (1.0 + correlation) / (1.0 - correlation);
             }
         }
     }
 
-    /// M with the standard deviation of every number, M Σ^½.
+    /// Product M Σ^½ with the standard deviations of all numbers.
     pub(super) fn scaled(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let mut scaled = matrix.clone();
         for (mut column, variance) in scaled.column_iter_mut().zip(self.noise.iter()) {
@@ -122,7 +128,7 @@ impl Scatter {
         scaled
     }
 
-    /// Standard deviations of the quantities that were measured.
+    /// Standard deviations of the measured quantities.
     pub(super) fn noise_by_quantity(&self) -> Vec<f64> {
         self.quantities
             .iter()
@@ -131,7 +137,7 @@ impl Scatter {
     }
 }
 
-/// Of the residuals of neighbouring points of an isotherm, where it is above 0.
+/// Correlation of the residuals of neighbouring points of an isotherm, at least 0.
 fn correlation(rows: &[Measurement], own: &[usize], residuals: &DVector<f64>) -> f64 {
     let mut last: Vec<Option<f64>> = Vec::new();
     let [mut products, mut squares] = [0.0; 2];
@@ -145,32 +151,32 @@ fn correlation(rows: &[Measurement], own: &[usize], residuals: &DVector<f64>) ->
         last[isotherm] = Some(residuals[row]);
     }
     if squares > 0.0 {
-        (products / squares).clamp(0.0, MOST_ALIKE)
+        (products / squares).clamp(0.0, MAX_CORRELATION)
     } else {
         0.0
     }
 }
 
-/// Neighbours that are more alike than this are one curve that the series does not follow, and no scatter.
-const MOST_ALIKE: f64 = 0.9;
+/// Largest correlation (chosen): beyond it the residuals are a misfit of the series, not scatter.
+const MAX_CORRELATION: f64 = 0.9;
 
-/// A sum of residuals that an effect of unknown size is seen in: its covariance is `others` + s² `own`.
-struct Seen {
+/// Sums of residuals to which an effect of unknown scale s contributes: their covariance is `others` + s² `own`.
+struct EffectInResiduals {
     sum: DVector<f64>,
     others: DMatrix<f64>,
     own: DMatrix<f64>,
 }
 
-impl Seen {
-    /// The sums of residuals that an effect on the weighted data changes most, its columns independent and of one variance.
+impl EffectInResiduals {
+    /// Sums of residuals with the weights of an effect on the weighted data, whose columns are independent.
     fn new(
         effect: &DMatrix<f64>,
         fit: &Linear,
-        joined: &Joined,
+        effects: &ShiftEffects,
         residuals: &Residuals,
         scatter: &Scatter,
     ) -> Self {
-        let left = residuals.of(effect);
+        let left = residuals.apply(effect);
         let mut weights = left.clone();
         for (mut row, variance) in weights.row_iter_mut().zip(scatter.noise.iter()) {
             row.scale_mut(if *variance > 0.0 {
@@ -179,19 +185,19 @@ impl Seen {
                 0.0
             });
         }
-        let noise = scatter.scaled(&residuals.seen_by(&weights));
-        let factors = weights.tr_mul(&residuals.of(&joined.factors));
+        let noise = scatter.scaled(&residuals.transpose_apply(&weights));
+        let factors = weights.tr_mul(&residuals.apply(&effects.factors));
         Self {
             sum: weights.tr_mul(&fit.residuals),
-            others: squared(&noise) + squared(&factors) * scatter.factor,
-            own: squared(&weights.tr_mul(&left)),
+            others: outer_square(&noise) + outer_square(&factors) * scatter.factor,
+            own: outer_square(&weights.tr_mul(&left)),
         }
     }
 
-    /// The mean of s² when the sum is known, where s has half of a normal distribution of this scale beforehand.
+    /// Posterior mean of s² for a half-normal prior of this scale.
     fn mean_square(&self, scale: f64) -> f64 {
         let n = self.sum.len();
-        let ridge = ROUNDING * (self.others.trace() + scale * scale * self.own.trace());
+        let ridge = COVARIANCE_ROUNDING * (self.others.trace() + scale * scale * self.own.trace());
         let log_likelihood = |s: f64| {
             let covariance = &self.others + &self.own * (s * s) + DMatrix::identity(n, n) * ridge;
             let factor = covariance.cholesky()?;
@@ -202,8 +208,8 @@ impl Seen {
                     + (s / scale).powi(2)),
             )
         };
-        let places =
-            (0..N_PLACES).map(|k| (f64::from(k) + 0.5) / f64::from(N_PLACES) * FARTHEST * scale);
+        let places = (0..INTEGRATION_POINTS)
+            .map(|k| (f64::from(k) + 0.5) / f64::from(INTEGRATION_POINTS) * MAX_SCALES * scale);
         let known: Vec<[f64; 2]> = places
             .filter_map(|s| Some([s, log_likelihood(s).filter(|log| log.is_finite())?]))
             .collect();
@@ -217,7 +223,7 @@ impl Seen {
             all += weight;
             squares += weight * s * s;
         }
-        // Without a residual nothing is known but what was assumed.
+        // Without a finite likelihood the prior remains.
         if all > 0.0 {
             squares / all
         } else {
@@ -226,8 +232,9 @@ impl Seen {
     }
 }
 
-/// Part of the trace of a covariance that is rounding.
-const ROUNDING: f64 = 1e-9;
-/// Places of the integral over s, up to so many times the scale, where e^(−s²/2) is below 1e-5.
-const N_PLACES: u32 = 200;
-const FARTHEST: f64 = 5.0;
+/// Ridge of a covariance, relative to its trace (chosen: above rounding).
+const COVARIANCE_ROUNDING: f64 = 1e-9;
+/// Number of points of the integral over s (chosen).
+const INTEGRATION_POINTS: u32 = 200;
+/// Upper limit of the integral over s in units of the scale, where the prior is below 1e-5 of its maximum.
+const MAX_SCALES: f64 = 5.0;

@@ -1,4 +1,4 @@
-//! What the points of an isotherm have in common.
+//! Errors that the points of an isotherm share: a common factor, its shift and its temperature.
 
 use std::f64::consts::LN_10;
 
@@ -12,35 +12,35 @@ use crate::fit::overlap::taper;
 use crate::fit::superposition::{Link, LinkedBy};
 use crate::fit::system::{Measurement, Quantity};
 
-/// Isotherms on one curve; of a single curve matrices without columns.
-pub(super) struct Joined {
-    /// What a common factor of each isotherm adds to the weighted data, relative to its change.
+/// Linearised effects of the isotherms on the weighted data; matrices without columns for a single curve.
+pub(super) struct ShiftEffects {
+    /// Derivatives of the weighted data by ln of a common factor of each isotherm.
     pub(super) factors: DMatrix<f64>,
-    /// D: what a shift of each isotherm adds, by ln of the factor of its frequencies, and after these by that of its moduli.
+    /// Matrix D: derivatives of the weighted data by ln a of all isotherms, then by ln b.
     pub(super) slopes: DMatrix<f64>,
-    /// B: how far errors of the data shift each isotherm astray, in the same order.
-    pub(super) astray: DMatrix<f64>,
-    /// What 1 K of each independent temperature adds to the data as they were joined.
+    /// Matrix B: derivatives of ln a, then ln b, of all isotherms by the weighted data.
+    pub(super) shift_gain: DMatrix<f64>,
+    /// Derivatives of the shifted data by each independent temperature, \[1/K].
     pub(super) by_temperature: DMatrix<f64>,
-    /// What factors of the moduli add that are as likely as not; without a column where it is known whether they are there.
+    /// Effect of undecided factors of the moduli; without a column if they are decided.
     pub(super) undecided: DMatrix<f64>,
-    /// How far the isotherms are from a law of temperature, where they were shifted onto one another.
-    pub(super) law: Option<Law>,
+    /// Deviations of the shifts from a law of temperature, for isotherms shifted onto one another.
+    pub(super) law: Option<LawDeviations>,
 }
 
-/// Shifts around a smooth law of temperature that passes through the isotherm that stays where it is.
-pub(super) struct Law {
-    /// ln of every factor less the law, by all other isotherms.
+/// Deviations of the shifts from a smooth law of temperature through the reference isotherm.
+pub(super) struct LawDeviations {
+    /// Deviations of ln a from the law, for all isotherms but the reference.
     pub(super) deviations: DVector<f64>,
-    /// What the constants of the law leave of deviations.
+    /// Projection onto deviations that the constants of the law cannot absorb.
     pub(super) left: DMatrix<f64>,
-    /// What 1 K of every isotherm adds to the deviations.
+    /// Derivatives of the deviations by the temperatures of all isotherms, \[1/K].
     pub(super) by_temperature: DMatrix<f64>,
-    /// B of these isotherms.
-    pub(super) astray: DMatrix<f64>,
+    /// Rows of the matrix B for these isotherms.
+    pub(super) shift_gain: DMatrix<f64>,
 }
 
-impl Joined {
+impl ShiftEffects {
     pub(super) fn new(
         fit: &Linear,
         rows: &[Measurement],
@@ -62,14 +62,14 @@ impl Joined {
         let mut joined = Self {
             factors,
             slopes,
-            astray: DMatrix::zeros(2 * n, rows.len()),
+            shift_gain: DMatrix::zeros(2 * n, rows.len()),
             by_temperature: DMatrix::zeros(rows.len(), 0),
             undecided: DMatrix::zeros(rows.len(), 0),
             law: None,
         };
         if let Some(isotherms) = isotherms {
-            joined.know_shifts(fit, rows, &isotherms.links);
-            joined.know_temperatures(fit, isotherms);
+            joined.set_shift_gain(fit, rows, &isotherms.links);
+            joined.set_temperature_effects(fit, isotherms);
             if !isotherms.undecided.is_empty() {
                 let factors = DVector::from_column_slice(&isotherms.undecided);
                 joined.undecided = DMatrix::from_columns(&[&joined.factors * factors]);
@@ -78,15 +78,15 @@ impl Joined {
         joined
     }
 
-    pub(super) fn knows_temperature(&self) -> bool {
+    pub(super) fn has_temperature_effect(&self) -> bool {
         !self.by_temperature.is_empty()
     }
 
-    /// Standard errors of ln a and ln b of all isotherms by the scatter of points and factors.
+    /// Standard errors of ln a and ln b of all isotherms from the scatter of points and factors.
     pub(super) fn shift_errors(&self, scatter: &Scatter) -> Vec<[f64; 2]> {
         let n = self.factors.ncols();
-        let of_points = scatter.scaled(&self.astray);
-        let of_factors = &self.astray * &self.factors;
+        let of_points = scatter.scaled(&self.shift_gain);
+        let of_factors = &self.shift_gain * &self.factors;
         let error = |row: usize| {
             let [points, factors] =
                 [&of_points, &of_factors].map(|all| all.row(row).norm_squared());
@@ -95,9 +95,10 @@ impl Joined {
         (0..n).map(|one| [error(one), error(n + one)]).collect()
     }
 
-    fn know_shifts(&mut self, fit: &Linear, rows: &[Measurement], links: &[Link]) {
+    /// Sets the matrix B by summing the errors of the pairs along the chain.
+    fn set_shift_gain(&mut self, fit: &Linear, rows: &[Measurement], links: &[Link]) {
         let n = self.factors.ncols();
-        let own = |link: &Link| astray(fit, rows, link);
+        let own = |link: &Link| pair_gain(fit, rows, link);
         let own: Vec<[RowDVector<f64>; 2]> = links.iter().map(own).collect();
         for (link, [shift, factor]) in links.iter().zip(&own) {
             let mut shift = shift.clone();
@@ -107,37 +108,44 @@ impl Joined {
                 }
             }
             for (offset, own) in [(0, &shift), (n, factor)] {
-                let sum = self.astray.row(offset + link.fixed) + own;
-                self.astray.row_mut(offset + link.moved).copy_from(&sum);
+                let sum = self.shift_gain.row(offset + link.fixed) + own;
+                self.shift_gain.row_mut(offset + link.moved).copy_from(&sum);
             }
         }
     }
 
-    fn know_temperatures(&mut self, fit: &Linear, isotherms: &JoinedIsotherms) {
+    /// Sets the effects of the temperatures, and the deviations from a law.
+    fn set_temperature_effects(&mut self, fit: &Linear, isotherms: &JoinedIsotherms) {
         let n = self.factors.ncols();
         let Some(reference) = isotherms.reference() else {
-            // Each isotherm is off by the error of its own temperature.
+            // Given shifts: each isotherm has the error of its own temperature.
             let slopes = DMatrix::from_diagonal(&DVector::from_vec(isotherms.secants()));
             if n > 1 {
                 self.by_temperature = self.slopes.columns(0, n) * slopes;
             }
             return;
         };
-        let [slopes, deviations, constants] = law(isotherms, reference);
+        let FittedLaw {
+            slopes,
+            deviations,
+            constants,
+        } = fit_law(isotherms, reference);
         let others: Vec<usize> = (0..slopes.nrows()).filter(|k| *k != reference).collect();
-        // All of them are off by the error of the temperature of the one that stays where it is.
+        // All isotherms share the error of the temperature of the reference isotherm.
         self.by_temperature = DMatrix::from_columns(&[&fit.slopes * slopes[reference]]);
         if isotherms
             .links
             .iter()
             .any(|link| matches!(link.by, LinkedBy::Law(_)))
         {
-            let beyond = self.slopes.columns(0, n) * placed_by_law(isotherms, &slopes);
+            let beyond =
+                self.slopes.columns(0, n) * temperature_effect_on_shifts(isotherms, &slopes);
             let mut all = beyond;
             let mut column = all.column_mut(reference);
             column += self.by_temperature.column(0);
             self.by_temperature = all;
         }
+        // The constants of the law absorb a part of the deviations.
         let constants = constants.select_rows(&others);
         let n_others = others.len();
         let Some(inverse) = constants
@@ -152,22 +160,27 @@ impl Joined {
             _ if isotherm == others[row] => slopes[isotherm],
             _ => 0.0,
         });
-        self.law = Some(Law {
+        self.law = Some(LawDeviations {
             deviations: deviations.select_rows(&others).column(0).into_owned(),
             left: DMatrix::identity(n_others, n_others)
                 - &constants * inverse * constants.transpose(),
             by_temperature,
-            astray: self.astray.select_rows(&others),
+            shift_gain: self.shift_gain.select_rows(&others),
         });
     }
 }
 
-/// What 1 K of every isotherm shifts each that the law of others placed, or that is beyond one of these: in a pair that overlaps an
-/// error of a temperature changes nothing but the temperature that stands beside the shift.
-fn placed_by_law(isotherms: &JoinedIsotherms, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+/// Derivatives of the shifts of all isotherms by the temperatures of all, \[1/K].
+///
+/// They differ from zero for isotherms that the law of others placed, and for those beyond them. The shift of a pair that
+/// overlaps does not depend on the temperatures.
+fn temperature_effect_on_shifts(
+    isotherms: &JoinedIsotherms,
+    slopes: &DMatrix<f64>,
+) -> DMatrix<f64> {
     let n = isotherms.temperatures.len();
     let mut shifts = DMatrix::zeros(n, n);
-    // An isotherm that is warmer than it was thought was shifted by what belongs to its own temperature.
+    // The observed shift of a pair belongs to the true temperatures of its isotherms.
     let observed = |link: &Link| {
         let mut row = RowDVector::zeros(n);
         row[link.moved] += slopes[link.moved];
@@ -187,8 +200,8 @@ fn placed_by_law(isotherms: &JoinedIsotherms, slopes: &DMatrix<f64>) -> DMatrix<
     shifts
 }
 
-/// How far errors of the data shift the isotherm of a link astray, in ln of its frequencies and in ln of its moduli.
-fn astray(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64>; 2] {
+/// Derivatives of ln a and ln b of the moved isotherm of a link by the weighted data.
+fn pair_gain(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64>; 2] {
     let nothing = || RowDVector::zeros(rows.len());
     let LinkedBy::Overlap {
         variances,
@@ -216,29 +229,33 @@ fn astray(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64>; 
         });
         for (own, other, sign) in [(&moved, &fixed, 1.0), (&fixed, &moved, -1.0)] {
             for &row in own {
-                squares.add(fit, rows, (row, other), sign / variance);
+                squares.add(fit, rows, row, other, sign / variance);
             }
         }
     }
-    squares.solved(*finds_shift, *modulus_spread)
+    squares.solve(*finds_shift, *modulus_spread)
 }
 
-/// Least squares of the residuals where two isotherms overlap, for ln of the factors of frequencies and moduli.
+/// Normal equations of the residuals in the overlap of two isotherms, for ln a and ln b.
 struct LeastSquares {
     normal: Matrix2<f64>,
-    /// By the weighted data.
+    /// Derivatives of the right-hand side by the weighted data.
     by_data: [RowDVector<f64>; 2],
 }
 
 impl LeastSquares {
-    /// The residual of a point beside the line of the other isotherm, by the sign of the one that is moved.
+    /// Adds the residual of a point from the line through the points of the `other` isotherm.
+    ///
+    /// The weight is negative for points of the fixed isotherm.
     fn add(
         &mut self,
         fit: &Linear,
         rows: &[Measurement],
-        (row, other): (usize, &[usize]),
+        row: usize,
+        other: &[usize],
         weight: f64,
     ) {
+        // Interpolate the line in ln ω.
         let next = other.partition_point(|place| rows[*place].at < rows[row].at);
         let neighbours = next
             .checked_sub(1)
@@ -250,7 +267,7 @@ impl LeastSquares {
         let log = |row: usize| rows[row].at.ln();
         let part = (log(row) - log(below)) / (log(above) - log(below));
         let weight = weight * taper(next, other.len(), part);
-        // Relative errors, of which the weighted ones are this part, and the slope of ln of the modulus.
+        // Convert weighted errors and slopes to those of ln of the modulus.
         let relative = |row: usize| (rows[row].weight * rows[row].value).recip();
         let by_shift = fit.slopes[row] * relative(row);
         let by_parameters = Vector2::new(by_shift, 1.0);
@@ -261,31 +278,40 @@ impl LeastSquares {
         }
     }
 
-    fn solved(self, finds_shift: bool, modulus_spread: Option<f64>) -> [RowDVector<f64>; 2] {
+    fn solve(self, finds_shift: bool, modulus_spread: Option<f64>) -> [RowDVector<f64>; 2] {
         let [[squares, both], [_, moduli]] = self.normal.transpose().into();
-        let [of_shift, of_modulus] = self.by_data;
+        let [shift_by_data, modulus_by_data] = self.by_data;
         let prior = modulus_spread.map(|spread| spread.powi(-2));
         match (finds_shift, prior) {
-            (true, None) if squares > 0.0 => [of_shift / squares, of_modulus * 0.0],
-            (false, Some(prior)) => [of_shift * 0.0, of_modulus / (moduli + prior)],
+            (true, None) if squares > 0.0 => [shift_by_data / squares, modulus_by_data * 0.0],
+            (false, Some(prior)) => [shift_by_data * 0.0, modulus_by_data / (moduli + prior)],
             (true, Some(prior)) => {
                 let moduli = moduli + prior;
                 let determinant = squares * moduli - both * both;
                 if determinant <= 0.0 {
-                    return [of_shift * 0.0, of_modulus / moduli];
+                    return [shift_by_data * 0.0, modulus_by_data / moduli];
                 }
-                let shift = (&of_shift * moduli - &of_modulus * both) / determinant;
-                let factor = (of_modulus * squares - of_shift * both) / determinant;
+                let shift = (&shift_by_data * moduli - &modulus_by_data * both) / determinant;
+                let factor = (modulus_by_data * squares - shift_by_data * both) / determinant;
                 [shift, factor]
             }
-            _ => [of_shift * 0.0, of_modulus * 0.0],
+            _ => [shift_by_data * 0.0, modulus_by_data * 0.0],
         }
     }
 }
 
-/// d ln a/dT of all isotherms, ln a less the law, and its derivatives by the constants of the law: that of Williams, Landel and
-/// Ferry, or a straight line where no such law describes the shifts.
-fn law(isotherms: &JoinedIsotherms, reference: usize) -> [DMatrix<f64>; 3] {
+/// A law of temperature fitted to the shifts; one row per isotherm.
+struct FittedLaw {
+    /// Derivatives d ln a/dT, \[1/K].
+    slopes: DMatrix<f64>,
+    /// Shifts ln a less the law.
+    deviations: DMatrix<f64>,
+    /// Derivatives of the deviations by the constants of the law, up to their sign.
+    constants: DMatrix<f64>,
+}
+
+/// Fits the WLF law to the shifts, or a straight line if no WLF law describes them.
+fn fit_law(isotherms: &JoinedIsotherms, reference: usize) -> FittedLaw {
     let [about, origin] = [
         isotherms.temperatures[reference],
         isotherms.log_factors[reference],
@@ -302,14 +328,14 @@ fn law(isotherms: &JoinedIsotherms, reference: usize) -> [DMatrix<f64>; 3] {
         && is_everywhere(c2)
     {
         let c1 = LN_10 * c1;
-        return [
-            of_all(1, &|[t, _], _| -c1 * c2 / (c2 + t).powi(2)),
-            of_all(1, &|[t, log], _| log + c1 * t / (c2 + t)),
-            of_all(2, &|[t, _], column| match column {
+        return FittedLaw {
+            slopes: of_all(1, &|[t, _], _| -c1 * c2 / (c2 + t).powi(2)),
+            deviations: of_all(1, &|[t, log], _| log + c1 * t / (c2 + t)),
+            constants: of_all(2, &|[t, _], column| match column {
                 0 => -t / (c2 + t),
                 _ => c1 * t / (c2 + t).powi(2),
             }),
-        ];
+        };
     }
     let products: f64 = pairs.iter().map(|[t, log]| t * log).sum();
     let squares: f64 = pairs.iter().map(|[t, _]| t * t).sum();
@@ -318,9 +344,9 @@ fn law(isotherms: &JoinedIsotherms, reference: usize) -> [DMatrix<f64>; 3] {
     } else {
         0.0
     };
-    [
-        of_all(1, &|_, _| slope),
-        of_all(1, &|[t, log], _| log - slope * t),
-        of_all(1, &|[t, _], _| t),
-    ]
+    FittedLaw {
+        slopes: of_all(1, &|_, _| slope),
+        deviations: of_all(1, &|[t, log], _| log - slope * t),
+        constants: of_all(1, &|[t, _], _| t),
+    }
 }

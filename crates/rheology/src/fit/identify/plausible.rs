@@ -1,27 +1,31 @@
-//! Whether moduli are those of a relaxing material.
+//! Tests whether moduli are those of a relaxing material.
 //!
-//! Its G' never falls with frequency, and its G(t) never rises with time. Beyond that a series of many branches is the test: it
-//! comes near to the moduli of every relaxing material.
+//! Its G' never decreases with frequency, and its G(t) never increases with time. Moreover, a series of many branches
+//! approximates the moduli of every relaxing material.
 
 use super::{Ending, Identification, IdentifyOptions, series_of};
 use crate::RheologyError;
 use crate::fit::curve::MeasuredCurve;
 use crate::fit::system::Quantity;
 
-/// A larger error of |G*|, G' or G(t) than this is that of no relaxing material; G'' of a stiff one is mostly noise.
-const BAD: f64 = 0.2;
-const BAD_LOSS: f64 = 0.5;
-/// Swapped moduli fit so much better.
-const BETTER: f64 = 3.0;
-/// Points, standard errors, and part of the modulus by which it certainly goes the wrong way.
-const LEAST_POINTS: usize = 5;
-const CERTAIN: f64 = 4.0;
-const LEAST_FALL: f64 = 0.05;
-/// Moduli that vary by less are all the same.
-const SAME: f64 = 1e-6;
+/// Largest root mean square relative error of |G*|, G' or G(t) for a relaxing material (chosen).
+const MAX_RMS_ERROR: f64 = 0.2;
+/// Largest root mean square relative error of G'' (chosen); G'' of a stiff material is mostly noise.
+const MAX_LOSS_RMS_ERROR: f64 = 0.5;
+/// Smallest ratio of the errors of the moduli as given and exchanged that shows a swap (chosen).
+const SWAP_IMPROVEMENT: f64 = 3.0;
+/// Smallest number of points of a significant trend (chosen).
+const MIN_TREND_POINTS: usize = 5;
+/// Smallest slope of a significant trend, in standard errors (chosen).
+const TREND_STANDARD_ERRORS: f64 = 4.0;
+/// Smallest change over the curve of a significant trend, relative to the mean modulus (chosen).
+const MIN_RELATIVE_TREND: f64 = 0.05;
+/// Largest relative variation of constant moduli (chosen).
+const CONSTANCY_TOLERANCE: f64 = 1e-6;
 
-/// Refuses moduli that are those of no relaxing material, however many branches it has. A `found` series of few branches may
-/// fit badly on purpose.
+/// Refuses moduli that no series of any number of branches describes.
+///
+/// A badly fitting `found` series of few branches is no reason: it is compared with a dense one.
 pub(super) fn check(
     curve: &MeasuredCurve,
     ending: Ending,
@@ -40,7 +44,7 @@ pub(super) fn check(
     let swapped = curve.swapped().and_then(|swapped| best(&swapped));
     if let Some((given, swapped)) = given.as_ref().zip(swapped) {
         let [given, swapped] = [given.rms_relative_error, swapped.rms_relative_error];
-        if given > BAD && swapped < given / BETTER {
+        if given > MAX_RMS_ERROR && swapped < given / SWAP_IMPROVEMENT {
             return Err(RheologyError::SwappedModuli { given, swapped });
         }
     }
@@ -63,12 +67,12 @@ pub(super) fn check(
 fn is_bad(found: &Identification) -> bool {
     let exceeds =
         |error: Option<super::RelativeError>, most| error.is_some_and(|one| one.rms > most);
-    found.rms_relative_error > BAD
-        || exceeds(found.storage_error, BAD)
-        || exceeds(found.loss_error, BAD_LOSS)
+    found.rms_relative_error > MAX_RMS_ERROR
+        || exceeds(found.storage_error, MAX_RMS_ERROR)
+        || exceeds(found.loss_error, MAX_LOSS_RMS_ERROR)
 }
 
-/// What the moduli do that those of no relaxing material do.
+/// Description of a trend that no relaxing material has; `None` without one.
 fn wrong_trend(curve: &MeasuredCurve) -> Option<&'static str> {
     let values = |quantity| {
         let rows = curve
@@ -79,7 +83,7 @@ fn wrong_trend(curve: &MeasuredCurve) -> Option<&'static str> {
     };
     let moduli = [Quantity::Storage, Quantity::Loss, Quantity::Relaxation].map(values);
     let [storage, _, relaxation] = &moduli;
-    if moduli.iter().all(|points| is_constant(points)) && curve.rows.len() >= LEAST_POINTS {
+    if moduli.iter().all(|points| is_constant(points)) && curve.rows.len() >= MIN_TREND_POINTS {
         return Some("the moduli are the same at all points");
     }
     if rises(storage, -1.0) {
@@ -92,10 +96,10 @@ fn is_constant(points: &[[f64; 2]]) -> bool {
     let first = points.first().map_or(0.0, |point| point[1]);
     points
         .iter()
-        .all(|point| (point[1] - first).abs() <= SAME * first)
+        .all(|point| (point[1] - first).abs() <= CONSTANCY_TOLERANCE * first)
 }
 
-/// Whether the line of least squares through values over logarithms certainly rises, or with the sign −1 falls.
+/// Whether the regression line of values over logarithms rises significantly, or falls for the sign −1.
 fn rises(points: &[[f64; 2]], sign: f64) -> bool {
     let n = points.len() as f64;
     let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / n;
@@ -106,11 +110,12 @@ fn rises(points: &[[f64; 2]], sign: f64) -> bool {
             .map(|point| (point[one] - middle[one]) * (point[other] - middle[other]));
         products.sum()
     };
-    if points.len() < LEAST_POINTS {
+    if points.len() < MIN_TREND_POINTS {
         return false;
     }
     let slope = sign * sum(0, 1) / sum(0, 0);
     let scatter = (sum(1, 1) - slope * slope * sum(0, 0)).max(0.0) / (n - 2.0);
     let width = points[points.len() - 1][0] - points[0][0];
-    slope > CERTAIN * (scatter / sum(0, 0)).sqrt() && slope * width > LEAST_FALL * middle[1]
+    slope > TREND_STANDARD_ERRORS * (scatter / sum(0, 0)).sqrt()
+        && slope * width > MIN_RELATIVE_TREND * middle[1]
 }
