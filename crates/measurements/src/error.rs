@@ -1,4 +1,4 @@
-//! Why a table or a curve is refused.
+//! Errors of tables and of fits.
 
 use friction_analytic::FrictionError;
 use mdr_core::MdrError;
@@ -7,14 +7,14 @@ use thiserror::Error;
 
 use crate::indentation::Flag;
 
-/// Why a table cannot be read, or a curve not be fitted.
+/// The reason for which a table cannot be read, or a curve not be fitted.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeasurementError {
     /// An option is out of range.
     #[error(transparent)]
     InvalidParameter(#[from] InvalidParameter),
-    /// What is wrong with a table, with file, line and column.
+    /// A malformed table; the message has file, line and column.
     #[error("{0}")]
     Table(String),
     /// The curve is damaged.
@@ -23,7 +23,7 @@ pub enum MeasurementError {
     /// The forward model refuses the curve.
     #[error(transparent)]
     Model(#[from] MdrError),
-    /// The body is none whose force on a sample of finite thickness is known.
+    /// The force of the body on a sample of finite thickness is not known.
     #[error(transparent)]
     Sample(FrictionError),
     /// Too few points for the parameters.
@@ -31,15 +31,15 @@ pub enum MeasurementError {
         "at least {needed} points are needed for these parameters and the size of the noise, but there are {given}"
     )]
     TooFewPoints {
-        /// How many are needed.
+        /// Number of points needed.
         needed: usize,
-        /// How many there are.
+        /// Number of points given.
         given: usize,
     },
-    /// No start leads to a minimum.
+    /// No initial value leads to a minimum.
     #[error("no material of this kind has a force like that of the curve")]
     NotConverged,
-    /// Every material of the kind explains the curve as well.
+    /// All materials of the kind explain the curve equally well.
     #[error(
         "the curve does not determine any quantity of the material: are depth, force and the size of the body right?"
     )]

@@ -1,17 +1,17 @@
-//! What measurements say about one quantity.
+//! Estimates of parameters with confidence intervals.
 
 use numerics::Estimate;
 
-/// What measurements say about one quantity.
+/// Estimate of one quantity from measurements.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Finding {
-    /// Name, as G_inf.
+    /// Name of the quantity, such as G_inf.
     pub name: String,
     /// SI unit.
     pub unit: &'static str,
-    /// The value with its standard error, where the measurements determine it.
+    /// Value with its standard error; `None` if the measurements do not determine it.
     pub estimate: Option<Estimate>,
-    /// Ends of the 95 % interval; none where the measurements set no bound on that side.
+    /// Ends of the 95 % confidence interval; `None` for a side without a bound.
     pub interval: [Option<f64>; 2],
 }

@@ -1,8 +1,8 @@
-//! Measured curves and moduli of viscoelastic materials, and what they say.
+//! Material parameters from measurements: moduli, indentation curves and friction.
 //!
-//! [`moduli`] reads tables of moduli as instruments export them and makes one curve of isotherms; [`indentation`] finds the
-//! material behind a curve of force over depth, with intervals that hold; [`friction`] reads tables of friction over speed, and
-//! says which parameters of any model of friction explain them.
+//! - [`moduli`] reads tables of moduli as instruments export them and shifts isotherms to a master curve.
+//! - [`indentation`] fits a material to a force–indentation curve, with confidence intervals.
+//! - [`friction`] reads tables of friction over speed and fits the parameters of any friction model.
 //!
 //! ```
 //! use indenters::{Control, HistoryPoint, Sphere};
@@ -38,12 +38,12 @@ pub mod indentation;
 pub mod moduli;
 mod table;
 
-/// The program of that page compiles.
+/// The example in the README, compiled as a doc test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;
 
-/// The crates whose types are arguments and results, so that no other dependency is needed.
+/// Crates whose types are arguments and results.
 pub use ::{indenters, rheology};
 pub use error::MeasurementError;
 pub use finding::Finding;

@@ -1,10 +1,11 @@
-//! Least squares, and intervals of the profile likelihood.
+//! Least-squares fit of friction, with confidence intervals of the profile likelihood.
 //!
 //! ```text
-//! S(θ) = Σ r_i² + s² (ln θ − m)ᵀ P (ln θ − m),    least S with θ_k held − least S = t² s²
+//! S(θ) = Σ r_i² + s² (ln θ − m)ᵀ P (ln θ − m),    min S with θ_k fixed − min S = t² s²        (ends of an interval)
 //! ```
-//! with residuals r in units of given standard errors (s = 1, t = 1.96), or else of ln μ or μ (s² the least Σ r² over the degrees
-//! of freedom, t of Student's distribution), and a prior of the mean m and the precision P.
+//! With given standard errors, residuals r are in their units, s = 1 and t = 1.96. Otherwise they are residuals of ln μ or μ,
+//! s² is min Σ r² divided by the degrees of freedom, and t a quantile of Student's distribution. The prior has the mean m and
+//! the precision P.
 
 use numerics::Estimate;
 use numerics::least_squares::{
@@ -15,60 +16,59 @@ use numerics::least_squares::{
 use super::{FreeParameter, FrictionModel, FrictionNoise, FrictionPoint, ModelledPoint, Prior};
 use crate::{Finding, MeasurementError};
 
-/// 95 % of a normal distribution are within so many standard deviations.
-const NORMAL: f64 = 1.959_963_984_540_054;
+/// Two-sided 95 % quantile of the standard normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+/// Coverage probability of the intervals.
 const COVERAGE: f64 = 0.95;
-/// How close the distance of an end of a profile has to be before it is interpolated.
-const CLOSE: f64 = 0.1;
-/// Fall of the sum, in variances of a point, by which the last step is taken by the model alone.
-const ENOUGH: f64 = 0.05;
-/// What noise is taken to be before the first fit, in parts of the friction.
-const FIRST_NOISE: f64 = 0.05;
-/// Standard deviations of χ² up to which a start is good.
-const EXPLAINED: f64 = 3.0;
-/// Rounds in which the size of the noise is found beside priors.
-const ROUNDS: usize = 3;
-/// Computations of the friction of all points with which the end of an interval is sought at most; it needs two to ten where the
-/// parameter is determined.
-const MOST_COMPUTATIONS: usize = 60;
-/// Standard deviations of χ², or of the correlation of neighbours, from which residuals are no noise.
-const SIGNIFICANT: f64 = 4.0;
+/// Relative tolerance of the rise of the sum at an end of a profile before interpolation (chosen).
+const PROFILE_TOLERANCE: f64 = 0.1;
+/// Predicted decrease of the sum, in variances of a point, below which the last step is taken without evaluation (chosen).
+const SUFFICIENT_DECREASE: f64 = 0.05;
+/// Relative noise of the friction that is assumed before the first fit (chosen).
+const INITIAL_RELATIVE_NOISE: f64 = 0.05;
+/// Largest excess of the sum over its expectation for a good fit, in standard deviations of χ² (chosen).
+const GOOD_FIT_DEVIATIONS: f64 = 3.0;
+/// Number of rounds in which the noise is estimated together with the parameters if there is a prior (chosen).
+const NOISE_ROUNDS: usize = 3;
+/// Bound on the number of evaluations of the model for one end of an interval (chosen); a determined parameter needs 2 to 10.
+const MAX_COMPUTATIONS: usize = 60;
+/// Excess of χ², or of the correlation of neighbours, beyond which residuals are a misfit, in standard deviations (chosen).
+const MISFIT_DEVIATIONS: f64 = 4.0;
 
-/// Points and the parameters that are to explain them.
+/// A fitting problem: measured points, free parameters, prior and noise.
 #[derive(Debug, Clone, Copy)]
 pub struct FrictionFitting<'a> {
     points: &'a [FrictionPoint],
     parameters: &'a [FreeParameter],
     prior: Option<&'a Prior>,
-    /// None where standard errors are given.
+    /// Kind of the noise of unknown size; `None` if standard errors are given.
     noise: Option<FrictionNoise>,
 }
 
-/// What points say about parameters.
+/// Result of a friction fit.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct FrictionFit {
-    /// The parameters, in their order.
+    /// Estimates of the parameters, in their order.
     pub findings: Vec<Finding>,
-    /// Their values, also where they are not determined.
+    /// Best-fit values of the parameters, including undetermined ones.
     pub values: Vec<f64>,
-    /// Friction coefficients of the fit, by point.
+    /// Friction coefficients of the fit, in the order of the points.
     pub fitted: Vec<f64>,
-    /// Standard deviation of the residuals: over the standard errors, where they are given, else relative to the friction, or of
-    /// the friction.
+    /// Standard deviation of the residuals: in units of given standard errors, or relative or absolute, by the kind of noise.
     pub residual: f64,
-    /// Degrees of freedom: points and priors less parameters.
+    /// Degrees of freedom: number of points and known parameters less number of parameters.
     pub freedom: usize,
-    /// What is doubtful about it.
+    /// Warnings about the fit.
     pub flags: Vec<String>,
 }
 
 impl<'a> FrictionFitting<'a> {
-    /// The noise is that of the standard errors, where all points have one, and else of the kind that is named.
+    /// Fitting problem; `noise` is the kind of the noise unless all points have a standard error.
     ///
     /// # Errors
-    /// [`MeasurementError::TooFewPoints`] where nothing is left to judge the noise by, and for no points at all.
+    /// [`MeasurementError::TooFewPoints`] without points, or without a degree of freedom for the noise.
     pub fn new(
         points: &'a [FrictionPoint],
         parameters: &'a [FreeParameter],
@@ -93,7 +93,7 @@ impl<'a> FrictionFitting<'a> {
         Ok(fitting)
     }
 
-    /// The same of some of the points.
+    /// The problem with other points.
     #[must_use]
     pub const fn of(&self, points: &'a [FrictionPoint]) -> Self {
         Self { points, ..*self }
@@ -103,61 +103,61 @@ impl<'a> FrictionFitting<'a> {
         self.prior.map_or(0, |prior| prior.rank)
     }
 
-    fn freedom(&self) -> usize {
+    fn degrees_of_freedom(&self) -> usize {
         let known = self.points.len() + self.n_priors();
         known.saturating_sub(self.parameters.len())
     }
 
-    /// The parameters of least squares nearest to a start; none where the model has no friction there.
+    /// Local minimum of the sum of squares from a start; `None` if the model has no friction there.
     pub fn minimum(&self, model: &dyn FrictionModel, start: &[f64]) -> Option<FrictionMinimum> {
-        let mut variance = self.first_variance();
+        let mut variance = self.initial_variance();
         let mut start = start.to_vec();
-        loop_rounds(
+        repeat(
             if self.n_priors() > 0 && self.noise.is_some() {
-                ROUNDS
+                NOISE_ROUNDS
             } else {
                 1
             },
             || {
-                let enough = ENOUGH * variance;
-                let sum = |parameters: &[f64]| self.linearised(model, parameters, variance);
+                let sufficient_decrease = SUFFICIENT_DECREASE * variance;
+                let sum = |parameters: &[f64]| self.linearise(model, parameters, variance);
                 let ranges = self.ranges();
-                let minimum = minimise_by_model(sum, start.clone(), &ranges, enough)?;
+                let minimum = minimise_by_model(sum, start.clone(), &ranges, sufficient_decrease)?;
                 start.clone_from(&minimum.parameters);
                 if self.noise.is_some() {
-                    variance = minimum.model.sum / self.freedom().max(1) as f64;
+                    variance = minimum.model.sum / self.degrees_of_freedom().max(1) as f64;
                 }
                 Some(FrictionMinimum { minimum, variance })
             },
         )
     }
 
-    /// The sum that is least at the minimum; none where the model has no friction.
+    /// Sum of squares S at the logarithms of the parameters; `None` if the model has no friction there.
     pub fn sum(&self, model: &dyn FrictionModel, parameters: &[f64]) -> Option<f64> {
-        let linearised = self.linearised(model, parameters, self.first_variance())?;
+        let linearised = self.linearise(model, parameters, self.initial_variance())?;
         Some(linearised.sum).filter(|sum| sum.is_finite())
     }
 
-    /// The root mean square residual of a minimum, with what a prior adds; `None` if it is not finite.
+    /// Root mean square residual at a minimum, including the prior; `None` if it is not finite.
     pub fn mean_residual(&self, found: &FrictionMinimum) -> Option<f64> {
         let mean = found.minimum.model.sum / self.points.len() as f64;
         Some(mean.max(0.0).sqrt()).filter(|mean| mean.is_finite())
     }
 
-    /// Whether a sum is that of noise: of the standard errors that are given, or of a twentieth of the friction.
+    /// Whether a sum of squares is explained by noise: the given standard errors, or 5 % of the friction.
     pub fn explains(&self, sum: f64) -> bool {
         let n = self.points.len() as f64;
-        sum <= self.first_variance() * (n + EXPLAINED * (2.0 * n).sqrt())
+        sum <= self.initial_variance() * (n + GOOD_FIT_DEVIATIONS * (2.0 * n).sqrt())
     }
 
-    fn first_variance(&self) -> f64 {
+    fn initial_variance(&self) -> f64 {
         let square = |point: &FrictionPoint| point.friction_coefficient.powi(2);
         let squares: f64 = self.points.iter().map(square).sum();
         match self.noise {
             None => 1.0,
-            Some(FrictionNoise::Relative) => FIRST_NOISE * FIRST_NOISE,
+            Some(FrictionNoise::Relative) => INITIAL_RELATIVE_NOISE * INITIAL_RELATIVE_NOISE,
             Some(FrictionNoise::Absolute) => {
-                FIRST_NOISE * FIRST_NOISE * squares / self.points.len() as f64
+                INITIAL_RELATIVE_NOISE * INITIAL_RELATIVE_NOISE * squares / self.points.len() as f64
             }
         }
     }
@@ -166,7 +166,7 @@ impl<'a> FrictionFitting<'a> {
         self.parameters.iter().map(|one| one.range).collect()
     }
 
-    /// Residual and derivative of a point by the logarithm of its friction.
+    /// Residual of a point, and minus its derivative by the logarithm of the modelled friction.
     fn residual(&self, point: &FrictionPoint, modelled: f64) -> [f64; 2] {
         let measured = point.friction_coefficient;
         let unit = match self.noise {
@@ -177,7 +177,7 @@ impl<'a> FrictionFitting<'a> {
         [(measured - modelled) / unit, modelled / unit]
     }
 
-    fn linearised(
+    fn linearise(
         &self,
         model: &dyn FrictionModel,
         parameters: &[f64],
@@ -193,18 +193,19 @@ impl<'a> FrictionFitting<'a> {
             let row = slopes.into_iter().map(|one| slope * one).collect();
             (residual, row)
         });
-        let mut linearised = normal(rows, parameters.len());
+        let mut linearised = normal_equations(rows, parameters.len());
         if let Some(prior) = self.prior {
             prior.add_to(&mut linearised, parameters, variance);
         }
         Some(linearised)
     }
 
-    /// What the points say, about a minimum of the model; `watch` is called with the number of parameters whose intervals are
-    /// known.
+    /// Estimates and intervals of the parameters around a minimum.
+    ///
+    /// `watch` is called with the number of parameters whose intervals are known.
     ///
     /// # Errors
-    /// [`MeasurementError::NotConverged`] where the model has no friction there.
+    /// [`MeasurementError::NotConverged`] if the model has no friction at the minimum.
     pub fn fit(
         &self,
         model: &dyn FrictionModel,
@@ -222,7 +223,7 @@ impl<'a> FrictionFitting<'a> {
         let residuals: Vec<f64> = pairs
             .map(|(point, fitted)| self.residual(point, *fitted)[0])
             .collect();
-        let freedom = self.freedom();
+        let degrees_of_freedom = self.degrees_of_freedom();
         let square: f64 = residuals.iter().map(|one| one * one).sum();
         let mut n_unfinished = 0;
         let findings = (0..self.parameters.len()).map(|k| {
@@ -233,7 +234,7 @@ impl<'a> FrictionFitting<'a> {
         let mut flags = self.flags(&residuals, square, &best.parameters);
         if n_unfinished > 0 {
             flags.push(format!(
-                "{n_unfinished} ends of intervals were not found in {MOST_COMPUTATIONS} computations of the friction each, and are left \
+                "{n_unfinished} ends of intervals were not found in {MAX_COMPUTATIONS} computations of the friction each, and are left \
                  open: give fewer branches, more points, or a prior"
             ));
         }
@@ -241,13 +242,13 @@ impl<'a> FrictionFitting<'a> {
             findings,
             values: best.parameters.iter().map(|value| value.exp()).collect(),
             flags,
-            residual: (square / freedom.max(1) as f64).sqrt(),
+            residual: (square / degrees_of_freedom.max(1) as f64).sqrt(),
             fitted,
-            freedom,
+            freedom: degrees_of_freedom,
         })
     }
 
-    /// The interval of a parameter; ends that take too long are counted, and left open.
+    /// Estimate and interval of parameter `k`; ends that exceed the number of computations are counted and left open.
     fn finding(
         &self,
         model: &dyn FrictionModel,
@@ -258,8 +259,8 @@ impl<'a> FrictionFitting<'a> {
         let (best, variance) = (&found.minimum, found.variance);
         let n = self.parameters.len();
         let deviations = match self.noise {
-            None => Some(NORMAL),
-            Some(_) => student_quantile(COVERAGE, self.freedom()),
+            None => Some(NORMAL_QUANTILE),
+            Some(_) => student_quantile(COVERAGE, self.degrees_of_freedom()),
         };
         let deviations = deviations.unwrap_or(f64::INFINITY);
         let rise = deviations * deviations * variance;
@@ -273,16 +274,16 @@ impl<'a> FrictionFitting<'a> {
                 side,
                 rise,
                 initial_step: deviation,
-                relative_tolerance: CLOSE,
+                relative_tolerance: PROFILE_TOLERANCE,
             };
             let mut n_computed = 0;
             let sum = |parameters: &[f64]| {
                 n_computed += 1;
-                let may_go_on = n_computed <= MOST_COMPUTATIONS;
-                may_go_on.then(|| self.linearised(model, parameters, variance))?
+                let is_allowed = n_computed <= MAX_COMPUTATIONS;
+                is_allowed.then(|| self.linearise(model, parameters, variance))?
             };
             let end = profile_end(sum, best, &ranges, interval_end).map(f64::exp);
-            if n_computed > MOST_COMPUTATIONS {
+            if n_computed > MAX_COMPUTATIONS {
                 *n_unfinished += 1;
                 return None;
             }
@@ -303,13 +304,13 @@ impl<'a> FrictionFitting<'a> {
         }
     }
 
-    /// Residuals that are no noise.
+    /// Warnings for residuals that are not noise.
     fn flags(&self, residuals: &[f64], square: f64, parameters: &[f64]) -> Vec<String> {
         let mut flags = Vec::new();
         if let Some(prior) = self.prior
             && let n = prior.rank as f64
             && let distance = prior.squared_distance(parameters)
-            && distance > n + SIGNIFICANT * (2.0 * n).sqrt()
+            && distance > n + MISFIT_DEVIATIONS * (2.0 * n).sqrt()
         {
             let ratio = (distance / n).sqrt();
             flags.push(format!(
@@ -317,9 +318,11 @@ impl<'a> FrictionFitting<'a> {
                  contradict each other, and the intervals do not hold"
             ));
         }
-        let freedom = self.freedom() as f64;
-        if self.noise.is_none() && square > freedom + SIGNIFICANT * (2.0 * freedom).sqrt() {
-            let ratio = (square / freedom).sqrt();
+        let degrees_of_freedom = self.degrees_of_freedom() as f64;
+        if self.noise.is_none()
+            && square > degrees_of_freedom + MISFIT_DEVIATIONS * (2.0 * degrees_of_freedom).sqrt()
+        {
+            let ratio = (square / degrees_of_freedom).sqrt();
             flags.push(format!(
                 "the residuals are {ratio:.1} times as large as the standard errors: the model does not explain the points, \
                  or the errors are too small, and the intervals do not hold"
@@ -335,7 +338,7 @@ impl<'a> FrictionFitting<'a> {
             .map(|pair| residuals[pair[0]] * residuals[pair[1]])
             .sum();
         let correlation = products / square;
-        if correlation > SIGNIFICANT / (residuals.len() as f64).sqrt() {
+        if correlation > MISFIT_DEVIATIONS / (residuals.len() as f64).sqrt() {
             flags.push(format!(
                 "the residuals of neighbouring speeds go together (correlation {correlation:.2}): the model does not explain the \
                  points, and the intervals do not hold"
@@ -346,7 +349,7 @@ impl<'a> FrictionFitting<'a> {
 }
 
 impl Prior {
-    /// (ln θ − m)ᵀ P (ln θ − m).
+    /// Squared distance (ln θ − m)ᵀ P (ln θ − m) from the prior mean.
     fn squared_distance(&self, parameters: &[f64]) -> f64 {
         let pairs = parameters.iter().zip(self.pull(parameters));
         let pairs = pairs.zip(&self.mean);
@@ -355,7 +358,7 @@ impl Prior {
             .sum()
     }
 
-    /// P (m − ln θ).
+    /// Gradient P (m − ln θ) towards the prior mean.
     fn pull(&self, parameters: &[f64]) -> Vec<f64> {
         let rows = self.precision.chunks(self.mean.len());
         let row = |row: &[f64]| {
@@ -379,17 +382,17 @@ impl Prior {
     }
 }
 
-/// A minimum, with the variance of a residual.
+/// A minimum of the sum of squares.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionMinimum {
-    /// The logarithms of the parameters, and the sum.
+    /// Logarithms of the parameters, and the sum of squares with its quadratic model.
     pub minimum: Minimum,
-    /// 1 where standard errors are given.
+    /// Variance of a residual; 1 if standard errors are given.
     pub variance: f64,
 }
 
-/// The last of some rounds.
-fn loop_rounds<T>(rounds: usize, mut round: impl FnMut() -> Option<T>) -> Option<T> {
+/// Result of the last of several rounds; `None` if one fails.
+fn repeat<T>(rounds: usize, mut round: impl FnMut() -> Option<T>) -> Option<T> {
     let mut last = None;
     for _ in 0..rounds {
         last = Some(round()?);
@@ -397,8 +400,8 @@ fn loop_rounds<T>(rounds: usize, mut round: impl FnMut() -> Option<T>) -> Option
     last
 }
 
-/// Normal equations of residuals and their rows of derivatives of what is computed.
-fn normal(rows: impl Iterator<Item = (f64, Vec<f64>)>, n: usize) -> QuadraticModel {
+/// Normal equations of residuals and their rows of derivatives.
+fn normal_equations(rows: impl Iterator<Item = (f64, Vec<f64>)>, n: usize) -> QuadraticModel {
     let mut linearised = QuadraticModel {
         sum: 0.0,
         matrix: vec![0.0; n * n],

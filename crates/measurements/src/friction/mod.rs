@@ -1,9 +1,9 @@
-//! The parameters of a model behind measured friction, with intervals that hold.
+//! Fit of a friction model to measured friction coefficients, with confidence intervals.
 //!
 //! ```text
 //! μ_i = μ(v_i, T_i, F_i; θ) + noise
 //! ```
-//! for any model μ that knows its derivatives by the logarithms of its parameters θ.
+//! for any model μ with derivatives by the logarithms of its parameters θ.
 
 mod fit;
 mod read;
@@ -23,23 +23,25 @@ pub struct FrictionPoint {
     pub velocity: f64,
     /// Friction coefficient μ > 0: the force along the surface over the normal force.
     pub friction_coefficient: f64,
-    /// Its standard error, where it is known.
+    /// Standard error of the friction coefficient, if known.
     pub standard_error: Option<f64>,
-    /// Temperature of the elastomer, \[°C].
+    /// Temperature of the elastomer, \[°C], if known.
     pub temperature: Option<f64>,
-    /// Normal force, \[N], where it is not the same at all points.
+    /// Normal force, \[N], if it varies between points.
     pub normal_force: Option<f64>,
 }
 
 impl FrictionPoint {
-    /// No body on rubber has a larger friction coefficient: it is another quantity, or in another unit.
+    /// Largest plausible friction coefficient (chosen): a larger number is another quantity, or in another unit.
     pub const LARGEST_COEFFICIENT: f64 = 10.0;
 
-    /// Refuses numbers that are not greater than 0, friction coefficients that are none, standard errors of some points only, and
-    /// friction that changes more than three times as much as the speed, which that of no linear material does.
+    /// Checks measured points.
+    ///
+    /// Refused are numbers that are not greater than 0, implausible friction coefficients, and standard errors of some points
+    /// only. So is friction whose ratio of largest to smallest value exceeds three times that of the speeds.
     ///
     /// # Errors
-    /// [`InvalidParameter`] with the first of them.
+    /// [`InvalidParameter`] for the first violation.
     pub fn check_all(points: &[Self]) -> Result<(), InvalidParameter> {
         for point in points {
             positive("velocity", point.velocity)?;
@@ -63,13 +65,13 @@ impl FrictionPoint {
         Self::check_spread(points)
     }
 
-    /// Refuses friction over the speed alone that changes more than that of a linear material can, as exchanged columns do.
+    /// Refuses friction that varies more with the speed than for a linear material, as with exchanged columns.
     fn check_spread(points: &[Self]) -> Result<(), InvalidParameter> {
-        let alike =
+        let is_constant =
             |of: fn(&Self) -> Option<f64>| points.windows(2).all(|two| of(&two[0]) == of(&two[1]));
         if points.is_empty()
-            || !alike(|point| point.temperature)
-            || !alike(|point| point.normal_force)
+            || !is_constant(|point| point.temperature)
+            || !is_constant(|point| point.normal_force)
         {
             return Ok(());
         }
@@ -94,50 +96,50 @@ impl FrictionPoint {
     }
 }
 
-/// How the errors of points are distributed whose size is not known.
+/// Distribution of the errors of points, whose size is unknown.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum FrictionNoise {
-    /// In proportion to the friction.
+    /// Standard deviation proportional to the friction.
     #[default]
     Relative,
-    /// The same at all points.
+    /// Equal standard deviation at all points.
     Absolute,
 }
 
-/// A parameter of a model, which is sought as its logarithm.
+/// A free parameter of a model, which is fitted as its logarithm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreeParameter {
     /// Name.
     pub name: String,
     /// SI unit.
     pub unit: &'static str,
-    /// Bounds of its logarithm, and how far that goes in one step.
+    /// Bounds of its logarithm, and largest change of it in one step.
     pub range: ParameterRange,
 }
 
-/// A normal distribution of the logarithms of the parameters, known before the fit.
+/// Normal prior distribution of the logarithms of the parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prior {
     /// Means, in the order of the parameters.
     pub mean: Vec<f64>,
     /// Inverse of the covariance, row by row; rows and columns of unknown parameters are 0.
     pub precision: Vec<f64>,
-    /// Rank of the precision: how many parameters are known.
+    /// Rank of the precision matrix: the number of known parameters.
     pub rank: usize,
 }
 
-/// What a model says of one point.
+/// Modelled friction of one point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelledPoint {
     /// Friction coefficient.
     pub friction_coefficient: f64,
-    /// Derivatives of its logarithm by those of the parameters.
+    /// Derivatives of its logarithm by the logarithms of the parameters.
     pub slopes: Vec<f64>,
 }
 
-/// Friction over parameters.
+/// A model of friction with free parameters.
 pub trait FrictionModel {
-    /// All points at the logarithms of the parameters; none where the model has no friction there.
+    /// Friction of all points at the logarithms of the parameters; `None` if the model has no solution there.
     fn friction(&self, parameters: &[f64]) -> Option<Vec<ModelledPoint>>;
 }

@@ -1,4 +1,4 @@
-//! Measured friction over speed, as a table.
+//! Reader of tables of measured friction over speed.
 
 use std::path::Path;
 
@@ -15,12 +15,12 @@ use crate::table::{Line, Meaning, Source, Table, Vocabulary, text_of};
 
 type Result<T> = std::result::Result<T, MeasurementError>;
 
-/// What a table of friction does not say itself.
+/// Information that a table of friction does not contain.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FrictionTableOptions {
-    /// Radius of the track > 0, \[m], of a table with rotational speeds and without a column of radii.
+    /// Radius of the track > 0, \[m], for rotational speeds without a column of radii.
     pub track_radius: Option<f64>,
-    /// Time ≥ 0 at the beginning of every run at constant speed that is left out of its mean, \[s].
+    /// Run-in time ≥ 0 that is excluded from the mean of every run at constant speed, \[s].
     pub run_in: Option<f64>,
 }
 
@@ -30,13 +30,13 @@ pub struct FrictionTableOptions {
 pub struct FrictionTable {
     /// One point for each row, or for each run of a time series.
     pub points: Vec<FrictionPoint>,
-    /// How the table was read where that is not plain: signs, means of runs.
+    /// Notes on assumptions of the reader: signs, means of runs.
     pub notes: Vec<String>,
 }
 
 static FRICTION: Vocabulary = Vocabulary {
     names: "v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track radius and standard error",
-    known: &KNOWN,
+    known: &KNOWN_NAMES,
     is_head: |columns| {
         let is_friction = |one: &Quantity| [Friction, FrictionForce].contains(one);
         columns.len() > 1
@@ -49,8 +49,8 @@ static FRICTION: Vocabulary = Vocabulary {
     has_order: true,
 };
 
-/// Names without blanks, points, dashes, underlines and accents. Rotational speeds come after speeds along the track.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 21] = [
+/// Known names, without blanks, points, dashes, underscores and accents; rotational speeds follow speeds along the track.
+const KNOWN_NAMES: [(Quantity, Option<Deformation>, &str); 21] = [
     (Velocity, None, "v velocity speed geschwindigkeit vitesse"),
     (
         Velocity,
@@ -110,7 +110,7 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 21] = [
     (Quantity::Other, None, "remark"),
 ];
 
-/// What is there of the forces and errors is needed in every row.
+/// Needed columns; forces and errors are needed in every row if they have a column.
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     let has = |quantity: &Quantity| columns.contains(quantity);
     let friction = if has(&FrictionForce) && !has(&Friction) {
@@ -123,9 +123,11 @@ fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     [vec![Velocity], friction.clone(), others.collect()].concat()
 }
 
-/// Reads the contents of a file, which need not be there: one table with a line of names, of one row for each speed or of runs at
-/// constant speed over time, of which the means count. Speeds, coefficients, forces and errors are greater than 0; a force that is
-/// negative in nearly all rows has the sign of its instrument, which a note says.
+/// Reads a table of friction from the contents of a file; the path is used for messages only.
+///
+/// The table has a line of names and one row for each speed, or a time series of runs at constant speed, whose means are
+/// taken. Speeds, coefficients, forces and errors are greater than 0. A force that is negative in nearly all rows has the
+/// sign convention of its instrument; it is inverted, with a note.
 ///
 /// # Errors
 /// [`MeasurementError`] with file, line and column.
@@ -181,8 +183,8 @@ struct Rows<'a> {
     has_forces: bool,
 }
 
-/// Part of the rows in which a force is negative from which that is the sign of the instrument.
-const SIGNED: f64 = 0.9;
+/// Fraction of rows with a negative force from which the sign is a convention of the instrument (chosen).
+const NEGATIVE_SIGN_FRACTION: f64 = 0.9;
 
 impl<'a> Rows<'a> {
     fn new(
@@ -219,14 +221,14 @@ impl<'a> Rows<'a> {
             has_forces,
         };
         if has_forces {
-            rows.turn("friction force", |row| Some(&mut row.friction), notes);
+            rows.correct_sign("friction force", |row| Some(&mut row.friction), notes);
         }
-        rows.turn("normal force", |row| row.normal_force.as_mut(), notes);
+        rows.correct_sign("normal force", |row| row.normal_force.as_mut(), notes);
         Ok(rows)
     }
 
-    /// Turns a force that is negative in nearly all rows.
-    fn turn(
+    /// Inverts a force that is negative in nearly all rows.
+    fn correct_sign(
         &mut self,
         name: &str,
         force: impl Fn(&mut Row) -> Option<&mut f64>,
@@ -238,7 +240,8 @@ impl<'a> Rows<'a> {
             .iter_mut()
             .filter_map(|row| is_negative(row).then_some(()));
         let n_negative = n_negative.count();
-        if n_negative == 0 || (n_negative as f64) < SIGNED * self.rows.len() as f64 {
+        if n_negative == 0 || (n_negative as f64) < NEGATIVE_SIGN_FRACTION * self.rows.len() as f64
+        {
             return;
         }
         for row in &mut self.rows {
@@ -259,7 +262,7 @@ impl<'a> Rows<'a> {
     ) -> Result<Vec<FrictionPoint>> {
         let runs = runs::split(&self.rows);
         let longest = runs.iter().max_by_key(|run| run.len());
-        let longest = longest.filter(|run| run.len() >= runs::FEWEST_ROWS);
+        let longest = longest.filter(|run| run.len() >= runs::MIN_ROWS);
         match (options.run_in, longest) {
             (Some(run_in), Some(_)) => self.means(&runs, run_in, notes),
             (None, Some(run)) => Err(self.table.wrong_row(run[0].line, &without_run_in(run))),
@@ -297,7 +300,7 @@ impl<'a> Rows<'a> {
             return Err(self.table.wrong_in(line, friction, expected));
         }
         if coefficient > FrictionPoint::LARGEST_COEFFICIENT {
-            return Err(self.table.wrong_in(line, friction, self.too_large()));
+            return Err(self.table.wrong_in(line, friction, self.expected_range()));
         }
         Ok(FrictionPoint {
             velocity: row.velocity,
@@ -308,7 +311,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    const fn too_large(&self) -> &'static str {
+    const fn expected_range(&self) -> &'static str {
         if self.has_forces {
             "at most 10 times the normal force (are the columns of the two forces exchanged, or a unit wrong?)"
         } else {
@@ -334,7 +337,7 @@ impl<'a> Rows<'a> {
             let run = Run::new(rows, run_in, self.has_forces).map_err(wrong)?;
             let coefficient = run.point.friction_coefficient;
             if coefficient > FrictionPoint::LARGEST_COEFFICIENT {
-                let expected = self.too_large();
+                let expected = self.expected_range();
                 return Err(wrong(format!(
                     "expected {expected}, but the mean friction of the run is {coefficient:.4}"
                 )));
@@ -343,7 +346,7 @@ impl<'a> Rows<'a> {
             points.push(run.point);
         }
         self.check_forces(&points)?;
-        // Rows that do not scatter tell nothing about their errors.
+        // Runs without scatter do not determine their errors.
         if points.iter().any(|point| point.standard_error.is_none()) {
             points
                 .iter_mut()
@@ -352,7 +355,7 @@ impl<'a> Rows<'a> {
         Ok(points)
     }
 
-    /// Refuses forces that are exchanged: a normal force that is smaller than the friction at every point, and varies more.
+    /// Refuses exchanged forces: a normal force that is smaller than the friction at every point and varies more.
     fn check_forces(&self, points: &[FrictionPoint]) -> Result<()> {
         let is_above = |point: &FrictionPoint| point.friction_coefficient > 1.0;
         let forces = |of: fn(&FrictionPoint) -> f64| {
@@ -373,7 +376,9 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// How many times as much as the friction force, as largest over smallest, an exchanged normal force varies at least.
+/// Smallest ratio of the variations of normal and friction force that shows exchanged columns (chosen).
+///
+/// A variation is the ratio of the largest to the smallest value.
 const EXCHANGED_SPREAD: f64 = 1.2;
 
 fn without_run_in(run: &[Row]) -> String {
@@ -385,12 +390,12 @@ fn without_run_in(run: &[Row]) -> String {
     )
 }
 
-/// Four significant digits.
+/// A value rounded to four significant digits.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// Where the radius of a track comes from.
+/// Source of the radius of the track.
 enum TrackRadius {
     NotNeeded,
     Column,
@@ -399,7 +404,7 @@ enum TrackRadius {
 
 fn track_radius(table: &Table, options: &FrictionTableOptions) -> Result<TrackRadius> {
     let speed = table.find(Velocity);
-    let is_rotational = speed.is_some_and(|column| ROTATIONAL.contains(&column.unit));
+    let is_rotational = speed.is_some_and(|column| ROTATIONAL_UNITS.contains(&column.unit));
     let option = "the track radius (--track-radius)";
     match (is_rotational, table.find(Radius), options.track_radius) {
         (true, Some(column), Some(_)) => Err(table.without_effect(option, &[column])),
@@ -419,4 +424,4 @@ fn track_radius(table: &Table, options: &FrictionTableOptions) -> Result<TrackRa
 }
 
 /// Units of rotational speeds, which are rad/s in SI.
-const ROTATIONAL: [&str; 3] = ["rpm", "Hz", "rad/s"];
+const ROTATIONAL_UNITS: [&str; 3] = ["rpm", "Hz", "rad/s"];

@@ -6,17 +6,18 @@ use super::FrictionPoint;
 use super::read::{Row, rounded};
 use crate::indentation::correlated_points;
 
-/// Fewest rows of a run whose mean and scatter are known.
-pub(super) const FEWEST_ROWS: usize = 10;
-/// Part by which the speed of a row may be off from that of the first row of its run.
-const SAME_SPEED: f64 = 0.02;
-/// Part of the rows whose friction may have the other sign than the mean.
-const OTHER_SIGN: f64 = 0.1;
-/// Standard errors, and part of the mean, from which the two halves of a run differ.
-const SIGNIFICANT: f64 = 4.0;
-const DRIFT: f64 = 0.05;
+/// Smallest number of rows of a run (chosen).
+pub(super) const MIN_ROWS: usize = 10;
+/// Largest relative deviation of the speed within a run from its first row (chosen).
+const SPEED_TOLERANCE: f64 = 0.02;
+/// Largest fraction of rows whose friction has the opposite sign of the mean (chosen).
+const MAX_OPPOSITE_SIGN_FRACTION: f64 = 0.1;
+/// Smallest significant difference of the means of the two halves of a run, in standard errors (chosen).
+const DRIFT_STANDARD_ERRORS: f64 = 4.0;
+/// Smallest significant difference of the two halves, relative to the mean (chosen).
+const MIN_RELATIVE_DRIFT: f64 = 0.05;
 
-/// Rows that follow each other at one speed while time goes on; every row is a run of its own where there is no time.
+/// Splits rows into runs of consecutive rows at one speed and increasing time; without times every row is a run.
 pub(super) fn split(rows: &[Row]) -> Vec<&[Row]> {
     let mut runs = Vec::new();
     let mut start = 0;
@@ -24,7 +25,7 @@ pub(super) fn split(rows: &[Row]) -> Vec<&[Row]> {
         let goes_on = rows.get(at).is_some_and(|row| {
             let is_later = row.time > rows[at - 1].time;
             let off = (row.velocity / rows[start].velocity - 1.0).abs();
-            is_later && off <= SAME_SPEED
+            is_later && off <= SPEED_TOLERANCE
         });
         if !goes_on {
             runs.push(&rows[start..at]);
@@ -37,19 +38,19 @@ pub(super) fn split(rows: &[Row]) -> Vec<&[Row]> {
 /// The mean of a run at constant speed.
 pub(super) struct Run {
     pub(super) point: FrictionPoint,
-    /// First and last line.
+    /// First and last line of the run.
     lines: [usize; 2],
     n_rows: usize,
     /// Standard deviation of the friction coefficient of a row.
     scatter: f64,
-    /// Change of the mean from the first half to the second, where that is significant.
+    /// Relative change of the mean from the first half to the second; `None` if it is not significant.
     drift: Option<f64>,
 }
 
 impl Run {
-    /// The mean of the rows that are later than the run-in, \[s]; of forces the ratio of the means.
+    /// Mean of the rows after the run-in \[s]; for forces it is the ratio of the means.
     pub(super) fn new(rows: &[Row], run_in: f64, has_forces: bool) -> Result<Self, String> {
-        let steady = behind_run_in(rows, run_in)?;
+        let steady = after_run_in(rows, run_in)?;
         let mean_of = |of: &dyn Fn(&Row) -> Option<f64>| {
             let values: Option<Vec<f64>> = steady.iter().map(of).collect();
             values.map(|values| mean(&values))
@@ -80,17 +81,17 @@ impl Run {
     }
 }
 
-/// The rows that are later than the run-in, where they are enough.
-fn behind_run_in(rows: &[Row], run_in: f64) -> Result<Vec<Row>, String> {
+/// Rows after the run-in; refused if there are too few.
+fn after_run_in(rows: &[Row], run_in: f64) -> Result<Vec<Row>, String> {
     let time = |row: &Row| row.time.unwrap_or_default();
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     let is_steady = |row: &&Row| time(row) - time(first) >= run_in;
     let steady: Vec<Row> = rows.iter().filter(is_steady).copied().collect();
-    if steady.len() >= FEWEST_ROWS {
+    if steady.len() >= MIN_ROWS {
         return Ok(steady);
     }
     Err(format!(
-        "the run from here to line {} lasts {} s, and {} of its {} rows are later than the run-in of {run_in} s: at least {FEWEST_ROWS} \
+        "the run from here to line {} lasts {} s, and {} of its {} rows are later than the run-in of {run_in} s: at least {MIN_ROWS} \
          are needed, so shorten the run-in or take this run out",
         last.line,
         rounded(time(last) - time(first)),
@@ -99,14 +100,14 @@ fn behind_run_in(rows: &[Row], run_in: f64) -> Result<Vec<Row>, String> {
     ))
 }
 
-/// The change of the mean from the first half to the second, relative to the mean; `None` if it may be by chance, or is small.
+/// Relative change of the mean from the first half to the second; `None` if it is small or not significant.
 fn drift(coefficients: &[f64]) -> Option<f64> {
     let (first, second) = coefficients.split_at(coefficients.len() / 2);
     let [first, second] = [first, second].map(mean_and_errors);
     let change = second.0 - first.0;
     let relative = change / mean(coefficients);
-    let is_significant = change.abs() > SIGNIFICANT * first.2.hypot(second.2);
-    (is_significant && relative.abs() > DRIFT).then_some(relative)
+    let is_significant = change.abs() > DRIFT_STANDARD_ERRORS * first.2.hypot(second.2);
+    (is_significant && relative.abs() > MIN_RELATIVE_DRIFT).then_some(relative)
 }
 
 impl fmt::Display for Run {
@@ -138,11 +139,11 @@ impl fmt::Display for Run {
     }
 }
 
-/// Refuses friction that goes to and fro, whose mean says nothing.
+/// Refuses friction of alternating sign, as of a reciprocating motion.
 fn check_signs(coefficients: &[f64]) -> Result<(), String> {
     let negative = coefficients.iter().filter(|value| **value < 0.0).count();
     let part = negative as f64 / coefficients.len() as f64;
-    if part <= OTHER_SIGN && mean(coefficients) > 0.0 {
+    if part <= MAX_OPPOSITE_SIGN_FRACTION && mean(coefficients) > 0.0 {
         return Ok(());
     }
     Err(format!(

@@ -1,4 +1,4 @@
-//! Tables that the Python package afmformats exports (`.tab`): names in the last comment, quantities in SI.
+//! Reader of tables of the Python package afmformats (`.tab`): names in the last comment, quantities in SI.
 
 /// Names of columns and their units.
 const UNITS: [(&str, &str); 5] = [
@@ -9,7 +9,7 @@ const UNITS: [(&str, &str); 5] = [
     ("tip position", "m"),
 ];
 
-/// The same text with units in the line of names; none of another text.
+/// The text with units in the line of names; `None` for other texts.
 pub(super) fn table(text: &str) -> Option<String> {
     if !(text.starts_with("# afmformats") || text.starts_with("# BEGIN METADATA")) {
         return None;

@@ -1,28 +1,30 @@
-//! Whether a curve is what its columns say.
+//! Plausibility checks of a measured curve.
 
 use indenters::{Axisymmetric, contact_radius};
 
 use super::IndentationCurve;
-use super::depth::{self, ends};
+use super::depth::{self, min_max};
 use super::flag::Flag;
 use super::means::Measured;
-use super::start::{FEWEST, Start};
+use super::start::{MIN_POINTS, Start};
 
-/// A gap, relative to the steps around it.
-const GAP: f64 = 20.0;
-/// Equal largest forces in a row, and the speed that the body has at least, relative to before.
-const RUN: usize = 5;
-const GOES_ON: f64 = 0.3;
-/// Standard deviations that are more than noise.
-pub(super) const SIGNIFICANT: f64 = 6.0;
-/// Ratio of the width of a contact to its depth, or the reverse, beyond which no experiment is.
-const SCALE: f64 = 1e9;
-/// Part of the depth range by which a body must be pulled back, and pressed again, to be more than noise.
-const AGAIN: f64 = 0.05;
-/// The curve in means with a smooth depth, and without the retraction where that is asked for.
-pub(super) fn usable(curve: &IndentationCurve, before_retraction: bool) -> Result<Measured, Flag> {
+/// Smallest ratio of a time step to those around it that is a gap (chosen).
+const MIN_GAP_RATIO: f64 = 20.0;
+/// Number of successive points with the largest force that are saturated (chosen).
+const SATURATED_POINTS: usize = 5;
+/// Smallest speed of the body at a saturated force, relative to the speed before (chosen).
+const MIN_SPEED_RATIO: f64 = 0.3;
+/// Deviation that is significant, in standard deviations of the noise (chosen).
+pub(super) const NOISE_DEVIATIONS: f64 = 6.0;
+/// Largest plausible ratio of width and depth of a contact (chosen).
+const MAX_ASPECT_RATIO: f64 = 1e9;
+/// Smallest significant reversal of the depth, relative to its range (chosen).
+const REVERSAL_FRACTION: f64 = 0.05;
+
+/// The checked curve as means with a smooth depth, and without the retraction if that is asked for.
+pub(super) fn prepare(curve: &IndentationCurve, before_retraction: bool) -> Result<Measured, Flag> {
     let time = &curve.time;
-    if time.len() < FEWEST {
+    if time.len() < MIN_POINTS {
         return Err(Flag::TooFew(time.len()));
     }
     let is_bad = |i: &usize| !(time[*i] + curve.depth[*i] + curve.force[*i]).is_finite();
@@ -32,15 +34,15 @@ pub(super) fn usable(curve: &IndentationCurve, before_retraction: bool) -> Resul
     if let Some(place) = time.windows(2).position(|pair| pair[1] <= pair[0]) {
         return Err(Flag::TimeGoesBack(place + 2));
     }
-    let is_gap = |t: &[f64]| t[2] - t[1] > GAP * (t[1] - t[0]).max(t[3] - t[2]);
+    let is_gap = |t: &[f64]| t[2] - t[1] > MIN_GAP_RATIO * (t[1] - t[0]).max(t[3] - t[2]);
     if let Some(place) = time.windows(4).position(is_gap) {
         return Err(Flag::Gap(time[place + 1]));
     }
-    let [low, high] = ends(&curve.depth);
+    let [low, high] = min_max(&curve.depth);
     if low >= high {
         return Err(Flag::ConstantDepth(low));
     }
-    saturation(curve)?;
+    check_saturation(curve)?;
     let mut curve = curve.clone();
     if before_retraction {
         let ones = vec![1.0; curve.time.len()];
@@ -49,35 +51,39 @@ pub(super) fn usable(curve: &IndentationCurve, before_retraction: bool) -> Resul
         let last = curve.depth.iter().rposition(|depth| *depth >= deep);
         curve = curve.first(last.map_or(0, |last| last + 1));
     }
-    if curve.time.len() < FEWEST {
+    if curve.time.len() < MIN_POINTS {
         return Err(Flag::TooFew(curve.time.len()));
     }
     Ok(Measured::new(&curve))
 }
 
-/// Whether the largest force stays the same over some points while the body goes on.
-fn saturation(IndentationCurve { time, depth, force }: &IndentationCurve) -> Result<(), Flag> {
-    let [_, largest] = ends(force);
+/// Refuses a curve whose largest force is constant over several points while the body moves on.
+fn check_saturation(
+    IndentationCurve { time, depth, force }: &IndentationCurve,
+) -> Result<(), Flag> {
+    let [_, largest] = min_max(force);
     let speed = |from: usize, to: usize| (depth[to] - depth[from]).abs() / (time[to] - time[from]);
     let goes_on = |start: usize| {
-        let run = &force[start..start + RUN];
+        let run = &force[start..start + SATURATED_POINTS];
         let is_run = run.iter().all(|force| *force >= largest);
         let begins = is_run && force[start - 1] < largest;
-        begins && speed(start, start + RUN - 1) > GOES_ON * speed(start - RUN, start)
+        begins
+            && speed(start, start + SATURATED_POINTS - 1)
+                > MIN_SPEED_RATIO * speed(start - SATURATED_POINTS, start)
     };
-    if (RUN..force.len() + 1 - RUN).any(goes_on) {
+    if (SATURATED_POINTS..force.len() + 1 - SATURATED_POINTS).any(goes_on) {
         return Err(Flag::Saturated(largest));
     }
     Ok(())
 }
 
-/// Whether the body would have a contact of any sensible shape at the depths of the curve.
-pub(super) fn scale(body: &dyn Axisymmetric, curve: &IndentationCurve) -> Result<(), Flag> {
-    let [low, high] = ends(&curve.depth);
-    // A body that ends above the whole range is refused later, where the contact point is known.
+/// Refuses a curve whose contact would be implausibly wide or narrow.
+pub(super) fn check_scale(body: &dyn Axisymmetric, curve: &IndentationCurve) -> Result<(), Flag> {
+    let [low, high] = min_max(&curve.depth);
+    // A body that ends below the whole range is refused later, when the contact point is known.
     let radius = contact_radius(body, high - low).unwrap_or(body.max_radius());
     let ratio = radius / (high - low);
-    let holds = ratio > SCALE.recip() && ratio < SCALE;
+    let holds = ratio > MAX_ASPECT_RATIO.recip() && ratio < MAX_ASPECT_RATIO;
     if holds {
         Ok(())
     } else {
@@ -85,11 +91,11 @@ pub(super) fn scale(body: &dyn Axisymmetric, curve: &IndentationCurve) -> Result
     }
 }
 
-/// What makes a fit useless, by the elastic start.
-pub(super) fn before(measured: &Measured, begin: &Start) -> Result<(), Flag> {
+/// Refuses a curve without contact or with the wrong sign, by the elastic initial fit.
+pub(super) fn check_contact(measured: &Measured, begin: &Start) -> Result<(), Flag> {
     let Measured { curve, counts, .. } = measured;
     let noise = depth::noise(&curve.time, &curve.force, counts).max(0.5 * begin.residual);
-    if begin.peak.abs() <= SIGNIFICANT * noise {
+    if begin.peak.abs() <= NOISE_DEVIATIONS * noise {
         return Err(Flag::NoContact(noise));
     }
     if begin.peak < 0.0 {
@@ -98,15 +104,15 @@ pub(super) fn before(measured: &Measured, begin: &Start) -> Result<(), Flag> {
     Ok(())
 }
 
-/// Whether the body goes down again after it was pulled back, by more than the noise of a dwell.
+/// Whether the body is pressed again after it was pulled back, by more than the noise of a hold.
 pub(super) fn presses_again(curve: &IndentationCurve) -> bool {
-    let [low, high] = ends(&curve.depth);
+    let [low, high] = min_max(&curve.depth);
     let [mut deepest, mut left] = [low, f64::INFINITY];
     curve.depth.iter().any(|&depth| {
         deepest = deepest.max(depth);
-        if deepest - depth > AGAIN * (high - low) {
+        if deepest - depth > REVERSAL_FRACTION * (high - low) {
             left = left.min(depth);
         }
-        depth - left > AGAIN * (high - low)
+        depth - left > REVERSAL_FRACTION * (high - low)
     })
 }

@@ -1,33 +1,37 @@
-//! The path of a depth that was measured with noise.
+//! Smoothing of a noisy measured depth.
 //!
-//! A noisy path would let the body shiver. It is replaced by the straight pieces of least squares on as few knots as leave
-//! residuals without structure: a piece is divided where the mean of a quarter of it is more than 3.5 standard errors off.
-//! Knots then move to where the squares are least, as to a turning point, and those that do not matter go.
+//! A noisy path would load and unload the contact at every point. It is replaced by a linear spline, fitted by least squares
+//! with few knots.
+//! 1. A piece is divided if the mean residual of a quarter of it exceeds 3.5 standard errors.
+//! 2. Knots move to minimise the sum of squares, as to a turning point.
+//! 3. Knots without a significant effect are removed.
 
-/// Standard errors.
-pub(super) const STRUCTURE: f64 = 3.5;
-/// Noise below this part of the range is rounding, and the path is taken as it is.
-const ROUNDING: f64 = 1e-7;
-/// Rounds of moving and dropping knots.
-const ROUNDS: usize = 4;
+/// Smallest significant mean residual of a part of a piece, in standard errors (chosen).
+pub(super) const STRUCTURE_STANDARD_ERRORS: f64 = 3.5;
+/// Noise relative to the range below which the path is not smoothed (chosen): it is rounding.
+const MIN_RELATIVE_NOISE: f64 = 1e-7;
+/// Bound on the number of rounds of moving and removing knots (chosen).
+const MAX_KNOT_ROUNDS: usize = 4;
 
-/// What is known of a path.
-pub(super) struct Path {
+/// A smoothed path with the covariance of its depths.
+pub(super) struct SmoothedPath {
+    /// Times of the knots, \[s].
     knots: Vec<f64>,
     /// Standard deviation of one measured depth, \[m].
     noise: f64,
-    /// Of the normal matrix of the depths at the knots: reduced diagonal, and what is beside it.
+    /// Diagonal of the normal matrix of the depths at the knots, after elimination.
     diagonal: Vec<f64>,
-    beside: Vec<f64>,
+    /// Off-diagonal of this tridiagonal matrix.
+    off_diagonal: Vec<f64>,
 }
 
-impl Path {
+impl SmoothedPath {
     pub(super) const fn len(&self) -> usize {
         self.knots.len()
     }
 
-    /// How much a point moves with a knot.
-    pub(super) fn hat(&self, knot: usize, time: f64) -> f64 {
+    /// Hat function of a knot: derivative of the depth at a time by the depth at the knot.
+    pub(super) fn hat_function(&self, knot: usize, time: f64) -> f64 {
         let k = self.knots.partition_point(|one| *one <= time);
         let k = k.clamp(1, self.knots.len() - 1);
         let part = (time - self.knots[k - 1]) / (self.knots[k] - self.knots[k - 1]);
@@ -38,46 +42,51 @@ impl Path {
         }
     }
 
-    /// The covariance of the depths at the knots, times a value for each of them.
+    /// Product of the covariance matrix of the depths at the knots with a vector.
     pub(super) fn covariance(&self, mut values: Vec<f64>) -> Vec<f64> {
-        solve(&self.diagonal, &self.beside, &mut values);
+        solve(&self.diagonal, &self.off_diagonal, &mut values);
         let variance = self.noise * self.noise;
         values.into_iter().map(|value| variance * value).collect()
     }
 }
 
-/// Standard deviation of one measured value, by the distances of means from the line through their neighbours.
+/// Standard deviation of one measured value, from the distances of means from the line through their neighbours.
 pub(super) fn noise(time: &[f64], values: &[f64], counts: &[f64]) -> f64 {
-    let bend = |i: usize| {
+    let second_difference = |i: usize| {
         let part = (time[i] - time[i - 1]) / (time[i + 1] - time[i - 1]);
         let between = (1.0 - part) * values[i - 1] + part * values[i + 1];
         let variance = part * part / counts[i + 1] + (1.0 - part).powi(2) / counts[i - 1];
         (values[i] - between).abs() / (1.0 / counts[i] + variance).sqrt()
     };
-    BY_MEDIAN * median((1..values.len().max(2) - 1).map(bend).collect())
+    DEVIATION_PER_MEDIAN
+        * median(
+            (1..values.len().max(2) - 1)
+                .map(second_difference)
+                .collect(),
+        )
 }
 
-/// Standard deviation of a normal distribution over its median deviation.
-pub(super) const BY_MEDIAN: f64 = 1.4826;
+/// Ratio of the standard deviation of a normal distribution to its median absolute deviation.
+pub(super) const DEVIATION_PER_MEDIAN: f64 = 1.4826;
 
-/// The middle one; 0 of none.
+/// Upper median; 0 without values.
 pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
 }
 
-/// The least and the largest.
-pub(super) fn ends(values: &[f64]) -> [f64; 2] {
-    let ends = [f64::INFINITY, f64::NEG_INFINITY];
+/// Smallest and largest value.
+pub(super) fn min_max(values: &[f64]) -> [f64; 2] {
+    let start = [f64::INFINITY, f64::NEG_INFINITY];
     let wider = |[low, high]: [f64; 2], value: &f64| [value.min(low), value.max(high)];
-    values.iter().fold(ends, wider)
+    values.iter().fold(start, wider)
 }
 
-/// Takes the noise off a path, where there is some.
-pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<Path> {
+/// Smooths a path in place; `None` if it has no noise.
+pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<SmoothedPath> {
     let noise = noise(time, depth, counts);
-    let [low, high] = ends(depth);
-    if noise <= ROUNDING * (high - low) {
+    let [low, high] = min_max(depth);
+    if noise <= MIN_RELATIVE_NOISE * (high - low) {
         return None;
     }
     let points = Points {
@@ -85,6 +94,7 @@ pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<
         depth,
         counts,
     };
+    // Divide pieces until the residuals have no structure.
     let mut knots = vec![0, depth.len() - 1];
     loop {
         let path = points.path(&knots);
@@ -97,7 +107,7 @@ pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<
                 let sum: f64 = points.map(|i| counts[i] * (depth[i] - path[i])).sum();
                 sum.abs() / weight.sqrt()
             });
-            to - from > 1 && sums.any(|sum| sum > STRUCTURE * noise)
+            to - from > 1 && sums.any(|sum| sum > STRUCTURE_STANDARD_ERRORS * noise)
         };
         let intervals = knots.windows(2).map(|pair| [pair[0], pair[1]]);
         let middles = intervals.filter(is_rough);
@@ -108,16 +118,16 @@ pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<
         knots.extend(middles);
         knots.sort_unstable();
     }
-    points.improve(&mut knots, noise);
+    points.optimise_knots(&mut knots, noise);
     let path = points.path(&knots);
     let mut system = points.system(&knots);
-    reduce(&mut system.diagonal, &system.beside);
+    reduce(&mut system.diagonal, &system.off_diagonal);
     depth.copy_from_slice(&path);
-    Some(Path {
+    Some(SmoothedPath {
         knots: knots.iter().map(|&knot| time[knot]).collect(),
         noise,
         diagonal: system.diagonal,
-        beside: system.beside,
+        off_diagonal: system.off_diagonal,
     })
 }
 
@@ -127,21 +137,21 @@ struct Points<'a> {
     counts: &'a [f64],
 }
 
-/// Normal matrix of hats on knots, which is tridiagonal, and right-hand side.
+/// Normal equations of the hat functions on the knots, with a tridiagonal matrix.
 #[derive(Clone)]
 struct System {
     diagonal: Vec<f64>,
-    beside: Vec<f64>,
+    off_diagonal: Vec<f64>,
     right: Vec<f64>,
 }
 
 impl Points<'_> {
     fn system(&self, knots: &[usize]) -> System {
         let n = knots.len();
-        let [diagonal, beside, right] = [0; 3].map(|_| vec![0.0; n]);
+        let [diagonal, off_diagonal, right] = [0; 3].map(|_| vec![0.0; n]);
         let mut system = System {
             diagonal,
-            beside,
+            off_diagonal,
             right,
         };
         for k in 0..n - 1 {
@@ -157,17 +167,17 @@ impl Points<'_> {
                     system.diagonal[knot] += self.counts[i] * hat * hat;
                     system.right[knot] += self.counts[i] * hat * self.depth[i];
                 }
-                system.beside[k] += self.counts[i] * part * (1.0 - part);
+                system.off_diagonal[k] += self.counts[i] * part * (1.0 - part);
             }
         }
         system
     }
 
-    /// Straight from knot to knot, by least squares.
+    /// Least-squares linear spline at all points.
     fn path(&self, knots: &[usize]) -> Vec<f64> {
         let mut system = self.system(knots);
-        reduce(&mut system.diagonal, &system.beside);
-        solve(&system.diagonal, &system.beside, &mut system.right);
+        reduce(&mut system.diagonal, &system.off_diagonal);
+        solve(&system.diagonal, &system.off_diagonal, &mut system.right);
         let places = knots.windows(2).enumerate();
         let inner = places.flat_map(|(k, pair)| {
             let [from, to] = [self.time[pair[0]], self.time[pair[1]]];
@@ -179,7 +189,7 @@ impl Points<'_> {
         [&inner[..], &system.right[knots.len() - 1..]].concat()
     }
 
-    /// Sum of squares between the first and the last of some knots.
+    /// Sum of squares between the first and the last of the given knots.
     fn squares(&self, knots: &[usize]) -> f64 {
         let [depth, counts] = [self.depth, self.counts].map(|values| &values[knots[0]..]);
         let points = self.path(knots).into_iter().zip(depth).zip(counts);
@@ -188,16 +198,16 @@ impl Points<'_> {
             .sum()
     }
 
-    /// Moves knots to where the squares are least, and drops those that do not lower them by more than they may by chance.
-    fn improve(&self, knots: &mut Vec<usize>, noise: f64) {
+    /// Moves knots to minimise the sum of squares, and removes those whose effect may be by chance.
+    fn optimise_knots(&self, knots: &mut Vec<usize>, noise: f64) {
         let chance = 2.0 * (self.time.len() as f64).ln() * noise * noise;
-        // The squares depend on a knot as far as its third neighbours.
+        // The effect of a knot is limited to about three neighbours on each side.
         let near = |knots: &[usize], k: usize| k.saturating_sub(3)..(k + 4).min(knots.len());
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_KNOT_ROUNDS {
             let before = knots.clone();
             for k in 1..knots.len() - 1 {
                 let near = near(knots, k);
-                self.shift(&mut knots[near.clone()], k - near.start);
+                self.move_knot(&mut knots[near.clone()], k - near.start);
             }
             for k in (1..knots.len() - 1).rev() {
                 let near = near(knots, k);
@@ -213,8 +223,8 @@ impl Points<'_> {
         }
     }
 
-    /// Moves one knot between its neighbours, by halves of what is left.
-    fn shift(&self, knots: &mut [usize], k: usize) {
+    /// Moves one knot between its neighbours, with steps that are halved.
+    fn move_knot(&self, knots: &mut [usize], k: usize) {
         let mut least = self.squares(knots);
         let mut step = (knots[k + 1] - knots[k - 1]) / 2;
         while step > 0 {
@@ -237,21 +247,21 @@ impl Points<'_> {
     }
 }
 
-/// Eliminates what is below the diagonal.
-fn reduce(diagonal: &mut [f64], beside: &[f64]) {
+/// Eliminates the lower off-diagonal of a symmetric tridiagonal matrix.
+fn reduce(diagonal: &mut [f64], off_diagonal: &[f64]) {
     for k in 1..diagonal.len() {
-        diagonal[k] -= beside[k - 1] * beside[k - 1] / diagonal[k - 1];
+        diagonal[k] -= off_diagonal[k - 1] * off_diagonal[k - 1] / diagonal[k - 1];
     }
 }
 
-/// With the reduced diagonal.
-fn solve(diagonal: &[f64], beside: &[f64], right: &mut [f64]) {
+/// Solves the tridiagonal system in place, with the eliminated diagonal.
+fn solve(diagonal: &[f64], off_diagonal: &[f64], right: &mut [f64]) {
     let n = diagonal.len();
     for k in 1..n {
-        right[k] -= beside[k - 1] / diagonal[k - 1] * right[k - 1];
+        right[k] -= off_diagonal[k - 1] / diagonal[k - 1] * right[k - 1];
     }
     right[n - 1] /= diagonal[n - 1];
     for k in (0..n - 1).rev() {
-        right[k] = (right[k] - beside[k] * right[k + 1]) / diagonal[k];
+        right[k] = (right[k] - off_diagonal[k] * right[k + 1]) / diagonal[k];
     }
 }

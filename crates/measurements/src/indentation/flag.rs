@@ -1,8 +1,8 @@
-//! What there is to say about a curve.
+//! Flags: reasons to refuse a curve, and warnings about a fit.
 
 use numerics::MessageNumber;
 
-/// What is wrong with a curve, or doubtful about a fit; with a count or the first point, a time \[s] or a force \[N].
+/// Defect of a curve, or warning about a fit; a value is a count, the first point, a time \[s] or a force \[N].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flag {
@@ -33,7 +33,7 @@ pub enum Flag {
          sample, and a force that presses is positive"
     )]
     WrongSign,
-    /// On the way in the body is drawn to the surface before it touches, or held by it.
+    /// Adhesion on the approach: the body is attracted by the surface before or in contact.
     #[error(
         "the body jumps into contact: on the way in the force falls {fall:.1e} N below the baseline, {:.1} % of the largest force, \
          but the fit knows no adhesion",
@@ -42,23 +42,23 @@ pub enum Flag {
     JumpToContact {
         /// Fall of the force below the baseline, \[N].
         fall: f64,
-        /// The same as a part of the largest force.
+        /// Fall relative to the largest force.
         part: f64,
     },
-    /// The body and the depths are of sizes that do not belong together.
+    /// The sizes of body and depths are inconsistent.
     #[error(
         "the contact would be {0:.0e} times as wide as deep: are the size of the body, in metres or degrees, and the depths right?"
     )]
     OutOfScale(f64),
-    /// On the way back the body sticks.
+    /// Adhesion on the retraction.
     #[error(
         "on the way back the body sticks or the force drifts, by {0:.1e} N: leave out the retraction"
     )]
     Sticks(f64),
-    /// Before the first point the body touched already.
+    /// Too few points before the contact.
     #[error("fewer than 10 points are before the contact, which is therefore hardly known")]
     NoBaseline,
-    /// After the contact the force is not what it was before.
+    /// The force without contact drifts.
     #[error("the force drifts: without contact it is {0:.1e} N off")]
     Drift(f64),
     /// The residuals are not noise like that before the contact.
@@ -70,13 +70,13 @@ pub enum Flag {
     Misfit {
         /// Standard deviation about the fit, \[N].
         residual: f64,
-        /// How many points one independent point stands for.
+        /// Number of correlated points that count as one independent point.
         correlated: f64,
     },
-    /// A body that is so blunt is rather one in another unit.
+    /// The contact is implausibly wide; the unit may be wrong.
     #[error("the contact is {0:.0e} times as wide as deep: is the radius of the body in metres?")]
     Blunt(f64),
-    /// Linear theory ends long before, and mostly the unit is another one.
+    /// The contact is implausibly deep; the unit may be wrong.
     #[error(
         "the contact is {0:.1e} times as deep as wide: are the radius of the body and the depth in metres?"
     )]
@@ -86,12 +86,12 @@ pub enum Flag {
         "the body goes {0:.0} % of the thickness of the sample deep, where strains are not small and linear theory ends"
     )]
     DeepInSample(f64),
-    /// The body presses again, perhaps on a surface that has not recovered.
+    /// The body presses again, possibly on a surface that has not recovered.
     #[error("the body presses again, where the force of the fit need not be exact")]
     PressedAgain,
 }
 
-/// As its sentence.
+/// Serialised as its message.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Flag {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,23 +1,24 @@
-//! Igor text, in which Asylum Research exports curves: waves of numbers, with a scale of their rows and a unit each.
+//! Reader of Igor text, the export format of Asylum Research: waves of numbers with a time scale and a unit.
 
 use std::fmt::Write as _;
 
-/// Channels of a curve, which stand behind its name or are labels of its columns.
+/// Channels of a curve, which are suffixes of its name or labels of its columns.
 const CHANNELS: [&str; 6] = ["ZSnsr", "ZSensor", "Defl", "Force", "Raw", "Ind"];
 
+/// One column of a wave.
 struct Wave<'a> {
     name: &'a str,
-    /// Of a wave with several columns.
+    /// Index of the column in a wave with several columns.
     column: usize,
     label: &'a str,
     cells: Vec<&'a str>,
-    /// Time of the first row, and from row to row, \[s].
+    /// Time of the first row, and time step of the rows, \[s].
     scale: Option<[f64; 2]>,
     unit: &'a str,
 }
 
 impl Wave<'_> {
-    /// What it holds, and the name of its curve, of which the halves are curves of their own.
+    /// Channel and name of the curve; approach and retraction are separate curves.
     fn channel(&self) -> Option<(&'static str, String)> {
         let text = if self.label.is_empty() {
             self.name
@@ -29,7 +30,7 @@ impl Wave<'_> {
     }
 }
 
-/// The curves of Igor text, each as a table with a line of names; none of another text.
+/// Curves of Igor text, each as a table with a line of names; `None` for other texts.
 pub(super) fn table(text: &str) -> Option<String> {
     let waves = text.trim_start().starts_with("IGOR").then(|| waves(text))?;
     let known = waves

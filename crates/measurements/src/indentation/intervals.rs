@@ -1,41 +1,43 @@
-//! How far the parameters of a fit are known.
+//! Covariance and confidence intervals of the parameters of a fit.
 //!
 //! ```text
 //! covariance = (JᵀJ)⁻¹ Jᵀ V J (JᵀJ)⁻¹
-//! profile:     least Σr² with one parameter held − least Σr² = 3.84 v Σr²/(n − p)
+//! profile:     min Σr² with one parameter fixed − min Σr² = 3.84 v Σr²/(n − p)
 //! ```
-//! with the residuals r, of wild points those of their neighbours, the covariance V of the points, which is the mean over all
-//! noises that are likely, and v, by how much the variance of the parameter is larger than if they were independent. The error
-//! of a smoothed depth is added to both.
+//! Residuals r of outliers are replaced by those of their neighbours. V is the covariance of the points, averaged over the
+//! posterior distribution of the noise. The factor v is the ratio of the variance of the parameter to that for independent
+//! points. The error of a smoothed depth is added to both.
 
 use numerics::Estimate;
 use numerics::least_squares::{IntervalEnd, Minimum, inverse, profile_end};
 
 use super::IndentationCurve;
 use super::model::{Forces, Kind, Model};
-use super::noise::{Linear, Noise, RIDGE, correlated_points, normal_matrix};
+use super::noise::{DIAGONAL_FACTOR, Linear, Noise, correlated_points, normal_matrix};
 use super::search::Found;
 use crate::{Finding, MeasurementError};
 
-/// 95 % of a normal distribution are within so many standard deviations.
-const NORMAL: f64 = 1.959_963_984_540_054;
-/// A logarithm with a larger standard error wants a profile.
-const WIDE: f64 = 0.4;
-/// Largest ratio of the ends of an interval within which a modulus, a time or a thickness is determined: beyond it the standard error of
-/// the logarithm is above 0.6, and a value would be an arbitrary one of the interval. Chosen.
-const UNDETERMINED: f64 = 10.0;
-/// How close the distance of an end of a profile has to be.
-const CLOSE: f64 = 0.01;
-/// Part of the range of depths by which a knot is moved to see what it does.
-const SHIFT: f64 = 1e-4;
+/// Two-sided 95 % quantile of the standard normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+/// Largest standard error of a logarithm for which the interval is that of the covariance (chosen).
+const MAX_COVARIANCE_DEVIATION: f64 = 0.4;
+/// Largest ratio of the ends of an interval for a determined modulus, time or thickness (chosen).
+///
+/// Beyond it the standard error of the logarithm exceeds 0.6.
+const MAX_INTERVAL_RATIO: f64 = 10.0;
+/// Relative tolerance of the rise of the sum at an end of a profile (chosen).
+const PROFILE_TOLERANCE: f64 = 0.01;
+/// Shift of a knot for a difference quotient, relative to the range of depths (chosen).
+const KNOT_SHIFT: f64 = 1e-4;
 
+/// Covariance of the parameters and statistics of the residuals.
 pub(super) struct Statistics {
     n: usize,
     covariance: Vec<f64>,
     /// Rise of the sum at the ends of the interval of each parameter.
     rises: Vec<f64>,
     pub(super) correlated_points: f64,
-    /// Root of the mean squared error of the force that comes from a smoothed depth, \[N].
+    /// Root mean square error of the force due to that of a smoothed depth, \[N].
     pub(super) path_error: f64,
     pub(super) forces: Forces,
 }
@@ -45,24 +47,32 @@ impl Statistics {
         let forces = found.model.forces(&found.parameters)?;
         let n = found.parameters.len();
         let squares = &found.squares;
-        let known = squares.weighed(&squares.known(&forces.residuals));
+        let known = squares.weighted(&squares.without_outliers(&forces.residuals));
         let sum: f64 = known.iter().map(|one| one * one).sum();
         let variance = sum / (known.len() - n) as f64;
-        let rows: Vec<Vec<f64>> = forces.rows.iter().map(|row| squares.weighed(row)).collect();
+        let rows: Vec<Vec<f64>> = forces
+            .rows
+            .iter()
+            .map(|row| squares.weighted(row))
+            .collect();
         let mut matrix = normal_matrix(&rows);
-        (0..n).for_each(|k| matrix[k * (n + 1)] *= RIDGE);
+        (0..n).for_each(|k| matrix[k * (n + 1)] *= DIAGONAL_FACTOR);
         let inverse = inverse(&matrix, n).unwrap_or_else(|| vec![f64::INFINITY; n * n]);
-        let lasting = product(&inverse, &product(&middle(found, &rows), &inverse, n), n);
-        let (path_error, of_path) = of_path(found, &forces, &rows, &inverse)?;
-        let pairs = lasting.iter().zip(of_path);
+        let unscaled = matrix_product(
+            &inverse,
+            &matrix_product(&noise_product(found, &rows), &inverse, n),
+            n,
+        );
+        let (path_error, path_covariance) = path_covariance(found, &forces, &rows, &inverse)?;
+        let pairs = unscaled.iter().zip(path_covariance);
         let covariance: Vec<f64> = pairs.map(|(entry, path)| variance * entry + path).collect();
         let rise = |k: usize| {
             let diagonal = k * (n + 1);
             let ratio = covariance[diagonal] / inverse[diagonal];
-            // Where parameters cannot be told apart, rounding decides about the sign.
+            // For indistinguishable parameters the sign is decided by rounding.
             let is_known = ratio.is_finite() && ratio > 0.0;
             let ratio = if is_known { ratio } else { variance };
-            NORMAL * NORMAL * ratio
+            NORMAL_QUANTILE * NORMAL_QUANTILE * ratio
         };
         Ok(Self {
             n,
@@ -99,25 +109,27 @@ impl Statistics {
     fn finding(&self, found: &Found, parameter: usize, profile: bool) -> Finding {
         let is_logarithm = found.model.is_logarithm(parameter);
         let [value, deviation] = [found.parameters[parameter], self.deviation(parameter)];
-        let wide = is_logarithm && (deviation > WIDE || deviation.is_nan());
+        let wide = is_logarithm && (deviation > MAX_COVARIANCE_DEVIATION || deviation.is_nan());
         let ends = [-1.0, 1.0].map(|side| {
             if profile || wide {
                 self.profile_end(found, parameter, side)
             } else {
-                Some(value + side * NORMAL * deviation).filter(|end| end.is_finite())
+                Some(value + side * NORMAL_QUANTILE * deviation).filter(|end| end.is_finite())
             }
         });
         let shown = |value: f64| if is_logarithm { value.exp() } else { value };
         let slope = if is_logarithm { value.exp() } else { 1.0 };
         let bounds = ends.map(|end| end.map(shown));
-        // Where the interval is not that of the covariance, the error is what it says.
+        // The error follows from the interval if that is not the one of the covariance.
         let error = match bounds {
-            [Some(lower), Some(upper)] if profile || wide => (upper - lower) / (2.0 * NORMAL),
+            [Some(lower), Some(upper)] if profile || wide => {
+                (upper - lower) / (2.0 * NORMAL_QUANTILE)
+            }
             _ => slope * deviation,
         };
         let value = shown(value);
         let is_narrow = match bounds {
-            [Some(lower), Some(upper)] => !is_logarithm || upper <= UNDETERMINED * lower,
+            [Some(lower), Some(upper)] => !is_logarithm || upper <= MAX_INTERVAL_RATIO * lower,
             _ => false,
         };
         let is_determined = is_narrow && error.is_finite();
@@ -130,27 +142,28 @@ impl Statistics {
         }
     }
 
-    /// Where the least sum with a parameter held has risen; none up to the bound of its range.
+    /// Value of a parameter at which the profile of the sum has risen; `None` if it does not rise within the range.
     fn profile_end(&self, found: &Found, parameter: usize, side: f64) -> Option<f64> {
         let best = Minimum {
-            model: found.linearised(&found.parameters)?,
+            model: found.linearise(&found.parameters)?,
             parameters: found.parameters.clone(),
         };
         let interval_end = IntervalEnd {
             parameter,
             side,
             rise: self.rises[parameter],
-            initial_step: NORMAL * self.deviation(parameter),
-            relative_tolerance: CLOSE,
+            initial_step: NORMAL_QUANTILE * self.deviation(parameter),
+            relative_tolerance: PROFILE_TOLERANCE,
         };
-        let sum = |parameters: &[f64]| found.linearised(parameters);
+        let sum = |parameters: &[f64]| found.linearise(parameters);
         profile_end(sum, &best, &found.ranges, interval_end)
     }
 }
 
-/// Opens the intervals of the moduli between which a relaxation time divides the stiffness, where that time has no bound: a branch that
-/// relaxes after the curve has any modulus above what it has lost within it, at the cost of the spring, and one that relaxes before its
-/// first step any modulus that G τ leaves.
+/// Opens the intervals of moduli that a relaxation time without a bound leaves undetermined.
+///
+/// A branch that relaxes after the end of the curve may have any larger modulus, at the cost of the equilibrium modulus. For
+/// a branch that relaxes before its first step, only G τ is determined.
 fn open_split(findings: &mut [Finding], branch: usize) {
     let [modulus, time] = [2 * branch + 1, 2 * branch + 2];
     let [is_fast, is_slow] = findings[time].interval.map(|end| end.is_none());
@@ -166,17 +179,17 @@ fn open_split(findings: &mut [Finding], branch: usize) {
     }
 }
 
-/// JᵀVJ, where V is 1 for white noise.
-fn middle(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
+/// Matrix JᵀVJ, with V = 1 for white noise, averaged over the noises.
+fn noise_product(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
     let n = rows.len();
     let Linear { time, counts, .. } = found.linear;
     let white = Noise::WHITE.likelihood(&found.linear).variance();
-    let weighed = |values: &Vec<f64>| -> Vec<f64> {
+    let weighted = |values: &Vec<f64>| -> Vec<f64> {
         let pairs = values.iter().zip(counts);
         pairs.map(|(value, count)| value * count.sqrt()).collect()
     };
-    let columns: Vec<Vec<f64>> = rows.iter().map(weighed).collect();
-    let mut middle = vec![0.0; n * n];
+    let columns: Vec<Vec<f64>> = rows.iter().map(weighted).collect();
+    let mut noise_product = vec![0.0; n * n];
     for &(noise, weight) in &found.noises {
         let variance = noise.likelihood(&found.linear).variance();
         let factor = weight * variance / white;
@@ -184,15 +197,15 @@ fn middle(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
             let spread = noise.covariance(time, counts, column);
             for (j, other) in columns.iter().enumerate() {
                 let product: f64 = other.iter().zip(&spread).map(|(a, b)| a * b).sum();
-                middle[j * n + k] += factor * product;
+                noise_product[j * n + k] += factor * product;
             }
         }
     }
-    middle
+    noise_product
 }
 
-/// Of two square matrices.
-fn product(one: &[f64], other: &[f64], n: usize) -> Vec<f64> {
+/// Product of two square matrices.
+fn matrix_product(one: &[f64], other: &[f64], n: usize) -> Vec<f64> {
     let entry = |at: usize| {
         (0..n)
             .map(|k| one[at / n * n + k] * other[k * n + at % n])
@@ -201,15 +214,15 @@ fn product(one: &[f64], other: &[f64], n: usize) -> Vec<f64> {
     (0..n * n).map(entry).collect()
 }
 
-/// A matrix, row by row, times a vector.
-fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+/// Product of a matrix, row by row, with a vector.
+fn matrix_vector(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
     let rows = matrix.chunks(vector.len());
     rows.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum())
         .collect()
 }
 
-/// The error of the force that comes from that of a smoothed depth, and the covariance of what the fit makes of it.
-fn of_path(
+/// Effect of the error of a smoothed depth: root mean square error of the force, and covariance of the parameters.
+fn path_covariance(
     found: &Found,
     forces: &Forces,
     rows: &[Vec<f64>],
@@ -220,13 +233,13 @@ fn of_path(
     let Some(path) = &found.measured.path else {
         return Ok((0.0, vec![0.0; n * n]));
     };
-    let [low, high] = super::depth::ends(&curve.depth);
-    let shift = SHIFT * (high - low);
+    let [low, high] = super::depth::min_max(&curve.depth);
+    let shift = KNOT_SHIFT * (high - low);
     let mut effects = vec![Vec::new(); n];
     let mut slopes = vec![Vec::new(); curve.time.len()];
     for knot in 0..path.len() {
         let places = curve.depth.iter().zip(&curve.time);
-        let moved = places.map(|(depth, time)| depth + shift * path.hat(knot, *time));
+        let moved = places.map(|(depth, time)| depth + shift * path.hat_function(knot, *time));
         let curve = IndentationCurve {
             depth: moved.collect(),
             ..curve.clone()
@@ -238,9 +251,9 @@ fn of_path(
         let other = model.forces(&found.parameters)?.residuals;
         let pairs = other.iter().zip(&forces.residuals);
         let forces: Vec<f64> = pairs.map(|(other, own)| (own - other) / shift).collect();
-        let effect = times(
+        let effect = matrix_vector(
             inverse,
-            &times(&rows.concat(), &found.squares.weighed(&forces)),
+            &matrix_vector(&rows.concat(), &found.squares.weighted(&forces)),
         );
         slopes
             .iter_mut()

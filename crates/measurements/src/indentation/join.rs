@@ -1,13 +1,15 @@
-//! The parts of a curve, one after the other, also where the time of a part begins again.
+//! Concatenation of the parts of a curve, whose times may begin again.
 
-use super::depth::ends;
+use super::depth::min_max;
 use super::read::CurveFile;
 use super::{IndentationCurve, Note};
 use crate::MeasurementError;
 use crate::table::Source;
 
-/// Part of the length of a part, and of the range of its depths, within which another part begins where it began, or where it ended.
-const NEAR: f64 = 0.1;
+/// Largest distance of the beginning of a part from the beginning or the end of the previous one (chosen).
+///
+/// It is relative to the duration of the previous part for times, and to its range for depths.
+const JOIN_TOLERANCE: f64 = 0.1;
 
 /// A point of a curve, and its line in the file.
 #[derive(Debug, Clone, Copy)]
@@ -18,18 +20,19 @@ pub(super) struct Point {
     pub(super) line: usize,
 }
 
-/// The parts up to now.
+/// The parts that are joined so far.
 #[derive(Default)]
-pub(super) struct Joined {
+pub(super) struct JoinedCurve {
     pub(super) curve: IndentationCurve,
     pub(super) notes: Vec<String>,
-    /// Place of the first point of the last part, and what was added to its times.
+    /// Index of the first point of the last part.
     begin: usize,
+    /// Shift of the times of the last part, \[s].
     shift: f64,
 }
 
-impl Joined {
-    /// Adds points, of which the time may begin again, once or several times.
+impl JoinedCurve {
+    /// Appends points, whose time may begin again any number of times.
     pub(super) fn append(
         &mut self,
         source: &Source,
@@ -46,7 +49,7 @@ impl Joined {
         Ok(())
     }
 
-    /// Each note once.
+    /// The joined curve, with each note once.
     pub(super) fn finish(self) -> CurveFile {
         let mut notes: Vec<Note> = Vec::new();
         for note in self.notes.into_iter().map(Note::File) {
@@ -60,17 +63,17 @@ impl Joined {
         }
     }
 
-    /// Whether a time is not after the last one, but about that of the first point of the last part.
+    /// Whether a time is near that of the first point of the last part, and not after its last point.
     fn begins_again(&self, time: f64) -> bool {
         let part = &self.curve.time[self.begin..];
         let [Some(first), Some(last)] = [part.first(), part.last()] else {
             return false;
         };
         let time = time + self.shift;
-        part.len() > 1 && time <= *last && (time - first).abs() <= NEAR * (last - first)
+        part.len() > 1 && time <= *last && (time - first).abs() <= JOIN_TOLERANCE * (last - first)
     }
 
-    /// The part goes on a step after the last one, if its depth does.
+    /// Begins a part one time step after the previous one; refused if the depth is not continuous.
     fn begin_part(
         &mut self,
         source: &Source,
@@ -79,12 +82,12 @@ impl Joined {
     ) -> Result<(), MeasurementError> {
         let IndentationCurve { time, depth, .. } = &self.curve;
         let n = time.len();
-        let [low, high] = ends(&depth[self.begin..]);
-        let near = NEAR * (high - low);
+        let [low, high] = min_max(&depth[self.begin..]);
+        let near = JOIN_TOLERANCE * (high - low);
         let [first, last] = [depth[self.begin], depth[n - 1]];
         let ahead = points.iter().filter(|one| one.line >= point.line);
         let deepest = ahead.map(|one| one.depth).fold(f64::NEG_INFINITY, f64::max);
-        // A curve that has come back is complete.
+        // A curve that has returned to its first depth is complete.
         let is_complete =
             (last - first).abs() <= near && high - near > last && deepest > high - near;
         if is_complete || (point.depth - last).abs() > near {

@@ -1,39 +1,39 @@
-//! A curve of as many points as its force and depth need.
+//! Reduction of a curve to the points that its force and depth need.
 //!
-//! Neighbours become their mean where force and depth are straight within their noise, so that a curve of 10⁵ points takes no
-//! longer than one of a few thousand; where the body turns around, all points stay.
+//! Neighbours are averaged where force and depth are linear within their noise. A curve of 10⁵ points then takes no longer
+//! than one of a few thousand. At turning points of the body all points are kept.
 
 use super::IndentationCurve;
-use super::depth::{self, Path, STRUCTURE, ends};
+use super::depth::{self, STRUCTURE_STANDARD_ERRORS, SmoothedPath, min_max};
 
-/// A curve as it is fitted.
+/// A curve prepared for the fit.
 pub(super) struct Measured {
     pub(super) curve: IndentationCurve,
-    /// How many measured points each point is the mean of.
+    /// Number of measured points in the mean of each point.
     pub(super) counts: Vec<f64>,
-    /// What is known of the depth where it was measured with noise.
-    pub(super) path: Option<Path>,
+    /// Smoothed path of the depth; `None` if it has no noise.
+    pub(super) path: Option<SmoothedPath>,
 }
 
-/// Curves of at most so many points are fitted as they are; others in about so many means.
-const MOST: usize = 4000;
-/// A bend of the depth within this part of its range is none.
-const STRAIGHT: f64 = 1e-6;
+/// Largest number of points that are fitted without averaging (chosen); longer curves have about as many means.
+const MAX_UNAVERAGED_POINTS: usize = 4000;
+/// Largest bend of a linear depth, relative to its range (chosen).
+const BEND_TOLERANCE: f64 = 1e-6;
 
 impl Measured {
     pub(super) fn new(curve: &IndentationCurve) -> Self {
         let n = curve.time.len();
         let ones = vec![1.0; n];
-        let [low, high] = ends(&curve.depth);
+        let [low, high] = min_max(&curve.depth);
         let columns = [&curve.depth, &curve.force];
         let [depth, force] = columns.map(|values| depth::noise(&curve.time, values, &ones));
-        let bends = [depth.max(STRAIGHT * (high - low)), force];
+        let bends = [depth.max(BEND_TOLERANCE * (high - low)), force];
         let mut blocks = Vec::from_iter(std::iter::once(0..n));
         let mut starts = Vec::new();
         while let Some(block) = blocks.pop() {
             let pairs = columns.into_iter().zip(bends);
-            let is_short = block.len() <= n.div_ceil(MOST);
-            // With a point on each side, so that a turn is not between two blocks.
+            let is_short = block.len() <= n.div_ceil(MAX_UNAVERAGED_POINTS);
+            // Extend the block by a point on each side, so that no turn lies between two blocks.
             let wider = block.start.saturating_sub(1)..(block.end + 1).min(n);
             let is_straight =
                 |(values, noise): (&Vec<f64>, f64)| is_straight(&values[wider.clone()], noise);
@@ -65,19 +65,19 @@ impl Measured {
     }
 }
 
-/// Whether quarters of some values are on one line but for their noise.
+/// Whether the values are linear within their noise, by the means of their quarters.
 fn is_straight(values: &[f64], noise: f64) -> bool {
     let quarter = values.len() / 4;
     if quarter == 0 {
         let bend = values
             .windows(3)
             .map(|three| (three[0] - 2.0 * three[1] + three[2]).abs());
-        return bend.fold(0.0, f64::max) <= STRUCTURE * noise;
+        return bend.fold(0.0, f64::max) <= STRUCTURE_STANDARD_ERRORS * noise;
     }
     let parts = values.chunks_exact(quarter).take(4);
     let signs = [1.0, -1.0, -1.0, 1.0];
     let sums = parts
         .zip(signs)
         .map(|(part, sign)| sign * part.iter().sum::<f64>());
-    sums.sum::<f64>().abs() <= STRUCTURE * noise * (4.0 * quarter as f64).sqrt()
+    sums.sum::<f64>().abs() <= STRUCTURE_STANDARD_ERRORS * noise * (4.0 * quarter as f64).sqrt()
 }

@@ -1,10 +1,10 @@
-//! The material behind a measured force–indentation curve, with intervals that hold.
+//! Fit of a material to a measured force–indentation curve, with confidence intervals.
 //!
 //! ```text
 //! F_i = F(t_i; d − z₀, G) + b + c (d_i − d̄) + noise
 //! ```
-//! with the force of the one-dimensional model, which is exact for bodies of revolution: contact point z₀, baseline b and
-//! tilt c are fitted with the material. A curve that is damaged is refused with a reason, or flagged.
+//! F is the force of the method of dimensionality reduction, which is exact for bodies of revolution. Contact point z₀,
+//! baseline b and tilt c are fitted together with the material. A damaged curve is refused with a reason, or flagged.
 
 mod afmformats;
 mod checks;
@@ -34,24 +34,24 @@ pub(crate) use noise::correlated_points;
 pub use note::Note;
 pub use read::{CurveFile, CurveOptions, indentation_curve};
 
-/// What was measured, one value per point, in SI.
+/// A measured curve in SI units, one value per point.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct IndentationCurve {
     /// Time t, increasing, \[s].
     pub time: Vec<f64>,
-    /// Position of the lowest point of the body, larger towards the sample, from any zero, \[m].
+    /// Position of the lowest point of the body, increasing towards the sample, with any zero, \[m].
     pub depth: Vec<f64>,
-    /// Force on the sample, from any zero, \[N].
+    /// Force on the sample, with any zero, \[N].
     pub force: Vec<f64>,
 }
 
 impl IndentationCurve {
-    /// The first points.
+    /// The first `n` points.
     fn first(&self, n: usize) -> Self {
         self.map(|values| values[..n].to_vec())
     }
 
-    /// At most about so many points, and the last one.
+    /// About `most` equally spaced points, and the last one.
     fn decimated(&self, most: usize) -> Self {
         let last = self.time.len() - 1;
         let inner = || (0..last).step_by((last / most).max(1));
@@ -67,7 +67,7 @@ impl IndentationCurve {
     }
 }
 
-/// The material that is sought.
+/// Kind of the material that is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Rheology {
@@ -81,24 +81,24 @@ pub enum Rheology {
     PowerLaw,
 }
 
-/// How thick a sample is; one of a finite thickness is bonded to a rigid base.
+/// Thickness of a sample; a sample of finite thickness is bonded to a rigid base.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Thickness {
-    /// So thick that it is a half space.
+    /// Half space.
     #[default]
     Infinite,
-    /// Greater than 0, \[m].
+    /// Known thickness > 0, \[m].
     Known(f64),
-    /// Found with the material.
+    /// Thickness that is fitted together with the material.
     Fitted,
 }
 
-/// How a curve is fitted.
+/// Options of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitOptions {
-    /// The material.
+    /// Kind of the material.
     pub rheology: Rheology,
-    /// Branches of [`Rheology::Prony`], 1 to 6; none: as many as Schwarz's information criterion takes.
+    /// Number of branches of [`Rheology::Prony`], 1 to 6; `None` for the number by Schwarz's information criterion.
     pub branches: Option<usize>,
     /// Poisson ratio ν, −1 < ν ≤ 1/2.
     pub poisson_ratio: f64,
@@ -106,14 +106,14 @@ pub struct FitOptions {
     pub thickness: Thickness,
     /// Whether the force without contact may depend on the depth.
     pub tilt: bool,
-    /// Whether the points after the deepest one are left out, where a body may stick.
+    /// Whether the points after the deepest one are excluded, because a body may stick.
     pub before_retraction: bool,
-    /// Whether all intervals are those of the profile likelihood, and not only those that a covariance cannot give.
+    /// Whether all intervals are those of the profile likelihood, rather than only those that a covariance cannot give.
     pub profile: bool,
 }
 
 impl Default for FitOptions {
-    /// A standard solid that is incompressible and thick, with a tilted baseline, from the whole curve.
+    /// An incompressible standard solid as a half space, with a tilted baseline, from the whole curve.
     fn default() -> Self {
         Self {
             rheology: Rheology::StandardSolid,
@@ -127,54 +127,55 @@ impl Default for FitOptions {
     }
 }
 
-/// A material found in a curve.
+/// Result of a fit.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct IndentationFit {
-    /// Material, contact point, baseline and tilt; the material is elastic where the curve does not determine how it relaxes.
+    /// Estimates of material, contact point, baseline and tilt.
+    ///
+    /// The material is elastic if the curve does not determine its relaxation.
     pub findings: Vec<Finding>,
-    /// Correlation of the errors of the findings (of the logarithms of moduli and times).
+    /// Correlation matrix of the parameters; of the logarithms of moduli and times.
     pub correlation: Vec<Vec<f64>>,
-    /// The material, of a power law its expansion over the times of the curve.
+    /// Fitted material; a power law is expanded over the times of the curve.
     pub material: Prony,
-    /// The lowest and the highest angular frequency that the curve tells of: one over its whole time, and over its shortest step,
-    /// \[rad/s].
+    /// Lowest and highest angular frequency of the curve, \[rad/s]: the inverse of its duration and of its shortest step.
     pub valid_frequencies: [f64; 2],
-    /// Standard deviation of the force about the fit, by the median, \[N]: of the points before the contact, where there are
-    /// at least 10, and of all.
+    /// Standard deviation of the force before the contact, from the median, \[N]; `None` for fewer than 10 such points.
     pub noise: Option<f64>,
-    /// Of all points, \[N].
+    /// Standard deviation of the residuals of all points, from the median, \[N].
     pub residual: f64,
-    /// How many points one independent point stands for, at least 1.
+    /// Number of correlated points per independent point, at least 1.
     pub correlated_points: f64,
-    /// The points that were fitted, of many thousands means of neighbours: time, depth (smoothed where it is noisy), force and
-    /// force of the fit.
+    /// Fitted points: time, depth (smoothed if noisy), force and force of the fit; means of neighbours for long curves.
     pub points: Vec<[f64; 4]>,
-    /// What is doubtful about it.
+    /// Warnings about the fit.
     pub flags: Vec<Flag>,
-    /// What was decided for the caller.
+    /// Notes on decisions of the fit.
     pub notes: Vec<Note>,
 }
 
-/// Finds the material behind a curve.
+/// Fits a material to a curve.
 ///
 /// # Errors
-/// [`MeasurementError`] with the reason.
+/// [`MeasurementError`] for options out of range, a damaged curve, and a fit that does not converge or determine anything.
 pub fn fit_indentation(
     body: &dyn Axisymmetric,
     curve: &IndentationCurve,
     options: &FitOptions,
 ) -> Result<IndentationFit, MeasurementError> {
+    // Check and prepare the curve.
     check(curve, options)?;
     let measured =
-        checks::usable(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
+        checks::prepare(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
     let curve = &measured.curve;
-    checks::scale(body, curve).map_err(MeasurementError::Damaged)?;
+    checks::check_scale(body, curve).map_err(MeasurementError::Damaged)?;
     let jump = pull_in::flag(&measured).map_err(MeasurementError::Damaged)?;
+    // Fit: elastic initial values, then the search, then intervals and tests of the residuals.
     let sample = sample::Sample::new(body, curve, options)?;
     let begin = start::start(&sample, curve, options)?;
-    checks::before(&measured, &begin).map_err(MeasurementError::Damaged)?;
+    checks::check_contact(&measured, &begin).map_err(MeasurementError::Damaged)?;
     let found = search::search(&sample, &measured, options, &begin)?;
     let statistics = intervals::Statistics::of(&found)?;
     let judgement = judgement::Judgement::new(&found, &begin, &statistics);
@@ -184,7 +185,7 @@ pub fn fit_indentation(
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
     let findings = statistics.findings(&found, options.profile);
-    // More branches than a curve has are none of them determined, but its contact point is.
+    // Of too many branches none is determined, but the contact point is.
     let with_contact_point = &findings[..=found.model.contact_point()];
     if with_contact_point.iter().all(|one| one.estimate.is_none()) {
         return Err(MeasurementError::NotDetermined);
@@ -209,7 +210,7 @@ pub fn fit_indentation(
     })
 }
 
-/// Whether options and lengths of columns are in their ranges.
+/// Checks the options and the lengths of the columns.
 fn check(curve: &IndentationCurve, options: &FitOptions) -> Result<(), MeasurementError> {
     crate::moduli::shear_per_tension(options.poisson_ratio)?;
     if let Thickness::Known(thickness) = options.thickness {

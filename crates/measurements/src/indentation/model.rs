@@ -1,7 +1,7 @@
-//! Forces of a material at the points of a curve, and their derivatives by the parameters of a fit.
+//! Forward model: forces at the points of a curve, and their derivatives by the parameters of a fit.
 //!
-//! The parameters are the logarithms of moduli and times (of a power law ln G₁ and β), contact point, baseline and tilt, and
-//! the logarithm of the thickness of the sample, where that is sought.
+//! The parameters are the logarithms of moduli and times (for a power law ln G₁ and β), contact point, baseline and tilt,
+//! and the logarithm of the thickness of the sample if it is fitted.
 
 use indenters::{Control, EquivalentProfile, HistoryPoint};
 use mdr_core::{ForceDerivatives, MdrError, force_derivatives};
@@ -9,7 +9,7 @@ use rheology::{
     Compressible, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, Springpot,
 };
 
-use super::depth::ends;
+use super::depth::min_max;
 use super::sample::Sample;
 use super::{FitOptions, IndentationCurve};
 use crate::MeasurementError;
@@ -37,17 +37,16 @@ impl Kind {
     }
 }
 
-/// Relative error of a power law as a Prony series, far below the noise of a curve.
-const EXPANSION: f64 = 1e-4;
+/// Relative error of a power law as a Prony series (chosen: far below the noise of a curve).
+const EXPANSION_ERROR: f64 = 1e-4;
+/// Relative difference of equal relaxation times (chosen).
+const TIME_TOLERANCE: f64 = 1e-7;
+/// Step of the logarithm of the thickness for a difference quotient (chosen).
+const THICKNESS_STEP: f64 = 1e-4;
+/// Step of β for a difference quotient (chosen: the nodes of the Prony series rarely change over it).
+const BETA_STEP: f64 = 1e-6;
 
-/// Times that differ by less are the same.
-const SAME: f64 = 1e-7;
-/// Step of the logarithm of the thickness, over which a force is straight.
-const THINNER: f64 = 1e-4;
-/// Step of β, over which the nodes of that series stay what they are but for chance.
-const DELTA: f64 = 1e-6;
-
-/// A body that follows the depth of a curve.
+/// Model of a body that follows the depth of a curve.
 #[derive(Clone)]
 pub(super) struct Model<'a> {
     pub(super) sample: Sample<'a>,
@@ -55,18 +54,19 @@ pub(super) struct Model<'a> {
     pub(super) kind: Kind,
     pub(super) poisson_ratio: f64,
     pub(super) tilt: bool,
-    /// The middle of the depths.
+    /// Middle of the range of depths, \[m].
     pub(super) middle: f64,
-    /// The shortest and the longest time of the curve.
+    /// Shortest time step and duration of the curve, \[s].
     pub(super) times: [f64; 2],
 }
 
-/// What is measured beside the forces, and a row of derivatives of these for each parameter.
+/// Residuals, derivatives and contact forces of a model.
 pub(super) struct Forces {
-    /// Measured less computed, \[N].
+    /// Residuals, measured less modelled force, \[N].
     pub(super) residuals: Vec<f64>,
+    /// Derivatives of the modelled forces, one row per parameter.
     pub(super) rows: Vec<Vec<f64>>,
-    /// Without baseline and tilt.
+    /// Forces without baseline and tilt, \[N].
     pub(super) contact: Vec<f64>,
 }
 
@@ -80,7 +80,7 @@ impl<'a> Model<'a> {
         let time = &curve.time;
         let steps = time.windows(2).map(|pair| pair[1] - pair[0]);
         let shortest = steps.fold(f64::INFINITY, f64::min);
-        let [low, high] = ends(&curve.depth);
+        let [low, high] = min_max(&curve.depth);
         Self {
             sample: sample.clone(),
             curve,
@@ -93,12 +93,12 @@ impl<'a> Model<'a> {
     }
 
     pub(super) const fn n_parameters(&self) -> usize {
-        self.kind.n_parameters() + 2 + self.tilt as usize + self.sample.is_sought() as usize
+        self.kind.n_parameters() + 2 + self.tilt as usize + self.sample.is_fitted() as usize
     }
 
-    /// The place of the thickness, where it is sought.
+    /// Index of the thickness among the parameters; `None` if it is not fitted.
     pub(super) fn thickness(&self) -> Option<usize> {
-        self.sample.is_sought().then(|| self.n_parameters() - 1)
+        self.sample.is_fitted().then(|| self.n_parameters() - 1)
     }
 
     /// Whether a parameter is a logarithm.
@@ -119,11 +119,11 @@ impl<'a> Model<'a> {
         RelaxationSpectrum::new(parameters[0].exp(), 0.0, branches.collect())
     }
 
-    /// K = G₁ Γ(1 − β), because G(1 s) of a springpot is K/Γ(1 − β).
+    /// Power law as a Prony series; its springpot has K = G₁ Γ(1 − β), because G(1 s) = K/Γ(1 − β).
     fn power_law(&self, modulus: f64, beta: f64) -> Result<RelaxationSpectrum, RheologyError> {
         let unit = Springpot::new(1.0, beta)?.relaxation_modulus(1.0)?;
         let band = [0.1 / self.times[1], 10.0 / self.times[0]];
-        let expansion = Springpot::new(modulus / unit, beta)?.expand(band, EXPANSION)?;
+        let expansion = Springpot::new(modulus / unit, beta)?.expand(band, EXPANSION_ERROR)?;
         Ok(expansion.spectrum)
     }
 
@@ -141,25 +141,30 @@ impl<'a> Model<'a> {
             .and_then(|prony| Compressible::new(&prony, self.poisson_ratio))
             .map_err(MdrError::from)?;
         let thickness = self.thickness().map_or(0.0, |place| parameters[place]);
-        let on = |profile: &dyn EquivalentProfile| force_derivatives(profile, &material, &history);
-        let found = on(&*self.sample.profile(thickness)?)?;
-        let sides = self.curve.depth.iter().map(|depth| depth - self.middle);
-        let sides: Vec<f64> = sides.collect();
-        let pairs = found.normal_force.iter().zip(&sides);
-        let values = pairs.map(|(force, side)| force + baseline + tilt * side);
+        let with_profile =
+            |profile: &dyn EquivalentProfile| force_derivatives(profile, &material, &history);
+        let found = with_profile(&*self.sample.profile(thickness)?)?;
+        let relative_depths = self.curve.depth.iter().map(|depth| depth - self.middle);
+        let relative_depths: Vec<f64> = relative_depths.collect();
+        let pairs = found.normal_force.iter().zip(&relative_depths);
+        let values = pairs.map(|(force, relative_depth)| force + baseline + tilt * relative_depth);
         let measured = self.curve.force.iter().zip(values);
         let residuals = measured.map(|(force, value)| force - value).collect();
         let rows = self.material_rows(parameters, &spectrum, &found);
         let mut rows = rows.map_err(MdrError::from)?;
         rows.push(found.depth.iter().map(|slope| -slope).collect());
-        rows.push(vec![1.0; sides.len()]);
+        rows.push(vec![1.0; relative_depths.len()]);
         if self.tilt {
-            rows.push(sides);
+            rows.push(relative_depths);
         }
-        if self.sample.is_sought() {
-            let thinner = on(&*self.sample.profile(thickness - THINNER)?)?;
+        if self.sample.is_fitted() {
+            let thinner = with_profile(&*self.sample.profile(thickness - THICKNESS_STEP)?)?;
             let pairs = found.normal_force.iter().zip(&thinner.normal_force);
-            rows.push(pairs.map(|(one, other)| (one - other) / THINNER).collect());
+            rows.push(
+                pairs
+                    .map(|(one, other)| (one - other) / THICKNESS_STEP)
+                    .collect(),
+            );
         }
         Ok(Forces {
             residuals,
@@ -187,11 +192,11 @@ impl<'a> Model<'a> {
         let spring = (spectrum.equilibrium_modulus(), &found.equilibrium_modulus);
         let scaled = |(factor, row): (f64, &Vec<f64>)| row.iter().map(|s| factor * s).collect();
         if let Kind::Branches(n) = self.kind {
-            // In a spectrum branches are in order, and those of the same time are one.
+            // A spectrum orders its branches and merges those of equal times: find each branch by its time.
             let rows = (0..n).flat_map(|k| {
                 let [modulus, time] = [1, 2].map(|place| parameters[place + 2 * k].exp());
-                let place =
-                    branches.partition_point(|one| one.relaxation_time < time * (1.0 - SAME));
+                let place = branches
+                    .partition_point(|one| one.relaxation_time < time * (1.0 - TIME_TOLERANCE));
                 let place = place.min(branches.len() - 1);
                 let part = modulus / branches[place].modulus * branches[place].relaxation_time;
                 let [moduli, times] = [&found.moduli, &found.relaxation_times];
@@ -201,13 +206,13 @@ impl<'a> Model<'a> {
         }
         let modulus = |branch: &RelaxationBranch| branch.modulus;
         let moduli = branches.iter().map(modulus).zip(&found.moduli);
-        let other = self.power_law(parameters[0].exp(), parameters[1] + DELTA)?;
+        let other = self.power_law(parameters[0].exp(), parameters[1] + BETA_STEP)?;
         let others = other.branches().iter().map(modulus);
         let ends = [spring, (spectrum.viscosity(), &found.viscosity)];
         let others = others.chain([other.equilibrium_modulus(), other.viscosity()]);
         let mut by_beta = vec![0.0; found.normal_force.len()];
         for ((modulus, row), other) in moduli.chain(ends).zip(others) {
-            let slope = (other - modulus) / DELTA;
+            let slope = (other - modulus) / BETA_STEP;
             let sums = by_beta.iter_mut().zip(row);
             sums.for_each(|(sum, by_modulus)| *sum += slope * by_modulus);
         }

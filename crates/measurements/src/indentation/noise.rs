@@ -1,75 +1,75 @@
-//! Noise that lasts from point to point.
+//! Correlated noise: a white part and a part with an exponential correlation in time.
 //!
 //! ```text
 //! noise = u + e,   cov(u_i, u_j) = s² λ e^(−|t_i − t_j|/T),   var e_i = s² (1 − λ)/m_i
 //! ```
-//! of points that are means of m_i measured ones. Kalman's filter (1960, DOI 10.1115/1.3662552) makes it independent; T and λ
-//! are judged by the restricted likelihood (Harville 1977, DOI 10.1080/01621459.1977.10480998), which knows what the
-//! parameters of a fit take out of the residuals.
+//! Points are means of m_i measured ones. A Kalman filter (1960, DOI 10.1115/1.3662552) whitens the noise. T and λ follow from
+//! the restricted likelihood (Harville 1977, DOI 10.1080/01621459.1977.10480998), which accounts for the parameters of a fit.
 
 use std::ops::Range;
 
-/// What lasts, and for how long.
+/// Parameters of the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Noise {
-    /// T, \[s].
+    /// Correlation time T, \[s].
     pub(super) time: f64,
-    /// λ, the part of the variance that lasts.
+    /// Fraction λ of the variance that is correlated.
     pub(super) part: f64,
 }
 
-/// A linear model of points: what its parameters do to each of them, and last what they are to explain.
+/// A linear model of points: one column of derivatives per parameter, and the explained values as the last column.
 pub(super) struct Linear<'a> {
     pub(super) time: &'a [f64],
     pub(super) counts: &'a [f64],
     pub(super) columns: Vec<Vec<f64>>,
 }
 
-/// How well a noise explains what a linear model leaves.
+/// Restricted likelihood of a noise for the residuals of a linear model.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Likelihood {
-    /// Logarithm of the determinants of the noise and of the normal matrix.
+    /// Logarithm of the determinants of the covariance of the noise and of the normal matrix.
     logarithm: f64,
-    /// Squares of independent residuals.
+    /// Sum of squares of the whitened residuals.
     squares: f64,
-    freedom: f64,
+    degrees_of_freedom: f64,
 }
 
 impl Likelihood {
-    /// Of two sets of points with the same s².
-    pub(super) fn with(self, other: Self) -> Self {
+    /// Joint likelihood of two sets of points with a common s².
+    pub(super) fn combine(self, other: Self) -> Self {
         Self {
             logarithm: self.logarithm + other.logarithm,
             squares: self.squares + other.squares,
-            freedom: self.freedom + other.freedom,
+            degrees_of_freedom: self.degrees_of_freedom + other.degrees_of_freedom,
         }
     }
 
-    /// The most likely s².
+    /// Estimate of s² by the restricted likelihood.
     pub(super) fn variance(self) -> f64 {
-        self.squares / self.freedom
+        self.squares / self.degrees_of_freedom
     }
 
-    /// Minus twice the logarithm of the likelihood, with that s².
+    /// Deviance, minus twice the logarithm of the likelihood, at the estimated s².
     pub(super) fn deviance(self) -> f64 {
         self.deviance_at(self.variance())
     }
 
-    /// With another s².
+    /// Deviance at another s².
     pub(super) fn deviance_at(self, variance: f64) -> f64 {
-        self.logarithm + self.freedom * variance.ln() + self.squares / variance
+        self.logarithm + self.degrees_of_freedom * variance.ln() + self.squares / variance
     }
 }
 
-/// Ratio of neighbouring times that are tried, and parts.
-const RATIO: f64 = 2.5;
-const PARTS: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0];
-/// Probability of white noise before anything was measured; all others share the rest.
+/// Ratio of neighbouring candidates of T (chosen).
+const TIME_RATIO: f64 = 2.5;
+/// Candidates of λ (chosen).
+const CORRELATED_FRACTIONS: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0];
+/// Prior probability of white noise (chosen); all other candidates share the rest equally.
 const WHITE: f64 = 0.5;
-/// Noises with a smaller part of the largest probability do not count.
-const UNLIKELY: f64 = 1e-3;
-/// A little more on the diagonal of a normal matrix keeps what is not determined finite.
-pub(super) const RIDGE: f64 = 1.0 + 1e-12;
+/// Smallest posterior probability relative to the largest one for a noise to be kept (chosen).
+const MIN_RELATIVE_PROBABILITY: f64 = 1e-3;
+/// Factor on the diagonal of a normal matrix, which keeps undetermined parameters finite (chosen).
+pub(super) const DIAGONAL_FACTOR: f64 = 1.0 + 1e-12;
 
 impl Noise {
     pub(super) const WHITE: Self = Self {
@@ -77,17 +77,17 @@ impl Noise {
         part: 0.0,
     };
 
-    /// Noise that lasts for half a step of the points up to their whole time, after white noise.
+    /// Candidates: white noise, then correlation times from half a step of the points to their whole duration.
     pub(super) fn candidates(time: &[f64]) -> Vec<Self> {
         let length = time[time.len() - 1] - time[0];
         let shortest = 0.5 * length / time.len() as f64;
-        let times = (0..).map(|k| shortest * RATIO.powi(k));
+        let times = (0..).map(|k| shortest * TIME_RATIO.powi(k));
         let times = times.take_while(|time| *time <= length);
-        let lasting = times.flat_map(|time| PARTS.map(|part| Self { time, part }));
+        let lasting = times.flat_map(|time| CORRELATED_FRACTIONS.map(|part| Self { time, part }));
         [Self::WHITE].into_iter().chain(lasting).collect()
     }
 
-    /// Around this one, by a ratio of times and of λ/(1 − λ).
+    /// Neighbouring candidates, by a ratio of T and of λ/(1 − λ).
     fn neighbours(self, ratio: f64) -> impl Iterator<Item = Self> {
         let odds = move |factor: f64| factor * self.part / (1.0 - self.part + factor * self.part);
         let factors = [ratio.recip(), 1.0, ratio];
@@ -106,7 +106,7 @@ impl Noise {
         all.map(noise).filter(move |one| *one != self)
     }
 
-    /// What is likely, with probabilities, the most likely one first.
+    /// Noises with their posterior probabilities, in decreasing order.
     pub(super) fn likely(linear: &Linear) -> Vec<(Self, f64)> {
         let candidates = Self::candidates(linear.time);
         let judged = |noise: Self, prior: f64| {
@@ -121,10 +121,10 @@ impl Noise {
             .collect();
         let order = |one: &(Self, f64), other: &(Self, f64)| one.1.total_cmp(&other.1);
         all.sort_by(order);
-        // Finer about the best one, where each stands for a smaller piece of the plane.
+        // Refine around the best candidate; each new one has the prior of its smaller area in the plane of ln T and λ.
         for halvings in [1, 2] {
             let best = all[0].0;
-            let finer = RATIO.powf(0.5_f64.powi(halvings));
+            let finer = TIME_RATIO.powf(0.5_f64.powi(halvings));
             if best.part > 0.0 {
                 let share = share * 0.25_f64.powi(halvings);
                 all.extend(best.neighbours(finer).map(|noise| judged(noise, share)));
@@ -135,7 +135,9 @@ impl Noise {
         let weights = all
             .into_iter()
             .map(|(noise, cost)| (noise, (least - cost).exp()));
-        let likely: Vec<_> = weights.filter(|(_, weight)| *weight > UNLIKELY).collect();
+        let likely: Vec<_> = weights
+            .filter(|(_, weight)| *weight > MIN_RELATIVE_PROBABILITY)
+            .collect();
         let sum: f64 = likely.iter().map(|(_, weight)| weight).sum();
         likely
             .into_iter()
@@ -143,7 +145,7 @@ impl Noise {
             .collect()
     }
 
-    /// Makes points independent, of the variance s², in every column; the logarithm of the determinant of the noise over s².
+    /// Whitens every column, with the variance s²; returns the logarithm of the determinant of the covariance over s².
     pub(super) fn whiten(self, time: &[f64], counts: &[f64], columns: &mut [Vec<f64>]) -> f64 {
         let mut variance = self.part;
         let mut last = time[0];
@@ -159,20 +161,20 @@ impl Noise {
             [kept, gain, total.sqrt().recip()]
         });
         let steps: Vec<[f64; 3]> = steps.collect();
-        // Column by column every number would wait for the one before it.
+        // Row by row: in a column every number depends on the previous one.
         let mut states = vec![0.0; columns.len()];
         for (i, [kept, gain, scale]) in steps.into_iter().enumerate() {
             for (column, state) in columns.iter_mut().zip(&mut states) {
                 let expected = kept * *state;
-                let news = column[i] - expected;
-                *state = expected + gain * news;
-                column[i] = scale * news;
+                let innovation = column[i] - expected;
+                *state = expected + gain * innovation;
+                column[i] = scale * innovation;
             }
         }
         logarithm
     }
 
-    /// The covariance over s², times a column.
+    /// Product of the covariance over s² with a column.
     pub(super) fn covariance(self, time: &[f64], counts: &[f64], column: &[f64]) -> Vec<f64> {
         let n = column.len();
         let kept = |from: usize, to: usize| ((time[from] - time[to]) / self.time).exp();
@@ -203,9 +205,9 @@ impl Noise {
         let n = columns.len();
         let mut matrix = normal_matrix(&columns);
         let mut determinant = 0.0;
-        // Columns are eliminated one after the other; the squares of what is left of the last one stay.
+        // Cholesky elimination of the parameters; the last pivot is the residual sum of squares.
         for k in 0..n - 1 {
-            let pivot = matrix[k * (n + 1)] * RIDGE;
+            let pivot = matrix[k * (n + 1)] * DIAGONAL_FACTOR;
             if pivot <= 0.0 {
                 continue;
             }
@@ -220,13 +222,13 @@ impl Noise {
         Likelihood {
             logarithm: noise + determinant,
             squares: matrix[n * n - 1].max(f64::MIN_POSITIVE),
-            freedom: (columns[0].len() + 1 - n) as f64,
+            degrees_of_freedom: (columns[0].len() + 1 - n) as f64,
         }
     }
 }
 
 impl Linear<'_> {
-    /// Some of the points, and the parameters that have to do with them.
+    /// Model of a range of points, with the parameters that affect them.
     pub(super) fn part(&self, range: Range<usize>) -> Linear<'_> {
         let (last, rows) = self
             .columns
@@ -242,7 +244,7 @@ impl Linear<'_> {
     }
 }
 
-/// Products of columns, row by row.
+/// Matrix of the products of columns, row by row.
 pub(super) fn normal_matrix(columns: &[Vec<f64>]) -> Vec<f64> {
     let n = columns.len();
     let mut matrix = vec![0.0; n * n];
@@ -256,7 +258,7 @@ pub(super) fn normal_matrix(columns: &[Vec<f64>]) -> Vec<f64> {
     matrix
 }
 
-/// In four sums, so that no product waits for the one before it.
+/// Scalar product in four independent sums, for instruction-level parallelism.
 fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let [quads, others] = [one.chunks_exact(4), other.chunks_exact(4)];
@@ -270,7 +272,9 @@ fn dot(one: &[f64], other: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// How many points one independent point stands for: 1 + 2 Σ of the correlations at the lags up to five times that sum (Sokal 1997, Sect. 3), at least 1.
+/// Number of correlated points per independent point, the integrated autocorrelation time 1 + 2 Σ ρ(lag), at least 1.
+///
+/// The sum extends to the lag of five times itself (Sokal 1997, Sect. 3).
 pub(crate) fn correlated_points(values: &[f64]) -> f64 {
     let product = |lag: usize| {
         let pairs = values.iter().zip(&values[lag..]);

@@ -1,8 +1,8 @@
-//! Whether the force falls below its baseline on the way in: the body is drawn to the surface, and held by it.
+//! Detection of adhesion on the approach: a force below its baseline.
 //!
-//! Without adhesion the force of a contact is never below the baseline, whatever the body and the material. So a fall is sought in the
-//! force itself, before a contact point or a material: a fit that knows no adhesion hides it in its baseline and tilt. The line through
-//! the first points, for any number of them, is the baseline, and the means of some points behind them are compared with it.
+//! Without adhesion the force of a contact is never below the baseline, for any body and material. A fall is therefore
+//! searched in the force itself, before the fit, whose baseline and tilt would absorb it. The baseline is the regression line
+//! through the first points, for several numbers of them. Means of later points are compared with it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,69 +10,71 @@ use std::ops::Range;
 use numerics::least_squares::{inverse, student_quantile};
 
 use super::IndentationCurve;
-use super::depth::{self, ends, median};
+use super::depth::{self, median, min_max};
 use super::flag::Flag;
-use super::judgement::{DOUBTFUL, SPOILT};
+use super::judgement::{MAX_FORCE_DEFECT, MIN_FORCE_DEFECT};
 use super::means::Measured;
-use super::noise::{Linear, Noise, RIDGE, normal_matrix};
+use super::noise::{DIAGONAL_FACTOR, Linear, Noise, normal_matrix};
 use super::start::approach_end;
 
-/// Least number of points of a baseline; each that is tried next is longer by one in as many points.
-const SHORTEST_BASELINE: usize = 10;
-const BASELINE_SHARE: usize = 5;
-/// Points of the narrowest fall: fewer are wild points.
-const NARROWEST: usize = 3;
-/// Part of the means within as many standard errors as are noise, five of a normal distribution: about a thousand means of a curve are
-/// compared.
+/// Smallest number of points of a baseline (chosen).
+const MIN_BASELINE_POINTS: usize = 10;
+/// Inverse of the relative increase of the number of points from one baseline to the next (chosen).
+const BASELINE_GROWTH: usize = 5;
+/// Smallest number of points of a fall (chosen); fewer are outliers.
+const MIN_FALL_POINTS: usize = 3;
+/// Probability of the largest deviation that is noise: five standard errors of a normal distribution (chosen).
+///
+/// About a thousand means of a curve are compared.
 const COVERAGE: f64 = 1.0 - 5.7e-7;
-/// Distance of a wild point from the median of five, in standard deviations.
-const WILD: f64 = 5.0;
+/// Distance of an outlier from the median of five points, in standard deviations (chosen).
+const OUTLIER_DEVIATIONS: f64 = 5.0;
 
-/// A fall of the force.
+/// Adhesion on the approach.
 struct PullIn {
-    /// Below the baseline, \[N].
+    /// Fall of the force below the baseline, \[N].
     fall: f64,
     /// Largest force above the baseline, \[N].
     peak: f64,
 }
 
-/// What there is to say about a fall that is large enough to matter.
+/// Flag for a relevant fall of the force.
 ///
 /// # Errors
-/// The same, where it makes a fit without adhesion useless.
+/// The flag if the fall is too large for a fit without adhesion.
 pub(super) fn flag(measured: &Measured) -> Result<Option<Flag>, Flag> {
     let Some(PullIn { fall, peak }) = find(measured) else {
         return Ok(None);
     };
     let part = fall / peak;
     let flag = Flag::JumpToContact { fall, part };
-    if part > SPOILT {
+    if part > MAX_FORCE_DEFECT {
         return Err(flag);
     }
-    Ok((part > DOUBTFUL).then_some(flag))
+    Ok((part > MIN_FORCE_DEFECT).then_some(flag))
 }
 
-/// The mean of some points that is below the line through the first ones.
+/// A mean of points below the baseline.
 #[derive(Debug, Clone, Copy)]
 struct Fall {
     /// Number of points.
     width: usize,
-    /// \[N].
+    /// Distance below the baseline, \[N].
     size: f64,
-    /// In standard errors.
+    /// Distance below the baseline in standard errors.
     significance: f64,
 }
 
-/// The largest fall that is no noise, neither independent nor lasting noise of the kind of the baseline.
+/// Largest fall that is significant both for white noise and for the correlated noise of the baseline.
 fn find(measured: &Measured) -> Option<PullIn> {
     let IndentationCurve { time, depth, force } = &measured.curve;
     let counts = &measured.counts;
     let n = approach_end(depth) + 1;
     let noise = depth::noise(&time[..n], &force[..n], &counts[..n]);
-    let force = without_wild_points(force, counts, noise);
+    let force = without_outliers(force, counts, noise);
     let approach = Approach::new(&time[..n], &depth[..n], &force[..n], &counts[..n]);
     let falls = baselines(n).flat_map(|baseline| approach.falls(baseline, noise));
-    // A baseline that ends within the fall makes a steep line and much noise.
+    // Keep the most significant fall of each width: a baseline that ends within the fall is steep and noisy.
     let mut clearest: BTreeMap<usize, Fall> = BTreeMap::new();
     for fall in falls {
         let best = clearest.entry(fall.width).or_insert(fall);
@@ -82,35 +84,35 @@ fn find(measured: &Measured) -> Option<PullIn> {
     }
     let sizes = clearest.values().map(|fall| fall.size);
     let fall = sizes.max_by(f64::total_cmp)?;
-    let peak = ends(&force)[1] - median(force[..=n / 20].to_vec());
-    // A force that only falls has the wrong sign.
+    let peak = min_max(&force)[1] - median(force[..=n / 20].to_vec());
+    // A force that only decreases has the wrong sign.
     (fall < peak).then_some(PullIn { fall, peak })
 }
 
-/// Each point that is far from the median of itself and its two neighbours on each side is replaced by that.
-fn without_wild_points(force: &[f64], counts: &[f64], noise: f64) -> Vec<f64> {
+/// The force with outliers replaced by the median of five points.
+fn without_outliers(force: &[f64], counts: &[f64], noise: f64) -> Vec<f64> {
     let last = force.len() - 1;
     let value = |i: usize| {
         let middle = median(force[i.saturating_sub(2)..=(i + 2).min(last)].to_vec());
-        let is_wild = (force[i] - middle).abs() * counts[i].sqrt() > WILD * noise;
-        if is_wild { middle } else { force[i] }
+        let is_outlier = (force[i] - middle).abs() * counts[i].sqrt() > OUTLIER_DEVIATIONS * noise;
+        if is_outlier { middle } else { force[i] }
     };
     (0..=last).map(value).collect()
 }
 
-/// The way in, with depths from −1 to 1.
+/// The approach, with depths scaled to −1 to 1.
 struct Approach<'a> {
     time: &'a [f64],
     depth: Vec<f64>,
     force: &'a [f64],
     counts: &'a [f64],
-    /// Sums over the first points of w, w d, w d², w f and w d f, with the number w of measured points of each.
+    /// Cumulative sums of w, w d, w d², w f and w d f, with the number w of measured points in each mean.
     sums: Vec<[f64; 5]>,
 }
 
 impl<'a> Approach<'a> {
     fn new(time: &'a [f64], depth: &[f64], force: &'a [f64], counts: &'a [f64]) -> Self {
-        let [low, high] = ends(depth);
+        let [low, high] = min_max(depth);
         let scaled = depth
             .iter()
             .map(|one| 2.0 * (one - low) / (high - low) - 1.0);
@@ -136,16 +138,16 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// The falls behind a baseline, one for each width, that are no noise of the kind of the baseline.
+    /// Significant falls after a baseline, one for each width.
     fn falls(&self, baseline: usize, noise: f64) -> Vec<Fall> {
         let Some(least) = student_quantile(COVERAGE, baseline - 2) else {
             return Vec::new();
         };
         let n = self.depth.len();
         let line = Line::through(&self.sums[baseline]);
-        let widths = (0..).map(|k| NARROWEST << k);
+        let widths = (0..).map(|k| MIN_FALL_POINTS << k);
         let widths = widths.take_while(|width| 4 * width <= n);
-        // Where independent noise is exceeded, other noise is looked at.
+        // Select windows that are significant for white noise; the test for correlated noise follows.
         let windows = widths.filter_map(|width| {
             let firsts = (baseline..(n + 1).saturating_sub(width)).step_by(width / 3);
             let falls = firsts.map(|first| {
@@ -177,7 +179,7 @@ impl<'a> Approach<'a> {
             let [fall, error] = self.fall(baseline, window, &likely);
             (fall > least * error).then_some(Fall {
                 width,
-                // The largest of several is taken, which is too large by about its error.
+                // The maximum of several falls is biased by about its error.
                 size: fall - error,
                 significance: fall / error,
             })
@@ -185,7 +187,7 @@ impl<'a> Approach<'a> {
         falls.collect()
     }
 
-    /// The parameters of a line, and the force that it is to explain.
+    /// Linear model of the force as a line over the depth.
     fn linear(&self, points: Range<usize>) -> Linear<'a> {
         Linear {
             time: &self.time[points.clone()],
@@ -198,14 +200,15 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// How far the points of a window are below the line through those of a baseline, and its standard error, in noises with the
-    /// products of their probabilities and variances.
+    /// Distance of the points of a window below the baseline, and its standard error.
+    ///
+    /// `likely` has noises with the products of their probabilities and variances.
     fn fall(&self, baseline: usize, window: Range<usize>, likely: &[(Noise, f64)]) -> [f64; 2] {
         let both = |values: &[f64]| [&values[..baseline], &values[window.clone()]].concat();
         let [time, counts, depth, force] =
             [self.time, self.counts, &self.depth, self.force].map(both);
-        let is_behind = [vec![0.0; baseline], vec![1.0; window.len()]].concat();
-        let columns = [vec![1.0; time.len()], depth, is_behind, force];
+        let is_after = [vec![0.0; baseline], vec![1.0; window.len()]].concat();
+        let columns = [vec![1.0; time.len()], depth, is_after, force];
         let of_noise = likely.iter().map(|(noise, variance)| {
             let mut columns = columns.clone();
             noise.whiten(&time, &counts, &mut columns);
@@ -218,13 +221,13 @@ impl<'a> Approach<'a> {
     }
 }
 
-/// Numbers of points of the baselines that are tried.
+/// Numbers of points of the baselines.
 fn baselines(n: usize) -> impl Iterator<Item = usize> {
-    let next = |last: &usize| Some(last + last.div_ceil(BASELINE_SHARE));
-    std::iter::successors(Some(SHORTEST_BASELINE), next).take_while(move |one| *one < n)
+    let next = |last: &usize| Some(last + last.div_ceil(BASELINE_GROWTH));
+    std::iter::successors(Some(MIN_BASELINE_POINTS), next).take_while(move |one| *one < n)
 }
 
-/// A line of least squares.
+/// A regression line.
 struct Line {
     weight: f64,
     depth: f64,
@@ -237,7 +240,7 @@ impl Line {
     fn through(&[weight, by_depth, square, value, product]: &[f64; 5]) -> Self {
         let [depth, value] = [by_depth, value].map(|sum| sum / weight);
         let square = (square - weight * depth * depth).max(0.0);
-        // Where the depth is the same at all points, the line is level.
+        // For a constant depth the line is level.
         let has_slope = square > f64::EPSILON * weight;
         let slope = if has_slope {
             (product - weight * depth * value) / square
@@ -253,7 +256,7 @@ impl Line {
         }
     }
 
-    /// How far the mean of points with these sums of w, w d and w f is below, over its standard error for a standard deviation of 1.
+    /// Distance of a mean below the line in standard errors for a unit standard deviation, from the sums of w, w d and w f.
     fn fall_of(&self, [weight, by_depth, value]: [f64; 3]) -> f64 {
         let side = by_depth / weight - self.depth;
         let fall = self.value + self.slope * side - value / weight;
@@ -262,14 +265,14 @@ impl Line {
     }
 }
 
-/// The last coefficient of least squares, where the last column is to be explained, and its variance for a standard deviation of 1.
+/// Last coefficient of the regression of the last column on the others, and its variance for a unit standard deviation.
 fn last_coefficient(columns: &[Vec<f64>]) -> [f64; 2] {
     let n = columns.len() - 1;
     let all = normal_matrix(columns);
     let mut matrix: Vec<f64> = (0..n)
         .flat_map(|row| all[row * (n + 1)..][..n].to_vec())
         .collect();
-    (0..n).for_each(|k| matrix[k * (n + 1)] *= RIDGE);
+    (0..n).for_each(|k| matrix[k * (n + 1)] *= DIAGONAL_FACTOR);
     let Some(inverse) = inverse(&matrix, n) else {
         return [0.0, f64::INFINITY];
     };

@@ -1,10 +1,10 @@
-//! Measured curves, as instruments export them.
+//! Reader of measured force–indentation curves, as instruments export them.
 
 use std::path::Path;
 
 use numerics::{InvalidParameter, in_range, positive};
 
-use super::join::{Joined, Point};
+use super::join::{JoinedCurve, Point};
 use super::{IndentationCurve, Note, afmformats, igor};
 use crate::MeasurementError;
 use crate::moduli::Deformation;
@@ -15,7 +15,7 @@ use crate::table::{Column, Half, Line, Meaning, Source, Table, Vocabulary, text_
 
 static CURVES: Vocabulary = Vocabulary {
     names: "t, force (or deflection) and depth (or tip position, displacement, piezo or height)",
-    known: &KNOWN,
+    known: &KNOWN_NAMES,
     is_head: |columns| {
         columns.iter().any(|one| [Force, Deflection].contains(one)) && columns.len() > 1
     },
@@ -24,8 +24,8 @@ static CURVES: Vocabulary = Vocabulary {
     has_order: true,
 };
 
-/// The first name of a quantity counts: what was measured, and not what was smoothed or asked of a piezo.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 24] = [
+/// Known names; the first one of a quantity takes precedence: measured values before smoothed or nominal ones.
+const KNOWN_NAMES: [(Quantity, Option<Deformation>, &str); 24] = [
     (Time, None, "seriestime"),
     (Time, None, "timeonsample testtime elapsedtime"),
     (Time, None, "t time zeit temps prüfzeit"),
@@ -72,7 +72,7 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 24] = [
     (Other, None, "segment index"),
 ];
 
-/// The depth is measured, or follows from the piezo and the deflection, and the force from the deflection.
+/// Needed columns: the depth, or piezo and deflection, from which it follows; the force, or the deflection.
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     let has = |quantity: &Quantity| columns.contains(quantity);
     let load = [Force, Deflection].into_iter().find(has);
@@ -83,32 +83,35 @@ fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     time.into_iter().chain(others).collect()
 }
 
-/// What a table of a curve does not say.
+/// Information that a table of a curve does not contain.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct CurveOptions {
-    /// Stiffness of the cantilever, \[N/m], for a deflection, and for the depth from a piezo or a height; none: what the
-    /// table says.
+    /// Stiffness of the cantilever, \[N/m], for a deflection, and for the depth from a piezo or a height.
+    ///
+    /// `None` for the value that the file states.
     pub spring_constant: Option<f64>,
     /// Deflection per volt, \[m/V], for a deflection in volts.
     pub sensitivity: Option<f64>,
-    /// Ramps per second, there and back at the same speed, \[1/s], of a table of the two halves of a ramp without times.
+    /// Frequency of the ramps, with equal speeds in both directions, \[1/s], for the halves of a ramp without times.
     pub ramp_rate: Option<f64>,
 }
 
-/// A curve of a file, and what was guessed about it.
+/// A curve of a file, and the assumptions of the reader.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CurveFile {
-    /// What was measured.
+    /// Measured curve.
     pub curve: IndentationCurve,
-    /// About columns of which one was taken, quantities that the file says or does not say, and times that begin again.
+    /// Notes on selected columns, quantities that the file states or lacks, and times that begin again.
     pub notes: Vec<Note>,
 }
 
-/// Reads the contents of a file, which need not be there: tables with a line of names each, among other text, or Igor text.
-/// Cells without a number are NaN, of which [`fit_indentation`](super::fit_indentation) says where they are.
+/// Reads a curve from the contents of a file: tables with a line of names each, among other text, or Igor text.
 ///
-/// A piezo and a depth grow towards the sample, a height and the position of the tip fall; piezo and height less the
-/// deflection are the depth. A displacement beside a force is a depth, and with a spring constant or beside a deflection the
+/// The path is used for messages only. Cells without a number are NaN; [`fit_indentation`](super::fit_indentation) reports
+/// them.
+///
+/// Piezo position and depth increase towards the sample; height and tip position decrease. The depth is piezo position or
+/// height less the deflection. A displacement next to a force is a depth; with a spring constant or a deflection it is the
 /// travel of a piezo.
 ///
 /// # Errors
@@ -122,7 +125,7 @@ pub fn indentation_curve(
     let given = options;
     let text = text_of(contents, &CURVES);
     let known = Stated::of(&text);
-    let options = &known.beside(given);
+    let options = &known.complete(given);
     // Igor may end its lines with a carriage return alone.
     let unix = (!text.contains('\n')).then(|| text.replace('\r', "\n"));
     let text = unix.as_deref().unwrap_or(&text);
@@ -137,7 +140,7 @@ pub fn indentation_curve(
         scale: &scale,
     };
     let source = Source::new(file, text, &CURVES, meaning);
-    let mut joined = Joined::default();
+    let mut joined = JoinedCurve::default();
     let tables = source.tables()?;
     let several = tables.len() > 1;
     for (table, rows) in tables {
@@ -151,13 +154,13 @@ pub fn indentation_curve(
         if several && points.len() < 3 {
             continue;
         }
-        let points = segment.timed(&mut joined, points);
+        let points = segment.with_times(&mut joined, points);
         joined.append(&source, &points)?;
     }
     Ok(joined.finish())
 }
 
-/// Which columns are read, where there are others of their kind.
+/// Note on the columns that are read if there are others of their kind.
 fn left_out(table: &Table) -> Option<String> {
     let quoted = |names: &[&str]| {
         let names = names.iter().map(|name| format!("'{name}'"));
@@ -169,21 +172,21 @@ fn left_out(table: &Table) -> Option<String> {
     (!others.is_empty()).then(|| format!("read from the columns {read}, and not from {others}"))
 }
 
-/// What a file says beside its numbers.
+/// Constants that a file states in its text.
 #[derive(Clone, Copy)]
 struct Stated {
-    /// \[N/m].
+    /// Stiffness of the cantilever, \[N/m].
     spring_constant: Option<f64>,
-    /// \[m/V].
+    /// Deflection per volt, \[m/V].
     sensitivity: Option<f64>,
 }
 
 impl Stated {
     fn of(text: &str) -> Self {
         // JPK and Asylum, afmformats, AFM Workshop (whose default of 1 says nothing), and Optics11.
-        let workshop = |name| number_behind(text, name).filter(|number| differs(*number, 1.0));
+        let workshop = |name| number_after(text, name).filter(|number| differs(*number, 1.0));
         let stiffness = ["pringConstant:", "\"spring constant\":", "k (N/m)"];
-        let stiffness = stiffness.iter().find_map(|name| number_behind(text, name));
+        let stiffness = stiffness.iter().find_map(|name| number_after(text, name));
         let gain = workshop("Light Lever Gain, mV/nm:");
         Self {
             spring_constant: stiffness.or_else(|| workshop("Force Constant, nN/nm:")),
@@ -191,8 +194,8 @@ impl Stated {
         }
     }
 
-    /// The options, and where they are not given, what the file says.
-    fn beside(self, options: &CurveOptions) -> CurveOptions {
+    /// The options, completed by the constants of the file.
+    fn complete(self, options: &CurveOptions) -> CurveOptions {
         CurveOptions {
             spring_constant: options.spring_constant.or(self.spring_constant),
             sensitivity: options.sensitivity.or(self.sensitivity),
@@ -200,7 +203,7 @@ impl Stated {
         }
     }
 
-    /// What was taken from the file, or is otherwise there.
+    /// Notes on constants taken from the file, or different from the given ones.
     fn notes(self, given: &CurveOptions, table: &Table, segment: &Segment) -> Vec<String> {
         let uses_stiffness = segment.of_force != 0.0 || segment.is_length;
         let is_in_volts = table.find(Deflection).is_some_and(is_volts);
@@ -232,17 +235,17 @@ impl Stated {
     }
 }
 
-/// By more than a file rounds.
+/// Whether two numbers differ by more than the rounding of a file.
 fn differs(number: f64, other: f64) -> bool {
     (number - other).abs() > 1e-6 * other
 }
 
-/// The number greater than 0 that stands behind a name.
-fn number_behind(text: &str, name: &str) -> Option<f64> {
-    let (_, behind) = text.split_once(name)?;
-    let behind = behind.trim_start_matches([' ', '\t', ':', '"']);
-    let end = behind.find(|one: char| !one.is_ascii_alphanumeric() && !".+-".contains(one));
-    let number: f64 = behind[..end.unwrap_or(behind.len())].parse().ok()?;
+/// The positive number after a name in a text.
+fn number_after(text: &str, name: &str) -> Option<f64> {
+    let (_, after) = text.split_once(name)?;
+    let after = after.trim_start_matches([' ', '\t', ':', '"']);
+    let end = after.find(|one: char| !one.is_ascii_alphanumeric() && !".+-".contains(one));
+    let number: f64 = after[..end.unwrap_or(after.len())].parse().ok()?;
     (number > 0.0 && number.is_finite()).then_some(number)
 }
 
@@ -261,7 +264,7 @@ impl CurveOptions {
         Ok(())
     }
 
-    /// \[N/m], or what is wrong.
+    /// Stiffness of the cantilever, \[N/m]; the error has the `reason` for which it is needed.
     fn stiffness(&self, reason: &str) -> Result<f64, String> {
         let needed = || {
             format!(
@@ -271,7 +274,7 @@ impl CurveOptions {
         self.spring_constant.ok_or_else(needed)
     }
 
-    /// Depth of a place of 1, and of a force of 1 N, or what is wrong.
+    /// Coefficients of position and force in the depth.
     fn place(&self, table: &Table) -> Result<[f64; 2], String> {
         let bending = |column: &Column| {
             let name = column.name;
@@ -292,7 +295,7 @@ impl CurveOptions {
         })
     }
 
-    /// Refuses what changes nothing beside the columns of a table.
+    /// Refuses options without effect on the columns of a table.
     fn check_needed(&self, table: &Table) -> Result<(), MeasurementError> {
         let find = |quantities: &[Quantity]| quantities.iter().find_map(|one| table.find(*one));
         let load = find(&[Force, Deflection]);
@@ -328,16 +331,17 @@ fn is_volts(column: &Column) -> bool {
     column.quantity == Deflection && column.unit.ends_with('V')
 }
 
-/// How a table is read.
+/// Conversion of the columns of a table to force and depth.
 struct Segment {
-    /// Force of a load of 1, \[N] or \[N/m].
+    /// Coefficient of the load in the force: 1, or the stiffness \[N/m] for a deflection.
     of_load: f64,
     /// Whether the load is a length.
     is_length: bool,
-    /// Depth of a place of 1, and of a force, \[m/N].
+    /// Coefficient of the position in the depth.
     of_place: f64,
+    /// Coefficient of the force in the depth, \[m/N].
     of_force: f64,
-    /// Of half a ramp without times, \[s].
+    /// Duration of half a ramp without times, \[s].
     duration: Option<f64>,
 }
 
@@ -383,7 +387,7 @@ impl Segment {
         })
     }
 
-    /// What a displacement was taken for.
+    /// Note on the meaning of a displacement.
     fn displacement(&self, table: &Table) -> Option<String> {
         let name = table.find(Displacement)?.name;
         Some(if self.of_force == 0.0 {
@@ -397,7 +401,7 @@ impl Segment {
         })
     }
 
-    /// Time, depth, force and line of every row.
+    /// Points of all rows.
     fn points(&self, table: &Table, rows: &[&Line]) -> Result<Vec<Point>, MeasurementError> {
         let point = |line: &&Line| {
             let numbers = table.numbers(line)?;
@@ -419,8 +423,10 @@ impl Segment {
         Ok(points?.into_iter().flatten().collect())
     }
 
-    /// Half a ramp without times may have begun at either end: the way in goes down, and the way back goes on where that has ended.
-    fn timed(&self, joined: &mut Joined, mut points: Vec<Point>) -> Vec<Point> {
+    /// Adds times to half a ramp without them, and reverses it if it is stored backwards.
+    ///
+    /// The approach moves towards the sample; the retraction continues at the end of the approach.
+    fn with_times(&self, joined: &mut JoinedCurve, mut points: Vec<Point>) -> Vec<Point> {
         let (Some(duration), [first, .., end]) = (self.duration, &points[..]) else {
             return points;
         };

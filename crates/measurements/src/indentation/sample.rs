@@ -1,7 +1,7 @@
-//! The body on its sample: on a half space, or on a layer of a thickness that is known or sought.
+//! The body on its sample: a half space, or a layer of known or fitted thickness.
 //!
-//! A thickness that is sought enters a force by profiles that are known at equal steps of its logarithm, and between them by the
-//! cubic polynomials through the four next to it. At each step the table is made when it is first needed.
+//! For a fitted thickness, equivalent profiles are tabulated at equal steps of its logarithm and interpolated by cubic
+//! polynomials. Each profile is computed when it is first needed.
 
 use std::sync::{Arc, OnceLock};
 
@@ -9,21 +9,21 @@ use friction_analytic::{BondedLayer, FrictionError, LayerProfile};
 use indenters::{Axisymmetric, EquivalentProfile, IndenterError, contact_radius};
 use numerics::bracketed_root;
 
-use super::depth::ends;
+use super::depth::min_max;
 use super::search::Found;
 use super::{FitOptions, Flag, IndentationCurve, Thickness};
 use crate::MeasurementError;
 
-/// Step of the logarithm of a thickness that is sought: cubic polynomials leave 1e-5 of a radius.
-const STEP: f64 = 0.1;
-/// The thickness is sought from this part of the radius that the whole range of depths would give on a half space, and up to so
-/// many of these radii.
-const THINNEST: f64 = 0.1;
-const THICKEST: f64 = 1000.0;
-/// A contact point may lie before the first point of a curve by half the range of its depths.
-const DEEPEST: f64 = 1.5;
-/// Depth over the thickness from which on strains are not small, as for scenes.
-const LARGE: f64 = 1.0 / 3.0;
+/// Step of the logarithm of a fitted thickness (chosen: the interpolation error is 1e-5 of a radius).
+const LOG_THICKNESS_STEP: f64 = 0.1;
+/// Smallest fitted thickness, relative to the contact radius of the whole range of depths on a half space (chosen).
+const MIN_THICKNESS_RATIO: f64 = 0.1;
+/// Largest fitted thickness, relative to the same contact radius (chosen).
+const MAX_THICKNESS_RATIO: f64 = 1000.0;
+/// Largest depth relative to the range of depths (chosen): the contact point may precede the curve by half the range.
+const DEPTH_MARGIN: f64 = 1.5;
+/// Ratio of depth to thickness above which strains are not small (chosen, as for scenes).
+const LARGE_STRAIN_RATIO: f64 = 1.0 / 3.0;
 
 /// A body on a sample.
 #[derive(Clone)]
@@ -37,7 +37,7 @@ enum Base<'a> {
     HalfSpace,
     Known(Arc<LayerProfile>, f64),
     /// The logarithm of the thickness is the last parameter.
-    Sought(Arc<Steps<'a>>),
+    Fitted(Arc<ProfileTable<'a>>),
 }
 
 impl<'a> Sample<'a> {
@@ -46,32 +46,32 @@ impl<'a> Sample<'a> {
         curve: &IndentationCurve,
         options: &FitOptions,
     ) -> Result<Self, MeasurementError> {
-        let width = ends(&curve.depth)[1] - curve.depth[0];
+        let width = min_max(&curve.depth)[1] - curve.depth[0];
         let base = match options.thickness {
             Thickness::Infinite => Base::HalfSpace,
             Thickness::Known(thickness) => {
                 let layer = BondedLayer::new(thickness, options.poisson_ratio)?;
-                let profile = LayerProfile::reaching(body, &layer, width, DEEPEST * width)?;
+                let profile = LayerProfile::reaching(body, &layer, width, DEPTH_MARGIN * width)?;
                 Base::Known(Arc::new(profile), thickness)
             }
-            Thickness::Fitted => Base::Sought(Arc::new(Steps::new(body, width, options)?)),
+            Thickness::Fitted => Base::Fitted(Arc::new(ProfileTable::new(body, width, options)?)),
         };
         Ok(Self { body, base })
     }
 
-    pub(super) const fn is_sought(&self) -> bool {
-        matches!(self.base, Base::Sought(_))
+    pub(super) const fn is_fitted(&self) -> bool {
+        matches!(self.base, Base::Fitted(_))
     }
 
-    /// The range of the logarithm of the thickness, where it is sought.
+    /// Range of the logarithm of the thickness; `None` if it is not fitted.
     pub(super) fn range(&self) -> Option<[f64; 2]> {
         match &self.base {
-            Base::Sought(steps) => Some(steps.range()),
+            Base::Fitted(steps) => Some(steps.range()),
             _ => None,
         }
     }
 
-    /// The same, which for a search begins with each of a few thicknesses.
+    /// Initial values of the logarithm of the thickness; a single `None` if it is not fitted.
     pub(super) fn starts(&self) -> Vec<Option<f64>> {
         let Some([first, _]) = self.range() else {
             return vec![None];
@@ -81,43 +81,43 @@ impl<'a> Sample<'a> {
             .into()
     }
 
-    /// What has the force of the body, where the thickness is sought for one of its logarithms.
+    /// Equivalent profile of the body; the logarithm of the thickness has an effect only if that is fitted.
     pub(super) fn profile(
         &self,
         logarithm: f64,
     ) -> Result<Box<dyn EquivalentProfile + '_>, MeasurementError> {
         Ok(match &self.base {
             Base::HalfSpace => Box::new(self.body),
-            Base::Known(profile, _) => Box::new(Between(vec![(&**profile, 1.0)])),
-            Base::Sought(steps) => Box::new(steps.at(logarithm)?),
+            Base::Known(profile, _) => Box::new(InterpolatedProfile(vec![(&**profile, 1.0)])),
+            Base::Fitted(steps) => Box::new(steps.interpolate(logarithm)?),
         })
     }
 
-    /// A depth at which strains are no longer small.
+    /// Flag for a depth at which strains are not small.
     pub(super) fn too_deep(&self, found: &Found) -> Option<Flag> {
         let contact_point = found.parameters[found.model.contact_point()];
-        let depth = ends(&found.model.curve.depth)[1] - contact_point;
+        let depth = min_max(&found.model.curve.depth)[1] - contact_point;
         let thickness = match &self.base {
             Base::HalfSpace => return None,
             Base::Known(_, thickness) => *thickness,
-            Base::Sought(_) => found.parameters[found.model.n_parameters() - 1].exp(),
+            Base::Fitted(_) => found.parameters[found.model.n_parameters() - 1].exp(),
         };
         let part = depth / thickness;
-        (part > LARGE).then_some(Flag::DeepInSample(100.0 * part))
+        (part > LARGE_STRAIN_RATIO).then_some(Flag::DeepInSample(100.0 * part))
     }
 }
 
-/// Profiles over the thickness.
-struct Steps<'a> {
+/// Equivalent profiles, tabulated over the logarithm of the thickness.
+struct ProfileTable<'a> {
     body: &'a dyn Axisymmetric,
     poisson_ratio: f64,
     depth: f64,
-    /// Logarithm of the thickness of the first.
+    /// Logarithm of the first thickness.
     first: f64,
     profiles: Vec<OnceLock<Result<LayerProfile, FrictionError>>>,
 }
 
-impl<'a> Steps<'a> {
+impl<'a> ProfileTable<'a> {
     fn new(
         body: &'a dyn Axisymmetric,
         width: f64,
@@ -128,7 +128,8 @@ impl<'a> Steps<'a> {
             other => other,
         };
         let radius = radius.map_err(FrictionError::from)?;
-        let n_steps = ((THICKEST / THINNEST).ln() / STEP).ceil();
+        let n_steps =
+            ((MAX_THICKNESS_RATIO / MIN_THICKNESS_RATIO).ln() / LOG_THICKNESS_STEP).ceil();
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -138,19 +139,19 @@ impl<'a> Steps<'a> {
         Ok(Self {
             body,
             poisson_ratio: options.poisson_ratio,
-            depth: DEEPEST * width,
-            first: (THINNEST * radius).ln(),
+            depth: DEPTH_MARGIN * width,
+            first: (MIN_THICKNESS_RATIO * radius).ln(),
             profiles: (0..=n_steps).map(|_| OnceLock::new()).collect(),
         })
     }
 
     fn range(&self) -> [f64; 2] {
         let last = self.profiles.len() - 1;
-        [self.first, self.first + STEP * last as f64]
+        [self.first, self.first + LOG_THICKNESS_STEP * last as f64]
     }
 
-    fn at(&self, logarithm: f64) -> Result<Between<'_>, MeasurementError> {
-        let place = (logarithm - self.first) / STEP;
+    fn interpolate(&self, logarithm: f64) -> Result<InterpolatedProfile<'_>, MeasurementError> {
+        let place = (logarithm - self.first) / LOG_THICKNESS_STEP;
         let last = self.profiles.len() - 4;
         #[expect(
             clippy::cast_possible_truncation,
@@ -165,32 +166,32 @@ impl<'a> Steps<'a> {
             others.map(factor).product::<f64>()
         };
         let one = |k: usize| {
-            let known = self.profiles[start + k].get_or_init(|| self.of_step(start + k));
+            let known = self.profiles[start + k].get_or_init(|| self.profile_of_step(start + k));
             Ok((known.as_ref().map_err(Clone::clone)?, weight(k)))
         };
-        Ok(Between(
+        Ok(InterpolatedProfile(
             (0..4).map(one).collect::<Result<_, FrictionError>>()?,
         ))
     }
 
-    fn of_step(&self, step: usize) -> Result<LayerProfile, FrictionError> {
-        let thickness = (self.first + STEP * step as f64).exp();
+    fn profile_of_step(&self, step: usize) -> Result<LayerProfile, FrictionError> {
+        let thickness = (self.first + LOG_THICKNESS_STEP * step as f64).exp();
         let layer = BondedLayer::new(thickness, self.poisson_ratio)?;
-        LayerProfile::reaching(self.body, &layer, self.depth / DEEPEST, self.depth)
+        LayerProfile::reaching(self.body, &layer, self.depth / DEPTH_MARGIN, self.depth)
     }
 }
 
-/// The geometric mean of profiles, with weights: radii are powers of the thickness, or nearly so.
-struct Between<'a>(Vec<(&'a LayerProfile, f64)>);
+/// Weighted geometric mean of profiles, because radii are nearly powers of the thickness.
+struct InterpolatedProfile<'a>(Vec<(&'a LayerProfile, f64)>);
 
-impl Between<'_> {
+impl InterpolatedProfile<'_> {
     fn depth(&self) -> f64 {
         let depths = self.0.iter().map(|(profile, _)| profile.depth());
         depths.fold(f64::INFINITY, f64::min)
     }
 }
 
-impl EquivalentProfile for Between<'_> {
+impl EquivalentProfile for InterpolatedProfile<'_> {
     fn position(&self, height: f64) -> Result<f64, IndenterError> {
         if let [(known, _)] = self.0[..] {
             return known.position(height);
@@ -233,9 +234,9 @@ mod tests {
     fn between_two_steps_a_profile_is_that_of_the_thickness() {
         let body = Sphere::new(5e-6).expect("a sphere");
         let options = FitOptions::default();
-        let steps = Steps::new(&body, 1e-6, &options).expect("steps");
+        let steps = ProfileTable::new(&body, 1e-6, &options).expect("steps");
         for thickness in [5e-7, 1.03e-6, 2.2e-6, 1e-5, 1e-4] {
-            let between = steps.at(f64::ln(thickness)).expect("a profile");
+            let between = steps.interpolate(f64::ln(thickness)).expect("a profile");
             let layer = BondedLayer::new(thickness, 0.5).expect("a layer");
             let exact = LayerProfile::new(&body, &layer, 2e-6).expect("a profile");
             for depth in [1e-9, 1e-7, 1e-6] {

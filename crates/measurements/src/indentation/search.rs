@@ -1,8 +1,8 @@
-//! The parameters of least squares, from several starts on few points to all points but wild ones.
+//! Least-squares fit of the parameters: several initial values on few points, then all points without outliers.
 
 use numerics::least_squares::{ParameterRange, QuadraticModel, minimise};
 
-use super::depth::{BY_MEDIAN, median};
+use super::depth::{DEVIATION_PER_MEDIAN, median};
 use super::means::Measured;
 use super::model::{Kind, Model};
 use super::noise::{Linear, Noise, normal_matrix};
@@ -11,26 +11,27 @@ use super::start::Start;
 use super::{FitOptions, IndentationCurve, Rheology};
 use crate::MeasurementError;
 
-/// More are never told apart by one curve.
+/// Largest number of branches (chosen: one curve never determines more).
 pub(super) const MAX_BRANCHES: usize = 6;
-/// Points of the first search.
-const FEW: usize = 200;
+/// Number of points of the first search (chosen).
+const COARSE_POINTS: usize = 200;
 /// Difference of two criteria from which on there is strong evidence for the lower one (Kass and Raftery 1995,
 /// DOI 10.1080/01621459.1995.10476572).
 const STRONG_EVIDENCE: f64 = 6.0;
-/// Relaxation times are sought from a third of the shortest time step to thirty times the length of the curve.
-const SHORTEST: f64 = 1.0 / 3.0;
-const LONGEST: f64 = 30.0;
+/// Smallest relaxation time, relative to the shortest time step (chosen).
+const MIN_TIME_FACTOR: f64 = 1.0 / 3.0;
+/// Largest relaxation time, relative to the duration of the curve (chosen).
+const MAX_TIME_FACTOR: f64 = 30.0;
 
-/// A minimum.
+/// A minimum of the sum of squares.
 pub(super) struct Found<'a> {
     pub(super) model: Model<'a>,
     pub(super) measured: &'a Measured,
     pub(super) parameters: Vec<f64>,
     pub(super) squares: Squares<'a>,
-    /// The model about them.
+    /// Model, linearised at the parameters.
     pub(super) linear: Linear<'a>,
-    /// Kinds of noise with their probabilities, the most likely one first.
+    /// Noises with their posterior probabilities, in decreasing order.
     pub(super) noises: Vec<(Noise, f64)>,
     pub(super) ranges: Vec<ParameterRange>,
 }
@@ -42,8 +43,8 @@ pub(super) fn search<'a>(
     begin: &Start,
 ) -> Result<Found<'a>, MeasurementError> {
     let curve = &measured.curve;
-    let few = curve.decimated(FEW);
-    let of_kind = |kind| {
+    let few = curve.decimated(COARSE_POINTS);
+    let fit_kind = |kind| {
         fit(
             Model::new(sample, curve, kind, options),
             measured,
@@ -51,24 +52,24 @@ pub(super) fn search<'a>(
             begin,
         )
     };
-    let elastic = of_kind(Kind::Branches(0));
+    let elastic = fit_kind(Kind::Branches(0));
     let relaxing = match (options.rheology, options.branches) {
         (Rheology::Elastic, _) => None,
-        (Rheology::PowerLaw, _) => of_kind(Kind::PowerLaw),
-        (Rheology::StandardSolid | Rheology::Prony, _) => of_kind(Kind::Branches(1)),
+        (Rheology::PowerLaw, _) => fit_kind(Kind::PowerLaw),
+        (Rheology::StandardSolid | Rheology::Prony, _) => fit_kind(Kind::Branches(1)),
     };
-    // A material that relaxes must explain the curve better than the elastic one, else its moduli are an arbitrary split.
-    let mut found = better(elastic, relaxing, STRONG_EVIDENCE);
+    // A relaxing material must explain the curve better than the elastic one; else its moduli are an arbitrary split.
+    let mut found = select(elastic, relaxing, STRONG_EVIDENCE);
     let relaxes = |found: &Found| found.model.kind != Kind::Branches(0);
     if options.rheology == Rheology::Prony && found.as_ref().is_some_and(relaxes) {
         found = match options.branches {
             Some(1) => found,
-            Some(n) => of_kind(Kind::Branches(n)),
-            None => with_branches(found, of_kind),
+            Some(n) => fit_kind(Kind::Branches(n)),
+            None => with_branches(found, fit_kind),
         };
     }
     found.ok_or_else(|| {
-        // Nearly always the whole depth is too large for the body.
+        // The most frequent reason is a depth that is too large for the body.
         let elastic = Model::new(sample, curve, Kind::Branches(0), options);
         let mut parameters = vec![0.0, curve.depth[0], 0.0, 0.0];
         parameters.extend(begin.thickness);
@@ -77,8 +78,8 @@ pub(super) fn search<'a>(
     })
 }
 
-/// The second where its criterion is lower by more than a margin.
-fn better<'a>(
+/// Selects the second fit if its criterion is lower by more than a margin.
+fn select<'a>(
     first: Option<Found<'a>>,
     second: Option<Found<'a>>,
     margin: f64,
@@ -90,13 +91,13 @@ fn better<'a>(
     if is_better { second } else { first }
 }
 
-/// Branches are added to one as long as they lower the criterion.
+/// Adds branches to one as long as they lower the criterion.
 fn with_branches<'a>(
     mut best: Option<Found<'a>>,
-    of_kind: impl Fn(Kind) -> Option<Found<'a>>,
+    fit_kind: impl Fn(Kind) -> Option<Found<'a>>,
 ) -> Option<Found<'a>> {
     for n in 2..=MAX_BRANCHES {
-        best = better(best, of_kind(Kind::Branches(n)), 0.0);
+        best = select(best, fit_kind(Kind::Branches(n)), 0.0);
         if best
             .as_ref()
             .is_none_or(|best| best.model.kind != Kind::Branches(n))
@@ -107,7 +108,7 @@ fn with_branches<'a>(
     best
 }
 
-/// The best of several starts on few points, and from there with all points: and then without wild points.
+/// Fit of one kind of material: the best of several initial values on few points, then all points, then without outliers.
 fn fit<'a>(
     model: Model<'a>,
     measured: &'a Measured,
@@ -121,19 +122,19 @@ fn fit<'a>(
     };
     let peak = begin.peak.abs();
     let ones = vec![1.0; few.time.len()];
-    let coarsely = Squares::new(&ones, peak);
+    let coarse_squares = Squares::new(&ones, peak);
     let mut squares = Squares::new(&measured.counts, peak);
     let descend = |model: &Model, squares: &Squares, start, sufficient: f64| {
-        let sum = |parameters: &[f64]| squares.linearised(model, parameters);
+        let sum = |parameters: &[f64]| squares.linearise(model, parameters);
         minimise(sum, start, &ranges, sufficient)
     };
     let starts = starts(&model, begin).into_iter();
-    let found = starts.filter_map(|start| descend(&coarse, &coarsely, start, 1e-3));
+    let found = starts.filter_map(|start| descend(&coarse, &coarse_squares, start, 1e-3));
     let best = found.min_by(|one, other| one.model.sum.total_cmp(&other.model.sum))?;
     let found = descend(&model, &squares, best.parameters, 1e-4)?;
-    let mut parameters = in_order(model.kind, found.parameters);
+    let mut parameters = sort_branches(model.kind, found.parameters);
     for sufficient in [1e-3, 1e-6] {
-        squares.judge(&model, &parameters, 1e-12 * peak)?;
+        squares.find_outliers(&model, &parameters, 1e-12 * peak)?;
         parameters = descend(&model, &squares, parameters, sufficient)?.parameters;
     }
     let linear = linear(&model, measured, &parameters, &squares)?;
@@ -148,7 +149,7 @@ fn fit<'a>(
     })
 }
 
-/// The model about its parameters.
+/// Linearised model at the parameters, with normalised columns.
 fn linear<'a>(
     model: &Model<'a>,
     measured: &'a Measured,
@@ -162,7 +163,7 @@ fn linear<'a>(
         row.iter().map(|slope| slope / norm).collect()
     };
     let mut columns: Vec<Vec<f64>> = forces.rows.into_iter().map(scaled).collect();
-    columns.push(squares.known(&forces.residuals));
+    columns.push(squares.without_outliers(&forces.residuals));
     Some(Linear {
         time: &measured.curve.time,
         counts: &measured.counts,
@@ -171,7 +172,7 @@ fn linear<'a>(
 }
 
 impl Found<'_> {
-    /// Schwarz's information criterion (1978, DOI 10.1214/aos/1176344136), the less the better.
+    /// Schwarz's information criterion (1978, DOI 10.1214/aos/1176344136); the fit with the lowest value is the best.
     fn criterion(&self) -> f64 {
         let residuals = Linear {
             columns: self.linear.columns[self.parameters.len()..].to_vec(),
@@ -182,9 +183,9 @@ impl Found<'_> {
         deviance + self.model.n_parameters() as f64 * n.ln()
     }
 
-    /// The sum of the squares, with its model.
-    pub(super) fn linearised(&self, parameters: &[f64]) -> Option<QuadraticModel> {
-        self.squares.linearised(&self.model, parameters)
+    /// Sum of squares with its quadratic model.
+    pub(super) fn linearise(&self, parameters: &[f64]) -> Option<QuadraticModel> {
+        self.squares.linearise(&self.model, parameters)
     }
 }
 
@@ -196,7 +197,13 @@ fn ranges(model: &Model, begin: &Start) -> Vec<ParameterRange> {
     let modulus = begin.modulus.abs().ln();
     let moduli = range([modulus - 21.0, modulus + 21.0], 2.0);
     let [step, length] = model.times;
-    let times = range([(SHORTEST * step).ln(), (LONGEST * length).ln()], 2.0);
+    let times = range(
+        [
+            (MIN_TIME_FACTOR * step).ln(),
+            (MAX_TIME_FACTOR * length).ln(),
+        ],
+        2.0,
+    );
     let mut ranges = match model.kind {
         Kind::Branches(n) => [vec![moduli], [moduli, times].repeat(n)].concat(),
         Kind::PowerLaw => vec![moduli, range([0.011, 0.98], 0.1)],
@@ -243,8 +250,8 @@ fn starts(model: &Model, begin: &Start) -> Vec<Vec<f64>> {
     material.into_iter().map(complete).collect()
 }
 
-/// Branches by increasing times.
-fn in_order(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
+/// The parameters with branches in increasing order of times.
+fn sort_branches(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
     let Kind::Branches(n) = kind else {
         return parameters;
     };
@@ -254,72 +261,78 @@ fn in_order(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
     [&parameters[..1], &branches, &parameters[2 * n + 1..]].concat()
 }
 
-/// Points whose residual is off from the median of so many neighbours on each side by more than this, in standard deviations of
-/// the residuals about it, say nothing: they count as that median (Hampel 1974, DOI 10.1080/01621459.1974.10482962).
-const WILD: f64 = 4.0;
-const NEAR: usize = 12;
+/// Distance of the residual of an outlier from the median of its neighbours, in their standard deviations (chosen).
+///
+/// Outliers are replaced by that median (Hampel 1974, DOI 10.1080/01621459.1974.10482962).
+const OUTLIER_DEVIATIONS: f64 = 4.0;
+/// Number of neighbours on each side of a point in this median (chosen).
+const OUTLIER_NEIGHBOURS: usize = 12;
 
-/// Squares of residuals, without those of wild points, in units of a scale.
+/// Scaled residuals, with outliers replaced by the median of their neighbours.
 pub(super) struct Squares<'a> {
     counts: &'a [f64],
-    /// How far each point is off, if it is wild, \[N].
-    off: Vec<f64>,
+    /// Distances of the outliers from the median of their neighbours, \[N]; 0 for all other points.
+    outlier_offsets: Vec<f64>,
     /// Standard deviation of a measured point, \[N].
     pub(super) scale: f64,
 }
 
 impl<'a> Squares<'a> {
-    /// With no wild points.
+    /// Scaling without outliers.
     fn new(counts: &'a [f64], scale: f64) -> Self {
         Self {
             counts,
-            off: vec![0.0; counts.len()],
+            outlier_offsets: vec![0.0; counts.len()],
             scale,
         }
     }
 
-    /// Finds the scale, which is at least so large, and the wild points: off from neighbours that slow noise moves as well.
-    fn judge(&mut self, model: &Model, parameters: &[f64], least: f64) -> Option<()> {
+    /// Updates the scale, which is at least `least` \[N], and the outliers.
+    ///
+    /// Outliers are relative to their neighbours, which slow noise shifts equally.
+    fn find_outliers(&mut self, model: &Model, parameters: &[f64], least: f64) -> Option<()> {
         let residuals = model.forces(parameters).ok()?.residuals;
         let last = residuals.len() - 1;
-        let near = |i: usize| i.saturating_sub(NEAR)..=(i + NEAR).min(last);
-        let beside = |i: usize| residuals[i] - median(residuals[near(i)].to_vec());
-        let beside: Vec<f64> = (0..=last).map(beside).collect();
+        let near =
+            |i: usize| i.saturating_sub(OUTLIER_NEIGHBOURS)..=(i + OUTLIER_NEIGHBOURS).min(last);
+        let deviations = |i: usize| residuals[i] - median(residuals[near(i)].to_vec());
+        let deviations: Vec<f64> = (0..=last).map(deviations).collect();
         let sizes = |values: &[f64]| -> Vec<f64> {
             let pairs = values.iter().zip(self.counts);
             pairs.map(|(value, n)| value.abs() * n.sqrt()).collect()
         };
-        self.scale = (BY_MEDIAN * median(sizes(&residuals))).max(least);
-        let sizes = sizes(&beside);
-        // Noise that grows with the force is not wild where it is large.
-        let usual = |i: usize| (BY_MEDIAN * median(sizes[near(i)].to_vec())).max(self.scale);
-        let off = (0..=last).map(|i| {
-            let is_wild = sizes[i] > WILD * usual(i);
-            if is_wild { beside[i] } else { 0.0 }
+        self.scale = (DEVIATION_PER_MEDIAN * median(sizes(&residuals))).max(least);
+        let sizes = sizes(&deviations);
+        // Noise that increases with the force has its own local scale.
+        let usual =
+            |i: usize| (DEVIATION_PER_MEDIAN * median(sizes[near(i)].to_vec())).max(self.scale);
+        let outlier_offsets = (0..=last).map(|i| {
+            let is_outlier = sizes[i] > OUTLIER_DEVIATIONS * usual(i);
+            if is_outlier { deviations[i] } else { 0.0 }
         });
-        self.off = off.collect();
+        self.outlier_offsets = outlier_offsets.collect();
         Some(())
     }
 
-    /// Residuals, and of wild points those of their neighbours.
-    pub(super) fn known(&self, residuals: &[f64]) -> Vec<f64> {
-        let pairs = residuals.iter().zip(&self.off);
-        pairs.map(|(residual, off)| residual - off).collect()
+    /// Residuals with those of outliers replaced by the median of their neighbours.
+    pub(super) fn without_outliers(&self, residuals: &[f64]) -> Vec<f64> {
+        let pairs = residuals.iter().zip(&self.outlier_offsets);
+        pairs.map(|(residual, offset)| residual - offset).collect()
     }
 
-    /// In units of the standard deviation of each point.
-    pub(super) fn weighed(&self, column: &[f64]) -> Vec<f64> {
+    /// A column in units of the standard deviation of each point.
+    pub(super) fn weighted(&self, column: &[f64]) -> Vec<f64> {
         let pairs = column.iter().zip(self.counts);
         pairs
             .map(|(value, count)| value * count.sqrt() / self.scale)
             .collect()
     }
 
-    fn linearised(&self, model: &Model, parameters: &[f64]) -> Option<QuadraticModel> {
+    fn linearise(&self, model: &Model, parameters: &[f64]) -> Option<QuadraticModel> {
         let forces = model.forces(parameters).ok()?;
-        let known = self.known(&forces.residuals);
-        let columns = forces.rows.iter().chain([&known]);
-        let columns: Vec<Vec<f64>> = columns.map(|column| self.weighed(column)).collect();
+        let without_outliers = self.without_outliers(&forces.residuals);
+        let columns = forces.rows.iter().chain([&without_outliers]);
+        let columns: Vec<Vec<f64>> = columns.map(|column| self.weighted(column)).collect();
         let products = normal_matrix(&columns);
         let n = forces.rows.len();
         let entries = |row: usize| products[row * (n + 1)..][..n].to_vec();

@@ -1,6 +1,6 @@
-//! Where a fit begins: the elastic material that is closest to the approach, with its contact point and baseline.
+//! Initial values of a fit: an elastic fit of the approach with contact point and baseline.
 
-use super::depth::{ends, median};
+use super::depth::{median, min_max};
 use super::model::{Kind, Model};
 use super::noise::correlated_points;
 use super::sample::Sample;
@@ -13,32 +13,36 @@ pub(super) struct Start {
     pub(super) baseline: f64,
     /// Shear modulus, \[Pa].
     pub(super) modulus: f64,
-    /// Force of the material at the end of the approach, of the sign of the modulus.
+    /// Force of the material at the end of the approach, with the sign of the modulus, \[N].
     pub(super) peak: f64,
-    /// Root of the mean squared residual.
+    /// Root mean square residual, \[N].
     pub(super) residual: f64,
-    /// The point at the end of the approach, and the time that it takes in contact.
+    /// Index of the point at the end of the approach.
     pub(super) turn: usize,
+    /// Time in contact until the end of the approach, \[s].
     pub(super) approach_time: f64,
-    /// Logarithm of the thickness of the sample, where that is sought.
+    /// Logarithm of the thickness of the sample; `None` if it is not fitted.
     pub(super) thickness: Option<f64>,
 }
 
-/// Points that a curve must have.
-pub(super) const FEWEST: usize = 30;
-/// Points of the approach, and contact points that are tried before the best of them is refined.
-const POINTS: usize = 100;
-const CANDIDATES: usize = 24;
-const REFINEMENTS: i32 = 6;
-/// Part of the force in which the contact is sought, and powers of the depth that it may have.
-const RISING: f64 = 0.3;
-const POWERS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
-/// Places are as good whose squares differ by less than so many variances of independent points.
-const UNCERTAIN: f64 = 5.0;
-/// Part of the depth range at which the approach ends.
-const APPROACH: f64 = 0.98;
+/// Smallest number of points of a curve (chosen).
+pub(super) const MIN_POINTS: usize = 30;
+/// Number of points of the approach in the elastic fit (chosen).
+const APPROACH_POINTS: usize = 100;
+/// Number of candidates of the contact point (chosen).
+const CONTACT_POINT_CANDIDATES: usize = 24;
+/// Number of bisections around the best candidate (chosen).
+const CONTACT_POINT_REFINEMENTS: i32 = 6;
+/// Fraction of the rise of the force in which the contact is searched (chosen).
+const INITIAL_RISE_FRACTION: f64 = 0.3;
+/// Exponents of the force as a power of the depth (chosen: flat punch to blunt and sharp bodies).
+const FORCE_EXPONENTS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
+/// Largest rise of the sum of squares of an admissible contact point, in variances of independent points (chosen).
+const CONTACT_UNCERTAINTY: f64 = 5.0;
+/// Fraction of the depth range at which the approach ends (chosen).
+const APPROACH_END_FRACTION: f64 = 0.98;
 
-/// The best start of all thicknesses with which a search begins.
+/// The best elastic fit for all initial thicknesses.
 pub(super) fn start(
     sample: &Sample,
     curve: &IndentationCurve,
@@ -53,9 +57,9 @@ pub(super) fn start(
     found.ok_or_else(|| refused.unwrap_or(MeasurementError::NotConverged))
 }
 
-/// The first point near the largest depth.
+/// Index of the first point near the largest depth.
 pub(super) fn approach_end(depth: &[f64]) -> usize {
-    let deep = depth[0] + APPROACH * (ends(depth)[1] - depth[0]);
+    let deep = depth[0] + APPROACH_END_FRACTION * (min_max(depth)[1] - depth[0]);
     let end = depth.iter().position(|one| *one >= deep);
     end.unwrap_or(depth.len() - 1)
 }
@@ -67,17 +71,19 @@ fn start_at(
     options: &FitOptions,
 ) -> Result<Start, MeasurementError> {
     let IndentationCurve { time, depth, .. } = curve;
-    let range = ends(depth)[1] - depth[0];
+    let range = min_max(depth)[1] - depth[0];
     let turn = approach_end(depth);
-    let few = curve.first((turn + 1).max(FEWEST)).decimated(POINTS);
+    let few = curve
+        .first((turn + 1).max(MIN_POINTS))
+        .decimated(APPROACH_POINTS);
     let model = Model::new(sample, &few, Kind::Branches(0), options);
     if turn == 0 {
         return Err(MeasurementError::Damaged(Flag::WrongSign));
     }
     let fit = |contact_point: f64| {
-        let start = elastic(&model, contact_point, thickness).ok()?;
-        let touch = depth.iter().position(|depth| *depth > contact_point);
-        let approach_time = time[turn] - time[touch.unwrap_or(0).min(turn - 1)];
+        let start = fit_elastic(&model, contact_point, thickness).ok()?;
+        let first_contact = depth.iter().position(|depth| *depth > contact_point);
+        let approach_time = time[turn] - time[first_contact.unwrap_or(0).min(turn - 1)];
         Some(Start {
             turn,
             approach_time,
@@ -88,14 +94,15 @@ fn start_at(
         let fits = places.filter_map(fit);
         fits.min_by(|one, other| one.residual.total_cmp(&other.residual))
     };
-    let step = 1.2 * range / CANDIDATES as f64;
-    let mut places = (0..CANDIDATES).map(|k| depth[0] - 0.2 * range + step * k as f64);
+    let step = 1.2 * range / CONTACT_POINT_CANDIDATES as f64;
+    let mut places =
+        (0..CONTACT_POINT_CANDIDATES).map(|k| depth[0] - 0.2 * range + step * k as f64);
     let mut best = match best_of(&mut places) {
         Some(best) => best,
-        // All are refused for one reason.
-        None => elastic(&model, depth[0], thickness)?,
+        // All candidates fail for the same reason, which is returned.
+        None => fit_elastic(&model, depth[0], thickness)?,
     };
-    for halvings in 1..=REFINEMENTS {
+    for halvings in 1..=CONTACT_POINT_REFINEMENTS {
         let shift = step * 0.5_f64.powi(halvings);
         let places = [0.0, -shift, shift].map(|shift| best.contact_point + shift);
         best = best_of(&mut places.into_iter()).unwrap_or(best);
@@ -103,47 +110,53 @@ fn start_at(
     Ok(best)
 }
 
-/// How many points are before the contact: up to the last place where the first third of the force may begin to rise as a power of
-/// the depth. The power is free, so that a wrong body or depth does not move the place.
+/// Number of points before the contact: the last point at which the force may begin to rise as a power of the depth.
+///
+/// The first third of the force is used. The exponent is free, so that a wrong body or depth has no effect.
 pub(super) fn free_points(curve: &IndentationCurve, turn: usize) -> usize {
     let force = &curve.force[..=turn];
     let first = median(force[..=turn / 20].to_vec());
-    let high = first + RISING * (ends(force)[1] - first);
+    let high = first + INITIAL_RISE_FRACTION * (min_max(force)[1] - first);
     let last = force
         .iter()
         .rposition(|force| *force < high)
         .map_or(0, |last| last + 1);
-    let step = last.div_ceil(POINTS).max(1);
+    let step = last.div_ceil(APPROACH_POINTS).max(1);
     let few: Vec<usize> = (0..last).step_by(step).collect();
     let measured: Vec<f64> = few.iter().map(|&i| force[i]).collect();
     let residuals = |place: usize, power: f64| {
-        let touch = curve.depth[place];
+        let contact_depth = curve.depth[place];
         let rises = few
             .iter()
-            .map(|&i| (curve.depth[i] - touch).max(0.0).powf(power));
-        off_the_line(&rises.collect::<Vec<_>>(), &measured)
+            .map(|&i| (curve.depth[i] - contact_depth).max(0.0).powf(power));
+        regression_residuals(&rises.collect::<Vec<_>>(), &measured)
     };
     let best_of = |place: usize| {
-        let all = POWERS.map(|power| residuals(place, power));
+        let all = FORCE_EXPONENTS.map(|power| residuals(place, power));
         let squares = all.map(|one| (one.iter().map(|off| off * off).sum::<f64>(), one));
         let best = squares
             .into_iter()
             .min_by(|one, other| one.0.total_cmp(&other.0));
         best.map(|(squares, residuals)| (place, squares, residuals))
     };
-    let tried: Vec<(usize, f64, Vec<f64>)> =
+    let candidates: Vec<(usize, f64, Vec<f64>)> =
         few.iter().filter_map(|&place| best_of(place)).collect();
-    let Some((_, least, residuals)) = tried.iter().min_by(|one, other| one.1.total_cmp(&other.1))
+    let Some((_, least, residuals)) = candidates
+        .iter()
+        .min_by(|one, other| one.1.total_cmp(&other.1))
     else {
         return 0;
     };
-    let uncertain = UNCERTAIN * correlated_points(residuals) / few.len() as f64;
+    let uncertain = CONTACT_UNCERTAINTY * correlated_points(residuals) / few.len() as f64;
     let is_good = |one: &&(usize, f64, Vec<f64>)| one.1 <= least * (1.0 + uncertain);
-    tried.iter().rfind(is_good).map_or(0, |(place, ..)| *place)
+    candidates
+        .iter()
+        .rfind(is_good)
+        .map_or(0, |(place, ..)| *place)
 }
 
-/// How far values are off the line of least squares over others.
-fn off_the_line(over: &[f64], values: &[f64]) -> Vec<f64> {
+/// Residuals of the regression of values on others.
+fn regression_residuals(over: &[f64], values: &[f64]) -> Vec<f64> {
     let n = over.len() as f64;
     let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
     let [middle, value] = [over, values].map(mean);
@@ -160,8 +173,8 @@ fn off_the_line(over: &[f64], values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Baseline and modulus by linear least squares.
-fn elastic(
+/// Elastic fit of baseline and modulus by linear least squares, for a given contact point and thickness.
+fn fit_elastic(
     model: &Model,
     contact_point: f64,
     thickness: Option<f64>,

@@ -1,20 +1,20 @@
-//! Rows of a table by their temperatures.
+//! Grouping of the rows of a table into isotherms.
 
 use std::collections::BTreeMap;
 
 /// A measurement, in SI and in shear.
 pub(super) struct IsothermRow {
     pub(super) line: usize,
-    /// ω or t, greater than 0.
+    /// Angular frequency ω or time t, greater than 0.
     pub(super) at: f64,
-    /// G' and G'', or G(t) twice.
+    /// Moduli G' and G'', or G(t) twice.
     pub(super) moduli: [f64; 2],
     pub(super) temperature: Option<f64>,
     pub(super) set: Option<f64>,
 }
 
 impl IsothermRow {
-    /// Whether this is the same measurement a second time, of the same temperature and at the same frequency.
+    /// Whether two rows of the same frequency repeat the same measurement.
     fn repeats(&self, other: &Self) -> bool {
         let moduli = |row: &Self| row.moduli.map(f64::to_bits);
         self.temperature == other.temperature && moduli(self) == moduli(other)
@@ -23,20 +23,21 @@ impl IsothermRow {
 
 /// Rows of one temperature.
 pub(super) struct Group {
-    /// Where it begins.
+    /// First line of the group.
     pub(super) line: usize,
     pub(super) temperatures: Vec<f64>,
     set: Option<f64>,
-    /// By the bits of ω or t, which are in the order of the numbers.
+    /// Rows by the bits of ω or t, whose order is that of the positive numbers.
     pub(super) rows: BTreeMap<u64, IsothermRow>,
 }
 
-/// Within an isotherm the temperature may drift by this much, \[K].
-const DRIFT: f64 = 1.0;
+/// Largest drift of the temperature within an isotherm, \[K] (chosen).
+const MAX_TEMPERATURE_DRIFT: f64 = 1.0;
 
-/// Puts a row into the isotherm of the nearest temperature where its frequency is missing, or into a new one. The
-/// frequencies may come in any order, and so may the temperatures, and a row that is there already counts once; says what was expected when the latest isotherm has a row
-/// of this frequency and temperature.
+/// Inserts a row into the isotherm of the nearest temperature without this frequency, or into a new one.
+///
+/// Frequencies and temperatures may come in any order; a repeated row counts once. The error is the expectation that a
+/// second, different row of the same frequency and temperature violates.
 pub(super) fn insert(groups: &mut Vec<Group>, row: IsothermRow) -> Result<(), &'static str> {
     let key = row.at.to_bits();
     let is_repeated = |group: &Group| group.rows.get(&key).is_some_and(|same| same.repeats(&row));
@@ -70,13 +71,13 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: IsothermRow) -> Result<(), &'
 }
 
 impl Group {
-    /// How far a row is from the first one in temperature, where it may be of this isotherm.
+    /// Distance of a row from the first one in temperature, \[K]; `None` if it is of another isotherm.
     fn distance(&self, row: &IsothermRow) -> Option<f64> {
         if let (Some(set), Some(own)) = (row.set, self.set) {
             return set.total_cmp(&own).is_eq().then_some(0.0);
         }
         let both = row.temperature.zip(self.temperatures.first());
         let distance = both.map_or(0.0, |(temperature, first)| (temperature - first).abs());
-        (distance <= DRIFT).then_some(distance)
+        (distance <= MAX_TEMPERATURE_DRIFT).then_some(distance)
     }
 }

@@ -1,6 +1,6 @@
-//! Tables of measured moduli, as instruments export them.
+//! Reader of tables of measured moduli, and their master curves.
 //!
-//! [`measured_moduli`] puts the rows of all tables of a file into isotherms.
+//! [`measured_moduli`] groups the rows of all tables of a file into isotherms; [`master_curve`] shifts these.
 
 mod isotherms;
 mod names;
@@ -23,38 +23,38 @@ use isotherms::{Group, IsothermRow, insert};
 use names::MODULI;
 pub use shifting::{Shifted, Shifting, master_curve};
 
-/// What was measured, in SI and in shear.
+/// Measured moduli in SI units, converted to shear.
 #[derive(Debug, Clone, PartialEq)]
 #[must_use]
 pub struct MeasuredModuli {
-    /// The moduli.
+    /// Moduli over frequency or over time.
     pub measurements: Measurements,
-    /// Whether temperatures are in °C, and not in K; none of a table without them.
+    /// Whether temperatures are in °C rather than in K; `None` for a table without temperatures.
     pub celsius: Option<bool>,
 }
 
 /// Moduli over frequency or over time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Measurements {
-    /// Isotherms in the order in which they begin in the table; without temperatures there is one, whose own means nothing.
+    /// Isotherms in the order of the table; without temperatures there is one, whose temperature is meaningless.
     Oscillation(Vec<Isotherm>),
-    /// Points at increasing times; those of a creep compliance are converted.
+    /// Relaxation modulus at increasing times; a creep compliance is converted.
     Relaxation(Vec<RelaxationPoint>),
 }
 
-/// What a table does not say.
+/// Information that a table of moduli does not contain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TableOptions {
-    /// G/E, greater than 0; see [`shear_per_tension`].
+    /// Ratio G/E > 0; see [`shear_per_tension`].
     pub shear_per_tension: f64,
-    /// What a "storage modulus" is that has neither E nor G in its name.
+    /// Deformation of moduli with neither E nor G in their names.
     pub deformation: Option<Deformation>,
 }
 
-/// G/E = 1/(2 (1 + ν)) at a constant Poisson ratio.
+/// Ratio G/E = 1/(2 (1 + ν)) at a constant Poisson ratio.
 ///
 /// # Errors
-/// When the Poisson ratio is not greater than −1 and at most 0.5.
+/// [`InvalidParameter`] when the Poisson ratio is not greater than −1 and at most 0.5.
 pub fn shear_per_tension(poisson_ratio: f64) -> Result<f64, InvalidParameter> {
     let holds = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
     let allowed = "greater than -1 and at most 0.5";
@@ -62,7 +62,9 @@ pub fn shear_per_tension(poisson_ratio: f64) -> Result<f64, InvalidParameter> {
     Ok(0.5 / (1.0 + poisson_ratio))
 }
 
-/// Reads the contents of a file, which need not be there: tables with a line of names each, among other text.
+/// Reads moduli from the contents of a file: tables with a line of names each, among other text.
+///
+/// The path is used for messages only.
 ///
 /// # Errors
 /// [`MeasurementError`] with file, line and column.
@@ -107,13 +109,13 @@ pub fn measured_moduli(
     })
 }
 
-/// What all tables of a file have in common.
+/// Kind of measurement, which all tables of a file must have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Kind {
     is_relaxation: bool,
-    /// Whether what is measured over the time is a compliance.
+    /// Whether the quantity measured over time is a compliance.
     is_creep: bool,
-    /// Whether temperatures are in °C, where there are some.
+    /// Whether temperatures are in °C; `None` without temperatures.
     celsius: Option<bool>,
 }
 
@@ -198,7 +200,7 @@ fn isotherm(group: Group) -> Isotherm {
     }
 }
 
-/// The mean with the decimals of the numbers themselves; 0 of none.
+/// Mean, rounded to the decimals of the numbers; 0 without numbers.
 fn mean(numbers: &[f64]) -> f64 {
     if numbers.is_empty() {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Names of moduli, and of what they are measured over.
+//! Names of moduli and of their independent variables in tables.
 
 use super::Deformation;
 use crate::table::{Quantity, Vocabulary};
@@ -10,7 +10,7 @@ use Quantity::{
 pub(super) static MODULI: Vocabulary = Vocabulary {
     names: "f or ω with two of E', E'' and tan delta (or G' and G''), or with one of E', E'' and |E*| (or G', G'' and |G*|) and a \
             phase angle or tan delta, or t with E_relax (or G_relax) or J(t) (or D(t)), and perhaps T and Set",
-    known: &KNOWN,
+    known: &KNOWN_NAMES,
     is_head,
     needed,
     optional: &[Temperature, Set],
@@ -20,8 +20,8 @@ pub(super) static MODULI: Vocabulary = Vocabulary {
 const TENSION: Option<Deformation> = Some(Deformation::Tension);
 const SHEAR: Option<Deformation> = Some(Deformation::Shear);
 
-/// Names without blanks, points, dashes, underlines and accents.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 54] = [
+/// Known names, without blanks, points, dashes, underscores and accents.
+const KNOWN_NAMES: [(Quantity, Option<Deformation>, &str); 54] = [
     (Frequency, None, "f freq frequency frequenz ω omega w"),
     (Frequency, None, "angularfrequency angfrequency"),
     (Frequency, None, "kreisfrequenz"),
@@ -102,13 +102,13 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 54] = [
     (Temperature, None, "温度 溫度"),
 ];
 
-/// Whether names are those of moduli over something else.
+/// Whether a line of names is the head of a table of moduli.
 fn is_head(columns: &[Quantity]) -> bool {
     let mut quantities = columns.iter();
     columns.len() >= 2 && quantities.any(|one| one.is_modulus() || *one == LossFactor)
 }
 
-/// Oscillation is measured over the time, too.
+/// Needed columns. A table of an oscillation may have a column of times, too.
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     let has = |quantity: &Quantity| columns.contains(quantity);
     if has(&Time) && (has(&Relaxation) || has(&Creep) || !has(&Frequency)) {

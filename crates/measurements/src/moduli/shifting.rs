@@ -1,4 +1,4 @@
-//! Isotherms onto one curve, at exactly the temperature that is wanted.
+//! Master curves of measured isotherms at a given reference temperature.
 
 use numerics::finite;
 use rheology::fit::{
@@ -9,34 +9,36 @@ use rheology::{
     ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError, Shift, ShiftLaw, VerticalLaw, WlfShift,
 };
 
-/// How isotherms are shifted.
+/// Options for shifting isotherms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Shifting {
-    /// Temperature at which the material is wanted, in the unit of the table; without it that of the isotherm in the middle.
+    /// Reference temperature in the unit of the table; `None` for that of the middle isotherm.
     pub reference_temperature: Option<f64>,
-    /// The law, about that temperature; without one the isotherms are shifted onto one another.
+    /// Shift law about the reference temperature; `None` shifts the isotherms onto one another.
     pub law: Option<ShiftLaw>,
-    /// How the moduli change with temperature; without it as the isotherms show.
+    /// Vertical shift of the moduli; `None` lets the isotherms decide.
     pub vertical: Option<VerticalShift>,
 }
 
-/// Isotherms as one curve.
+/// A master curve and its shift law.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shifted {
-    /// Temperatures in the unit of the table.
+    /// Master curve with temperatures in the unit of the table.
     pub master: MasterCurve,
-    /// The law that was given, or that is within a tenth of a decade of the shifts, with the temperatures at which it is; none of one
-    /// isotherm, or where the warmer is not the faster.
+    /// Given law, or law fitted to the shifts, with its range of temperatures.
+    ///
+    /// A fitted law deviates from the shifts in its range by at most a tenth of a decade. `None` for one isotherm, and if
+    /// warmer isotherms are not faster.
     pub shift: Option<Shift>,
 }
 
-/// The master curve of `isotherms`, whose temperatures are in °C or in K.
+/// Master curve of isotherms, whose temperatures are in °C or in K.
 ///
-/// Between two isotherms it is that of the nearest one, shifted by the law of those around.
+/// Between two isotherms it is that of the nearest one, shifted by the law of the isotherms around it.
 ///
 /// # Errors
-/// Those of [`automatic_master_curve`] and [`shifted_master_curve`]; [`RheologyError::OutsideShiftLaw`] where the law would have to
-/// continue beyond the isotherms, and [`RheologyError::NoShiftLaw`] where none describes the shifts.
+/// The errors of [`automatic_master_curve`] and [`shifted_master_curve`]; [`RheologyError::OutsideShiftLaw`] beyond the range
+/// of the isotherms; [`RheologyError::NoShiftLaw`] if no law describes the shifts.
 pub fn master_curve(
     isotherms: &[Isotherm],
     celsius: bool,
@@ -71,12 +73,12 @@ pub fn master_curve(
 /// Isotherms of a table.
 struct Table<'a> {
     isotherms: &'a [Isotherm],
-    /// What is to be added to their temperatures for °C.
+    /// Offset from the temperatures of the table to °C.
     to_celsius: f64,
 }
 
 impl Table<'_> {
-    /// From the lowest one on.
+    /// Temperatures of the isotherms in increasing order.
     fn temperatures(&self) -> Vec<f64> {
         let temperatures = self.isotherms.iter().map(|one| one.temperature);
         let mut temperatures: Vec<f64> = temperatures.collect();
@@ -84,7 +86,7 @@ impl Table<'_> {
         temperatures
     }
 
-    /// By a law about the temperature that is wanted.
+    /// Master curve by a law about the reference temperature.
     fn by_law(
         &self,
         wanted: f64,
@@ -114,7 +116,7 @@ impl Table<'_> {
         })
     }
 
-    /// Onto one another, and to the temperature that is wanted by the law of the shifts.
+    /// Master curve of isotherms shifted onto one another, then to the reference temperature by a law fitted to the shifts.
     fn automatic(
         &self,
         wanted: f64,
@@ -126,7 +128,7 @@ impl Table<'_> {
         let pair = |shift: &IsothermShift| [celsius(shift.temperature), shift.log10_factor];
         let mut shifts: Vec<[f64; 2]> = master.shifts.iter().map(pair).collect();
         shifts.sort_by(|one, other| one[0].total_cmp(&other[0]));
-        let shift = law_around(&shifts, [nearest, wanted].map(celsius));
+        let shift = fit_law_around(&shifts, [nearest, wanted].map(celsius));
         let vertical = self.vertical_law(&master);
         let shift = shift.map(|shift| Shift { vertical, ..shift });
         if wanted.total_cmp(&nearest).is_eq() {
@@ -144,7 +146,7 @@ impl Table<'_> {
         })
     }
 
-    /// How the moduli of a master curve change with temperature.
+    /// Law of the factor b_T of a master curve.
     fn vertical_law(&self, master: &MasterCurve) -> Option<VerticalLaw> {
         let of_isotherm =
             |shift: &IsothermShift| [shift.temperature + self.to_celsius, shift.modulus_factor];
@@ -154,7 +156,7 @@ impl Table<'_> {
             VerticalShift::Free => {
                 let mut table: Vec<[f64; 2]> = master.shifts.iter().map(of_isotherm).collect();
                 table.sort_by(|one, other| one[0].total_cmp(&other[0]));
-                // Isotherms of the same temperature: the first one.
+                // Keep the first of several isotherms of one temperature.
                 table.dedup_by(|next, kept| next[0] <= kept[0]);
                 Some(VerticalLaw::Table(table))
             }
@@ -162,12 +164,13 @@ impl Table<'_> {
     }
 }
 
-/// Distance of shifts from a law, in decades, within which the law holds.
-const HOLDS: f64 = 0.1;
+/// Largest deviation of shifts from a law that describes them, in decades (chosen).
+const LAW_TOLERANCE: f64 = 0.1;
 
-/// The law about the `nearest` isotherm, and the temperatures up to which it holds, found from the one that is `wanted`
-/// outwards. Shifts are pairs of °C and log₁₀ a_T, the colder first.
-fn law_around(shifts: &[[f64; 2]], [nearest, wanted]: [f64; 2]) -> Option<Shift> {
+/// Fits a law about the `nearest` isotherm, and extends its range from the `wanted` temperature outwards while it holds.
+///
+/// Shifts are pairs of °C and log₁₀ a_T in increasing order of temperature.
+fn fit_law_around(shifts: &[[f64; 2]], [nearest, wanted]: [f64; 2]) -> Option<Shift> {
     let mut order: Vec<usize> = (0..shifts.len()).collect();
     let distance = |place: &usize| (shifts[*place][0] - wanted).abs();
     order.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -177,12 +180,13 @@ fn law_around(shifts: &[[f64; 2]], [nearest, wanted]: [f64; 2]) -> Option<Shift>
     let [mut first, mut last] = [start; 2];
     let mut found = None;
     for place in order {
-        // Beyond an isotherm that is off the law does not come back.
+        // The range is contiguous: it does not continue beyond an isotherm that deviates.
         if place + 1 != first && place != last + 1 {
             continue;
         }
         let held = &shifts[first.min(place)..=last.max(place)];
-        if let Some(shift) = closest(held, nearest).filter(|shift| deviation(shift, held) <= HOLDS)
+        if let Some(shift) =
+            fit_closest_law(held, nearest).filter(|shift| deviation(shift, held) <= LAW_TOLERANCE)
         {
             [first, last] = [first.min(place), last.max(place)];
             found = Some(shift);
@@ -191,8 +195,8 @@ fn law_around(shifts: &[[f64; 2]], [nearest, wanted]: [f64; 2]) -> Option<Shift>
     found
 }
 
-/// The law of Williams, Landel and Ferry or that of Arrhenius, whichever comes closer.
-fn closest(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
+/// The better fit of the WLF law and of the law of Arrhenius.
+fn fit_closest_law(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
     let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
     let in_kelvin: Vec<[f64; 2]> = shifts.iter().map(|[t, log]| [kelvin(*t), *log]).collect();
     let wlf = WlfShift::through(shifts, reference);
@@ -207,16 +211,16 @@ fn closest(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
         law,
         vertical: None,
     };
-    let off = |shift: &Shift| deviation(shift, shifts);
+    let misfit = |shift: &Shift| deviation(shift, shifts);
     let laws = laws.into_iter().filter_map(Result::ok).map(shift);
-    laws.min_by(|one, other| off(one).total_cmp(&off(other)))
+    laws.min_by(|one, other| misfit(one).total_cmp(&misfit(other)))
 }
 
-/// How far shifts are from a law at most.
+/// Largest deviation of shifts from a law, in decades.
 fn deviation(shift: &Shift, shifts: &[[f64; 2]]) -> f64 {
-    let off = shifts.iter().map(|[temperature, log]| {
+    let misfits = shifts.iter().map(|[temperature, log]| {
         let of_law = shift.log10_factor(*temperature);
         of_law.map_or(f64::INFINITY, |of_law| (of_law - log).abs())
     });
-    off.fold(0.0, f64::max)
+    misfits.fold(0.0, f64::max)
 }

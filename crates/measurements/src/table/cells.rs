@@ -1,4 +1,4 @@
-//! Single cells of a line, by the quantity of their column.
+//! Access to single cells of a line by the quantity of their column.
 
 use std::fmt::Display;
 
@@ -6,20 +6,20 @@ use super::{Column, Line, Quantity, Result, Table};
 use crate::MeasurementError;
 
 impl Table<'_> {
-    /// A number in SI where there is such a column.
+    /// Number of a quantity in SI; `None` without such a column.
     pub(crate) fn in_si(&self, line: &Line, quantity: Quantity) -> Result<Option<f64>> {
         let column = self.find(quantity);
         let number = |column: &Column| Ok(self.number(line, column)? * column.factor);
         column.map(number).transpose()
     }
 
-    /// A number greater than 0 in SI where there is such a column.
+    /// Positive number of a quantity in SI; `None` without such a column.
     pub(crate) fn positive_of(&self, line: &Line, quantity: Quantity) -> Result<Option<f64>> {
         let column = self.find(quantity);
         column.map(|column| self.positive(line, column)).transpose()
     }
 
-    /// What is wrong with the number of a quantity in a line.
+    /// Error for the number of a quantity in a line.
     pub(crate) fn wrong_in(
         &self,
         line: &Line,
@@ -32,7 +32,7 @@ impl Table<'_> {
         }
     }
 
-    /// What is wrong with a whole line.
+    /// Error for a whole line.
     pub(crate) fn wrong_row(&self, line: usize, problem: &dyn Display) -> MeasurementError {
         self.source.wrong_line(line, problem)
     }

@@ -1,9 +1,9 @@
-//! Which of several columns of a table are read.
+//! Selection of columns of a table.
 
 use super::Column;
 use super::columns::{Half, Quantity, half_of};
 
-/// Those of half a ramp, if it is one; columns without a mark belong to both halves.
+/// Keeps the columns of one half of a ramp, if the halves are marked; unmarked columns belong to both halves.
 pub(super) fn retain_half(columns: &mut Vec<Column>, half: Option<Half>) {
     if half.is_none() {
         return;
@@ -17,13 +17,13 @@ pub(super) fn retain_half(columns: &mut Vec<Column>, half: Option<Half>) {
     });
 }
 
-/// Of each quantity those that come first by their names, of these by their units.
+/// Keeps the columns of each quantity that come first by their names, then by their units.
 pub(super) fn retain_first(columns: &mut Vec<Column>) {
     let rank = |column: &Column| {
         let mut units = column.quantity.units().split(' ');
         let known = column.quantity.unit(column.unit);
         let place = known.and_then(|(known, _)| units.position(|unit| unit == known));
-        // Before those of another quantity, as volts are for a force.
+        // Units of the quantity precede those of another one, such as volts for a force.
         let is_other = place.is_none() && !column.unit.is_empty();
         (column.order, is_other, place)
     };

@@ -1,4 +1,4 @@
-//! Names and units at the head of a table.
+//! Names and units in the head of a table.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use Quantity::{
     Set, Storage, Temperature, Time, Tip, Velocity,
 };
 
-/// What a column holds.
+/// Quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Quantity {
     Frequency,
@@ -17,9 +17,9 @@ pub(crate) enum Quantity {
     Storage,
     Loss,
     LossFactor,
-    /// |G*| or |E*|.
+    /// Magnitude |G*| or |E*|.
     Magnitude,
-    /// Angle δ by which strain lags behind stress.
+    /// Phase angle δ by which strain lags behind stress.
     Phase,
     Relaxation,
     /// Creep compliance.
@@ -28,9 +28,9 @@ pub(crate) enum Quantity {
     /// Number of the isotherm.
     Set,
     Force,
-    /// Into the sample.
+    /// Indentation depth.
     Depth,
-    /// Of the body or of a piezo, towards the sample.
+    /// Displacement of the body or of a piezo, towards the sample.
     Displacement,
     /// Extension of the piezo, towards the sample.
     Piezo,
@@ -39,40 +39,40 @@ pub(crate) enum Quantity {
     /// Position of the tip, away from the sample.
     Tip,
     Deflection,
-    /// Of sliding or rolling, along the track or as a rotation.
+    /// Speed of sliding or rolling, along the track or as a rotation.
     Velocity,
-    /// Of a circular track.
+    /// Radius of a circular track.
     Radius,
     /// Friction coefficient.
     Friction,
     /// Standard error of the friction coefficient.
     FrictionError,
-    /// Along the surface.
+    /// Force along the surface.
     FrictionForce,
-    /// A name of which only a part is known.
+    /// Known name of an ignored column.
     Other,
 }
 
-/// What tables of one kind hold.
+/// Names and columns of one kind of table.
 pub(crate) struct Vocabulary {
     /// All names, for messages.
     pub(crate) names: &'static str,
-    /// Names without blanks, points, dashes and underlines.
+    /// Known names, without blanks, points, dashes and underscores.
     pub(crate) known: &'static [(Quantity, Option<Deformation>, &'static str)],
-    /// Whether these are the columns of a line of names.
+    /// Whether columns with these quantities are the head of a table.
     pub(crate) is_head: fn(&[Quantity]) -> bool,
-    /// What is needed of these columns.
+    /// Needed quantities of a table with these columns.
     pub(crate) needed: fn(&[Quantity]) -> Vec<Quantity>,
-    /// What is read beside that.
+    /// Optional quantities.
     pub(crate) optional: &'static [Quantity],
-    /// Whether of several columns of a quantity the one whose name stands first in `known` counts, of the same name that
-    /// whose unit does.
+    /// Whether the first of several columns of a quantity is read, in the order of `known` and of the units.
     pub(crate) has_order: bool,
 }
 
 impl Vocabulary {
-    /// What a name stands for, by its place in `known`, and how the body was deformed. Capitals count in letters that stand
-    /// alone: T is a temperature and t a time, and F is a force.
+    /// Index in `known` of a name, and the deformation that it states.
+    ///
+    /// Single letters are case-sensitive: T is a temperature, t a time and F a force.
     pub(super) fn meaning(&self, name: &str) -> Option<(usize, Option<Deformation>)> {
         let name = name
             .replace(['′', '’', '´', '`'], "'")
@@ -80,18 +80,19 @@ impl Vocabulary {
             .replace("\"\"", "\"")
             .replace(['″', '”', '"'], "''")
             .replace([' ', '_', '-', '.'], "");
-        let beside = |&(symbol, quantity, deformation): &(&str, Quantity, Option<Deformation>)| {
-            let rest = name.strip_suffix(')').unwrap_or(&name).strip_suffix(symbol);
-            let rest = rest.or_else(|| name.strip_prefix(symbol))?;
-            let found = self.find(rest.trim_matches(['(', ')', ',']))?;
-            (self.known[found].0 == quantity).then_some((found, deformation))
-        };
+        let with_symbol =
+            |&(symbol, quantity, deformation): &(&str, Quantity, Option<Deformation>)| {
+                let rest = name.strip_suffix(')').unwrap_or(&name).strip_suffix(symbol);
+                let rest = rest.or_else(|| name.strip_prefix(symbol))?;
+                let found = self.find(rest.trim_matches(['(', ')', ',']))?;
+                (self.known[found].0 == quantity).then_some((found, deformation))
+            };
         let found = self.find(&name).map(|found| (found, self.known[found].1));
-        found.or_else(|| SYMBOLS.iter().find_map(beside))
+        found.or_else(|| SYMBOLS.iter().find_map(with_symbol))
     }
 
     fn find(&self, name: &str) -> Option<usize> {
-        let folded = folded(name);
+        let folded = fold_accents(name);
         let is_same = |word: &str| {
             word == name || (name.chars().count() > 1 && word.to_lowercase() == folded)
         };
@@ -108,7 +109,7 @@ impl Vocabulary {
     }
 }
 
-/// Symbols that may stand beside a name, as in `Speichermodul E'` or `Loss modulus (G'')`.
+/// Symbols that may accompany a name, as in `Speichermodul E'` or `Loss modulus (G'')`.
 const SYMBOLS: [(&str, Quantity, Option<Deformation>); 18] = [
     ("E''", Loss, Some(Deformation::Tension)),
     ("G''", Loss, Some(Deformation::Shear)),
@@ -130,8 +131,8 @@ const SYMBOLS: [(&str, Quantity, Option<Deformation>); 18] = [
     ("T", Temperature, None),
 ];
 
-/// In small letters without accents.
-fn folded(name: &str) -> String {
+/// A name in lower case without accents.
+fn fold_accents(name: &str) -> String {
     let accents = ["áàâ a", "éèê e", "íìî i", "óòô o", "úùû u"];
     let plain = |letter: char| {
         let same = accents.iter().find(|letters| letters.contains(letter));
@@ -141,9 +142,9 @@ fn folded(name: &str) -> String {
     name.to_lowercase().chars().map(plain).collect()
 }
 
-/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]`, `E' / MPa`, `"E', MPa"` or `Defl_pN_Ex` may be divided; without a unit that
-/// is empty.
-pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
+/// Candidate divisions of a cell such as `E'`, `E' (MPa)`, `E' [MPa]`, `E' / MPa`, `"E', MPa"` or `Defl_pN_Ex` into name and
+/// unit; a missing unit is empty.
+pub(crate) fn split_unit(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     let prefix = PREFIXES.iter().find(|(prefix, _)| cell.starts_with(prefix));
     let cell = prefix.map_or(cell, |(prefix, _)| &cell[prefix.len()..]);
     let bracket = cell.strip_suffix([')', ']', '）']);
@@ -165,7 +166,7 @@ pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     parts.into_iter().flatten()
 }
 
-/// Half of a ramp, whose columns may stand beside those of the other half.
+/// Half of a ramp; the columns of both halves may be in one table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Half {
     /// Towards the sample.
@@ -174,9 +175,9 @@ pub(crate) enum Half {
     Retract,
 }
 
-/// How NanoScope marks the columns of the halves, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
+/// Marks of NanoScope for the halves of a ramp, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
 const SUFFIXES: [(&str, Half); 2] = [("_Ex", Half::Approach), ("_Rt", Half::Retract)];
-/// How others do, as AFM Workshop in `Extend Z-Sense(nm)`.
+/// Marks of other instruments, as AFM Workshop in `Extend Z-Sense(nm)`.
 const PREFIXES: [(&str, Half); 8] = [
     ("Extend ", Half::Approach),
     ("Approach ", Half::Approach),
@@ -188,7 +189,7 @@ const PREFIXES: [(&str, Half); 8] = [
     ("Retrace ", Half::Retract),
 ];
 
-/// The half of a ramp that a name of a column is marked with.
+/// Half of a ramp with which the name of a column is marked.
 pub(super) fn half_of(name: &str) -> Option<Half> {
     let mut suffixes = SUFFIXES.iter();
     let mut prefixes = PREFIXES.iter();
@@ -199,7 +200,7 @@ pub(super) fn half_of(name: &str) -> Option<Half> {
 }
 
 impl Quantity {
-    /// The usual names, for messages, and the units between blanks, of which one may be empty.
+    /// Usual names for messages, and known units separated by blanks; one of these may be empty.
     const fn names(self) -> (&'static str, &'static str) {
         match self {
             Frequency => ("f or ω", "Hz mHz kHz rad/s 1/s"),
@@ -242,7 +243,7 @@ impl Quantity {
         matches!(self, Storage | Loss | Magnitude | Relaxation | Creep)
     }
 
-    /// The unit, and the factor that turns a number into SI; temperatures stay as they are.
+    /// Canonical unit with its factor to SI; `None` for an unknown unit. Temperatures are not converted.
     pub(crate) fn unit(self, unit: &str) -> Option<(&'static str, f64)> {
         let unit = unit.trim().trim_matches(['[', ']', '(', ')']).trim();
         let unit = unit.replace(['µ', 'μ'], "u");
@@ -252,7 +253,7 @@ impl Quantity {
         Some((known, self.factor(known)))
     }
 
-    /// What turns a number with one of these units into SI.
+    /// Factor from one of the known units to SI.
     fn factor(self, unit: &str) -> f64 {
         let of_unit = match unit {
             "Hz" | "mHz" | "kHz" => TAU,
@@ -277,7 +278,7 @@ impl Quantity {
     }
 }
 
-/// Other ways to write them.
+/// Other spellings of units, and the canonical ones.
 const SAME_UNITS: [(&str, &str); 24] = [
     ("1/min", "rpm"),
     ("min-1", "rpm"),

@@ -1,4 +1,4 @@
-//! From bytes to lines of cells: encoding, separator and decimal mark.
+//! Detection of encoding, separator and decimal mark: from bytes to lines of cells.
 
 use std::borrow::Cow;
 use std::cmp::Reverse;
@@ -8,8 +8,9 @@ use encoding_rs::{GB18030, SHIFT_JIS, UTF_8, WINDOWS_1252};
 
 use super::Vocabulary;
 
-/// The text of a file in UTF-8, in UTF-16 with a byte-order mark, in GB 18030 or Shift JIS where that has Chinese or Japanese
-/// names of quantities in it, or else in Windows-1252.
+/// Decodes a file in UTF-8, in UTF-16 with a byte-order mark, in GB 18030 or Shift JIS, or else in Windows-1252.
+///
+/// GB 18030 and Shift JIS are accepted if the text contains Chinese or Japanese names of quantities.
 pub(crate) fn text_of<'a>(contents: &'a [u8], vocabulary: &Vocabulary) -> Cow<'a, str> {
     let (text, _, has_errors) = UTF_8.decode(contents);
     if !has_errors {
@@ -23,7 +24,7 @@ pub(crate) fn text_of<'a>(contents: &'a [u8], vocabulary: &Vocabulary) -> Cow<'a
     known.unwrap_or_else(|| WINDOWS_1252.decode(contents).0)
 }
 
-/// How the cells of a table are separated, and their numbers written.
+/// Separator of the cells and decimal mark of the numbers of a table.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layout {
     separator: char,
@@ -39,8 +40,9 @@ const SEPARATORS: [(char, &str); 4] = [
 ];
 
 impl Layout {
-    /// The layout in which the most lines have the same number of cells and of numbers, at least two; of several the one
-    /// with the fewest cells that are no numbers, and of those the first.
+    /// Layout in which the most lines agree in their numbers of cells and of numeric cells, at least two.
+    ///
+    /// Among several it is the one with the fewest other cells, then the first.
     pub(crate) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Self {
         let layouts = SEPARATORS.iter().flat_map(|&(separator, _)| {
             ['.', ','].map(|decimal_mark| Self {
@@ -71,12 +73,12 @@ impl Layout {
         })
     }
 
-    /// Whether blanks separate, one or more.
+    /// Whether one or more blanks separate the cells.
     pub(crate) const fn is_blank(self) -> bool {
         self.separator == ' '
     }
 
-    /// What is between the cells, for messages.
+    /// Name of the separator, for messages.
     pub(crate) fn separators(self) -> &'static str {
         let mut known = SEPARATORS.iter();
         let found = known.find(|(separator, _)| *separator == self.separator);
@@ -100,9 +102,9 @@ impl Layout {
         cells.map(|cell| unquoted(cell.trim())).collect()
     }
 
-    /// Names and units may stand in a comment. Where blanks separate, names with blanks in them are two blanks apart.
+    /// Names in a line, which may be a comment; with blanks as separators, names that contain blanks are two blanks apart.
     pub(crate) fn names(self, line: &str) -> Vec<&str> {
-        let line = line.trim_start_matches(MARKS);
+        let line = line.trim_start_matches(COMMENT_MARKS);
         let line = tagged(line).map_or(line, |(_, names)| names);
         if self.is_blank() && line.trim().contains("  ") {
             let names = line.split("  ").map(str::trim);
@@ -126,15 +128,16 @@ fn unquoted(cell: &str) -> &str {
     rest.map_or(cell, |rest| rest.strip_suffix('"').unwrap_or(rest).trim())
 }
 
-/// The tag of a comment of JPK, which has the names or the units of the columns below, and what comes after it.
+/// Tag of a comment of JPK with names or units of the columns below it, and the text after the tag.
 pub(crate) fn tagged(line: &str) -> Option<(&str, &str)> {
-    let (tag, rest) = line.trim_start_matches(MARKS).split_once(':')?;
+    let (tag, rest) = line.trim_start_matches(COMMENT_MARKS).split_once(':')?;
     let is_known = ["columns", "units"].contains(&tag.trim());
     is_known.then(|| (tag.trim(), rest))
 }
 
-const MARKS: [char; 2] = ['#', '%'];
+/// First characters of a comment.
+const COMMENT_MARKS: [char; 2] = ['#', '%'];
 
 pub(crate) fn is_comment(line: &str) -> bool {
-    line.trim_start().starts_with(MARKS) || line.trim_start().starts_with("//")
+    line.trim_start().starts_with(COMMENT_MARKS) || line.trim_start().starts_with("//")
 }

@@ -1,5 +1,7 @@
-//! Tables of measurements as instruments export them: from bytes to text (the encoding), from text to lines of cells
-//! (separator and decimal mark), from a line of names to columns with units, and from the rows below to numbers in SI.
+//! Reader of tables as instruments export them.
+//!
+//! Four steps: bytes to text (encoding), text to lines of cells (separator and decimal mark), a line of names to columns with
+//! units, and the rows below to numbers in SI.
 
 mod cells;
 mod choice;
@@ -16,25 +18,24 @@ use crate::MeasurementError;
 use Quantity::{Frequency, Loss, Storage};
 use choice::{retain_first, retain_half};
 pub(crate) use columns::{Half, Quantity, Vocabulary};
-use columns::{divided, half_of};
+use columns::{half_of, split_unit};
 use layout::{Layout, is_comment, tagged};
 
 type Result<T, E = MeasurementError> = std::result::Result<T, E>;
 
-/// The text of a file.
 pub(crate) use layout::text_of;
 
-/// How a body was deformed.
+/// Deformation of the sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Deformation {
-    /// In tension, compression or bending: the modulus is Young's, E.
+    /// Tension, compression or bending: the modulus is Young's modulus E.
     Tension,
-    /// In shear: the modulus is G.
+    /// Shear: the modulus is the shear modulus G.
     Shear,
 }
 
-/// Where a table comes from, and how it is read.
+/// The text of a file with its layout and vocabulary.
 pub(crate) struct Source<'a> {
     file: &'a Path,
     layout: Layout,
@@ -43,17 +44,17 @@ pub(crate) struct Source<'a> {
     lines: Vec<Line<'a>>,
 }
 
-/// What a table does not say.
+/// Meaning of columns that their names do not state.
 pub(crate) struct Meaning<'a> {
-    /// What a modulus is that has neither E nor G in its name.
+    /// Deformation of moduli with neither E nor G in their names.
     pub(crate) deformation: Option<Deformation>,
-    /// What a number in SI is multiplied by.
+    /// Factor on the numbers of a column in SI.
     pub(crate) scale: &'a dyn Fn(&Column) -> f64,
 }
 
 /// A line that is not empty.
 pub(crate) struct Line<'a> {
-    /// Counted from 1.
+    /// Line number, which counts from 1.
     pub(crate) number: usize,
     pub(crate) text: &'a str,
     pub(crate) cells: Vec<&'a str>,
@@ -65,32 +66,32 @@ pub(crate) struct Column<'a> {
     pub(crate) deformation: Option<Deformation>,
     pub(crate) name: &'a str,
     place: usize,
-    /// Place of its name in the vocabulary.
+    /// Index of its name in the vocabulary.
     order: usize,
     pub(crate) unit: &'a str,
-    /// To SI, and what that is multiplied by.
+    /// Factor to SI, including that of the meaning.
     factor: f64,
 }
 
 /// The columns of a table.
 pub(crate) struct Table<'a> {
     source: &'a Source<'a>,
-    /// Line of the names.
+    /// Line number of the names.
     pub(crate) line: usize,
-    /// ω or t first.
+    /// Needed quantities, ω or t first.
     pub(crate) needed: Vec<Quantity>,
-    /// Those of needed and optional quantities.
+    /// Columns of needed and optional quantities.
     columns: Vec<Column<'a>>,
-    /// Lines of names and units.
+    /// Number of lines of names and units.
     n_heads: usize,
-    /// The half of a ramp, where the columns of its halves are marked.
+    /// Half of a ramp; `None` if the halves are not marked.
     pub(crate) half: Option<Half>,
-    /// Names of columns that are known, but not read.
+    /// Names of known columns that are not read.
     pub(crate) left_out: Vec<&'a str>,
 }
 
 impl<'a> Source<'a> {
-    /// The lines of a text that are not empty.
+    /// Source of a text; empty lines are dropped.
     pub(crate) fn new(
         file: &'a Path,
         text: &'a str,
@@ -113,7 +114,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// All tables, each with its lines of measurements; they begin with names and may stand among other text.
+    /// All tables with their rows; each begins with a line of names and may be surrounded by other text.
     pub(crate) fn tables(&self) -> Result<Vec<(Table<'_>, Vec<&Line<'_>>)>> {
         let lines = &self.lines;
         let is_head = |at: &usize| {
@@ -156,11 +157,11 @@ impl<'a> Source<'a> {
                 return None;
             }
             let meaning = |name| self.vocabulary.meaning(name);
-            let mut parts = divided(name);
+            let mut parts = split_unit(name);
             let (found, unit) = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)))?;
             let (order, deformation) = found;
             let quantity = self.vocabulary.known[order].0;
-            // A name may be the unit itself, as rpm.
+            // A name may be a unit, such as rpm.
             let is_unit = unit.is_empty() && quantity.unit("").is_none();
             let unit = if is_unit && quantity.unit(name).is_some() {
                 name
@@ -181,17 +182,17 @@ impl<'a> Source<'a> {
         columns.collect()
     }
 
-    /// What is wrong with a whole line.
+    /// Error for a whole line.
     pub(crate) fn wrong_line(&self, line: usize, problem: &dyn Display) -> MeasurementError {
         MeasurementError::Table(format!("{}, line {line}: {problem}", self.file.display()))
     }
 
-    /// What is wrong with the whole text.
+    /// Error for the whole text, at its last line.
     pub(crate) fn wrong_end(&self, problem: &dyn Display) -> MeasurementError {
         self.wrong_line(self.lines.last().map_or(1, |line| line.number), problem)
     }
 
-    /// The columns that were found, for messages.
+    /// List of the columns of a line, for messages.
     fn found(&self, line: &Line) -> String {
         let names = self.layout.names(line.text);
         let names = names.iter().map(|name| format!("'{}'", shown(name, 40)));
@@ -205,7 +206,7 @@ impl<'a> Source<'a> {
         let is_number = |cell: &&&str| self.layout.number(cell).is_some();
         let is_row = |line: &Line| line.cells.iter().filter(is_number).count() > 1;
         let above = self.lines.iter().take_while(|line| !is_row(line));
-        // The one with the most known names, of several the one with the most cells, and of those the first.
+        // Show the line with the most known names, then with the most cells, then the first.
         let rank = |line: &&Line| {
             let filled = line.cells.iter().filter(|cell| !cell.is_empty());
             Reverse([self.columns(line).len(), filled.count()])
@@ -235,7 +236,7 @@ fn quantities(columns: &[Column]) -> Vec<Quantity> {
     columns.iter().map(|column| column.quantity).collect()
 }
 
-/// A cell as a part of one line; a quote that is never closed makes the rest of the line one cell.
+/// The beginning of a cell for messages; an unclosed quote makes the rest of the line one cell.
 fn shown(cell: &str, most: usize) -> String {
     let is_end = |(at, character): &(usize, char)| *at >= most || character.is_control();
     match cell.char_indices().find(is_end) {
@@ -245,7 +246,7 @@ fn shown(cell: &str, most: usize) -> String {
 }
 
 impl<'a> Table<'a> {
-    /// The table of a block of lines that begins with the names, of which those with a part count.
+    /// Table of a block of lines that begins with the names, with the columns of one half of a ramp.
     fn new(source: &'a Source<'a>, block: &[Line<'a>], half: Option<Half>) -> Result<Self> {
         let head = &block[0];
         let vocabulary = source.vocabulary;
@@ -286,7 +287,9 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// A frequency may be there in Hz and in rad/s, and the first one counts; everything else is there once.
+    /// Refuses duplicate columns, and moduli of unknown or different deformations.
+    ///
+    /// A frequency may be given twice, in Hz and in rad/s; the first column is read.
     fn check_names(&self, line: usize) -> Result<()> {
         for column in &self.columns {
             let first = self.find(column.quantity);
@@ -312,7 +315,7 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    /// Two columns of one quantity, of which nothing says which one counts.
+    /// Error for two columns of one quantity.
     fn twice(&self, line: usize, both: [&Column; 2]) -> MeasurementError {
         let [first, second] = both.map(|one| format!("{} ({})", one.place + 1, one.shown()));
         let quantity = both[0].quantity.usual();
@@ -322,7 +325,7 @@ impl<'a> Table<'a> {
         ))
     }
 
-    /// An option that changes nothing beside these columns.
+    /// Error for an option that has no effect because of these columns.
     pub(crate) fn without_effect(&self, option: &str, beside: &[&Column]) -> MeasurementError {
         let names: Vec<String> = beside
             .iter()
@@ -333,7 +336,7 @@ impl<'a> Table<'a> {
         self.source.wrong_line(self.line, &problem)
     }
 
-    /// Reads the units, which are in the names or in the line below.
+    /// Reads the units in the names or in the line below.
     fn read_units(&mut self, block: &[Line<'a>]) -> Result<()> {
         let layout = self.source.layout;
         let is_open = |one: &Column| one.unit.is_empty() && one.quantity.unit("").is_none();
@@ -355,7 +358,7 @@ impl<'a> Table<'a> {
         self.n_heads += usize::from(below.is_some());
         let mut units = below.map_or(Vec::new(), |line| layout.names(line.text));
         if layout.is_blank() {
-            // The first columns may be without.
+            // The first columns may have no unit.
             let n_names = layout.names(block[0].text).len();
             let missing = n_names.saturating_sub(units.len());
             units.splice(0..0, vec![""; missing]);
@@ -390,7 +393,7 @@ impl<'a> Table<'a> {
         columns.find(|column| column.quantity == quantity)
     }
 
-    /// The lines of measurements in its block; what introduces a next table stands at the end.
+    /// Rows of measurements in a block; trailing lines that introduce the next table are dropped.
     fn rows<'b>(&self, block: &'b [Line<'a>], is_last: bool) -> Vec<&'b Line<'a>> {
         let lines = block[self.n_heads..].iter();
         let mut lines: Vec<&Line> = lines.filter(|line| !is_comment(line.text)).collect();
@@ -404,13 +407,13 @@ impl<'a> Table<'a> {
         lines
     }
 
-    /// The needed numbers of a line, greater than 0, in SI.
+    /// Needed numbers of a line in SI, all greater than 0.
     pub(crate) fn positives(&self, line: &Line) -> Result<Vec<f64>> {
         let columns = self.needed.iter().filter_map(|one| self.find(*one));
         columns.map(|column| self.positive(line, column)).collect()
     }
 
-    /// The needed numbers of a line in SI; NaN for a cell that is empty, infinite or NaN.
+    /// Needed numbers of a line in SI; NaN for a cell that is empty, infinite or NaN.
     pub(crate) fn numbers(&self, line: &Line) -> Result<Vec<f64>> {
         let columns = self.needed.iter().filter_map(|one| self.find(*one));
         let number = |column: &Column| {
@@ -424,13 +427,13 @@ impl<'a> Table<'a> {
         columns.map(number).collect()
     }
 
-    /// A number that need not be there, in its own unit.
+    /// Optional number in its own unit; `None` without such a column.
     pub(crate) fn optional(&self, line: &Line, quantity: Quantity) -> Result<Option<f64>> {
         let column = self.find(quantity);
         column.map(|column| self.number(line, column)).transpose()
     }
 
-    /// A temperature, in its own unit, where there is one.
+    /// Temperature in its own unit; `None` without such a column.
     pub(crate) fn temperature(&self, line: &Line) -> Result<Option<f64>> {
         let Some(column) = self.find(Quantity::Temperature) else {
             return Ok(None);
@@ -447,7 +450,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The same in °C.
+    /// Temperature in °C; `None` without such a column.
     pub(crate) fn celsius(&self, line: &Line) -> Result<Option<f64>> {
         let is_kelvin = self
             .find(Quantity::Temperature)
@@ -462,7 +465,7 @@ impl<'a> Table<'a> {
             .map(|temperature| temperature - zero))
     }
 
-    /// What is wrong with a frequency or time.
+    /// Error for a frequency or time.
     pub(crate) fn wrong_first(&self, line: &Line, expected: &str) -> MeasurementError {
         let first = self.find(self.needed[0]).unwrap_or(&self.columns[0]);
         self.wrong(line, first, expected)
