@@ -1,4 +1,4 @@
-//! Axes: label, scale, range, and from a value to a fraction of the axis.
+//! Axes: label, scale, range, and the position of a value on the axis.
 
 use crate::error::PlotError;
 
@@ -14,7 +14,7 @@ pub enum Scale {
 /// One axis of a picture; values outside the range are refused.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit, as "velocity v [m/s]".
+    /// Quantity and unit, such as "velocity v [m/s]".
     pub label: String,
     /// Spacing of values.
     pub scale: Scale,
@@ -22,8 +22,8 @@ pub struct Axis {
     pub range: [f64; 2],
 }
 
-/// Part of an axis by which a value may miss its end through rounding (far below a pixel).
-const ROUNDING: f64 = 1e-9;
+/// Largest distance of a value beyond the end of an axis, relative to its length (chosen: far below a pixel).
+const EDGE_TOLERANCE: f64 = 1e-9;
 
 impl Axis {
     /// Linear axis.
@@ -63,8 +63,8 @@ impl Axis {
             return Err(PlotError::Empty("the label of an axis".into()));
         }
         let span = to - from;
-        // Below this span neighbouring ticks could not be told apart in floating point.
-        let least = ROUNDING * from.abs().max(to.abs());
+        // For a smaller span neighbouring ticks would be equal after rounding.
+        let least = EDGE_TOLERANCE * from.abs().max(to.abs());
         if !span.is_finite() || span <= least {
             return Err(self.refused("be finite and increase"));
         }
@@ -74,7 +74,7 @@ impl Axis {
         Ok(())
     }
 
-    /// Error that tells what the range must do.
+    /// Error for a range that does not satisfy a condition.
     pub(crate) fn refused(&self, needed: &'static str) -> PlotError {
         let [from, to] = self.range;
         PlotError::Range {
@@ -85,7 +85,7 @@ impl Axis {
         }
     }
 
-    /// Position on the axis, 0 at its lower and 1 at its upper end; not finite for a value that has none.
+    /// Position on the axis, 0 at its lower and 1 at its upper end; not finite for a value without a position.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
         let coordinate = |value: f64| match self.scale {
             Scale::Linear => value,
@@ -95,9 +95,9 @@ impl Axis {
         (coordinate(value) - from) / (to - from)
     }
 
-    /// Refuses a value that the axis does not show; `of` and `index` name it.
+    /// Refuses a value outside the range; `of` and `index` name it in the message.
     pub(crate) fn check(&self, value: f64, of: &str, index: usize) -> Result<(), PlotError> {
-        if (-ROUNDING..=1.0 + ROUNDING).contains(&self.fraction(value)) {
+        if (-EDGE_TOLERANCE..=1.0 + EDGE_TOLERANCE).contains(&self.fraction(value)) {
             return Ok(());
         }
         let [from, to] = self.range;

@@ -1,4 +1,4 @@
-//! Drawing surface in pixels.
+//! Canvas: SVG elements in pixel coordinates.
 
 use std::fmt::Display;
 
@@ -41,9 +41,9 @@ pub(crate) struct Pen {
     pub(crate) dash: Option<String>,
 }
 
-/// For shapes without an outline.
+/// Pen of shapes without an outline.
 pub(crate) const NO_PEN: Pen = Pen::solid("none", 0.0);
-/// For frames, axes and ticks.
+/// Pen of frames, axes and ticks.
 pub(crate) const FRAME_PEN: Pen = Pen::solid("#000000", 1.0);
 
 impl Pen {
@@ -56,13 +56,13 @@ impl Pen {
     }
 }
 
-/// Place of a text relative to its point; all but `Upwards` run to the right.
+/// Position of a text relative to its point; all but `Upwards` are horizontal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
     Middle,
     End,
-    /// Centred and turned by a quarter to the left.
+    /// Centred and rotated by 90° counterclockwise.
     Upwards,
 }
 
@@ -78,9 +78,9 @@ pub(crate) struct Text {
 /// A finished picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
-    /// As an SVG text.
+    /// The drawing as SVG.
     pub svg: String,
-    /// All texts in it, which the renderer of the PNG cannot draw because it has no fonts.
+    /// Texts of the drawing, which the PNG renderer draws itself because its SVG library has no fonts.
     pub(crate) texts: Vec<Text>,
 }
 
@@ -91,7 +91,7 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    /// White canvas, \[px\].
+    /// White canvas of the given size, \[px\].
     pub(crate) fn new(width: f64, height: f64) -> Self {
         let mut xml = XmlWriter::new(Options::default());
         xml.start_element("svg");
@@ -110,7 +110,7 @@ impl Canvas {
         Self { xml, texts }
     }
 
-    /// The picture.
+    /// Finished drawing.
     pub(crate) fn finish(self) -> Drawing {
         Drawing {
             svg: self.xml.end_document(),
@@ -120,36 +120,36 @@ impl Canvas {
 
     pub(crate) fn line(&mut self, [x1, y1]: Pixel, [x2, y2]: Pixel, pen: &Pen) {
         let ends = [("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)];
-        self.mark("line", &ends, &[], pen);
+        self.element("line", &ends, &[], pen);
     }
 
     pub(crate) fn polyline(&mut self, points: &[Pixel], pen: &Pen) {
         let place = |[x, y]: &Pixel| format!("{},{}", rounded(*x), rounded(*y));
         let places: Vec<String> = points.iter().map(place).collect();
         let texts = [("points", &*places.join(" ")), ("fill", "none")];
-        self.mark("polyline", &[], &texts, pen);
+        self.element("polyline", &[], &texts, pen);
     }
 
     pub(crate) fn circle(&mut self, [x, y]: Pixel, radius: f64, fill: &str, pen: &Pen) {
         let places = [("cx", x), ("cy", y), ("r", radius)];
-        self.mark("circle", &places, &[("fill", fill)], pen);
+        self.element("circle", &places, &[("fill", fill)], pen);
     }
 
     /// Closed shape given as SVG path data.
     pub(crate) fn shape(&mut self, path: &str, fill: &str, pen: &Pen) {
-        self.mark("path", &[], &[("d", path), ("fill", fill)], pen);
+        self.element("path", &[], &[("d", path), ("fill", fill)], pen);
     }
 
-    /// Closed shape through which what is below it is seen.
-    pub(crate) fn veil(&mut self, path: &str, fill: &str) {
+    /// Translucent closed shape given as SVG path data.
+    pub(crate) fn translucent_shape(&mut self, path: &str, fill: &str) {
         let texts = [("d", path), ("fill", fill), ("fill-opacity", "0.18")];
-        self.mark("path", &[], &texts, &NO_PEN);
+        self.element("path", &[], &texts, &NO_PEN);
     }
 
     pub(crate) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
         let [width, height] = [("width", area.width), ("height", area.height)];
         let places = [("x", area.left), ("y", area.top), width, height];
-        self.mark("rect", &places, &[("fill", fill)], pen);
+        self.element("rect", &places, &[("fill", fill)], pen);
     }
 
     /// Text whose baseline passes through the point.
@@ -160,7 +160,7 @@ impl Canvas {
             Anchor::End => "end",
         };
         let [x, y] = at;
-        self.start("text", &[("x", x), ("y", y)]);
+        self.start_element("text", &[("x", x), ("y", y)]);
         self.xml.write_attribute("font-size", &size);
         self.xml.write_attribute("text-anchor", place);
         if anchor == Anchor::Upwards {
@@ -168,7 +168,7 @@ impl Canvas {
             self.xml.write_attribute("transform", &turn);
         }
         self.xml.set_preserve_whitespaces(true);
-        // The writer escapes the other sign of markup.
+        // The writer escapes "<" only.
         self.xml.write_text(&text.replace('&', "&amp;"));
         self.xml.end_element();
         self.xml.set_preserve_whitespaces(false);
@@ -180,8 +180,10 @@ impl Canvas {
         });
     }
 
-    /// Fills paths, each given with its colour, in which a cell of the given size, \[px\], has the size 1 by 1, with the
-    /// origin in the lower left corner of the area and y upwards; neighbouring fills meet without seams.
+    /// Fills paths, each given with its colour, without seams between neighbours.
+    ///
+    /// The unit of the paths is a cell of the given size \[px\], the origin is the lower left corner of the area, and y points
+    /// upwards.
     pub(crate) fn mosaic(
         &mut self,
         area: Area,
@@ -190,7 +192,7 @@ impl Canvas {
     ) {
         let [left, bottom, down] = [area.left, area.bottom(), -height];
         let transform = format!("translate({left:.3} {bottom:.3}) scale({width:.6} {down:.6})");
-        self.start("g", &[]);
+        self.start_element("g", &[]);
         self.xml.write_attribute("shape-rendering", "crispEdges");
         self.xml.write_attribute("transform", &transform);
         for (colour, path) in paths {
@@ -199,9 +201,9 @@ impl Canvas {
         self.xml.end_element();
     }
 
-    /// One element with its places, other attributes and pen, in this order.
-    fn mark(&mut self, name: &str, places: &[(&str, f64)], texts: &[(&str, &str)], pen: &Pen) {
-        self.start(name, places);
+    /// Writes an element with its coordinates, other attributes and pen, in this order.
+    fn element(&mut self, name: &str, places: &[(&str, f64)], texts: &[(&str, &str)], pen: &Pen) {
+        self.start_element(name, places);
         for (name, text) in texts {
             self.xml.write_attribute(name, *text);
         }
@@ -215,7 +217,7 @@ impl Canvas {
         self.xml.end_element();
     }
 
-    fn start(&mut self, name: &str, places: &[(&str, f64)]) {
+    fn start_element(&mut self, name: &str, places: &[(&str, f64)]) {
         self.xml.start_element(name);
         for (name, value) in places {
             self.xml.write_attribute(name, &rounded(*value));
@@ -223,8 +225,8 @@ impl Canvas {
     }
 }
 
-/// A hundredth of a pixel is not seen.
+/// A coordinate rounded to a hundredth of a pixel.
 fn rounded(value: f64) -> impl Display {
-    // No zero has a sign.
+    // Adding zero turns a negative zero into zero.
     (100.0 * value).round() / 100.0 + 0.0
 }

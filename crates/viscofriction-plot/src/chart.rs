@@ -1,4 +1,4 @@
-//! Charts: series over a pair of axes, and a field under them.
+//! Charts: series over a pair of axes, optionally over a field.
 
 use crate::axis::Axis;
 use crate::canvas::{Canvas, Pixel};
@@ -18,7 +18,7 @@ pub struct Chart {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// Drawn first; the axes then have no grid.
+    /// Field under the series; the axes then have no grid.
     pub field: Option<Field>,
     /// Data, drawn in this order.
     pub series: Vec<Series>,
@@ -26,13 +26,14 @@ pub struct Chart {
     pub legend: LegendPlace,
 }
 
-/// Width of a chart with everything around it, \[px\].
+/// Width of a chart with its margins, \[px\].
 pub(crate) const PANEL_WIDTH: f64 = 480.0;
-/// Height of the data rectangle without a field, and the largest one with, \[px\].
-const HEIGHT: f64 = 280.0;
-const LARGEST_HEIGHT: f64 = 400.0;
+/// Height of the data rectangle without a field, \[px\].
+const CHART_HEIGHT: f64 = 280.0;
+/// Largest height of the data rectangle with a field, \[px\].
+const MAX_FIELD_HEIGHT: f64 = 400.0;
 
-/// A chart with its place found.
+/// A chart with its layout.
 pub(crate) struct Panel<'a> {
     chart: &'a Chart,
     frame: Frame<'a>,
@@ -40,7 +41,7 @@ pub(crate) struct Panel<'a> {
 }
 
 impl Chart {
-    /// Series without title, and with the legend where there is room.
+    /// Chart of series without title; the legend is placed automatically.
     pub fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
         Self {
             title: None,
@@ -52,7 +53,7 @@ impl Chart {
         }
     }
 
-    /// A field without title and series.
+    /// Chart of a field without title and series.
     pub fn map(x: Axis, y: Axis, field: Field) -> Self {
         Self {
             field: Some(field),
@@ -76,13 +77,13 @@ impl Chart {
         self.series.iter().try_for_each(|one| one.validate(x, y))
     }
 
-    /// The chart with its upper left corner at `origin` and so much room on its left side.
+    /// Layout of the chart with its upper left corner at a pixel and a margin `left` \[px\] of its frame.
     pub(crate) fn panel(&self, [x, y]: Pixel, left: f64) -> Result<Panel<'_>, PlotError> {
         let width = PANEL_WIDTH - left;
         let size = match &self.field {
-            None => [width - right_margin(&self.x)?, HEIGHT],
+            None => [width - right_margin(&self.x)?, CHART_HEIGHT],
             Some(field) => {
-                let largest = [width - field.right_margin()?, LARGEST_HEIGHT];
+                let largest = [width - field.right_margin()?, MAX_FIELD_HEIGHT];
                 field.size([&self.x, &self.y], largest)
             }
         };
@@ -97,7 +98,7 @@ impl Chart {
 }
 
 impl Panel<'_> {
-    /// Right end, \[px\]: a map that is higher than wide has no use for the whole width.
+    /// Right end, \[px\]; a map that is higher than wide does not fill the width.
     pub(crate) fn right(&self) -> Result<f64, PlotError> {
         let margin = match &self.chart.field {
             None => right_margin(&self.chart.x)?,

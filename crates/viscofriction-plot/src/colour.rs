@@ -1,4 +1,4 @@
-//! Colours that stay apart for colour-blind readers.
+//! Colours that colour-blind readers can distinguish.
 
 use colorous::VIRIDIS;
 
@@ -15,7 +15,7 @@ pub enum Colour {
     Magenta,
     /// #000000.
     Black,
-    /// A step from dark blue (0) to green (8), for series in an order; steps beyond the last one are the last.
+    /// Step from dark blue (0) to green (8), for ordered series; larger steps are the last one.
     Step(u8),
 }
 
@@ -26,7 +26,7 @@ const STEPS: [&str; 9] = [
 ];
 
 impl Colour {
-    /// The colour of a series that is this part of the way from the first to the last one of an order, from 0 to 1.
+    /// Colour of a series at a fraction of an ordered sequence, from 0 for the first to 1 for the last.
     pub fn between(part: f64) -> Self {
         let steps = (1..STEPS.len()).take_while(|step| *step as f64 <= part * STEPS.len() as f64);
         Self::Step(u8::try_from(steps.count()).unwrap_or(0))
@@ -52,11 +52,11 @@ impl Colour {
     }
 }
 
-/// Number of distinct colours of a field: fine enough for the eye, coarse enough for a small file.
+/// Number of distinct colours of a field (chosen: fine enough for the eye, coarse enough for a small file).
 pub(crate) const LEVELS: u8 = 100;
 
 /// Colour step at a fraction of the scale.
-pub(crate) fn level(fraction: f64) -> u8 {
+pub(crate) fn level_at(fraction: f64) -> u8 {
     (1..LEVELS)
         .take_while(|&next| f64::from(next) <= fraction * f64::from(LEVELS))
         .last()

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// What a figure must satisfy and what was given instead.
+/// The reason for which a figure is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlotError {
@@ -11,7 +11,7 @@ pub enum PlotError {
     Range {
         /// Label of the axis or colour scale.
         axis: String,
-        /// What it must do.
+        /// Condition that is not satisfied.
         needed: &'static str,
         /// Lower end.
         from: f64,
@@ -23,7 +23,7 @@ pub enum PlotError {
     Value {
         /// Series, axis or colour scale.
         of: String,
-        /// What it must do.
+        /// Condition that is not satisfied.
         needed: String,
         /// Position in the data, counted from zero.
         index: usize,
@@ -40,7 +40,7 @@ pub enum PlotError {
         /// Number of values given.
         given: usize,
     },
-    /// This would leave no trace in the picture.
+    /// A part of a figure that would be invisible.
     #[error("{0} must not be empty")]
     Empty(String),
     /// The font lacks a character of this text.
@@ -56,7 +56,7 @@ pub enum PlotError {
         /// Width at hand, \[px\].
         available: f64,
     },
-    /// The font or the SVG could not be read, or the pixels not be made, for this reason.
+    /// The font or the SVG cannot be read, or the pixels cannot be allocated or encoded.
     #[error("the picture cannot be rendered: {0}")]
     Render(String),
 }

@@ -1,11 +1,11 @@
-//! Fields: values on a rectangular grid as colours, with a bar that explains them.
+//! Fields: values on a rectangular grid as colours, with a colour bar.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::axis::{Axis, Scale};
 use crate::canvas::{Area, Canvas, FRAME_PEN};
-use crate::colour::{LEVELS, level, level_colour};
+use crate::colour::{LEVELS, level_at, level_colour};
 use crate::error::PlotError;
 use crate::frame::{AxisEdge, Edge, TickSide, side_margin};
 
@@ -13,18 +13,21 @@ use crate::frame::{AxisEdge, Edge, TickSide, side_margin};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
     columns: usize,
-    /// Row by row from the lowest y, each from the lowest x.
+    /// Values row by row from the lowest y, each row from the lowest x.
     values: Vec<Option<f64>>,
     colours: Axis,
     is_stretched: bool,
 }
 
-const GAP: f64 = 12.0;
+/// Distance of the colour bar from the data rectangle, \[px\].
+const BAR_GAP: f64 = 12.0;
+/// Width of the colour bar, \[px\].
 const BAR_WIDTH: f64 = 14.0;
 
 impl Field {
-    /// Field of so many columns and rows, given cell by cell by the column from the lowest x and the row from the lowest
-    /// y; cells without a value stay white. The axis of colours runs from dark blue to yellow.
+    /// Field of `[columns, rows]` cells; `value` gets the column from the lowest x and the row from the lowest y.
+    ///
+    /// Cells without a value stay white. The colours range from dark blue to yellow.
     pub fn new(
         [columns, rows]: [usize; 2],
         colours: Axis,
@@ -39,7 +42,7 @@ impl Field {
         }
     }
 
-    /// The same filling the panel, because the units of the axes differ; else a unit of length is equally long on both.
+    /// The field stretched to fill the panel, for axes of different units; otherwise both axes have the same scale.
     #[must_use]
     pub fn stretched(self) -> Self {
         Self {
@@ -48,7 +51,7 @@ impl Field {
         }
     }
 
-    /// Refuses a grid without cells, values without a colour, and axes that have no proportions.
+    /// Refuses a grid without cells, values outside the colour scale, and logarithmic axes of a field that is not stretched.
     pub(crate) fn validate(&self, axes: [&Axis; 2]) -> Result<(), PlotError> {
         let logarithmic = axes.into_iter().find(|axis| axis.scale == Scale::Log10);
         if let Some(axis) = logarithmic.filter(|_| !self.is_stretched) {
@@ -65,9 +68,9 @@ impl Field {
         })
     }
 
-    /// Room that the bar and its axis take on the right, \[px\].
+    /// Width of the colour bar with its axis on the right, \[px\].
     pub(crate) fn right_margin(&self) -> Result<f64, PlotError> {
-        Ok(GAP + BAR_WIDTH + side_margin(&self.colours)?)
+        Ok(BAR_GAP + BAR_WIDTH + side_margin(&self.colours)?)
     }
 
     /// Size of the data rectangle within the largest, \[px\].
@@ -87,30 +90,31 @@ impl Field {
         let mut paths: BTreeMap<u8, String> = BTreeMap::new();
         for (row, values) in self.values.chunks(columns).enumerate() {
             let level =
-                |value: &Option<f64>| value.map(|value| level(self.colours.fraction(value)));
+                |value: &Option<f64>| value.map(|value| level_at(self.colours.fraction(value)));
             let levels: Vec<Option<u8>> = values.iter().map(level).collect();
             let mut start = 0;
             for run in levels.chunk_by(|a, b| a == b) {
                 let length = run.len();
                 if let Some(level) = run[0] {
                     let path = paths.entry(level).or_default();
-                    // A text takes all that is written to it.
+                    // Writing to a string cannot fail.
                     let _always = write!(path, "M{start} {row}h{length}v1h-{length}z");
                 }
                 start += length;
             }
         }
-        let paths = paths.into_iter();
-        let paths = paths.map(|(level, path)| (level_colour(level), path));
+        let paths = paths
+            .into_iter()
+            .map(|(level, path)| (level_colour(level), path));
         canvas.mosaic(area, size, paths);
     }
 
-    /// Draws a bar of all colours beside the data rectangle, with its axis on the right.
-    pub(crate) fn draw_bar(&self, canvas: &mut Canvas, beside: Area) -> Result<(), PlotError> {
+    /// Draws the colour bar next to the data rectangle, with its axis on the right.
+    pub(crate) fn draw_bar(&self, canvas: &mut Canvas, data_area: Area) -> Result<(), PlotError> {
         let area = Area {
-            left: beside.right() + GAP,
+            left: data_area.right() + BAR_GAP,
             width: BAR_WIDTH,
-            ..beside
+            ..data_area
         };
         let step = |level| (level_colour(level), format!("M0 {level}h1v1h-1z"));
         let size = [area.width, area.height / f64::from(LEVELS)];

@@ -15,7 +15,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Figure of charts with so many side by side.
+    /// Figure of charts in a number of `columns`.
     pub fn new(charts: impl IntoIterator<Item = Chart>, columns: usize) -> Self {
         let charts = charts.into_iter().collect();
         Self { charts, columns }
@@ -27,22 +27,27 @@ impl Figure {
     }
 }
 
-/// Drawing of a figure, 480 px wide per column, or less in the last one where maps are higher than wide; the frames of charts one below the other line up.
+/// Drawing of a figure.
+///
+/// A column is 480 px wide; the last one may be narrower for maps that are higher than wide. The frames of a column are
+/// aligned.
 ///
 /// # Errors
-/// Whatever could not be drawn faithfully: see [`PlotError`].
+/// [`PlotError`] for data that cannot be drawn faithfully.
 pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
     let Figure { charts, columns } = figure;
     let columns = (*columns).min(charts.len());
     if columns == 0 {
         return Err(PlotError::Empty("the list of charts or of columns".into()));
     }
+    // Find the left margin of each column.
     let mut left_margins = vec![0.0_f64; columns];
     for (index, chart) in charts.iter().enumerate() {
         chart.validate()?;
         let widest = &mut left_margins[index % columns];
         *widest = widest.max(side_margin(&chart.y)?);
     }
+    // Lay out the panels row by row.
     let (mut panels, mut right, mut bottom) = (Vec::new(), 0.0_f64, 0.0_f64);
     for row in charts.chunks(columns) {
         let top = bottom;

@@ -1,28 +1,29 @@
-//! The bundled font: what measures the texts also draws them into the PNG, so that both agree.
+//! The bundled font, with which texts are both measured and drawn into the PNG.
 
 use resvg::tiny_skia::PathBuilder;
 use ttf_parser::{Face, OutlineBuilder};
 
 use crate::error::PlotError;
 
-/// Family name of the bundled font, and its units per size of a text.
+/// Family name of the bundled font.
 pub(crate) const FAMILY: &str = "DejaVu Sans";
-pub(crate) const UNITS: f32 = 2048.0;
+/// Font units per text size.
+pub(crate) const UNITS_PER_EM: f32 = 2048.0;
 
-/// A text as outlines of its letters, from the beginning of the baseline on, y upwards, in units of the font.
+/// Outlines of the letters of a text, in font units from the start of the baseline, y upwards.
 #[derive(Default)]
 pub(crate) struct Outline {
     pub(crate) path: PathBuilder,
-    /// Where the text ends.
+    /// Length of the text along the baseline.
     pub(crate) length: f32,
 }
 
 impl Outline {
-    /// Refuses an empty text, and characters that the font cannot draw.
+    /// Outline of a text; an empty text and characters without a glyph are refused.
     pub(crate) fn new(text: &str) -> Result<Self, PlotError> {
         let refuse = || PlotError::Glyph(text.into());
-        let face = Face::parse(include_bytes!("../assets/DejaVuSans.ttf"), 0);
-        let face = face.map_err(|error| PlotError::Render(error.to_string()))?;
+        let face = Face::parse(include_bytes!("../assets/DejaVuSans.ttf"), 0)
+            .map_err(|error| PlotError::Render(error.to_string()))?;
         let mut outline = Self::default();
         for character in text.chars() {
             let glyph = face.glyph_index(character).ok_or_else(refuse)?;
@@ -61,12 +62,12 @@ impl OutlineBuilder for Outline {
     }
 }
 
-/// Width of a text, \[px\]; refuses what [`Outline::new`] does.
+/// Width of a text, \[px\]; the errors are those of [`Outline::new`].
 pub(crate) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
-    Ok(f64::from(Outline::new(text)?.length / UNITS) * f64::from(size))
+    Ok(f64::from(Outline::new(text)?.length / UNITS_PER_EM) * f64::from(size))
 }
 
-/// Width of a text that must not be wider than its place, \[px\].
+/// Width of a text that must not exceed the available width, \[px\].
 pub(crate) fn fitting_width(text: &str, size: u32, available: f64) -> Result<f64, PlotError> {
     let needed = text_width(text, size)?;
     if needed <= available {

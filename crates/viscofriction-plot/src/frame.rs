@@ -1,4 +1,4 @@
-//! The frame of a picture: the rectangle the data live in, with its axes, their ticks and labels, and its title.
+//! Frame of a chart: the data rectangle with its axes, their ticks and labels, and the title.
 
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Area, Canvas, FRAME_PEN, Pen, Pixel};
@@ -6,21 +6,27 @@ use crate::error::PlotError;
 use crate::font::{fitting_width, text_width};
 use crate::ticks::{Tick, label, ticks};
 
-/// Sizes of the texts, \[px\].
+/// Text size of tick labels, \[px\].
 const TICK_SIZE: u32 = 13;
+/// Text size of axis labels, \[px\].
 const LABEL_SIZE: u32 = 14;
+/// Text size of the title, \[px\].
 const TITLE_SIZE: u32 = 14;
 
-/// Distances, \[px\].
+/// Distance between neighbouring parts of an axis, \[px\].
 const GAP: f64 = 6.0;
+/// Height of the title above the data rectangle, \[px\].
 const TITLE_HEIGHT: f64 = 24.0;
-const MAJOR: f64 = 6.0;
-const MINOR: f64 = 3.5;
-/// By so much a text may be longer than its edge of the frame.
-const SPILL: f64 = 24.0;
-/// Drop of the baseline from the middle of a digit, as a part of the text size.
-const HALF_DIGIT: f64 = 0.365;
+/// Length of a major tick, \[px\].
+const MAJOR_TICK_LENGTH: f64 = 6.0;
+/// Length of a minor tick, \[px\].
+const MINOR_TICK_LENGTH: f64 = 3.5;
+/// Largest excess of the length of a text over its edge of the frame, \[px\].
+const MAX_OVERHANG: f64 = 24.0;
+/// Distance of the baseline from the middle of a digit, relative to the text size.
+const HALF_DIGIT_HEIGHT: f64 = 0.365;
 
+/// Pen of grid lines.
 const GRID_PEN: Pen = Pen::solid("#e4e4e4", 0.7);
 
 /// Data rectangle, its title and its two axes.
@@ -30,7 +36,7 @@ pub(crate) struct Frame<'a> {
     axes: [AxisEdge<'a>; 2],
 }
 
-/// To which side of their edge the ticks point.
+/// Direction of the ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TickSide {
     /// Into the frame, on all four edges, over a faint grid.
@@ -47,12 +53,12 @@ pub(crate) enum Edge {
     Right,
 }
 
-/// Room the tick labels and the label of a y axis take beside the frame, \[px\].
+/// Width of the tick labels and the label of a y axis next to the frame, \[px\].
 pub(crate) fn side_margin(y: &Axis) -> Result<f64, PlotError> {
     Ok(widest_label(&ticks(y))? + 3.0 * GAP + f64::from(LABEL_SIZE) + 2.0)
 }
 
-/// Room to the right of the frame, \[px\]; half of the last tick label may reach into it.
+/// Margin to the right of the frame, \[px\], with space for half of the last tick label.
 pub(crate) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
     let last = ticks(x).into_iter().rev().find_map(|tick| tick.label);
     let width = last.map_or(Ok(0.0), |label| text_width(&label, TICK_SIZE))?;
@@ -67,8 +73,9 @@ fn widest_label(ticks: &[Tick]) -> Result<f64, PlotError> {
 }
 
 impl<'a> Frame<'a> {
-    /// The frame of a chart over the axes x and y, with data of this size and the panel's upper left corner, less its
-    /// left margin, at the pixel; refuses texts that are too long.
+    /// Frame over the axes x and y with a data rectangle of the given size; texts that are too long are refused.
+    ///
+    /// The pixel is the upper left corner of the panel without its left margin.
     pub(crate) fn new(
         title: Option<&'a str>,
         [x, y]: [&'a Axis; 2],
@@ -76,7 +83,7 @@ impl<'a> Frame<'a> {
         [width, height]: [f64; 2],
     ) -> Result<Self, PlotError> {
         if let Some(title) = title {
-            fitting_width(title, TITLE_SIZE, width + SPILL)?;
+            fitting_width(title, TITLE_SIZE, width + MAX_OVERHANG)?;
         }
         let area = Area {
             left,
@@ -98,7 +105,7 @@ impl<'a> Frame<'a> {
         points.iter().map(pixel).collect()
     }
 
-    /// Where the tick labels and the label of the x axis end, \[px\].
+    /// Lower end of the tick labels and the label of the x axis, \[px\].
     pub(crate) fn bottom(&self) -> f64 {
         self.area.bottom() + (4.0 * GAP + f64::from(TICK_SIZE + LABEL_SIZE))
     }
@@ -130,14 +137,14 @@ pub(crate) struct AxisEdge<'a> {
 }
 
 impl<'a> AxisEdge<'a> {
-    /// With as many tick labels as stand clear of each other; refuses a label that is longer than the edge.
+    /// Axis with as many tick labels as do not overlap; a label that is longer than the edge is refused.
     pub(crate) fn new(axis: &'a Axis, area: Area, edge: Edge) -> Result<Self, PlotError> {
         let length = match edge {
             Edge::Bottom => area.width,
             Edge::Left | Edge::Right => area.height,
         };
         let label = label(axis);
-        fitting_width(&label, LABEL_SIZE, length + SPILL)?;
+        fitting_width(&label, LABEL_SIZE, length + MAX_OVERHANG)?;
         let ticks = ticks(axis);
         let mut found = Self {
             axis,
@@ -157,11 +164,11 @@ impl<'a> AxisEdge<'a> {
     }
 
     fn pixel(&self, value: f64) -> Pixel {
-        self.at(self.axis.fraction(value))
+        self.pixel_at(self.axis.fraction(value))
     }
 
     /// Pixel at a fraction of the edge, from the left or from below.
-    fn at(&self, fraction: f64) -> Pixel {
+    fn pixel_at(&self, fraction: f64) -> Pixel {
         let area = &self.area;
         let x = area.left + area.width * fraction;
         let y = area.bottom() - area.height * fraction;
@@ -172,7 +179,7 @@ impl<'a> AxisEdge<'a> {
         }
     }
 
-    /// A pixel moved into the rectangle.
+    /// A pixel moved inwards by a distance \[px\].
     fn inwards(&self, [x, y]: Pixel, distance: f64) -> Pixel {
         match self.edge {
             Edge::Bottom => [x, y - distance],
@@ -213,16 +220,20 @@ impl<'a> AxisEdge<'a> {
 
     /// Draws ticks and labels.
     pub(crate) fn draw(&self, canvas: &mut Canvas, side: TickSide) {
-        // Beside a colour bar there is less room.
+        // Ticks of a colour bar are shorter.
         let shorter = if self.edge == Edge::Right { 2.0 } else { 0.0 };
         let size = f64::from(TICK_SIZE);
         let ([right, down], anchor) = match self.edge {
             Edge::Bottom => ([0.0, GAP + size], Anchor::Middle),
-            Edge::Left => ([-GAP - 2.0, HALF_DIGIT * size], Anchor::End),
-            Edge::Right => ([GAP + 1.0, HALF_DIGIT * size], Anchor::Start),
+            Edge::Left => ([-GAP - 2.0, HALF_DIGIT_HEIGHT * size], Anchor::End),
+            Edge::Right => ([GAP + 1.0, HALF_DIGIT_HEIGHT * size], Anchor::Start),
         };
         for tick in &self.ticks {
-            let length = if tick.major { MAJOR } else { MINOR } - shorter;
+            let length = if tick.major {
+                MAJOR_TICK_LENGTH
+            } else {
+                MINOR_TICK_LENGTH
+            } - shorter;
             let own = self.pixel(tick.value);
             let mut mark = |from, inwards| {
                 canvas.line(from, self.inwards(from, inwards), &FRAME_PEN);
@@ -242,7 +253,7 @@ impl<'a> AxisEdge<'a> {
     }
 
     fn draw_label(&self, canvas: &mut Canvas) {
-        let [x, y] = self.at(0.5);
+        let [x, y] = self.pixel_at(0.5);
         let size = f64::from(LABEL_SIZE);
         let below = 2.0 * GAP + f64::from(TICK_SIZE) + size - 2.0;
         let ([right, down], anchor) = match self.edge {

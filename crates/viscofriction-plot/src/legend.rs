@@ -1,4 +1,4 @@
-//! The legend: where it stands and what it shows.
+//! Legends: entries and placement.
 
 use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
 use crate::error::PlotError;
@@ -6,7 +6,7 @@ use crate::font::fitting_width;
 use crate::frame::Frame;
 use crate::marks::{MARKER_RADIUS, draw_marker, ends, line_pen};
 use crate::series::Series;
-use crate::ticks::counts;
+use crate::ticks::whole_numbers;
 
 /// Place of the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,42 +18,48 @@ pub enum LegendPlace {
     Below,
 }
 
+/// Text size of the entries, \[px\].
 const TEXT_SIZE: u32 = 12;
-const ROW: f64 = 18.0;
+/// Height of a row, \[px\].
+const ROW_HEIGHT: f64 = 18.0;
 /// Length of the line drawn as a sample, \[px\].
-const SAMPLE: f64 = 34.0;
+const SAMPLE_LENGTH: f64 = 34.0;
+/// Distance between sample, text and outline, \[px\].
 const PADDING: f64 = 6.0;
-/// Distance from the frame, \[px\]; clear of the ticks.
-const INSET: f64 = 10.0;
+/// Distance from the frame, \[px\], larger than the ticks.
+const FRAME_DISTANCE: f64 = 10.0;
+/// Distance of columns below a chart, \[px\].
 const COLUMN_GAP: f64 = 18.0;
 
-/// Legend with its place found.
+/// Legend with its layout.
 pub(crate) struct Legend<'a> {
     entries: Vec<(&'a Series, &'a str)>,
     /// Width of one column with sample and text, \[px\].
     column: f64,
     rows: usize,
-    /// Its rectangle inside the frame, or none below the chart.
+    /// Rectangle inside the frame; `None` for a legend below the chart.
     inside: Option<Area>,
 }
 
 impl<'a> Legend<'a> {
-    /// Finds the place of the legend of some series in a frame.
+    /// Layout of the legend of the series in a frame.
     pub(crate) fn new(
         series: &'a [Series],
         frame: &Frame,
         place: LegendPlace,
     ) -> Result<Self, PlotError> {
-        let labelled = series.iter();
-        let labelled = labelled.filter_map(|one| Some((one, one.label.as_deref()?)));
-        let entries: Vec<_> = labelled.collect();
-        let available = frame.area.width - 2.0 * (INSET + PADDING) - SAMPLE - PADDING;
+        let entries: Vec<_> = series
+            .iter()
+            .filter_map(|one| Some((one, one.label.as_deref()?)))
+            .collect();
+        let available =
+            frame.area.width - 2.0 * (FRAME_DISTANCE + PADDING) - SAMPLE_LENGTH - PADDING;
         let mut widest = 0.0_f64;
         for (_, label) in &entries {
             widest = widest.max(fitting_width(label, TEXT_SIZE, available)?);
         }
         let mut legend = Self {
-            column: SAMPLE + PADDING + widest,
+            column: SAMPLE_LENGTH + PADDING + widest,
             rows: entries.len(),
             entries,
             inside: None,
@@ -72,7 +78,7 @@ impl<'a> Legend<'a> {
         if self.entries.is_empty() || self.inside.is_some() {
             return 0.0;
         }
-        self.rows as f64 * ROW + PADDING
+        self.rows as f64 * ROW_HEIGHT + PADDING
     }
 
     /// Draws the legend of a frame.
@@ -92,18 +98,18 @@ impl<'a> Legend<'a> {
         for (index, &(series, label)) in self.entries.iter().enumerate() {
             let [column, row] = [index / self.rows, index % self.rows].map(|count| count as f64);
             let left = left + column * (self.column + COLUMN_GAP);
-            let middle = top + PADDING / 2.0 + (row + 0.5) * ROW;
+            let middle = top + PADDING / 2.0 + (row + 0.5) * ROW_HEIGHT;
             draw_entry(canvas, [left, middle], series, label);
         }
     }
 
-    /// The first corner, from the upper right one on, in which the legend covers no mark.
+    /// First corner, starting from the upper right, in which the legend covers no data; `None` if there is none.
     fn free_corner(&self, frame: &Area, marks: &[Pixel]) -> Option<Area> {
         let width = self.column + 2.0 * PADDING;
-        let height = self.rows as f64 * ROW + PADDING;
-        let [left, top] = [frame.left + INSET, frame.top + INSET];
-        let right = frame.right() - INSET - width;
-        let bottom = frame.bottom() - INSET - height;
+        let height = self.rows as f64 * ROW_HEIGHT + PADDING;
+        let [left, top] = [frame.left + FRAME_DISTANCE, frame.top + FRAME_DISTANCE];
+        let right = frame.right() - FRAME_DISTANCE - width;
+        let bottom = frame.bottom() - FRAME_DISTANCE - height;
         let corners = [[right, top], [left, top], [right, bottom], [left, bottom]];
         let boxes = corners.map(|[left, top]| Area {
             left,
@@ -111,13 +117,13 @@ impl<'a> Legend<'a> {
             width,
             height,
         });
-        let covers = |area: &Area, pixel| area.contains(pixel, MARKER_RADIUS + 4.0);
+        let overlaps = |area: &Area, pixel| area.contains(pixel, MARKER_RADIUS + 4.0);
         boxes
             .into_iter()
-            .find(|area| !marks.iter().any(|&pixel| covers(area, pixel)))
+            .find(|area| !marks.iter().any(|&pixel| overlaps(area, pixel)))
     }
 
-    /// As few as the widest arrangement needs.
+    /// Number of rows below the chart for the largest number of columns that fits.
     fn rows_below(&self, width: f64) -> usize {
         let fits = |count: &usize| *count as f64 * (self.column + COLUMN_GAP) <= width + COLUMN_GAP;
         let columns = (1..=self.entries.len()).take_while(fits).count().max(1);
@@ -125,7 +131,7 @@ impl<'a> Legend<'a> {
     }
 }
 
-/// Pixels along all lines, error bars and markers, close enough to find what a rectangle covers.
+/// Pixels along all lines, error bars, bands and markers, at most 3 px apart.
 fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
     let mut marks = Vec::new();
     for one in series {
@@ -138,7 +144,7 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
         for [[x, y], end] in strokes {
             let [right, down] = [end[0] - x, end[1] - y];
             let steps = (right.hypot(down) / 3.0).ceil().max(1.0);
-            let parts = counts(0.0, steps).map(|step| step / steps);
+            let parts = whole_numbers(0.0, steps).map(|step| step / steps);
             marks.extend(parts.map(|part| [x + part * right, y + part * down]));
         }
         marks.extend(pixels);
@@ -148,14 +154,14 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
 
 fn draw_entry(canvas: &mut Canvas, [left, middle]: Pixel, series: &Series, label: &str) {
     if let Some(line) = series.line {
-        let end = [left + SAMPLE, middle];
+        let end = [left + SAMPLE_LENGTH, middle];
         canvas.line([left, middle], end, &line_pen(line, series.colour));
     }
     if let Some(marker) = series.marker {
-        let centre = [left + SAMPLE / 2.0, middle];
+        let centre = [left + SAMPLE_LENGTH / 2.0, middle];
         draw_marker(canvas, centre, marker, series.colour.hex());
     }
     let baseline = middle + 0.36 * f64::from(TEXT_SIZE);
-    let start = left + SAMPLE + PADDING;
+    let start = left + SAMPLE_LENGTH + PADDING;
     canvas.text([start, baseline], label, TEXT_SIZE, Anchor::Start);
 }

@@ -1,9 +1,7 @@
-//! Pictures of curves and fields: [`draw`] makes a [`Drawing`] of a [`Figure`], which is an SVG text, and [`render_png`]
-//! a PNG of it.
+//! Charts of curves and fields: [`draw`] makes an SVG [`Drawing`] of a [`Figure`], and [`render_png`] a PNG of it.
 //!
-//! The crate draws what it is given or refuses: a point that is not finite or lies outside its axis is a
-//! [`PlotError`], never dropped, clamped or clipped.
-//! Output is the same byte for byte from run to run and does not depend on installed fonts.
+//! Data are drawn faithfully or refused. A point that is not finite or lies outside its axis is a [`PlotError`]; it is never
+//! dropped, clamped or clipped. The output is reproducible to the byte and does not depend on installed fonts.
 //!
 //! ```
 //! use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
@@ -20,9 +18,9 @@
 //! # Ok::<(), viscofriction_plot::PlotError>(())
 //! ```
 //!
-//! Axes, marks and legend are drawn here, because libraries for charts clamp or clip what lies outside, or have no legend
-//! samples with line and marker together. Texts are laid out letter by letter: they are short, and a library that shapes
-//! them takes longer to compile than all solvers of the workspace.
+//! The crate draws axes, marks and legend itself: chart libraries clamp or clip data outside the axes, or lack legend samples
+//! with both line and marker. Texts are laid out letter by letter, because a text-shaping library takes longer to compile
+//! than all solvers of the workspace.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod axis;
@@ -40,7 +38,7 @@ mod png;
 mod series;
 mod ticks;
 
-/// The program of that page compiles.
+/// The example in the README, compiled as a doc test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;

@@ -1,26 +1,28 @@
-//! Lines, markers and error bars.
+//! Drawing of lines, markers, error bars and bands.
 
 use crate::canvas::{Canvas, NO_PEN, Pen, Pixel};
 use crate::colour::Colour;
 use crate::frame::Frame;
 use crate::series::{Dash, Fill, Line, Marker, Series, Shape};
 
-/// Radius of a circular marker, \[px\]; the other shapes have about its area.
+/// Radius of a circular marker, \[px\]; other shapes have about the same area.
 pub(crate) const MARKER_RADIUS: f64 = 3.6;
+/// Radius of a dot, \[px\].
 const DOT_RADIUS: f64 = 1.7;
-const CAP: f64 = 3.5;
+/// Half width of the cap of an error bar, \[px\].
+const CAP_HALF_WIDTH: f64 = 3.5;
 
-/// Draws the bands of all series, and then one series after the other: of each the line, then the error bars, then the markers.
+/// Draws the bands of all series, then for each series its line, its error bars and its markers.
 pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series]) {
     for one in series {
         let band = ends(frame, one, &one.band);
         let [upper, lower] = [0, 1].map(|end: usize| band.iter().map(move |ends| ends[end]));
-        let around = upper.chain(lower.rev());
-        let around = around
+        let outline = upper
+            .chain(lower.rev())
             .map(|[x, y]| format!("{x:.2} {y:.2}"))
             .collect::<Vec<_>>();
         if band.len() > 1 {
-            canvas.veil(&format!("M{}Z", around.join("L")), one.colour.hex());
+            canvas.translucent_shape(&format!("M{}Z", outline.join("L")), one.colour.hex());
         }
     }
     for one in series {
@@ -32,7 +34,7 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
         for [upper, lower] in ends(frame, one, &one.errors) {
             canvas.line(upper, lower, &pen);
             for [x, y] in [upper, lower] {
-                canvas.line([x - CAP, y], [x + CAP, y], &pen);
+                canvas.line([x - CAP_HALF_WIDTH, y], [x + CAP_HALF_WIDTH, y], &pen);
             }
         }
         if let Some(marker) = one.marker {
@@ -43,7 +45,7 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
     }
 }
 
-/// Upper and lower ends of lengths to both sides of the points of a series.
+/// Upper and lower ends of the error bars of a series with the given half lengths.
 pub(crate) fn ends(frame: &Frame, series: &Series, lengths: &[f64]) -> Vec<[Pixel; 2]> {
     let ends = |sign: f64| {
         let bars = series.points.iter().zip(lengths);
@@ -56,7 +58,7 @@ pub(crate) fn ends(frame: &Frame, series: &Series, lengths: &[f64]) -> Vec<[Pixe
 
 /// Pen of the line of a series.
 pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen {
-    // Thin lines keep a pattern that can be told apart.
+    // The pattern of thin lines does not shrink further, to remain distinguishable.
     let unit = line.width.max(1.2);
     let pattern: &[f64] = match line.dash {
         Dash::Solid => &[],

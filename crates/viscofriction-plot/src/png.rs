@@ -1,25 +1,28 @@
-//! From a drawing to PNG.
+//! Rendering of a drawing as PNG.
 
 use resvg::tiny_skia::{Color, FillRule, Paint, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
 use crate::canvas::{Anchor, Drawing, Text};
 use crate::error::PlotError;
-use crate::font::{Outline, UNITS};
+use crate::font::{Outline, UNITS_PER_EM};
 
-/// Usual width of a picture, \[px\].
+/// Default width of a PNG, \[px\].
 pub const PNG_WIDTH: u32 = 1600;
 
-/// PNG file of a drawing on white, `width` pixels wide.
+/// PNG file of a drawing on white with the given `width` \[px\].
 ///
 /// # Errors
-/// A drawing that cannot be read, or a size that cannot be allocated.
+/// [`PlotError::Render`] for a drawing that cannot be read, or a size that cannot be allocated.
 pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
-    let tree = Tree::from_str(&drawing.svg, &Options::default());
-    let tree = tree.map_err(|error| PlotError::Render(error.to_string()))?;
+    let tree = Tree::from_str(&drawing.svg, &Options::default())
+        .map_err(|error| PlotError::Render(error.to_string()))?;
     let refused = || PlotError::Render(format!("{width} pixels are no possible width"));
-    let scaled = tree.size().to_int_size().scale_to_width(width);
-    let scaled = scaled.ok_or_else(refused)?;
+    let scaled = tree
+        .size()
+        .to_int_size()
+        .scale_to_width(width)
+        .ok_or_else(refused)?;
     let mut pixels = Pixmap::new(scaled.width(), scaled.height()).ok_or_else(refused)?;
     pixels.fill(Color::WHITE);
     let (from, to) = (tree.size(), scaled.to_size());
@@ -43,10 +46,12 @@ fn fill_text(pixels: &mut Pixmap, text: &Text, scale: Transform) -> Result<(), P
     };
     #[expect(clippy::cast_possible_truncation, reason = "far below a pixel")]
     let [x, y, size] = [text.at[0], text.at[1], f64::from(text.size)].map(|length| length as f32);
-    let unit = size / UNITS;
-    let place = scale.pre_translate(x, y).pre_rotate(turn);
-    let place = place.pre_scale(unit, -unit);
-    let place = place.pre_translate(-part_before * outline.length, 0.0);
+    let unit = size / UNITS_PER_EM;
+    let place = scale
+        .pre_translate(x, y)
+        .pre_rotate(turn)
+        .pre_scale(unit, -unit)
+        .pre_translate(-part_before * outline.length, 0.0);
     // A blank text has no outline.
     if let Some(path) = outline.path.finish() {
         pixels.fill_path(&path, &Paint::default(), FillRule::Winding, place, None);

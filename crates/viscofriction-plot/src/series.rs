@@ -1,4 +1,4 @@
-//! Data series: points, error bars, and how their line and markers are drawn.
+//! Data series: points, error bars, and the style of line and markers.
 
 use crate::axis::Axis;
 use crate::colour::Colour;
@@ -7,7 +7,7 @@ use crate::error::PlotError;
 /// Points with a line through them, markers on them, or both.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Text in the legend; a series without one is left out there.
+    /// Text in the legend; `None` for a series without an entry.
     pub label: Option<String>,
     /// Points (x, y) in the units of the axes, in drawing order.
     pub points: Vec<[f64; 2]>,
@@ -23,11 +23,11 @@ pub struct Series {
     pub colour: Colour,
 }
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
     pub(crate) dash: Dash,
-    /// \[px\].
+    /// Width of the line, \[px\].
     pub(crate) width: f64,
 }
 
@@ -38,24 +38,24 @@ pub enum Dash {
     Solid,
     /// Dashes.
     Dashed,
-    /// Dashes and dots in turn.
+    /// Alternating dashes and dots.
     DashDot,
     /// Dots.
     Dotted,
 }
 
-/// How markers are drawn, and on which points.
+/// Style and spacing of markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Marker {
-    /// Outline.
+    /// Shape of the outline.
     pub shape: Shape,
-    /// Inside.
+    /// Fill of the interior.
     pub fill: Fill,
-    /// A marker on every n-th point, from the first on; at least 1.
+    /// Spacing n ≥ 1: markers are on every n-th point, starting with the first.
     pub every: usize,
 }
 
-/// Outline of a marker.
+/// Shape of the outline of a marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// Circle.
@@ -64,13 +64,13 @@ pub enum Shape {
     Square,
     /// Square on its corner.
     Diamond,
-    /// Two strokes, filled or not.
+    /// Two strokes; the fill has no effect.
     Plus,
-    /// A small disc, filled or not, for many points under a line.
+    /// Small disc for many points under a line; the fill has no effect.
     Dot,
 }
 
-/// Inside of a marker.
+/// Fill of the interior of a marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fill {
     /// White.
@@ -133,7 +133,7 @@ impl Series {
         }
     }
 
-    /// The same with a text in the legend.
+    /// The series with a text in the legend.
     #[must_use]
     pub fn labelled(self, label: impl Into<String>) -> Self {
         Self {
@@ -142,10 +142,10 @@ impl Series {
         }
     }
 
-    /// Refuses points and error bars that the axes do not show, and a series that leaves no trace.
+    /// Refuses points and error bars outside the axes, and an invisible series.
     pub(crate) fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
         let name = self.label.as_deref().unwrap_or("a series without label");
-        if let Some(what) = self.unseen() {
+        if let Some(what) = self.invisible_part() {
             return Err(PlotError::Empty(format!("the {what} of {name}")));
         }
         for (index, &[at, value]) in self.points.iter().enumerate() {
@@ -158,7 +158,7 @@ impl Series {
         Ok(())
     }
 
-    /// Refuses lengths around the points that are not there or not shown.
+    /// Refuses missing or negative half lengths, and those that reach beyond the y axis.
     fn check_lengths(&self, of: String, lengths: &[f64], y: &Axis) -> Result<(), PlotError> {
         let [needed, given] = [self.points.len(), lengths.len()];
         if given > 0 && given != needed {
@@ -180,9 +180,9 @@ impl Series {
         Ok(())
     }
 
-    /// What is missing for the series to be seen.
-    fn unseen(&self) -> Option<&'static str> {
-        // A line through one point leaves no trace.
+    /// The part that makes the series invisible; `None` for a visible one.
+    fn invisible_part(&self) -> Option<&'static str> {
+        // A line through one point is invisible.
         let is_drawn = self.marker.is_some() || (self.line.is_some() && self.points.len() > 1);
         if self.points.is_empty() {
             Some("list of points")

@@ -1,4 +1,4 @@
-//! Ticks and their labels: decades with minor ticks, or steps of 1, 2, 5 times a power of ten.
+//! Ticks and their labels: decades with minor ticks, or steps of 1, 2 or 5 times a power of ten.
 
 use std::iter::successors;
 
@@ -8,16 +8,16 @@ use crate::axis::{Axis, Scale};
 pub(crate) struct Tick {
     /// Position in the unit of the axis.
     pub(crate) value: f64,
-    /// Long or short.
+    /// Whether the tick is a long one.
     pub(crate) major: bool,
-    /// Text, if it has one.
+    /// Text; `None` for a tick without a label.
     pub(crate) label: Option<String>,
 }
 
 /// Largest number of labelled steps on a linear axis.
-const MOST_STEPS: f64 = 6.0;
+const MAX_LABELLED_STEPS: f64 = 6.0;
 /// Largest number of labelled decades on a logarithmic axis.
-const MOST_DECADES: f64 = 8.0;
+const MAX_LABELLED_DECADES: f64 = 8.0;
 
 /// Ticks of an axis from its lower to its upper end.
 pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
@@ -30,7 +30,7 @@ pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
 fn linear_ticks(axis: &Axis) -> Vec<Tick> {
     let [from, to] = axis.range;
     let (step, parts) = linear_step(to - from);
-    // All labels have the same power of ten, which stands at the axis, and the same decimals.
+    // All labels have the power of ten of the axis and the same number of decimals.
     let unit = 10_f64.powf(linear_exponent(axis));
     let rests = successors(Some(step / unit), |rest| Some(10.0 * rest));
     let decimals = rests.take_while(|rest| *rest < 0.999).count();
@@ -42,7 +42,7 @@ fn linear_ticks(axis: &Axis) -> Vec<Tick> {
         digits.replace('-', "\u{2212}")
     };
     let (small, slack) = (step / parts, 1e-6);
-    counts((from / small - slack).ceil(), to / small + slack)
+    whole_numbers((from / small - slack).ceil(), to / small + slack)
         .map(|count| {
             let (value, major) = (small * count, count.rem_euclid(parts) < 0.5);
             let label = major.then(|| label(value));
@@ -55,12 +55,14 @@ fn linear_ticks(axis: &Axis) -> Vec<Tick> {
         .collect()
 }
 
-/// Power of ten that the labels of a linear axis are multiples of: that of the prefix of the unit, or where it takes none that
-/// of the step, if plain numbers would be long.
+/// Power of ten in which the labels of a linear axis are expressed.
+///
+/// It is that of the prefix of the unit. For a unit without prefixes it is that of the step if plain numbers would be long,
+/// else 0.
 fn linear_exponent(axis: &Axis) -> f64 {
     let [from, to] = axis.range;
     let largest = from.abs().max(to.abs());
-    if unit(axis).is_some_and(|unit| PREFIXED.contains(&unit)) {
+    if unit(axis).is_some_and(|unit| PREFIXED_UNITS.contains(&unit)) {
         return 3.0 * ((largest.log10() + 1e-9) / 3.0).floor().clamp(-4.0, 3.0);
     }
     let (step, _) = linear_step(to - from);
@@ -72,18 +74,18 @@ fn linear_exponent(axis: &Axis) -> f64 {
     }
 }
 
-/// Units that take a prefix, so that lengths stand in mm, µm or nm.
-const PREFIXED: [&str; 6] = ["m", "s", "m/s", "N", "Pa", "N/m"];
-/// From 10⁻¹² on in steps of 10³.
+/// Units that take a prefix, such as lengths in mm, µm or nm.
+const PREFIXED_UNITS: [&str; 6] = ["m", "s", "m/s", "N", "Pa", "N/m"];
+/// Prefixes from 10⁻¹² in steps of 10³.
 const PREFIXES: [&str; 8] = ["p", "n", "µ", "m", "", "k", "M", "G"];
 
-/// The unit of an axis, which stands in brackets behind its quantity.
+/// Unit of an axis, in brackets after its quantity; `None` without one.
 fn unit(axis: &Axis) -> Option<&str> {
     let bare = axis.label.strip_suffix(']')?;
     bare.rsplit_once('[').map(|(_, unit)| unit)
 }
 
-/// The label of an axis, with the prefix or the power of ten of its ticks before the unit.
+/// Label of an axis, with the prefix or the power of ten of its ticks before the unit.
 pub(crate) fn label(axis: &Axis) -> String {
     let exponent = match axis.scale {
         Scale::Linear => linear_exponent(axis),
@@ -97,24 +99,24 @@ pub(crate) fn label(axis: &Axis) -> String {
         return format!("{} [{power}]", axis.label);
     };
     let name = &axis.label[..axis.label.len() - unit.len() - 1];
-    let steps = counts(-4.0, 3.0).map(|step| 3.0 * step);
+    let steps = whole_numbers(-4.0, 3.0).map(|step| 3.0 * step);
     let mut prefixes = steps
         .zip(PREFIXES)
         .filter(|(step, _)| (step - exponent).abs() < 0.5);
-    match prefixes.next().filter(|_| PREFIXED.contains(&unit)) {
+    match prefixes.next().filter(|_| PREFIXED_UNITS.contains(&unit)) {
         Some((_, prefix)) => format!("{name}{prefix}{unit}]"),
         None => format!("{name}{power} {unit}]"),
     }
 }
 
-/// Whole numbers.
-pub(crate) fn counts(first: f64, last: f64) -> impl Iterator<Item = f64> {
+/// Whole numbers from `first` to `last`, as floating-point numbers.
+pub(crate) fn whole_numbers(first: f64, last: f64) -> impl Iterator<Item = f64> {
     successors(Some(first), |count| Some(count + 1.0)).take_while(move |count| *count <= last)
 }
 
-/// Distance of the labelled ticks and the number of parts minor ticks divide it into.
+/// Distance of the labelled ticks, and number of parts into which minor ticks divide it.
 fn linear_step(span: f64) -> (f64, f64) {
-    let least = span / MOST_STEPS;
+    let least = span / MAX_LABELLED_STEPS;
     let decade = 10_f64.powf(least.log10().floor());
     let steps = [(1.0, 5.0), (2.0, 4.0), (5.0, 5.0)].into_iter();
     steps
@@ -126,7 +128,7 @@ fn linear_step(span: f64) -> (f64, f64) {
 fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
     let powers = (to.log10() + 1e-9).floor() - (from.log10() - 1e-9).ceil() + 1.0;
     // Every n-th decade is labelled.
-    let stride = (powers / MOST_DECADES).ceil().max(1.0);
+    let stride = (powers / MAX_LABELLED_DECADES).ceil().max(1.0);
     let is_labelled = |mantissa: f64, exponent: f64| {
         let is_near = |shown: &f64| (mantissa - shown).abs() < 0.5;
         if powers > 1.5 {
@@ -138,7 +140,7 @@ fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
     let is_plain = powers < 1.5 && from >= 0.999e-3 && to <= 1.001e5;
     let label = |mantissa: f64, exponent: f64| {
         if is_plain {
-            let decimals = counts(1.0, -exponent).count();
+            let decimals = whole_numbers(1.0, -exponent).count();
             format!("{:.decimals$}", mantissa * 10_f64.powf(exponent))
         } else if mantissa < 1.5 {
             power_of_ten(exponent)
@@ -146,11 +148,11 @@ fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
             format!("{mantissa:.0}·{}", power_of_ten(exponent))
         }
     };
-    // Minor ticks are left out where they would run together.
-    let shows_minor = powers < MOST_DECADES + 1.5;
+    // Minor ticks are left out if they would be too close.
+    let shows_minor = powers < MAX_LABELLED_DECADES + 1.5;
     let is_inside = |value: f64| value >= from * (1.0 - 1e-9) && value <= to * (1.0 + 1e-9);
-    counts(from.log10().floor(), to.log10().ceil())
-        .flat_map(|exponent| counts(1.0, 9.0).map(move |mantissa| (mantissa, exponent)))
+    whole_numbers(from.log10().floor(), to.log10().ceil())
+        .flat_map(|exponent| whole_numbers(1.0, 9.0).map(move |mantissa| (mantissa, exponent)))
         .map(|(mantissa, exponent)| Tick {
             value: mantissa * 10_f64.powf(exponent),
             major: mantissa < 1.5,
@@ -160,7 +162,7 @@ fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
         .collect()
 }
 
-/// 10 with a superscript exponent.
+/// Text of 10 with a superscript exponent.
 fn power_of_ten(exponent: f64) -> String {
     const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let superscript = |c: char| {
