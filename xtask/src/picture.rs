@@ -14,7 +14,8 @@ pub(crate) fn chart(x: Axis, y: Axis, series: Vec<Series>) -> Chart {
 /// Open markers; none where there are no points.
 pub(crate) fn markers(
     points: Vec<[f64; 2]>,
-    (shape, colour): (Shape, Colour),
+    shape: Shape,
+    colour: Colour,
     label: &str,
 ) -> Option<Series> {
     let is_drawn = !points.is_empty();

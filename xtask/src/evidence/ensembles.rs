@@ -6,7 +6,7 @@ use serde::Serialize;
 use viscofriction::scene::{Indenter, Scene};
 use viscofriction::solve::{Answer, Problem, Scatter, SolveError, plan};
 
-use super::sample::{Options, Source};
+use super::sample::{NumberedScene, Options, Source};
 use super::{Outcomes, Report, Share};
 use crate::table::markdown_table;
 use crate::tasks::in_turn;
@@ -60,7 +60,7 @@ struct Refusal {
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let count = options.count(SCENES[usize::from(quick)])?;
     let scenes = Source::new("ensembles")?.scenes(options.seed(), count)?;
-    let found = in_turn("ensembles", &scenes, |(number, scene)| {
+    let found = in_turn("ensembles", &scenes, |NumberedScene { number, scene }| {
         let refusal = |why: anyhow::Error| Refusal {
             scene: *number,
             why: why.to_string(),

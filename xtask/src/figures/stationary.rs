@@ -10,9 +10,23 @@ use crate::tasks::in_parallel;
 
 pub(super) const NAME: &str = "stationary_contact";
 
-/// Exponents, and elements along the contact length of the one-dimensional model: the blunter the body, the narrower its
-/// contact.
-const PROFILES: [(f64, usize); 4] = [(1.0, 100), (2.0, 100), (4.0, 150), (16.0, 300)];
+/// A power profile, and the elements along the contact length of the one-dimensional model.
+struct Profile {
+    exponent: f64,
+    elements: usize,
+}
+
+const fn profile(exponent: f64, elements: usize) -> Profile {
+    Profile { exponent, elements }
+}
+
+/// The blunter the body, the narrower its contact.
+const PROFILES: [Profile; 4] = [
+    profile(1.0, 100),
+    profile(2.0, 100),
+    profile(4.0, 150),
+    profile(16.0, 300),
+];
 /// The lowest point lies at a corner of four elements, so that edges of elements are round numbers of the length.
 const PHASE: [f64; 2] = [0.5, 0.5];
 /// Residual in contact, relative to F_N/(4ηv).
@@ -72,7 +86,7 @@ pub(super) fn outlines(contacts: &[Contact]) -> Vec<&Row> {
         .collect()
 }
 
-fn contact(&(exponent, elements): &(f64, usize)) -> Result<Contact> {
+fn contact(&Profile { exponent, elements }: &Profile) -> Result<Contact> {
     let scene = Scene::unit(exponent)?;
     let contact_length = scene.theory()?.contact_length();
     let spacing = contact_length / elements as f64;
@@ -80,14 +94,14 @@ fn contact(&(exponent, elements): &(f64, usize)) -> Result<Contact> {
     Ok(Contact {
         exponent,
         elements,
-        outline: outline(&solution, (exponent, elements)),
+        outline: outline(&solution, exponent, elements),
         contact_length,
         mean_pressure: solution.normal_force / solution.contact_area,
         solution,
     })
 }
 
-fn outline(solution: &SteadySliding, (exponent, elements): (f64, usize)) -> Vec<Row> {
+fn outline(solution: &SteadySliding, exponent: f64, elements: usize) -> Vec<Row> {
     let field = &solution.pressure;
     let [rows, columns] = field.grid.shape();
     let length = field.grid.spacing()[0] * elements as f64;
@@ -117,7 +131,7 @@ mod tests {
     fn contact_is_on_the_front_half_with_a_loaded_front_and_an_unloaded_rear() {
         let mut lengths = Vec::new();
         for (exponent, elements) in [(1.0, 30), (2.0, 40), (4.0, 60), (16.0, 150)] {
-            let contact = contact(&(exponent, elements)).expect("a contact");
+            let contact = contact(&profile(exponent, elements)).expect("a contact");
             let rows = &contact.outline;
             let last = rows.len() - 1;
             for (column, row) in rows.iter().enumerate() {

@@ -4,10 +4,11 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::{Context as _, Result};
 use bem_halfspace::BemError;
+use cpu_time::ThreadTime;
 use mdr_core::MdrError;
 use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
@@ -72,7 +73,7 @@ const ROUNDING_TOLERANCE: f64 = 1e-9;
 const ITERATION_TOLERANCE: f64 = 0.05;
 /// Upper bound of d ln F/d ln d and d ln μ/d ln d for all bodies.
 const MAX_LOG_SLOPE: f64 = 4.0;
-/// Time after which no finer grid begins.
+/// Processor time after which no finer grid begins.
 const REFINEMENT_TIME_LIMIT: Duration = Duration::from_secs(10);
 
 /// Draws the scene with this number, and judges it; a scene that contradicts itself stays in its folder.
@@ -277,16 +278,17 @@ fn misses(error: &SolveError) -> bool {
     }
 }
 
-/// Ends a refinement that takes longer than [`REFINEMENT_TIME_LIMIT`].
+/// Ends a refinement whose thread has worked longer than [`REFINEMENT_TIME_LIMIT`], however busy the machine is.
 #[derive(Debug)]
 struct TimeLimit {
-    until: Instant,
+    /// Processor time of the thread.
+    end: Duration,
     has_ended: AtomicBool,
 }
 
 impl Progress for TimeLimit {
     fn may_refine(&self, _: usize) -> bool {
-        let is_early = Instant::now() < self.until;
+        let is_early = ThreadTime::now().as_duration() < self.end;
         self.has_ended.fetch_or(!is_early, Ordering::Relaxed);
         is_early
     }
@@ -308,7 +310,7 @@ fn answer(
         let problem =
             problem.map_err(|error| Failure::new(Verdict::Refused, format!("{error:#}")))?;
         let time_limit = TimeLimit {
-            until: Instant::now() + REFINEMENT_TIME_LIMIT,
+            end: ThreadTime::now().as_duration() + REFINEMENT_TIME_LIMIT,
             has_ended: AtomicBool::new(false),
         };
         let plan = plan(&problem).map_err(SolveError::from);

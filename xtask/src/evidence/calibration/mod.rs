@@ -245,7 +245,7 @@ fn figure(rows: &[Row]) -> Figure {
     let methods = STYLES.into_iter().filter_map(|(method, shape, colour)| {
         let points = points.iter().filter(|(of, _)| *of == method);
         let points = points.map(|(_, point)| *point).collect();
-        markers(points, (shape, colour), method.name())
+        markers(points, shape, colour, method.name())
     });
     let diagonal = guide(x.range.map(|end| [end; 2]), Dash::Solid);
     let series = methods.chain([diagonal.labelled("deviation = bar")]);

@@ -8,6 +8,7 @@ use viscofriction::scene::{Method, Model, Scene};
 use viscofriction::solve::{Answer, Problem, Sensitivity, plan, solve};
 
 use crate::evidence::request::{derivatives, number_at};
+use crate::evidence::sample::NumberedScene;
 use crate::random::Random;
 
 /// Distances of the answers in steps with their weights: `12 f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`, to the fourth order.
@@ -93,7 +94,7 @@ fn quantity(answer: &Answer, name: &str) -> Option<Estimate> {
 
 /// The derivatives of a scene by some of its numbers, or none where the method has none.
 pub(super) fn compared(
-    (number, scene): (usize, &Scene),
+    NumberedScene { number, scene }: &NumberedScene,
     asked: &Asked,
     count: usize,
 ) -> Result<Vec<Derivative>> {
@@ -103,9 +104,9 @@ pub(super) fn compared(
         return Ok(Vec::new());
     }
     let known = derivatives(&scene, &problem, solve(&problem)?)?;
-    let mut random = Random::new(number as u64);
+    let mut random = Random::new(*number as u64);
     let mut rows = Vec::new();
-    for one in chosen(&known, &scene, asked, (&mut random, count)) {
+    for one in chosen(&known, &scene, asked, &mut random, count) {
         let answers = asked.answers(&scene, &one.parameter)?;
         for (quantity, known_as) in one.named() {
             let (Some(known_as), Some(reference)) =
@@ -114,7 +115,7 @@ pub(super) fn compared(
                 continue;
             };
             rows.push(Derivative {
-                scene: number,
+                scene: *number,
                 group: asked.group(&scene),
                 indenter: scene.indenter.key(),
                 material: scene.material.key(),
@@ -137,7 +138,8 @@ fn chosen<'a>(
     known: &'a [Sensitivity],
     scene: &Scene,
     asked: &Asked,
-    (random, count): (&mut Random, usize),
+    random: &mut Random,
+    count: usize,
 ) -> Vec<&'a Sensitivity> {
     let may_change = |one: &&Sensitivity| {
         let largest = asked.changed(scene, &one.parameter, 2.0);

@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 
 use anyhow::Result;
 use serde::Deserialize;
-use viscofriction::scene::Scene;
 
 use super::sample::{Options, Source};
 use super::{Outcomes, Report, Share, extent};
@@ -31,21 +30,16 @@ struct Requests {
 /// Compares the derivatives of random scenes; fails where bars hold too seldom.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let requests: Requests = extent(include_str!("requests.toml"), quick)?;
-    let mut tasks: Vec<(usize, Scene, &Asked)> = Vec::new();
+    let mut found = Vec::new();
     for asked in &requests.method {
-        let count = options.count(asked.scenes)?;
-        let count = count.div_ceil(asked.one_scene_of);
+        let count = options.count(asked.scenes)?.div_ceil(asked.one_scene_of);
         let scenes = Source::new(&asked.range)?.scenes(options.seed(), count)?;
-        tasks.extend(
-            scenes
-                .into_iter()
-                .map(|(number, scene)| (number, scene, asked)),
-        );
+        let task = format!("derivatives, {}", asked.method.name());
+        found.extend(in_parallel(task, &scenes, |scene| {
+            let compared = compared(scene, asked, requests.numbers);
+            Ok(compared.map_err(|error| Refusal::new(scene.number, asked, &error)))
+        })?);
     }
-    let found = in_parallel("derivatives", &tasks, |(number, scene, asked)| {
-        let compared = compared((*number, scene), asked, requests.numbers);
-        Ok(compared.map_err(|error| Refusal::new(*number, asked, &error)))
-    })?;
     let found: Outcomes<Derivative, Refusal> = found.into_iter().collect();
     let table = table(&found.rows);
     Ok(Report {

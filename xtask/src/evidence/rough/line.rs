@@ -31,8 +31,10 @@ pub(super) enum Carrying {
 
 /// The friction coefficient under a mean pressure, to 5 %; none where it is not known as well.
 pub(super) fn friction(
-    (surface, material): (&PeriodicSurface, &dyn Material),
-    (mean_pressure, velocity): (f64, f64),
+    surface: &PeriodicSurface,
+    material: &dyn Material,
+    mean_pressure: f64,
+    velocity: f64,
     carrying: Carrying,
 ) -> Result<Option<f64>> {
     let period = surface.period();

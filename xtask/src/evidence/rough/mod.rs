@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use numerics::Estimate;
+use serde::{Serialize, Serializer};
 use viscofriction::scene::Source;
 use viscofriction::sweep::{Plan, Vary, header};
 use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
@@ -21,33 +21,43 @@ use crate::table::{GrowingTable, ROWS_AT_ONCE, Table};
 
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "rough.csv";
-/// What the quantities that are solved for are compared with: how it is called, and the columns of both.
-const THEORIES: [(&str, [&str; 2]); 7] = [
-    (
-        "friction / Persson (2001)",
-        ["friction_coefficient", "persson_friction_coefficient"],
-    ),
-    (
+
+/// What a theory says of a quantity that is solved for, by the columns of both.
+struct Theory {
+    name: &'static str,
+    solved: &'static str,
+    predicted: &'static str,
+}
+
+const fn friction(name: &'static str, predicted: &'static str) -> Theory {
+    let solved = "friction_coefficient";
+    Theory {
+        name,
+        solved,
+        predicted,
+    }
+}
+
+const fn area(name: &'static str, predicted: &'static str) -> Theory {
+    let solved = "area_fraction";
+    Theory {
+        name,
+        solved,
+        predicted,
+    }
+}
+
+const THEORIES: [Theory; 7] = [
+    friction("friction / Persson (2001)", "persson_friction_coefficient"),
+    friction(
         "friction / Persson (2006)",
-        ["friction_coefficient", "persson_friction_coefficient_2006"],
+        "persson_friction_coefficient_2006",
     ),
-    (
-        "friction / Wang and Müser (2017)",
-        ["friction_coefficient", theories::COLUMNS[0]],
-    ),
-    (
-        "friction / line, longest wave",
-        ["friction_coefficient", theories::COLUMNS[1]],
-    ),
-    (
-        "friction / line, period",
-        ["friction_coefficient", theories::COLUMNS[2]],
-    ),
-    (
-        "area / Persson (2001)",
-        ["area_fraction", "persson_area_fraction"],
-    ),
-    ("area / Xu (2024)", ["area_fraction", theories::COLUMNS[3]]),
+    friction("friction / Wang and Müser (2017)", theories::COLUMNS[0]),
+    friction("friction / line, longest wave", theories::COLUMNS[1]),
+    friction("friction / line, period", theories::COLUMNS[2]),
+    area("area / Persson (2001)", "persson_area_fraction"),
+    area("area / Xu (2024)", theories::COLUMNS[3]),
 ];
 /// Those of which there is a picture.
 const DRAWN_THEORIES: [usize; 6] = [0, 1, 3, 4, 5, 6];
@@ -201,6 +211,7 @@ fn read(file: &Path, plan: &Plan) -> Result<Rows> {
 }
 
 /// All surfaces of a spectrum under one pressure at one speed.
+#[derive(Serialize)]
 struct Point<'a> {
     solid: &'a str,
     hurst_exponent: f64,
@@ -209,17 +220,30 @@ struct Point<'a> {
     mean_pressure: f64,
     velocity: f64,
     /// Mean over the surfaces, with the mean of its error bars.
-    area_fraction: Estimate,
-    /// What was solved over what each theory says, in the mean over the surfaces.
+    #[serde(serialize_with = "five_digits")]
+    area_fraction: f64,
+    #[serde(serialize_with = "five_digits")]
+    area_fraction_error: f64,
+    /// One for each theory.
+    #[serde(skip)]
     ratios: [Option<Ratio>; THEORIES.len()],
     /// Friction and what it is by both forms of Persson's theory, surface by surface.
+    #[serde(skip)]
     frictions: Vec<[f64; 3]>,
 }
 
-#[derive(Clone, Copy)]
+/// What was solved over what one theory says, in the mean over the surfaces.
+#[derive(Clone, Copy, Serialize)]
 struct Ratio {
-    value: f64,
+    quantity: &'static str,
+    #[serde(serialize_with = "five_digits")]
+    ratio: f64,
+    #[serde(serialize_with = "five_digits")]
     standard_error: f64,
+}
+
+fn five_digits<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&format_args!("{value:.4e}"))
 }
 
 /// What all surfaces answer; the others would be chosen by their contact.
@@ -248,12 +272,18 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
             numbers.filter(|numbers| numbers.len() == surfaces)
         };
         let mean = |name: &str| Some(all(name)?.iter().sum::<f64>() / surfaces as f64);
-        let over =
-            |(_, [solved, theory]): (_, [&str; 2])| Some(ratio(&all(solved)?, &all(theory)?));
+        let over = |theory: Theory| {
+            let [solved, predicted] = [theory.solved, theory.predicted].map(all);
+            Some(ratio(theory.name, &solved?, &predicted?))
+        };
         let given = |index: usize| key[index].parse::<f64>().ok();
         let (longest, shortest) = (given(2)?, given(3)?);
-        let [friction, of_2001, of_2006] =
-            [THEORIES[0].1[0], THEORIES[0].1[1], THEORIES[1].1[1]].map(all);
+        let columns = [
+            THEORIES[0].solved,
+            THEORIES[0].predicted,
+            THEORIES[1].predicted,
+        ];
+        let [friction, of_2001, of_2006] = columns.map(all);
         let pairs = friction?.into_iter().zip(of_2001?).zip(of_2006?);
         Some(Point {
             solid: key[0],
@@ -262,7 +292,8 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
             shortest_waves_in_longest: longest / shortest,
             mean_pressure: given(4)?,
             velocity: given(5)?,
-            area_fraction: Estimate::new(mean("area_fraction")?, mean("area_fraction_error")?),
+            area_fraction: mean("area_fraction")?,
+            area_fraction_error: mean("area_fraction_error")?,
             ratios: THEORIES.map(over),
             frictions: pairs.map(|((one, two), three)| [one, two, three]).collect(),
         })
@@ -271,16 +302,17 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
 }
 
 /// Of two means of numbers that belong together.
-fn ratio(solved: &[f64], theory: &[f64]) -> Ratio {
+fn ratio(quantity: &'static str, solved: &[f64], theory: &[f64]) -> Ratio {
     let count = solved.len() as f64;
     let [sum, of_theory] = [solved, theory].map(|numbers| numbers.iter().sum::<f64>());
-    let value = sum / of_theory;
+    let ratio = sum / of_theory;
     let pairs = solved.iter().zip(theory);
     let squares: f64 = pairs
-        .map(|(one, other)| (one - value * other).powi(2))
+        .map(|(one, other)| (one - ratio * other).powi(2))
         .sum();
     Ratio {
-        value,
+        quantity,
+        ratio,
         standard_error: (squares * count / (count - 1.0)).sqrt() / of_theory,
     }
 }
@@ -291,7 +323,7 @@ fn figure(points: &[Point]) -> Figure {
         let series = SOLIDS.iter().map(|solid| {
             let of_solid = points.iter().filter(|point| point.solid == solid.name);
             let points = of_solid
-                .filter_map(|point| Some([point.area_fraction.value, point.ratios[theory]?.value]));
+                .filter_map(|point| Some([point.area_fraction, point.ratios[theory]?.ratio]));
             let points =
                 points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN_RATIOS.contains(ratio));
             let (shape, colour) = solid.marker;
@@ -300,7 +332,7 @@ fn figure(points: &[Point]) -> Figure {
         chart(
             Axis::log10("area fraction", [AREAS[0], 1.0]),
             Axis::log10(
-                THEORIES[theory].0,
+                THEORIES[theory].name,
                 [*DRAWN_RATIOS.start(), *DRAWN_RATIOS.end()],
             ),
             series.collect(),

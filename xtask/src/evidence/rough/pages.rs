@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use comfy_table::Table;
-use serde::Serialize;
 
 use super::{AREAS, Point, RIGHT_WITHIN, Ratio, SOLIDS, THEORIES};
 use crate::meter::median;
@@ -55,42 +54,13 @@ pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     )
 }
 
-/// What was solved over what one theory says, at a point, in the file.
-#[derive(Serialize)]
-pub(super) struct Row<'a> {
-    solid: &'a str,
-    hurst_exponent: f64,
-    longest_waves_in_period: f64,
-    shortest_waves_in_longest: f64,
-    mean_pressure: f64,
-    velocity: f64,
-    area_fraction: String,
-    area_fraction_error: String,
-    quantity: &'static str,
-    ratio: String,
-    standard_error: String,
-}
-
-pub(super) fn rows<'a>(points: &[Point<'a>]) -> Vec<Row<'a>> {
-    let pairs = points.iter().flat_map(|point| {
-        let ratios = point.ratios.into_iter().zip(THEORIES);
-        ratios.filter_map(move |(ratio, (quantity, _))| Some((point, quantity, ratio?)))
-    });
-    let digits = |value: f64| format!("{value:.4e}");
-    let row = |(point, quantity, ratio): (&Point<'a>, _, Ratio)| Row {
-        solid: point.solid,
-        hurst_exponent: point.hurst_exponent,
-        longest_waves_in_period: point.longest_waves_in_period,
-        shortest_waves_in_longest: point.shortest_waves_in_longest,
-        mean_pressure: point.mean_pressure,
-        velocity: point.velocity,
-        area_fraction: digits(point.area_fraction.value),
-        area_fraction_error: digits(point.area_fraction.error),
-        quantity,
-        ratio: digits(ratio.value),
-        standard_error: digits(ratio.standard_error),
+/// Rows of the file: each point with each of its ratios.
+pub(super) fn rows<'a>(points: &'a [Point<'a>]) -> Vec<(&'a Point<'a>, &'a Ratio)> {
+    let rows = |point: &'a Point<'a>| {
+        let ratios = point.ratios.iter().flatten();
+        ratios.map(move |ratio| (point, ratio))
     };
-    pairs.map(row).collect()
+    points.iter().flat_map(rows).collect()
 }
 
 /// By label and class of area: points, their typical standard error and error bar of the area, and for each theory the median
@@ -98,23 +68,23 @@ pub(super) fn rows<'a>(points: &[Point<'a>]) -> Vec<Row<'a>> {
 fn table(labels: &[&str], points: &[(Vec<String>, &Point)], theories: Range<usize>) -> Table {
     let mut classes: BTreeMap<(&[String], usize), Vec<&Point>> = BTreeMap::new();
     for (label, point) in points {
-        let class = AREAS.partition_point(|end| point.area_fraction.value >= *end);
+        let class = AREAS.partition_point(|end| point.area_fraction >= *end);
         classes.entry((label, class)).or_default().push(point);
     }
     let lines = classes.into_iter().map(|((label, class), points)| {
         let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
         let errors = points.iter().filter_map(|point| point.ratios[0]);
-        let errors = errors.map(|ratio| ratio.standard_error / ratio.value);
+        let errors = errors.map(|ratio| ratio.standard_error / ratio.ratio);
         let bars = points
             .iter()
-            .map(|point| point.area_fraction.error / point.area_fraction.value);
+            .map(|point| point.area_fraction_error / point.area_fraction);
         let percent = |parts: Vec<f64>| format!("{:.0} %", 100.0 * median(parts));
         let mut line = label.to_vec();
         line.extend([from.to_string(), points.len().to_string()]);
         line.extend([percent(errors.collect()), percent(bars.collect())]);
         for theory in theories.clone() {
             let values = points.iter().filter_map(|point| point.ratios[theory]);
-            line.push(spread(values.map(|ratio| ratio.value).collect()));
+            line.push(spread(values.map(|ratio| ratio.ratio).collect()));
         }
         line
     });
@@ -124,7 +94,7 @@ fn table(labels: &[&str], points: &[(Vec<String>, &Point)], theories: Range<usiz
         "standard error",
         "area bar",
     ]);
-    let names = THEORIES[theories.clone()].iter().map(|(name, _)| *name);
+    let names = THEORIES[theories.clone()].iter().map(|theory| theory.name);
     markdown_table(header.chain(names), lines)
 }
 
@@ -146,7 +116,7 @@ fn spread(mut values: Vec<f64>) -> String {
 fn weight(solid: &str, points: &[Point]) -> Option<String> {
     let points = points.iter().filter(|point| {
         point.solid == solid
-            && point.area_fraction.value >= MIN_AREA
+            && point.area_fraction >= MIN_AREA
             && point.longest_waves_in_period >= MIN_WAVES
     });
     // Means of the friction, of what S = 1 adds to S = P², and of the friction with that.

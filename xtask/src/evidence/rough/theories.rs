@@ -25,13 +25,8 @@ pub(super) fn solve(problem: &Problem) -> Result<[Option<f64>; COLUMNS.len()]> {
     let force = load.normal_force().context("a surface under a force")?;
     let mean_pressure = force / surface.period().iter().product::<f64>();
     let theory = persson(problem)?.context("a surface on a half space")?;
-    let line = |carrying| {
-        friction(
-            (surface, problem.material()),
-            (mean_pressure, load.velocity()),
-            carrying,
-        )
-    };
+    let (material, velocity) = (problem.material(), load.velocity());
+    let line = |carrying| friction(surface, material, mean_pressure, velocity, carrying);
     Ok([
         Some(
             theory

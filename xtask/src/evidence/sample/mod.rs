@@ -194,6 +194,12 @@ struct Recipes {
     material: Table,
 }
 
+/// A scene of a seed, counted from 1.
+pub(super) struct NumberedScene {
+    pub(super) number: usize,
+    pub(super) scene: Scene,
+}
+
 /// What random scenes are drawn from, and how.
 #[derive(Debug, Clone)]
 pub(super) struct Source {
@@ -209,10 +215,13 @@ impl Source {
         Ok(Self { range, recipes })
     }
 
-    /// So many numbered scenes of a seed, from a range that draws no files.
-    pub(super) fn scenes(&self, seed: u64, count: usize) -> Result<Vec<(usize, Scene)>> {
+    /// So many scenes of a seed, from a range that draws no files.
+    pub(super) fn scenes(&self, seed: u64, count: usize) -> Result<Vec<NumberedScene>> {
         let mut random = Random::new(seed);
-        let scene = |number| Ok((number, sample(&mut random, self, Path::new(""))?.scene));
+        let scene = |number| {
+            let scene = sample(&mut random, self, Path::new(""))?.scene;
+            Ok(NumberedScene { number, scene })
+        };
         (1..=count).map(scene).collect()
     }
 

@@ -164,17 +164,22 @@ macro_rules! refused {
 }
 pub(super) use refused;
 
+/// What is computed of a family for one value of its parameter.
+pub(super) struct Case<'a, F> {
+    pub(super) family: &'a Family,
+    pub(super) run: F,
+    pub(super) value: f64,
+}
+
 /// Runs all cases on all threads; rows in the order of the cases.
-pub(super) fn judge<F: Fn(f64) -> Result<Row> + Sync>(
-    cases: &[(&Family, F, f64)],
-) -> Result<Vec<Row>> {
-    in_parallel("stability", cases, |(family, run, value)| {
+pub(super) fn judge<F: Fn(f64) -> Result<Row> + Sync>(cases: &[Case<'_, F>]) -> Result<Vec<Row>> {
+    in_parallel("stability", cases, |case| {
         let start = Instant::now();
-        let row = run(*value);
+        let row = (case.run)(case.value);
         Ok(Row {
-            family: family.name.clone(),
-            parameter: family.parameter.clone(),
-            value: *value,
+            family: case.family.name.clone(),
+            parameter: case.family.parameter.clone(),
+            value: case.value,
             seconds: start.elapsed().as_secs_f64(),
             ..row.unwrap_or_else(|error| Row::wrong("a solution", format!("{error:#}")))
         })
@@ -190,7 +195,12 @@ mod tests {
     use super::*;
 
     fn judged(run: impl Fn(f64) -> Result<Row> + Send + Sync + 'static) -> Row {
-        let rows = judge(&[(&Family::default(), run, 1.0)]);
+        let family = &Family::default();
+        let rows = judge(&[Case {
+            family,
+            run,
+            value: 1.0,
+        }]);
         rows.expect("a row").remove(0)
     }
 

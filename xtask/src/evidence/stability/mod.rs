@@ -15,7 +15,7 @@ use super::Report;
 use crate::output::WrongInput;
 use crate::picture::{chart, guide, markers};
 use crate::table::{Table, markdown_table};
-use case::{Family, Row, Verdict};
+use case::{Case, Family, Row, Verdict};
 use families::Run;
 
 /// Which cases.
@@ -54,13 +54,14 @@ fn chosen<'a>(
     families: &'a [(Family, Run)],
     options: &Options,
     quick: bool,
-) -> Result<Vec<(&'a Family, Run, f64)>> {
+) -> Result<Vec<Case<'a, Run>>> {
     let text = options.only.as_deref().unwrap_or_default();
     let mut cases = Vec::new();
     for (family, run) in families {
         let is_asked = |value: &f64| family.case(*value).contains(text);
         let values = family.values(quick).filter(is_asked);
-        cases.extend(values.map(|value| (family, *run, value)));
+        let run = *run;
+        cases.extend(values.map(|value| Case { family, run, value }));
     }
     let wrong = format!("--only {text:?} is in no case");
     ensure!(!cases.is_empty(), WrongInput(wrong));
@@ -121,7 +122,7 @@ fn panel(rows: &[&Row], end: f64) -> Chart {
         let points = of_kind.map(|row| [row.value.log10(), height(row)]);
         let points: Vec<_> = points.collect();
         let label = format!("{kind}: {}", points.len());
-        markers(points, (shape, colour), &label)
+        markers(points, shape, colour, &label)
     });
     let series = [tolerance].into_iter().chain(of_kinds).collect();
     let x = Axis::linear("log₁₀ of the parameter", [-end, end]);
@@ -147,7 +148,11 @@ mod tests {
     fn a_wrong_case_fails_the_experiment_and_is_named() {
         let family: Family = toml::from_str("name = 'line, test'\nparameter = 'p'").expect("TOML");
         let beside_one = |p| Ok(Row::relative("p", [p, 1.0], 1e-9));
-        let cases = [1.0, 2.0].map(|value| (&family, beside_one, value));
+        let cases = [1.0, 2.0].map(|value| Case {
+            family: &family,
+            run: beside_one,
+            value,
+        });
         let rows = judge(&cases).expect("rows");
         let report = report_of(&rows).expect("a report");
         let expected = "1 of 2 cases are wrong\nline, test, p = 2e0: expected 1e0, got 2e0";
