@@ -2,9 +2,9 @@
 
 use std::fmt;
 use std::iter::Sum;
-use std::ops::{Add, Deref, Mul};
+use std::ops::{Add, Deref, Mul, Range};
 
-use crate::invalid_parameter::{POSITIONAL_RANGE, Rounded, power_of_ten};
+use crate::invalid_parameter::{MessageNumber, Rounded, power_of_ten};
 
 /// A computed number with its estimated absolute error, read as `.value` and `.error`.
 ///
@@ -33,23 +33,59 @@ impl Deref for Estimate {
     }
 }
 
-/// The format of messages, without digits beyond the second of the error: 0.0384647 ± 2.0e-6.
+/// Value and error with the same last digit, the second one of the error: `0.0384647 ± 0.0000020`, or `(6.55301 ± 0.00054)e-5` where
+/// that is shorter. An exact number stands alone, rounded to five digits if it has many.
 impl fmt::Display for Estimate {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ValueWithError { value, error } = self.0;
-        let has_digits = value.is_finite() && error.is_finite() && error > 0.0;
-        if !has_digits {
+        if error == 0.0 {
+            let all_digits = MessageNumber(value).to_string();
+            return match all_digits.len() {
+                ..=MAX_EXACT_LENGTH => formatter.write_str(&all_digits),
+                _ => write!(formatter, "{}", Rounded(value)),
+            };
+        }
+        if !(value.is_finite() && error.is_finite()) {
             return write!(formatter, "{} ± {}", Rounded(value), Rounded(error));
         }
-        // Powers of ten of the last digit shown, the second of the error, and of the first digit of the value.
-        let last = power_of_ten(error) - 1;
-        let first = power_of_ten(value);
-        if POSITIONAL_RANGE.contains(&value.abs().max(error)) {
-            let digits = usize::try_from(-last).unwrap_or(0);
-            return write!(formatter, "{value:.digits$} ± {error:.1e}");
+
+        // Powers of ten of the last digit shown and of the first one.
+        let error = error.max(MIN_RELATIVE_ERROR * value.abs());
+        let last = power_of_rounded(error) - 1;
+        let first = power_of_ten(value).max(power_of_rounded(error));
+        if PLAIN_POWERS.contains(&first) && last <= 0 {
+            let [value, error] = [value, error].map(|number| fixed(number, -last));
+            return write!(formatter, "{value} ± {error}");
         }
-        let digits = usize::try_from(first - last).unwrap_or(0);
-        write!(formatter, "{value:.digits$e} ± {error:.1e}")
+        // Half of the power at a time, because the whole one may overflow.
+        let half = 10.0_f64.powi(-first / 2);
+        let rest = 10.0_f64.powi(-first - -first / 2);
+        let [value, error] = [value, error].map(|number| fixed(number * half * rest, first - last));
+        write!(formatter, "({value} ± {error})e{first}")
+    }
+}
+
+/// Smallest relative error that is written: what is smaller comes from rounding, and is written as this.
+const MIN_RELATIVE_ERROR: f64 = 1e-9;
+/// Largest number of characters of an exact number that is not rounded: those of 0.1234567.
+const MAX_EXACT_LENGTH: usize = 9;
+
+/// Powers of ten of numbers that are written without a power of ten.
+const PLAIN_POWERS: Range<i32> = -3..6;
+
+/// The power of ten of the first digit of an error that is rounded to two digits.
+fn power_of_rounded(error: f64) -> i32 {
+    let rounded = format!("{error:.1e}").parse();
+    power_of_ten(rounded.unwrap_or(error))
+}
+
+/// A number with a fixed number of decimals; one that rounds to zero has no sign.
+fn fixed(number: f64, decimals: i32) -> String {
+    let decimals = usize::try_from(decimals).unwrap_or(0);
+    let text = format!("{number:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.bytes().all(|byte| b"0.".contains(&byte)) => digits.to_owned(),
+        _ => text,
     }
 }
 
@@ -120,21 +156,33 @@ mod tests {
             (0.038_464_693, 2.0e-6),
             (-6.225_184e-5, 1.9e-4),
             (7.356_372_07e-5, 4.4e-9),
-            (2.0e-7, 3.4e-9),
+            (-1e-9, 3.4e-3),
+            (2.0e-7, 9.96e-9),
             (1234.5678, 12.0),
-            (0.0, 1e-3),
+            (98_765.0, 1234.0),
+            (4.366_974e6, 1.8e4),
+            (3.0e-320, 2.0e-322),
+            (-1.5e307, 2.0e300),
+            (0.25, 1e-17),
             (1.0 / 3.0, 0.0),
+            (2.0e-7, 0.0),
             (1.0, f64::INFINITY),
         ];
         let said = known.map(|(value, error)| Estimate::new(value, error).to_string());
         let expected = [
-            "0.0384647 ± 2.0e-6",
-            "-0.00006 ± 1.9e-4",
-            "0.0000735637 ± 4.4e-9",
-            "2.000e-7 ± 3.4e-9",
-            "1235 ± 1.2e1",
-            "0.0000 ± 1.0e-3",
-            "0.33333 ± 0",
+            "0.0384647 ± 0.0000020",
+            "(-0.6 ± 1.9)e-4",
+            "(7.35637 ± 0.00044)e-5",
+            "0.0000 ± 0.0034",
+            "(2.00 ± 0.10)e-7",
+            "1235 ± 12",
+            "(9.88 ± 0.12)e4",
+            "(4.367 ± 0.018)e6",
+            "(3.00 ± 0.02)e-320",
+            "(-1.50000000 ± 0.00000020)e307",
+            "0.25000000000 ± 0.00000000025",
+            "0.33333",
+            "2e-7",
             "1 ± larger than any number",
         ];
         assert_eq!(said, expected, "{known:?}");

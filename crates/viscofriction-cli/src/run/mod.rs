@@ -169,8 +169,8 @@ fn with_derivatives(
     Ok((answer, None))
 }
 
-/// Why a method was chosen.
-const CHEAPEST: &str = ", the cheapest that answers the scene";
+/// What follows the name of a method that the scene does not name.
+const AUTOMATIC: &str = " (automatic)";
 
 /// Solves on as many threads as the scene says, or on all.
 fn in_pool(plan: Plan<'_>, threads: Option<usize>, watch: &dyn Progress) -> Result<Answer> {
@@ -187,9 +187,12 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
         Format::Table => {
             let (method, model) = (answer.method.name(), table::model(problem, answer));
             let is_chosen = problem.method().is_none();
-            let cheapest = if is_chosen { CHEAPEST } else { "" };
-            print_line(&format!("{method}{cheapest}; {model}; {seconds:.3} s"))?;
-            print_line(&table::table(answer))?;
+            let automatic = if is_chosen { AUTOMATIC } else { "" };
+            print_line(&format!(
+                "method {method}{automatic}; {model}; {}\n",
+                table::duration(*seconds)
+            ))?;
+            print_line(&format!("{}\n", table::listed(answer)))?;
             if let Some(parts) = table::parts(&answer.error_parts) {
                 print_line(&format!("error bar: {parts}"))?;
             }

@@ -7,7 +7,7 @@ use viscofriction::solve::{Answer, Motion, Problem};
 use viscofriction_plot::{Axis, Figure};
 
 use super::files::Pictures;
-use super::{CHEAPEST, Timed, spectrum, table};
+use super::{AUTOMATIC, Timed, spectrum, table};
 use crate::output::markdown;
 use crate::page::Page;
 use crate::sweep::labelled;
@@ -91,7 +91,7 @@ fn how(problem: &Problem, timed: &Timed<'_>) -> String {
     let Timed { answer, seconds } = timed;
     let model = table::model(problem, answer);
     let is_chosen = problem.method().is_none();
-    let cheapest = if is_chosen { CHEAPEST } else { "" };
+    let automatic = if is_chosen { AUTOMATIC } else { "" };
     let by = match answer.method {
         Method::Analytic => "closed forms, quadrature and tables",
         Method::MdrSteady => "the stationary state of elements that do not know of each other",
@@ -100,7 +100,10 @@ fn how(problem: &Problem, timed: &Timed<'_>) -> String {
         Method::BemTransient => "boundary elements, from first touch on",
     };
     let name = answer.method.name();
-    format!("Solved by {name}{cheapest}: {by}, on a {model}, in {seconds:.3} s.")
+    format!(
+        "Solved by {name}{automatic}: {by}, on a {model}, in {}.",
+        table::duration(*seconds)
+    )
 }
 
 /// The numbers of a scene, with the names and symbols of what they are.

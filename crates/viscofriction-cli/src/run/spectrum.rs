@@ -8,7 +8,6 @@ use viscofriction::solve::{ByFrequency, Problem, SpectralSensitivity};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 use super::pictures::around;
-use super::table::with_bar;
 use crate::output::markdown;
 
 /// Part of all that a band needs to have a row in the table, and to be in the picture.
@@ -67,7 +66,7 @@ pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
         let cells = columns
             .iter()
             .flat_map(|&quantity| derivatives(band)[quantity]);
-        let cells = cells.map(|known| known.map_or_else(String::new, |known| with_bar(&known)));
+        let cells = cells.map(|known| known.map_or_else(String::new, |known| known.to_string()));
         table.add_row(iter::once(format!("{from:.3e} to {to:.3e}")).chain(cells));
     }
     let all: f64 = spectral.bands.iter().map(size).sum();

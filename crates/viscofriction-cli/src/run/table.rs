@@ -9,16 +9,17 @@ use viscofriction::{ErrorParts, Estimate};
 
 use crate::output::markdown;
 
-/// One row per quantity, with its error and unit.
-pub(super) fn table(answer: &Answer) -> Table {
-    let of_material = answer.budget.material();
-    let has_material = of_material.named().iter().any(|(_, known)| known.is_some());
-    let column = if has_material {
-        " | material error"
-    } else {
-        ""
-    };
-    let mut table = markdown(&format!("quantity | value | error{column} | unit"));
+/// A quantity of the answer as it is printed.
+struct Line {
+    name: &'static str,
+    /// Value, error and unit.
+    value: String,
+    /// Standard error by that of the material; `None` if it is not known.
+    material_error: Option<f64>,
+}
+
+/// All quantities that the answer has.
+fn lines(answer: &Answer) -> Vec<Line> {
     let [force, area] = if answer.is_per_length {
         ["N/m", "m²/m"]
     } else {
@@ -48,32 +49,45 @@ pub(super) fn table(answer: &Answer) -> Table {
         ]
     });
     let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
-    for (name, known, unit) in rows {
-        if let Some(known) = known {
-            let of_material = has_material.then(|| of_material.of(&name.replace(' ', "_")));
-            let errors = [
-                Some(Some(known.error).filter(|error| *error > 0.0)),
-                of_material,
-            ];
-            let errors = errors.into_iter().flatten().map(short_error);
-            let before = [name.to_owned(), short(known.value)].into_iter();
-            table.add_row(before.chain(errors).chain([unit.to_owned()]));
+    let material_errors = answer.budget.material();
+    rows.filter_map(|(name, known, unit)| {
+        Some(Line {
+            name,
+            value: format!("{} {unit}", known?).trim_end().to_owned(),
+            material_error: material_errors.of(&name.replace(' ', "_")),
+        })
+    })
+    .collect()
+}
+
+/// Names and values of all quantities below each other.
+pub(super) fn listed(answer: &Answer) -> String {
+    let lines = lines(answer);
+    let width = |text: fn(&Line) -> &str| {
+        let widths = lines.iter().map(|line| text(line).chars().count());
+        widths.max().unwrap_or(0)
+    };
+    let [names, values] = [width(|line| line.name), width(|line| &line.value)];
+    let line = |line: &Line| {
+        let Line { name, value, .. } = line;
+        match line.material_error {
+            Some(error) => {
+                format!("{name:<names$}   {value:<values$}   ± {error:.1e} by the material")
+            }
+            None => format!("{name:<names$}   {value}"),
         }
+    };
+    lines.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// The same as a table of a page.
+pub(super) fn table(answer: &Answer) -> Table {
+    let mut table = markdown("quantity | value | error by the material");
+    for line in lines(answer) {
+        let error = line.material_error.map(|error| format!("{error:.1e}"));
+        table.add_row([line.name.to_owned(), line.value, error.unwrap_or_default()]);
     }
     table
-}
-
-/// Two digits, or nothing of what is exact or not known.
-fn short_error(error: Option<f64>) -> String {
-    error.map_or_else(String::new, |error| format!("{error:.1e}"))
-}
-
-/// Nine digits; the JSON has all of them.
-fn short(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
-        return format!("{value:.9}");
-    }
-    format!("{value:.8e}")
 }
 
 /// One row per number of the scene, with the derivatives of quantities that have any, and of an area that is known without.
@@ -95,7 +109,7 @@ pub(super) fn sensitivity(answer: &Answer) -> Table {
     for one in all {
         let known = columns.iter().map(|&column| one.named()[column].1);
         let cells = known
-            .map(|known| known.map_or_else(|| "not known".to_owned(), |known| with_bar(&known)));
+            .map(|known| known.map_or_else(|| "not known".to_owned(), |known| known.to_string()));
         table.add_row(iter::once(one.parameter.clone()).chain(cells));
     }
     table
@@ -133,16 +147,6 @@ pub(super) fn budget(answer: &Answer) -> Table {
         table.add_row(iter::once((*source).to_owned()).chain(cells));
     }
     table
-}
-
-pub(super) fn with_bar(known: &Estimate) -> String {
-    // What rounds to nothing has no sign.
-    let value = if known.value.abs() < 5e-7 {
-        0.0
-    } else {
-        known.value
-    };
-    format!("{value:.6} ± {:.1e}", known.error)
 }
 
 /// What the error bar consists of; nothing of a method without parts.
@@ -186,6 +190,12 @@ pub(super) fn omissions(problem: &Problem, answer: &Answer) -> Table {
         omissions.add_row([omission.name(), omission.because().to_owned(), saved]);
     }
     omissions
+}
+
+/// Hundredths of a second, or thousandths of a short time.
+pub(super) fn duration(seconds: f64) -> String {
+    let digits = if seconds < 0.1 { 3 } else { 2 };
+    format!("{seconds:.digits$} s")
 }
 
 /// The model in words.
