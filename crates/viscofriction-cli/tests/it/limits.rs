@@ -1,4 +1,6 @@
-//! Numbers that a user gives are checked before memory is taken for them, and `max_memory` holds.
+//! Numbers that a user gives are checked before memory is taken for them, and `max_memory` holds; where a shell can limit the memory
+//! for data.
+#![cfg(target_os = "linux")]
 
 use std::any::TypeId;
 use std::collections::{BTreeMap, BTreeSet};
