@@ -179,6 +179,11 @@ impl ContactBox {
         area::outline_uncertainty(&self.state.load, &self.bounds, mirrors)
     }
 
+    /// How singular the pressure is along the outline, between 0 and 1 under a flat punch.
+    pub(crate) fn edge_singularity(&self, mirrors: [Mirror; 2]) -> f64 {
+        area::edge_singularity(&self.state.load, &self.bounds, mirrors)
+    }
+
     /// The loaded elements, as [row, column] of the field in which the box lies, with their loads.
     pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let (lower, columns) = (self.bounds.lower, self.bounds.shape()[1]);

@@ -84,6 +84,48 @@ const fn pairs(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }
 
+/// How singular the pressure is along the outline of a contact: the mean square of the loads of the outermost elements, over that under
+/// a flat punch with this force and area; at most 1.
+///
+/// Elements at the edge of a punch with a radius of a elements have √(a/2) times the mean load, from p = F/(2π a √(a² − r²)); where the
+/// pressure ends like a root they have √(1/a) times it, so that this number is of the order 1/a².
+pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
+    let [rows, columns] = bounds.shape();
+    let load = |row: usize, column: usize| {
+        if row < rows && column < columns {
+            loads[row * columns + column]
+        } else {
+            0.0
+        }
+    };
+    let at_mirror = [0, 1].map(|axis| bounds.lower[axis] == 0 && !mirrors[axis].is_none());
+    let [mut count, mut sum] = [0.0; 2];
+    let [mut edge_count, mut edge_squares] = [0.0; 2];
+    for (row, column) in (0..loads.len()).map(|index| (index / columns, index % columns)) {
+        let own = load(row, column);
+        if own <= 0.0 {
+            continue;
+        }
+        count += 1.0;
+        sum += own;
+        let is_inside = (row == 0 && at_mirror[0] || load(row.wrapping_sub(1), column) > 0.0)
+            && (column == 0 && at_mirror[1] || load(row, column.wrapping_sub(1)) > 0.0)
+            && load(row + 1, column) > 0.0
+            && load(row, column + 1) > 0.0;
+        if !is_inside {
+            edge_count += 1.0;
+            edge_squares += own * own;
+        }
+    }
+    if edge_count == 0.0 {
+        return 0.0;
+    }
+    let images = mirrors.iter().filter(|mirror| !mirror.is_none()).count();
+    let radius = (count * f64::from(1_u32 << images) / PI).sqrt();
+    let square_under_punch = 0.5 * radius * (sum / count).powi(2);
+    (edge_squares / edge_count / square_under_punch).min(1.0)
+}
+
 /// What the elements leave unknown of the area of a contact, in elements: √(Σ L²) over all straight runs of L edges of its outline.
 ///
 /// Along a run the true outline lies within half an element of the counted one, so that the area is off by at most L/2. Runs err

@@ -107,6 +107,33 @@ fn the_bar_of_a_counted_area_holds_on_every_grid() {
     }
 }
 
+/// Where a contact ends just beyond a flat end, its outline is that of the elements under it, and all grids err by as much.
+#[test]
+fn bars_hold_where_the_contact_ends_at_the_edge_of_a_flat_end() {
+    let flat_cone = FlatCone::new(1.0, 0.1).expect("a body");
+    let truncated = TruncatedParaboloid::new(1.0, 0.1).expect("a body");
+    let bodies: [(_, &dyn Surface, _); 2] = [
+        ("flat cone", &flat_cone, 0.000_93),
+        ("truncated paraboloid", &truncated, 0.001_85),
+    ];
+    for (name, body, depth) in bodies {
+        let profile = body.as_axisymmetric().expect("a body of revolution");
+        let force = impulse_to_depth(profile, &viscous(1.0), depth).expect("a force");
+        let radius = contact_radius(profile, depth).expect("a radius");
+        for elements in [32, 48, 64, 96, 128] {
+            let what = (name, elements);
+            let accuracy = Accuracy::Elements(elements);
+            let under = |control| press(body, &elastic(1.0), control, accuracy);
+            let got = under(Control::NormalForce(force)).expect("a contact");
+            let got_depth = got.indentation_depth.expect("a depth");
+            assert_bar(what, got_depth, depth, 0.02);
+            assert_bar(what, got.contact_area, PI * radius * radius, 0.04);
+            let got = under(Control::IndentationDepth(depth)).expect("a contact");
+            assert_bar(what, got.normal_force, force, 0.02);
+        }
+    }
+}
+
 /// Hertz: p₀ = 3F/(2πa²).
 #[test]
 fn the_largest_pressure_has_a_bar_where_it_has_a_limit() {

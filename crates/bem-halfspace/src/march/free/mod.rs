@@ -254,6 +254,11 @@ impl<'a> March<'a> {
         self.means.mean_slope_modulus
     }
 
+    /// How singular the pressure is along the outline, between 0 and 1 under a flat punch.
+    pub(crate) fn edge_singularity(&self) -> f64 {
+        self.contact_box.edge_singularity(self.layout.mirrors)
+    }
+
     /// 2 (1 − ν) α of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
         self.half_space_factor * self.creep_step.response()

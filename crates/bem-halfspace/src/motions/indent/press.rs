@@ -56,6 +56,8 @@ pub struct PressSolution {
     pub contact_area: f64,
     /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
     pub contact_area_uncertainty: f64,
+    /// How singular the pressure is along the outline of the contact: 1 under a flat punch, and near 0 where it ends like a root.
+    pub edge_singularity: f64,
     /// Ends of the contact along x relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
     /// Ends of the contact along y relative to the lowest point, \[m].
@@ -302,6 +304,7 @@ impl Spring {
             },
             contact_area: row.contact_area,
             contact_area_uncertainty: row.contact_area_uncertainty,
+            edge_singularity: march.edge_singularity(),
             contact_x,
             contact_y,
             n_contact: row.n_contact,
@@ -350,6 +353,7 @@ fn estimate(
             let mut state = spring.solve(&FlatPunch::new(wider)?, control, &options)?;
             state.contact_area = PI * radius * radius;
             state.contact_area_uncertainty = 0.0;
+            state.edge_singularity = 0.0;
             state
         } else {
             spring.solve(surface, control, &options)?
@@ -406,6 +410,13 @@ impl PressSolution {
             Control::NormalForce(_) => self.indentation_depth,
             Control::IndentationDepth(_) => elements as f64 * self.normal_force,
         };
+        let n_contact = self.n_contact as f64;
+        // A singular outline is that of the elements: it is too narrow by the widening of a punch, and their number scatters. The
+        // perimeter correction of the area is for pressures that end like a root.
+        let excess = n_contact * options.spacing.iter().product::<f64>() - self.contact_area;
+        let edge_error = self.edge_singularity
+            * (PUNCH_WIDENING * (PI / n_contact).sqrt()
+                + 0.5 * self.contact_area_uncertainty / self.contact_area);
         OnGrid {
             quantities: Quantities {
                 friction_coefficient: 0.0,
@@ -419,8 +430,8 @@ impl PressSolution {
                 iteration: Some(options.contact.tolerance * error),
                 ..ErrorParts::NONE
             },
-            min_relative_error: BOUNDARY_ERROR_FACTOR * (self.n_contact as f64).powf(-0.75),
-            area_uncertainty: self.contact_area_uncertainty,
+            min_relative_error: BOUNDARY_ERROR_FACTOR * n_contact.powf(-0.75) + edge_error,
+            area_uncertainty: self.contact_area_uncertainty + self.edge_singularity * excess,
             area_order: Some(PRESSED_AREA_ORDER),
             spacing: options.spacing[0],
             state: self,
