@@ -23,7 +23,7 @@
 
 /// κ times the second difference of the kernel, for boundaries of many elements, on which errors of κ average out; chosen
 /// between 0.3 and 0.6, see above.
-pub(crate) const LOAD_GAP_RATIO: f64 = 0.4;
+const LOAD_GAP_RATIO: f64 = 0.4;
 
 /// Loads of the elements in contact and gaps of their neighbours, on a box of elements.
 pub(crate) struct BoundaryField {
@@ -35,6 +35,10 @@ pub(crate) struct BoundaryField {
     pub(crate) inside: Vec<bool>,
     /// Load of an element in contact, gap of an element outside; not finite if unknown.
     pub(crate) values: Vec<f64>,
+    /// Second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
+    pub(crate) second_difference: [f64; 2],
+    /// Increase of the loads and decrease of the gaps per unit of depth, whose ratio is κ; `None` for boundaries of many elements.
+    pub(crate) unit_depth_response: Option<Vec<f64>>,
 }
 
 /// The derivatives of one quantity of the boundary.
@@ -42,7 +46,7 @@ pub(crate) struct BoundaryField {
 pub(crate) struct BoundaryDerivatives {
     /// By the load or gap of each element of the box.
     pub(crate) by_values: Vec<f64>,
-    /// By the logarithm of the second difference of the kernel along each axis.
+    /// By the second difference of the kernel along each axis.
     pub(crate) by_second_difference: [f64; 2],
 }
 
@@ -57,10 +61,10 @@ pub(crate) struct ContactBoundary {
 
 /// An element in contact and its neighbour outside along an axis.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct BoundaryPair {
-    pub(crate) inside: usize,
-    pub(crate) outside: usize,
-    pub(crate) axis: usize,
+struct BoundaryPair {
+    inside: usize,
+    outside: usize,
+    axis: usize,
 }
 
 impl BoundaryDerivatives {
@@ -72,32 +76,32 @@ impl BoundaryDerivatives {
     }
 
     /// Adds the derivatives of x/(x + κ g) at a pair, times (x + κ g)²/κ and a weight.
-    fn add(&mut self, pair: BoundaryPair, weight: f64, load: f64, gap: f64) {
+    fn add(&mut self, field: &BoundaryField, pair: BoundaryPair, weight: f64) {
+        let [load, gap] = [pair.inside, pair.outside].map(|place| field.values[place]);
         self.by_values[pair.inside] += weight * gap;
         self.by_values[pair.outside] -= weight * load;
-        self.by_second_difference[pair.axis] += weight * load * gap;
+        self.by_second_difference[pair.axis] +=
+            weight * load * gap / field.second_difference[pair.axis];
     }
 }
 
 impl ContactBoundary {
-    /// The boundary of a contact, with the ratio κ of each pair.
-    pub(crate) fn new(field: &BoundaryField, ratio: impl Fn(BoundaryPair) -> f64) -> Self {
+    pub(crate) fn new(field: &BoundaryField) -> Self {
         let mut boundary = Self {
             area: BoundaryDerivatives::zero(field.values.len()),
             boundary_weight: BoundaryDerivatives::zero(field.values.len()),
         };
         for pair in field.pairs() {
-            let ratio = ratio(pair);
-            let (load, gap) = (field.values[pair.inside], field.values[pair.outside]);
+            let ratio = field.ratio(pair);
             // Load with which the element inside leaves the boundary; negative gaps are errors of the solution.
-            let leaving_load = load + ratio * gap;
+            let leaving_load = field.values[pair.inside] + ratio * field.values[pair.outside];
             if leaving_load <= 0.0 {
                 continue;
             }
             let weight = field.squared_normal(pair, ratio, leaving_load) * ratio;
             let area_weight = weight / leaving_load.powi(2);
-            boundary.area.add(pair, area_weight, load, gap);
-            boundary.boundary_weight.add(pair, weight, load, gap);
+            boundary.area.add(field, pair, area_weight);
+            boundary.boundary_weight.add(field, pair, weight);
         }
         boundary
     }
@@ -119,6 +123,15 @@ impl BoundaryField {
                 })
             })
         })
+    }
+
+    /// The ratio κ of load to gap at a pair.
+    fn ratio(&self, pair: BoundaryPair) -> f64 {
+        let response = self.unit_depth_response.as_ref();
+        let measured = response.map(|response| response[pair.inside] / response[pair.outside]);
+        measured
+            .filter(|ratio| *ratio > 0.0)
+            .unwrap_or(LOAD_GAP_RATIO / self.second_difference[pair.axis])
     }
 
     /// The neighbour of an element along an axis, ahead or behind; `None` beyond the end of the box.
@@ -189,6 +202,8 @@ mod tests {
             aspect,
             inside: heights.iter().map(|height| *height > 0.0).collect(),
             values: heights.iter().map(value).collect(),
+            second_difference: [1.0; 2],
+            unit_depth_response: None,
         }
     }
 
@@ -205,7 +220,7 @@ mod tests {
         for aspect in [0.6, 1.0] {
             for (radius, centre) in [(14.3, 0.0), (15.0, 0.5), (16.1, 0.21)] {
                 let field = disc(radius, centre, aspect);
-                let rim = ContactBoundary::new(&field, |_| LOAD_GAP_RATIO);
+                let rim = ContactBoundary::new(&field);
                 let got = grown(&field, &rim.area);
                 let expected = 2.0 * PI * radius / aspect;
                 assert!(
@@ -226,13 +241,12 @@ mod tests {
             aspect: 1.0,
             inside: vec![false, true, false, false],
             values: vec![f64::NAN, load, (1.0 - load) / LOAD_GAP_RATIO, f64::INFINITY],
+            second_difference: [0.5; 2],
+            unit_depth_response: None,
         };
         let changes = (0..STEPS).map(|step| {
             let field = row((step as f64 + 0.5) / STEPS as f64);
-            grown(
-                &field,
-                &ContactBoundary::new(&field, |_| 2.0 * LOAD_GAP_RATIO).area,
-            ) / STEPS as f64
+            grown(&field, &ContactBoundary::new(&field).area) / STEPS as f64
         });
         let whole: f64 = changes.sum();
         assert!((whole - 1.0).abs() < 1e-3, "{whole}");
@@ -246,6 +260,8 @@ mod tests {
             aspect: 1.0,
             inside: vec![true, false, false, true, false, false],
             values: vec![1.0, 2.0, 2.0, 1.0, 2.0, 2.0],
+            second_difference: [1.0; 2],
+            unit_depth_response: None,
         };
         assert_eq!(field.pairs().count(), 4);
         field.is_periodic = false;

@@ -2,6 +2,7 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md.
 
+pub(crate) mod change;
 mod conjugate_residuals;
 mod exchange_rule;
 pub(crate) mod periodic;

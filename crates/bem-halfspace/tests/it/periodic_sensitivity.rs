@@ -116,13 +116,7 @@ fn changed(case: &Case, near: &PeriodicSensitivity, index: usize) -> Change<Esti
                 Held::Depth => -0.008,
             };
             let by_load = near.by_load();
-            let times = |known: Estimate| known * (2.0 * STEP * given);
-            Ok(Change {
-                friction_coefficient: times(by_load.friction_coefficient),
-                indentation_depth: by_load.indentation_depth.map(times),
-                normal_force: by_load.normal_force.map(times),
-                contact_area: by_load.contact_area.map(times),
-            })
+            Ok(by_load.map(|known| *known * (2.0 * STEP * given)))
         }
         "ratio" | "thickness" => {
             let layers = [0, 1].map(|end| {

@@ -25,7 +25,7 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 /// rounding.
 const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
 /// Largest number of unknowns of a direct solve, for the memory of its matrix: 128 MB.
-const DIRECT_SOLVE_MAX_UNKNOWNS: usize = 4000;
+pub(super) const DIRECT_SOLVE_MAX_UNKNOWNS: usize = 4000;
 /// Largest number of GCR steps, and truncation depth of the basis; chosen. A preconditioned contact needs some tens.
 pub(super) const MAX_GCR_STEPS: usize = 150;
 /// GCR without truncation: the basis keeps all directions.

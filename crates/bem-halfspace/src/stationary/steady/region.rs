@@ -31,6 +31,11 @@ impl Region {
         }
     }
 
+    /// Row-major index of each element in the box, and of its mirror image; twice the same for an element without one.
+    pub(super) fn places(&self) -> &[[usize; 2]] {
+        &self.places
+    }
+
     /// Number of elements of the box.
     pub(super) fn n_places(&self) -> usize {
         self.shape[0] * self.shape[1]

@@ -126,6 +126,15 @@ impl SlidingCreep {
         })
     }
 
+    /// The creep on another base and track.
+    pub(super) fn on_base(self, base: Base, track: Option<f64>) -> Self {
+        Self {
+            base,
+            track,
+            ..self
+        }
+    }
+
     /// True for a half space of a dashpot alone, on which only elements touch over which the body rises.
     pub(super) fn only_flows(&self) -> bool {
         self.fluidity() > 0.0
@@ -169,6 +178,11 @@ impl SlidingCreep {
 
     pub(super) const fn base(&self) -> &Base {
         &self.base
+    }
+
+    /// Length of the track, \[m]. `None` on fresh ground.
+    pub(super) const fn track(&self) -> Option<f64> {
+        self.track
     }
 
     /// Memory length v λ_max of the slowest retardation element, at most the track; for a flowing layer at least its influence radius,

@@ -179,13 +179,7 @@ fn surface(body: &Body) -> Result<&dyn Surface> {
 }
 
 fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
-    let times = |value: Estimate| value * factor;
-    Change {
-        friction_coefficient: times(change.friction_coefficient),
-        indentation_depth: change.indentation_depth.map(times),
-        normal_force: change.normal_force.map(times),
-        contact_area: change.contact_area.map(times),
-    }
+    change.map(|value| *value * factor)
 }
 
 /// The derivatives of the logarithms by that of a parameter, which changes by so much.

@@ -6,10 +6,9 @@ use numerics::transforms::Real;
 use rustfft::num_complex::Complex;
 
 use crate::elements::area;
-use crate::elements::contact_boundary::{
-    BoundaryDerivatives, BoundaryField, ContactBoundary, LOAD_GAP_RATIO,
-};
-use crate::parallel::reductions::dot;
+use crate::elements::contact_boundary::{BoundaryField, ContactBoundary};
+use crate::parallel::reductions::{add_scaled, dot};
+use crate::stationary::change::Change;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
@@ -24,70 +23,124 @@ const MAX_REFINEMENT_STEPS: usize = 20;
 /// The refinement stagnates if a step leaves more than this fraction of the residual; chosen.
 const STAGNATION_RATIO: f64 = 0.7;
 
-/// Derivatives of one quantity.
+/// Derivatives of one quantity under a constant mean pressure.
 #[derive(Debug)]
 pub(super) struct Gradient {
     /// By the height of each element, per metre.
     pub(super) by_height: Vec<f64>,
+    /// By the displacement of each element under the pressures, in addition to that by its height, per metre; empty without any.
+    by_displacement: Vec<f64>,
+    /// By the displacement of each element under a unit pressure on the first one; empty without any.
+    by_unit_response: Vec<f64>,
+    /// By a uniform displacement of a layer by the mean pressure.
+    by_uniform_displacement: f64,
+    /// By the logarithm of the wave numbers along x, at constant pressures and displacements.
+    by_log_wave_numbers: f64,
     /// By the compliance of each row of the transform: the change of the quantity is the real part of the sum of products with the
     /// changes of the compliances.
-    pub(super) by_row: Vec<Complex<f64>>,
+    by_row: Vec<Complex<f64>>,
     /// By the mean pressure, per pascal.
     pub(super) by_pressure: f64,
 }
 
+/// The change of a kernel: of the displacements of the centres of all elements.
+pub(super) struct KernelChange {
+    /// Under the pressures less their mean, \[m].
+    pub(super) displacement: Vec<f64>,
+    /// Under a unit pressure on the first element.
+    pub(super) unit_response: Vec<f64>,
+    /// Of a layer under the mean pressure, \[m].
+    pub(super) uniform_displacement: f64,
+    /// Change of the logarithm of the wave numbers along x.
+    pub(super) log_wave_numbers: f64,
+}
+
 /// The adjoint problem of a contact.
 pub(super) struct Adjoint<'a> {
-    pub(super) equations: Equations,
+    equations: Equations,
     /// The active set, reversed along x.
-    pub(super) contact: Vec<bool>,
+    contact: Vec<bool>,
     pub(super) waves: FourierMultiplier,
-    pub(super) sliding: &'a Sliding,
-    pub(super) grid: &'a Grid,
+    sliding: &'a Sliding,
+    grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
-    pub(super) heights: &'a [f64],
+    heights: &'a [f64],
     /// \[Pa].
-    pub(super) pressure: Vec<f64>,
+    pressure: &'a [f64],
+    /// Sum of the pressures, \[Pa].
+    total: f64,
 }
 
-/// Derivatives of all quantities of a contact.
-#[derive(Debug)]
-pub(super) struct Gradients {
-    /// Derivatives of friction, depth, and logarithm of the area, in this order.
-    pub(super) all: [Gradient; 3],
-    /// Derivatives of the logarithm of the area by the displacements of all elements under a unit pressure on the first one.
-    pub(super) area_by_unit_response: Vec<f64>,
+impl Gradient {
+    /// The change by another kernel.
+    pub(super) fn by_kernel(&self, change: &KernelChange) -> f64 {
+        dot(&self.by_height, &change.displacement)
+            + dot(&self.by_displacement, &change.displacement)
+            + dot(&self.by_unit_response, &change.unit_response)
+            + self.by_uniform_displacement * change.uniform_displacement
+            + self.by_log_wave_numbers * change.log_wave_numbers
+    }
+
+    /// The change by the compliance of each row.
+    pub(super) fn by_compliances(&self, changes: &[Complex<f64>]) -> f64 {
+        let pairs = self.by_row.iter().zip(changes);
+        pairs.map(|(by_row, change)| (by_row * change).re).sum()
+    }
 }
 
-impl Adjoint<'_> {
-    pub(super) fn gradients(&mut self) -> Result<Gradients, BemError> {
-        let n = self.pressure.len();
-        let total: f64 = self.pressure.iter().sum();
-        let none = || vec![0.0; n];
-        let mut by_load = none();
-        self.equations
-            .kernel
-            .dissipate(&self.pressure, &mut by_load);
-        let friction = dot(&by_load, &self.pressure) / total;
-        for value in &mut by_load {
-            *value = (2.0 * *value - friction) / total;
+impl<'a> Adjoint<'a> {
+    pub(super) fn new(
+        sliding: &'a Sliding,
+        grid: &'a Grid,
+        heights: &'a [f64],
+        pressure: &'a [f64],
+    ) -> Result<Self, BemError> {
+        Ok(Self {
+            equations: Equations::new(sliding, grid)?,
+            contact: reversed(pressure, grid).iter().map(|p| *p > 0.0).collect(),
+            waves: FourierMultiplier::new(grid, sliding.base()),
+            sliding,
+            grid,
+            heights,
+            pressure,
+            total: pressure.iter().sum(),
+        })
+    }
+
+    /// Derivatives of friction, depth, and logarithm of the area.
+    pub(super) fn gradients(&mut self) -> Result<Change<Gradient>, BemError> {
+        let (pressure, total) = (self.pressure, self.total);
+        let shares: Vec<f64> = pressure.iter().map(|pressure| pressure / total).collect();
+        let lifted = self.unit_compliance_response(pressure);
+        let [none, mut by_pressures, mut slopes] = [0; 3].map(|_| vec![0.0; pressure.len()]);
+
+        // The friction is the mean dissipation under the load, or the mean slope of the pressure times the displacement.
+        let kernel = &mut self.equations.kernel;
+        kernel.dissipate(pressure, &mut by_pressures);
+        let mean = dot(&by_pressures, pressure) / total;
+        for value in &mut by_pressures {
+            *value = (2.0 * *value - mean) / total;
         }
-        let shares: Vec<f64> = self
-            .pressure
-            .iter()
-            .map(|pressure| pressure / total)
-            .collect();
-        let lifted = self.unit_compliance_response(&shares);
-        let measure = self.area();
-        let mut friction = self.gradient(&none(), &by_load, &lifted, total)?;
-        let mut depth = self.gradient(&shares, &none(), &lifted, total)?;
+        kernel.slopes(pressure, &mut slopes);
+        slopes.iter_mut().for_each(|slope| *slope /= total);
+        let mut friction = self.gradient(&none, &by_pressures, slopes, &lifted)?;
+        friction.by_log_wave_numbers = mean;
+
+        // The depth is that of the mean plane, and contains the mean displacement of a layer.
+        let mut depth = self.gradient(&shares, &none, Vec::new(), &lifted)?;
+        let n = pressure.len() as f64;
+        depth
+            .by_height
+            .iter_mut()
+            .for_each(|value| *value -= n.recip());
+        depth.by_uniform_displacement = 1.0;
+        depth.by_row[0] += self.sliding.base().uniform_compliance() * (total / n);
         depth.by_pressure += self.sliding.mean_compliance()?;
-        let (area, area_by_unit_response) =
-            self.area_gradient(&measure, &shares, &lifted, total)?;
-        self.add_dissipation(&mut friction, total);
-        Ok(Gradients {
-            all: [friction, depth, area],
-            area_by_unit_response,
+        Ok(Change {
+            friction_coefficient: friction,
+            indentation_depth: Some(depth),
+            normal_force: None,
+            contact_area: Some(self.area_gradient(&shares, &lifted)?),
         })
     }
 
@@ -101,22 +154,27 @@ impl Adjoint<'_> {
         lifted
     }
 
-    /// Derivatives of the logarithm of the area by the pressures in contact and the gaps next to it, and by the second difference
-    /// of the kernel along each axis.
-    fn area(&mut self) -> BoundaryDerivatives {
+    /// The gradient of the logarithm of the area.
+    fn area_gradient(&mut self, shares: &[f64], lifted: &[f64]) -> Result<Gradient, BemError> {
+        // Loads in contact, and gaps outside it from the mean height of the contact.
+        let n = self.pressure.len();
+        let [mut moved, mut heights] = [0; 2].map(|_| vec![0.0; n]);
         let kernel = &mut self.equations.kernel;
-        let [mut moved, mut heights] = [0; 2].map(|_| vec![0.0; self.pressure.len()]);
-        kernel.displace(&self.pressure, &mut moved);
+        kernel.displace(self.pressure, &mut moved);
         kernel.shifted(self.heights, &mut heights);
         let gaps: Vec<f64> = moved.iter().zip(&heights).map(|(u, h)| u + h).collect();
         let inside: Vec<bool> = self.pressure.iter().map(|p| *p > 0.0).collect();
         let touching = gaps.iter().zip(&inside).filter(|(_, inside)| **inside);
-        let (sum, n) = touching.fold((0.0, 0.0), |(sum, n), (gap, _)| (sum + gap, n + 1.0));
-        let pairs = gaps.iter().zip(&self.pressure);
+        let (sum, count) = touching.fold((0.0, 0.0), |(sum, n), (gap, _)| (sum + gap, n + 1.0));
+        let pairs = gaps.iter().zip(self.pressure);
         let values = pairs.map(|(gap, &pressure)| match pressure {
             pressure if pressure > 0.0 => pressure,
-            _ => gap - sum / n,
+            _ => gap - sum / count,
         });
+
+        // The boundary between them.
+        kernel.displace(&unit_pressure(n), &mut moved);
+        let bends = [0, 1].map(|axis| second_difference(self.grid.shape(), axis));
         let [dx, dy] = self.grid.spacing();
         let field = BoundaryField {
             shape: self.grid.shape(),
@@ -124,93 +182,66 @@ impl Adjoint<'_> {
             aspect: dy / dx,
             values: values.collect(),
             inside,
+            second_difference: bends.each_ref().map(|bend| dot(&moved, bend)),
+            unit_depth_response: None,
         };
-        kernel.displace(&unit_pressure(self.pressure.len()), &mut moved);
-        let bend = [0, 1].map(|axis| dot(&moved, &self.second_difference(axis)));
-        let mut measure =
-            ContactBoundary::new(&field, |side| LOAD_GAP_RATIO / bend[side.axis]).area;
-        let area =
-            area::area_fraction(field.shape[1], &self.pressure).area * self.pressure.len() as f64;
-        measure
-            .by_values
-            .iter_mut()
-            .for_each(|value| *value /= area);
-        measure.by_second_difference =
-            [0, 1].map(|axis| measure.by_second_difference[axis] / (area * bend[axis]));
-        measure
-    }
+        let measure = ContactBoundary::new(&field).area;
+        let area = area::area_fraction(field.shape[1], self.pressure).area * n as f64;
 
-    /// Coefficients of the second difference along an axis: displacement of the first element less the mean of its neighbours.
-    fn second_difference(&self, axis: usize) -> Vec<f64> {
-        let [rows, columns] = self.grid.shape();
-        let (next, last) = match axis {
-            0 => (columns % (rows * columns), (rows - 1) * columns),
-            _ => (1 % columns, columns - 1),
-        };
-        let mut bend = unit_pressure(rows * columns);
-        bend[next] -= 0.5;
-        bend[last] -= 0.5;
-        bend
-    }
-
-    /// The gradient of the logarithm of the area, and its derivatives by the unit response of the kernel.
-    fn area_gradient(
-        &mut self,
-        measure: &BoundaryDerivatives,
-        shares: &[f64],
-        lifted: &[f64],
-        total: f64,
-    ) -> Result<(Gradient, Vec<f64>), BemError> {
-        let (mut by_gaps, mut by_pressures) =
-            (measure.by_values.clone(), measure.by_values.clone());
-        for ((by_gap, by_pressure), pressure) in by_gaps
-            .iter_mut()
-            .zip(&mut by_pressures)
-            .zip(&self.pressure)
-        {
-            *(if *pressure > 0.0 { by_gap } else { by_pressure }) = 0.0;
+        // Derivatives by gaps, which are measured from the mean height of the contact, and by pressures.
+        let [mut by_gaps, mut by_pressures] = [0; 2].map(|_| vec![0.0; n]);
+        for (element, value) in measure.by_values.iter().enumerate() {
+            let by_values = if field.inside[element] {
+                &mut by_pressures
+            } else {
+                &mut by_gaps
+            };
+            by_values[element] = value / area;
         }
-        // All gaps are measured from the mean height of the contact.
         let sum: f64 = by_gaps.iter().sum();
-        for (by_gap, share) in by_gaps.iter_mut().zip(shares) {
-            *by_gap -= sum * share;
+        add_scaled(&mut by_gaps, -sum, shares);
+        let mut gradient = self.gradient(&by_gaps, &by_pressures, Vec::new(), lifted)?;
+
+        // Derivatives by the second difference of the kernel.
+        let mut bend = vec![0.0; n];
+        for (axis, by_second_difference) in measure.by_second_difference.iter().enumerate() {
+            add_scaled(&mut bend, by_second_difference / area, &bends[axis]);
         }
-        let mut area = self.gradient(&by_gaps, &by_pressures, lifted, total)?;
-        let [along_x, along_y] = [0, 1].map(|axis| self.second_difference(axis));
-        let pairs = along_x.iter().zip(&along_y);
-        let [by_x, by_y] = measure.by_second_difference;
-        let bend: Vec<f64> = pairs.map(|(x, y)| by_x * x + by_y * y).collect();
-        let by_bend = self.by_heights(&reversed(&bend, self.grid));
-        let lifted = self.unit_compliance_response(&unit_pressure(bend.len()));
-        for (by_row, own) in area.by_row.iter_mut().zip(self.by_rows(&by_bend, &lifted)?) {
-            *by_row += own;
+        gradient.by_unit_response = self.by_heights(&reversed(&bend, self.grid));
+        let lifted = self.unit_compliance_response(&unit_pressure(n));
+        let by_row = self.by_rows(&gradient.by_unit_response, &lifted)?;
+        for (sum, by_row) in gradient.by_row.iter_mut().zip(by_row) {
+            *sum += by_row;
         }
-        Ok((area, by_bend))
+        Ok(gradient)
     }
 
-    /// The gradient of a quantity with the derivatives `by_pressures`.
+    /// The gradient of a quantity with the derivatives `by_pressures`, and explicit ones `by_displacement`.
     ///
-    /// The adjoint loads start from `start` and keep its sum. `share_response` is the displacement under the share of each element in
-    /// the total pressure, for a compliance of 1 in each row.
+    /// The adjoint loads start from `start` and keep its sum. `lifted` is the displacement under the pressures, for a compliance of 1 in
+    /// each row.
     fn gradient(
         &mut self,
         start: &[f64],
         by_pressures: &[f64],
-        share_response: &[f64],
-        total: f64,
+        by_displacement: Vec<f64>,
+        lifted: &[f64],
     ) -> Result<Gradient, BemError> {
-        let n = start.len() as f64;
         let (loads, rise) = self.solve(
             reversed(start, self.grid),
             &reversed(by_pressures, self.grid),
         )?;
         let by_height = self.by_heights(&loads);
-        let mut by_row = self.by_rows(&by_height, share_response)?;
-        by_row.iter_mut().for_each(|by_row| *by_row *= total);
+        let mut by_centre = by_height.clone();
+        add_scaled(&mut by_centre, 1.0, &by_displacement);
         Ok(Gradient {
-            by_row,
+            by_row: self.by_rows(&by_centre, lifted)?,
             by_height,
-            by_pressure: n * rise,
+            by_displacement,
+            by_unit_response: Vec::new(),
+            by_uniform_displacement: 0.0,
+            by_log_wave_numbers: 0.0,
+            by_pressure: start.len() as f64 * rise,
         })
     }
 
@@ -273,21 +304,6 @@ impl Adjoint<'_> {
             tolerance: ADJOINT_TOLERANCE,
         })
     }
-
-    /// Adds the change of the dissipated power at constant pressures to the derivatives of the friction.
-    fn add_dissipation(&mut self, friction: &mut Gradient, total: f64) {
-        let mut moved = vec![0.0; self.pressure.len()];
-        let n_rows = self.grid.shape()[0];
-        self.waves
-            .apply(&self.pressure, &mut moved, |row, [q_x, q]| {
-                // The shortest wave stands for both directions and has no slope.
-                Complex::new(0.0, if 2 * row == n_rows { 0.0 } else { q_x / q })
-            });
-        let sums = row_sums(&self.pressure, &moved, self.grid);
-        for (by_row, sum) in friction.by_row.iter_mut().zip(sums) {
-            *by_row -= sum / total;
-        }
-    }
 }
 
 /// A unit pressure on the first of `n` elements.
@@ -297,8 +313,20 @@ pub(super) fn unit_pressure(n: usize) -> Vec<f64> {
     pressure
 }
 
+/// Coefficients of the second difference along an axis: displacement of the first element less the mean of its neighbours.
+fn second_difference([rows, columns]: [usize; 2], axis: usize) -> Vec<f64> {
+    let (next, last) = match axis {
+        0 => (columns % (rows * columns), (rows - 1) * columns),
+        _ => (1 % columns, columns - 1),
+    };
+    let mut bend = unit_pressure(rows * columns);
+    bend[next] -= 0.5;
+    bend[last] -= 0.5;
+    bend
+}
+
 /// A field reversed along x (adjoint).
-pub(super) fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
+fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
     let rows = field.chunks_exact(grid.shape()[1]);
     rows.rev().flatten().copied().collect()
 }

@@ -28,14 +28,14 @@ use rustfft::num_complex::Complex;
 use crate::contact::check_length;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::{add_scaled, dot};
+use crate::stationary::change;
 use crate::stationary::periodic::depth::{SlidingSurface, hold};
-use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
-use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation, bands};
+use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
 use crate::{BemError, Elastomer, Grid, PressureField};
-use adjoint::{Adjoint, Gradient, Gradients, reversed, unit_pressure};
+use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
 /// Largest relative difference of two periods that count as equal; chosen.
 const PERIOD_TOLERANCE: f64 = 1e-9;
@@ -68,11 +68,8 @@ struct State {
     pressure: Vec<f64>,
     /// q_x of the rows of a transformed field, \[rad/m].
     along_x: Vec<f64>,
-    gradients: Gradients,
+    gradients: Change<Gradient>,
 }
-
-/// Friction, depth, and logarithm of the area, or their changes.
-type Quantities = [f64; 3];
 
 impl PeriodicSensitivity {
     /// Linearises around the stationary state on the grid of `pressure`, and on one of half as many elements along each axis.
@@ -125,9 +122,11 @@ impl PeriodicSensitivity {
                 State::new(&sliding, grid, &heights, control, guess)
             })
         };
+        let shape = grid.shape();
+        let coarse = interpolated(&pressure.pressure, shape, shape.map(|n| n / 2));
         Ok(Self {
             fine: on(&grid, pressure.pressure.clone())?,
-            coarse: on(&grid.blocks(), of_blocks(pressure))?,
+            coarse: on(&grid.blocks(), coarse)?,
         })
     }
 
@@ -186,16 +185,14 @@ impl PeriodicSensitivity {
     /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and [`BemError::Material`] where the
     /// material is not known at them.
     pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
-        let of_band = |frequencies: [f64; 2]| {
-            let [fine, coarse] = [&self.fine, &self.coarse].map(|one| one.by_moduli(frequencies));
+        change::by_moduli(frequencies, |band| {
+            let [fine, coarse] = [&self.fine, &self.coarse].map(|one| one.by_moduli(band));
             let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
-            Ok(ByModuli {
-                frequencies,
-                storage_modulus: LIMIT.limit_of_single(fine_storage, storage),
-                loss_modulus: LIMIT.limit_of_single(fine_loss, loss),
-            })
-        };
-        bands(frequencies)?.into_iter().map(of_band).collect()
+            Ok([
+                LIMIT.limit_of_single(fine_storage, storage),
+                LIMIT.limit_of_single(fine_loss, loss),
+            ])
+        })
     }
 
     fn change(
@@ -225,54 +222,40 @@ impl State {
         let held = hold(control, &surface, Some(mean), |problem| {
             solve_from(&mut start.borrow_mut(), problem)
         })?;
-        let pressure = held.state.pressure.pressure;
-        let waves = FourierMultiplier::new(grid, sliding.base());
-        let mut adjoint = Adjoint {
-            equations: Equations::new(sliding, grid)?,
-            contact: reversed(&pressure, grid).iter().map(|p| *p > 0.0).collect(),
-            waves,
-            sliding,
-            grid,
-            heights,
-            pressure,
-        };
+        let mut pressure = held.state.pressure.pressure;
+        let mut adjoint = Adjoint::new(sliding, grid, heights, &pressure)?;
         let gradients = adjoint.gradients()?;
-        let mean = held.mean_pressure;
+        let along_x = adjoint.waves.along_x;
+        let mean_pressure = held.mean_pressure;
+        pressure
+            .iter_mut()
+            .for_each(|value| *value -= mean_pressure);
         Ok(Self {
-            along_x: adjoint.waves.along_x.clone(),
-            pressure: adjoint
-                .pressure
-                .iter()
-                .map(|pressure| pressure - mean)
-                .collect(),
-            mean_pressure: mean,
             grid: *grid,
             sliding: sliding.clone(),
             control,
+            mean_pressure,
+            pressure,
+            along_x,
             gradients,
         })
     }
 
     fn between_surfaces(&self, surfaces: [&PeriodicSurface; 2]) -> Result<Change<f64>, BemError> {
         let [from, to] = surfaces.map(|surface| surface.heights(self.grid.shape()));
-        let (from, to) = (from?, to?);
-        let mean = |heights: &[f64]| heights.iter().sum::<f64>() / heights.len() as f64;
-        let lifted = mean(&to) - mean(&from);
-        let changes: Vec<f64> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
-        let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &changes));
-        // A depth is that of the mean plane.
-        quantities[1] -= lifted;
+        let (from, mut heights) = (from?, to?);
+        add_scaled(&mut heights, -1.0, &from);
         let [from, to] = surfaces.map(PeriodicSurface::period);
         if (0..2).all(|axis| from[axis].total_cmp(&to[axis]).is_eq()) {
-            return Ok(self.of_all(quantities));
+            return Ok(self.change(|gradient| dot(&gradient.by_height, &heights)));
         }
         // Stretched elements have another kernel, with the same heights and pressures.
         let [from, to] = [from, to].map(|period| self.stretched_grid(period));
         let (from, to) = (from?, to?);
-        let stretched = self.between_kernels([(&self.sliding, &from), (&self.sliding, &to)])?;
-        let quantities = [0, 1, 2].map(|index| quantities[index] + stretched[index]);
+        let kernel = self.between_kernels([(&self.sliding, &from), (&self.sliding, &to)])?;
+        let change = self
+            .change(|gradient| dot(&gradient.by_height, &heights) + gradient.by_kernel(&kernel));
         let [from, to] = [from, to].map(|grid| grid.element_area());
-        let change = self.of_all(quantities);
         let n_elements = self.pressure.len() as f64;
         Ok(Change {
             normal_force: change
@@ -293,48 +276,41 @@ impl State {
         let [from, to] = ends.map(|end| end.compliances(&self.along_x));
         let (from, to) = (from?, to?);
         let changes: Vec<_> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
-        let mut quantities = self.of_each(|gradient| real_sum(&gradient.by_row, &changes));
-        quantities[1] += self.sunk(changes[0]);
-        Ok(self.of_all(quantities))
+        Ok(self.change(|gradient| gradient.by_compliances(&changes)))
     }
 
     fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
-        let quantities = self.between_kernels(ends.map(|end| (end, &self.grid)))?;
-        Ok(self.of_all(quantities))
+        let kernel = self.between_kernels(ends.map(|end| (end, &self.grid)))?;
+        Ok(self.change(|gradient| gradient.by_kernel(&kernel)))
     }
 
-    /// The changes under constant mean pressure from one kernel to another, of two materials or of two grids with the shape of
-    /// this one.
-    fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<Quantities, BemError> {
+    /// The change from one kernel to another, of two materials or of two grids with the shape of this one.
+    fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<KernelChange, BemError> {
         let n = self.pressure.len();
-        let [mut moved, mut dissipated, mut under_one] = [0; 3].map(|_| vec![0.0; n]);
-        let mut depth = 0.0;
+        let mut field = vec![0.0; n];
+        let mut change = KernelChange {
+            displacement: vec![0.0; n],
+            unit_response: vec![0.0; n],
+            uniform_displacement: 0.0,
+            log_wave_numbers: 0.0,
+        };
         for ((sliding, grid), sign) in ends.into_iter().zip([-1.0, 1.0]) {
             let mut kernel = PeriodicKernel::new(sliding, grid)?;
-            let mut field = vec![0.0; n];
-            // At the centres of the elements.
             kernel.displace_centres(&self.pressure, &mut field);
-            add_scaled(&mut moved, sign, &field);
+            add_scaled(&mut change.displacement, sign, &field);
             kernel.displace_centres(&unit_pressure(n), &mut field);
-            add_scaled(&mut under_one, sign, &field);
-            kernel.dissipate(&self.pressure, &mut field);
-            add_scaled(&mut dissipated, sign, &field);
-            depth += sign * sliding.mean_compliance()? * self.mean_pressure;
+            add_scaled(&mut change.unit_response, sign, &field);
+            change.uniform_displacement += sign * sliding.mean_compliance()? * self.mean_pressure;
+            change.log_wave_numbers -= sign * grid.spacing()[0].ln();
         }
-        let mut quantities = self.of_each(|gradient| dot(&gradient.by_height, &moved));
-        quantities[0] += dot(&self.pressure, &dissipated) / self.total();
-        quantities[1] += depth;
-        quantities[2] += dot(&self.gradients.area_by_unit_response, &under_one);
-        Ok(quantities)
+        Ok(change)
     }
 
     fn by_load(&self) -> Change<f64> {
+        let by_pressure = self.gradients.map(|gradient| gradient.by_pressure);
         match self.control {
-            PeriodicControl::MeanPressure(_) => {
-                self.of_all(self.of_each(|gradient| gradient.by_pressure))
-            }
-            // A change of the prescribed depth acts like the opposite change of the depth at constant pressure.
-            PeriodicControl::MeanDepth(_) => self.of_all([0.0, -1.0, 0.0]),
+            PeriodicControl::MeanPressure(_) => by_pressure,
+            PeriodicControl::MeanDepth(_) => Change::by_depth(&self.by_force()),
         }
     }
 
@@ -350,9 +326,7 @@ impl State {
                 -compliance * compliance * part(compliance.inv())
             });
             let changes: Vec<_> = changes.collect();
-            let mut quantities = self.of_each(|gradient| real_sum(&gradient.by_row, &changes));
-            quantities[1] += self.sunk(changes[0]);
-            self.of_all(quantities)
+            self.change(|gradient| gradient.by_compliances(&changes))
         };
         Ok([
             of(|modulus| Complex::new(modulus.re, 0.0)),
@@ -360,43 +334,20 @@ impl State {
         ])
     }
 
-    /// Displacement of a layer by the mean pressure, for a change of the compliance at rest, \[m].
-    fn sunk(&self, compliance: Complex<f64>) -> f64 {
-        compliance.re * self.sliding.base().uniform_compliance() * self.mean_pressure
-    }
-
-    fn of_each(&self, of: impl Fn(&Gradient) -> f64) -> Quantities {
-        self.gradients.all.each_ref().map(of)
-    }
-
-    /// The change of all results, from the changes under constant mean pressure. At a prescribed depth the mean pressure follows.
-    fn of_all(&self, changes: Quantities) -> Change<f64> {
-        let [friction, depth, area] = match self.control {
-            PeriodicControl::MeanPressure(_) => changes,
-            PeriodicControl::MeanDepth(_) => {
-                let by_pressure = self.of_each(|gradient| gradient.by_pressure);
-                let pressed = -changes[1] / by_pressure[1];
-                let other = [0, 1, 2].map(|index| changes[index] + pressed * by_pressure[index]);
-                let area = self.grid.element_area() * self.grid.n_elements() as f64;
-                [other[0], pressed * area, other[2]]
-            }
-        };
-        let other = Some(depth);
-        let (indentation_depth, normal_force) = match self.control {
-            PeriodicControl::MeanPressure(_) => (other, None),
-            PeriodicControl::MeanDepth(_) => (None, other),
-        };
-        Change {
-            friction_coefficient: friction,
-            indentation_depth,
-            normal_force,
-            contact_area: Some(area),
+    /// The change of all quantities under the given mean pressure or at the given depth, from that of each under a constant mean
+    /// pressure.
+    fn change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
+        let change = self.gradients.map(of);
+        match self.control {
+            PeriodicControl::MeanPressure(_) => change,
+            PeriodicControl::MeanDepth(_) => change.at_constant_depth(&self.by_force()),
         }
     }
 
-    /// Sum of the pressures, \[Pa].
-    fn total(&self) -> f64 {
-        self.mean_pressure * self.pressure.len() as f64
+    /// The derivatives by the normal force of a period.
+    fn by_force(&self) -> Change<f64> {
+        let area = self.grid.element_area() * self.grid.n_elements() as f64;
+        self.gradients.map(|gradient| gradient.by_pressure / area)
     }
 }
 
@@ -408,25 +359,4 @@ fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError>
         in_range("period", period, is_own, "that of the grid")?;
     }
     Ok(())
-}
-
-/// Restriction of a pressure field: means over two by two elements.
-fn of_blocks(field: &PressureField) -> Vec<f64> {
-    let columns = field.grid.shape()[1];
-    let pairs = field.pressure.chunks_exact(2 * columns);
-    let mean = |pair: &[f64], column: usize| {
-        let rows = [0, columns].map(|row| pair[row + column] + pair[row + column + 1]);
-        0.25 * (rows[0] + rows[1])
-    };
-    let blocks = pairs.flat_map(|pair| {
-        (0..columns)
-            .step_by(2)
-            .map(move |column| mean(pair, column))
-    });
-    blocks.collect()
-}
-
-fn real_sum(left: &[Complex<f64>], right: &[Complex<f64>]) -> f64 {
-    let pairs = left.iter().zip(right);
-    pairs.map(|(left, right)| (left * right).re).sum()
 }

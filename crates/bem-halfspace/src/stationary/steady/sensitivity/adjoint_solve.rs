@@ -1,4 +1,4 @@
-//! AdjointLoads loads: solutions with the transposed kernel, which is that of the motion in the opposite direction.
+//! Adjoint loads: solutions with the transposed kernel, which is that of the motion in the opposite direction.
 //!
 //! A contact that is reversed along x has the transposed equations as its own, so that the same kernel and preconditioner serve both.
 //!
@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::BemError;
 use crate::stationary::conjugate_residuals::{gcr, norm};
 use crate::stationary::steady::contact_equations::{
-    GCR_LIMITS, MAX_GCR_STEPS, prefers_direct_solve,
+    DIRECT_SOLVE_MAX_UNKNOWNS, GCR_LIMITS, MAX_GCR_STEPS, prefers_direct_solve,
 };
 use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
@@ -18,9 +18,6 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 
 /// Relative residual of the adjoint equations, ‖r‖ over the norm of the right side; chosen.
 const ADJOINT_TOLERANCE: f64 = 1e-9;
-/// Largest number of unknowns of the direct solve that replaces an iteration without convergence; the matrix takes 32 MB.
-const FALLBACK_MAX_UNKNOWNS: usize = 2000;
-
 /// Direction of the motion in the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum KernelDirection {
@@ -84,7 +81,7 @@ pub(super) fn solve(
     }
 
     // A material that is nearly viscous over the contact length may need as many directions as unknowns.
-    (n <= FALLBACK_MAX_UNKNOWNS)
+    (n <= DIRECT_SOLVE_MAX_UNKNOWNS)
         .then(|| solve_directly(mesh, contact, motion, right_sides))
         .flatten()
         .ok_or_else(|| not_converged(worst_residual))

@@ -4,7 +4,7 @@ use numerics::in_range;
 
 use crate::BemError;
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::sensitivity::loaded_contact::LoadedContact;
+use crate::stationary::steady::mesh::Mesh;
 
 /// Height of a body \[m] as a function of the point.
 pub(super) type Height<'a> = &'a dyn Fn([f64; 2]) -> f64;
@@ -33,16 +33,13 @@ pub(super) enum FrictionSlope {
 }
 
 impl CollocationPoints {
-    pub(super) fn new(contact: &LoadedContact, loading: &Loading) -> Self {
-        let on_grid = &contact.mesh.loading;
-        let is_solid = on_grid.is_solid_for_elements();
-        let elements = contact.elements.iter();
+    pub(super) fn new(mesh: &Mesh, elements: &[usize], loading: &Loading) -> Self {
+        let is_solid = mesh.loading.is_solid_for_elements();
+        let centres = elements.iter().map(|&element| mesh.position(element));
         Self {
-            centres: elements
-                .map(|&element| contact.mesh.position(element))
-                .collect(),
-            collocation_shift: on_grid.creep.collocation_shift,
-            spacing: contact.mesh.options.spacing[0],
+            centres: centres.collect(),
+            collocation_shift: mesh.loading.creep.collocation_shift,
+            spacing: mesh.options.spacing[0],
             depth_scale: loading.depth_scale,
             // From slopes on a dashpot, and under edges on a material that is more of a fluid; otherwise from dissipation.
             slope: match loading.has_edges {

@@ -1,22 +1,25 @@
 //! The contact on one grid with the derivatives of its quantities: friction, depth or force, area.
 //!
+//! All derivatives are those under a constant force; those at a constant depth follow from them, because the force is a parameter.
+//!
 //! Theory: the [module](super) and docs/sensitivity.md, "What is known of them".
 
 use indenters::{Control, Surface};
 
 use crate::BemError;
+use crate::elements::contact_boundary::BoundaryDerivatives;
+use crate::parallel::reductions::dot;
+use crate::stationary::change::Change;
 use crate::stationary::steady::loading::Loading;
-use crate::stationary::steady::sensitivity::Change;
-use crate::stationary::steady::sensitivity::basis::{Basis, KernelParameters};
 use crate::stationary::steady::sensitivity::collocation_points::{
     CollocationPoints, FrictionSlope, Height, differences,
 };
-use crate::stationary::steady::sensitivity::correlation::Correlation;
-use crate::stationary::steady::sensitivity::loaded_contact::{AdjointLoads, LoadedContact};
-use crate::stationary::steady::sliding_creep::{CreepOverDistance, SlidingCreep};
+use crate::stationary::steady::sensitivity::kernel_gradient::{GridKernel, KernelGradient};
+use crate::stationary::steady::sensitivity::loaded_contact::LoadedContact;
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
 
-/// Relative step of the central differences by all lengths of a body; chosen.
+/// Relative step of the central differences by all lengths of a body: about the cube root of the rounding error, where truncation and
+/// rounding balance.
 const DILATION_STEP: f64 = 1e-5;
 
 /// A contact on one grid with the gradients of its quantities.
@@ -25,15 +28,17 @@ pub(super) struct ContactDerivatives {
     /// The friction coefficient at which the derivatives are taken.
     pub(super) friction_coefficient: f64,
     points: CollocationPoints,
-    /// Fraction of the load on each element, its image included.
-    load_fractions: Vec<f64>,
-    /// In this order: the friction; the depth under a force or the force at a depth, where it has a meaning; the two measures of the
-    /// contact, its area and its boundary weight, unless the body has edges.
-    gradients: Vec<QuantityGradient>,
+    /// On fixed elements, under a constant force; that of the area is not yet one of its logarithm.
+    gradients: Change<Gradient>,
+    /// `None` under a body with edges.
+    boundary_weight: Option<Gradient>,
     control: Control,
-    n_unknowns: usize,
-    /// True if the last two gradients are those of the measures.
-    has_measures: bool,
+    /// Normal force, in plane strain per length.
+    normal_force: f64,
+    /// Indentation depth, \[m].
+    depth: f64,
+    /// Number of unknown pressures.
+    pub(super) n_unknowns: usize,
     /// `None` under a body with edges, where the elements at the edges do not change sides, and where a larger scale does not enlarge
     /// the contact.
     pub(super) dilation: Option<Dilation>,
@@ -42,8 +47,8 @@ pub(super) struct ContactDerivatives {
 /// Derivatives by the logarithm of all lengths, on fixed elements, see the [module](super).
 #[derive(Debug)]
 pub(super) struct Dilation {
-    /// Defect R of the scaling identity of each quantity but the measures: its derivative less the expected one.
-    pub(super) defects: Vec<f64>,
+    /// Defects R of the scaling identity of friction and depth: the derivative less the expected one.
+    pub(super) defects: Change<f64>,
     /// Derivative of the area.
     area: f64,
     /// Derivative of the boundary weight.
@@ -52,152 +57,166 @@ pub(super) struct Dilation {
     area_exponent: f64,
 }
 
-impl Dilation {
-    /// True if the dilated contact is larger, by both measures.
-    fn is_growth(&self) -> bool {
-        self.area > 0.0 && self.boundary_weight > 0.0
-    }
-}
-
-/// The gradient of one quantity, in units of the mesh unless stated otherwise.
+/// The gradient of one quantity on fixed elements under a constant force, in SI units.
 #[derive(Debug)]
-struct QuantityGradient {
-    /// The SI value of the unit of the quantity.
-    unit: f64,
-    /// By the height of each element, its image included.
+pub(super) struct Gradient {
+    /// By the height of each element, its image included, in units of the depth scale.
     by_height: Vec<f64>,
-    /// By the force or the depth, whichever is given; in SI units.
-    by_load: f64,
-    /// By the logarithm of the thickness of the layer, in SI units.
-    by_log_thickness: f64,
-    /// By the logarithm of the length of the track, in SI units.
-    by_log_track: f64,
-    basis: Basis,
+    /// By the explicit slope term of each element; empty for all quantities but the friction.
+    by_slope_term: Vec<f64>,
+    /// By the normal force, in plane strain per length.
+    by_force: f64,
+    pub(super) kernel: KernelGradient,
 }
 
-/// A gradient whose correlation is not yet contracted with kernels.
-struct UnassembledGradient {
-    unit: f64,
-    by_height: Vec<f64>,
-    /// In units of the quantity.
-    by_load: f64,
-    correlation: Correlation,
-}
-
-/// A contact whose gradients are not yet assembled.
-struct UnassembledState {
-    friction_coefficient: f64,
-    points: CollocationPoints,
-    load_fractions: Vec<f64>,
-    gradients: Vec<UnassembledGradient>,
-    kernel: KernelParameters,
-    n_unknowns: usize,
+impl Gradient {
+    /// The change by heights and explicit slope terms.
+    fn change(&self, heights: &[f64], slope_terms: &[f64]) -> f64 {
+        dot(&self.by_height, heights) + dot(&self.by_slope_term, slope_terms)
+    }
 }
 
 impl ContactDerivatives {
-    /// The contacts on shifted grids of one spacing; each kernel is computed once for all of them.
-    pub(super) fn on_grids(
+    /// Solves the contact on one grid, and the adjoint equations of its quantities; the kernel is still to be contracted.
+    pub(super) fn new(
         surface: &dyn Surface,
         loading: &Loading,
-        grids: impl Iterator<Item = SteadyOptions>,
+        options: &SteadyOptions,
         reuse: &mut Reuse,
-    ) -> Result<Vec<Self>, BemError> {
-        // Solve the contacts and their adjoint equations.
-        let mut unassembled = grids
-            .map(|options| UnassembledState::new(surface, loading, options, reuse))
-            .collect::<Result<Vec<_>, _>>()?;
-        let Some(kernel) = unassembled.first().map(|one| one.kernel.clone()) else {
-            return Ok(Vec::new());
-        };
+    ) -> Result<Self, BemError> {
+        let (mesh, solution) = solve_on_mesh(surface, loading, options, reuse)?;
+        reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
 
-        // Contract the correlations of all contacts with the kernels.
-        let correlations = unassembled
-            .iter_mut()
-            .flat_map(|one| &mut one.gradients)
-            .map(|gradient| std::mem::take(&mut gradient.correlation))
-            .collect();
-        let bases = Basis::contract_all(correlations, &kernel);
-        let by_reference: Vec<&Basis> = bases.iter().collect();
-        let by_log_thickness = Basis::by_thickness(&by_reference)?;
-        let by_log_track = Basis::by_track(&by_reference)?;
+        // Derivatives of the quantities by loads and gaps: mean slope, total load at a unit depth, measures of the contact.
+        let mut contact = LoadedContact::new(&mesh, &mut reuse.plans, &solution);
+        let points = CollocationPoints::new(&mesh, &contact.elements, loading);
+        let slope_terms = points.explicit_slope_terms(&|point| surface.height(point))?;
+        let friction = contact.mean_slope(points.slope, slope_terms);
+        let mut unit_depth = vec![1.0; contact.n_touching];
+        unit_depth.resize(contact.elements.len(), 0.0);
+        let boundary = (!loading.has_edges)
+            .then(|| contact.boundary())
+            .transpose()?;
+        let measures = boundary.as_ref();
+        let measures = measures.map(|boundary| [&boundary.area, &boundary.boundary_weight]);
+        let mut derivatives = vec![&friction.by_loads[..], &unit_depth];
+        derivatives.extend(measures.iter().flatten().map(|one| &one.by_values[..]));
 
-        // Assemble the gradients; then the defects of the scaling identity.
-        let mut contracted = bases.into_iter().zip(by_log_thickness).zip(by_log_track);
-        let assemble = |state: UnassembledState| -> Result<Self, BemError> {
-            let gradients = state.gradients.into_iter().zip(&mut contracted).map(
-                |(gradient, ((basis, by_log_thickness), by_log_track))| QuantityGradient {
-                    unit: gradient.unit,
-                    by_height: gradient.by_height,
-                    by_load: gradient.unit * gradient.by_load,
-                    by_log_thickness: gradient.unit * by_log_thickness,
-                    by_log_track: gradient.unit * by_log_track,
-                    basis,
-                },
-            );
-            let mut assembled = Self {
-                friction_coefficient: state.friction_coefficient,
-                points: state.points,
-                load_fractions: state.load_fractions,
-                gradients: gradients.collect(),
-                control: loading.control,
-                n_unknowns: state.n_unknowns,
-                has_measures: !loading.has_edges,
-                dilation: None,
-            };
-            if assembled.has_measures {
-                let dilation = assembled.by_dilation(surface, loading.strip)?;
-                assembled.dilation = Some(dilation).filter(Dilation::is_growth);
-            }
-            Ok(assembled)
+        // Adjoint loads of all quantities.
+        let adjoint = contact.adjoint_loads(&derivatives)?;
+        let system = BorderedSystem {
+            unit_depth: &adjoint[1],
+            stiffness: contact.sum(&adjoint[1]),
+            force_per_load: mesh.loading.force_of(1.0) / loading.strip.unwrap_or(1.0),
+            compliance: loading.creep.compliance(options.spacing[0])?,
+            contact: &contact,
         };
-        unassembled.into_iter().map(assemble).collect()
+        let has_depth = loading.creep.fluidity() <= 0.0 && loading.strip.is_none();
+        let mut gradients = Change {
+            friction_coefficient: system.gradient(&adjoint[0], points.slope_unit()),
+            indentation_depth: has_depth.then(|| system.depth(loading.depth_scale)),
+            normal_force: None,
+            contact_area: measures.map(|[area, _]| system.measure(&adjoint[2], area)),
+        };
+        let by_slope_term = contact.weighted(&contact.loads).into_iter();
+        let slope_factor = points.slope_unit() / contact.total;
+        let friction_gradient = &mut gradients.friction_coefficient;
+        friction_gradient.by_slope_term = by_slope_term.map(|load| slope_factor * load).collect();
+        if points.slope != FrictionSlope::Body {
+            let slopes = contact.correlation(&contact.loads).slope();
+            let factor = slope_factor / system.compliance;
+            friction_gradient
+                .kernel
+                .correlation
+                .add_scaled(factor, &slopes);
+        }
+        Ok(Self {
+            friction_coefficient: friction.value * points.slope_unit(),
+            points,
+            gradients,
+            boundary_weight: measures.map(|[_, weight]| system.measure(&adjoint[3], weight)),
+            control: loading.control,
+            normal_force: system.force_per_load * contact.total,
+            depth: loading.depth_scale * solution.depth,
+            n_unknowns: contact.n_touching,
+            dilation: None,
+        })
     }
 
-    /// Derivatives by ln λ, with λ a factor on all lengths: of the body, the layer, the track and the sliding per time. The force grows
-    /// like λ², in plane strain like λ.
-    fn by_dilation(&self, surface: &dyn Surface, strip: Option<f64>) -> Result<Dilation, BemError> {
-        // Central differences by the heights of the body alone, and by all its lengths.
-        let stretched = |width: f64, height: f64| {
-            move |[x, y]: [f64; 2]| height * surface.height([x / width, y / width])
-        };
-        let [smaller, larger] = [1.0 - DILATION_STEP, 1.0 + DILATION_STEP];
-        let log_step = (larger / smaller).ln();
-        let by_height = self.between_heights(&stretched(1.0, smaller), &stretched(1.0, larger))?;
-        let by_lengths =
-            self.between_heights(&stretched(smaller, smaller), &stretched(larger, larger))?;
+    /// The derivatives by the kernel of all quantities.
+    pub(super) fn kernel_gradients(&mut self) -> impl Iterator<Item = &mut KernelGradient> {
+        let Change {
+            friction_coefficient,
+            indentation_depth,
+            contact_area,
+            ..
+        } = &mut self.gradients;
+        let optional = [indentation_depth, contact_area, &mut self.boundary_weight];
+        let all = std::iter::once(friction_coefficient).chain(optional.into_iter().flatten());
+        all.map(|gradient| &mut gradient.kernel)
+    }
 
-        // Exponents of λ in the given load, and in the other one. The force on a strip is the force per length times its length.
+    /// Finds the derivatives by ln λ, with λ a factor on all lengths: of the body, the layer, the track and the sliding per time. The
+    /// force grows like λ², in plane strain like λ.
+    pub(super) fn find_dilation(
+        &mut self,
+        surface: &dyn Surface,
+        strip: Option<f64>,
+        kernel: &GridKernel,
+    ) -> Result<(), BemError> {
+        let Some((area, boundary_weight)) = self
+            .gradients
+            .contact_area
+            .as_ref()
+            .zip(self.boundary_weight.as_ref())
+        else {
+            return Ok(());
+        };
+        // Central differences by all lengths of the body.
+        let stretched =
+            |factor: f64| move |[x, y]: [f64; 2]| factor * surface.height([x / factor, y / factor]);
+        let ends = [1.0 - DILATION_STEP, 1.0 + DILATION_STEP];
+        let by_body = self.between_heights(&stretched(ends[0]), &stretched(ends[1]))?;
+        let log_step = (ends[1] / ends[0]).ln();
+
+        // Compare with the scaling identity: the friction does not depend on λ, and the depth is proportional to it.
         let force_exponent = if strip.is_some() { 1.0 } else { 2.0 };
-        let (given, given_exponent, other_exponent) = match self.control {
-            Control::NormalForce(force) => (force / strip.unwrap_or(1.0), force_exponent, 1.0),
-            Control::IndentationDepth(depth) => (depth, 1.0, force_exponent),
+        let by_velocity = kernel.by_velocity();
+        let derivative = |gradient: &Gradient| {
+            by_body(gradient) / log_step
+                + gradient.kernel.by_log_thickness
+                + gradient.kernel.by_log_track
+                + force_exponent * self.normal_force * gradient.by_force
+                + gradient.kernel.by_creep(&by_velocity)
         };
-
-        // Compare with the scaling identity. On fixed elements the equations are linear: heights and given load together scale the
-        // other load. The friction does not depend on λ; the measures are popped below.
-        let has_other = self.gradients.len() > 3;
-        let mut defects = Vec::new();
-        for (index, gradient) in self.gradients.iter().enumerate() {
-            let by_load = given * gradient.by_load;
-            let derivative = by_lengths[index] / log_step
-                + gradient.by_log_thickness
-                + gradient.by_log_track
-                + given_exponent * by_load
-                + gradient.unit * gradient.basis.by_velocity();
-            let expected = if index == 1 && has_other {
-                other_exponent * (by_height[index] / log_step + by_load)
-            } else {
-                0.0
-            };
-            defects.push(derivative - expected);
+        let mut defects = self.gradients.map(derivative);
+        if let Some(depth) = &mut defects.indentation_depth {
+            *depth -= self.depth;
         }
-        let measures = pop_measures(&mut defects);
-        Ok(Dilation {
-            area: measures.area,
-            boundary_weight: measures.boundary_weight,
+        let dilation = Dilation {
             defects,
+            area: derivative(area),
+            boundary_weight: derivative(boundary_weight),
             area_exponent: force_exponent,
-        })
+        };
+        // A larger scale enlarges the contact, by both measures, or the measures do not know it.
+        let is_growth = dilation.area > 0.0 && dilation.boundary_weight > 0.0;
+        self.dilation = is_growth.then_some(dilation);
+        Ok(())
+    }
+
+    /// The change of each quantity from one body to another, on fixed elements.
+    fn between_heights(
+        &self,
+        from: Height,
+        to: Height,
+    ) -> Result<impl Fn(&Gradient) -> f64 + use<>, BemError> {
+        let heights = differences(self.points.heights(from)?, &self.points.heights(to)?);
+        let slope_terms = differences(
+            self.points.explicit_slope_terms(from)?,
+            &self.points.explicit_slope_terms(to)?,
+        );
+        Ok(move |gradient: &Gradient| gradient.change(&heights, &slope_terms))
     }
 
     /// The change from one body to another.
@@ -205,312 +224,105 @@ impl ContactDerivatives {
         &self,
         [from, to]: [&dyn Surface; 2],
     ) -> Result<Change<f64>, BemError> {
-        let changes = self.between_heights(&|point| from.height(point), &|point| to.height(point));
-        Ok(self.with_moving_boundary(changes?))
-    }
-
-    /// The change of each quantity from one body to another, on fixed elements.
-    fn between_heights(&self, from: Height, to: Height) -> Result<Vec<f64>, BemError> {
-        let heights = differences(self.points.heights(from)?, &self.points.heights(to)?);
-        let slope_terms = differences(
-            self.points.explicit_slope_terms(from)?,
-            &self.points.explicit_slope_terms(to)?,
-        );
-        let change = |gradient: &QuantityGradient| {
-            gradient.unit * weighted_sum(&gradient.by_height, &heights)
-        };
-        let mut changes: Vec<f64> = self.gradients.iter().map(change).collect();
-        if let Some(friction) = changes.first_mut() {
-            *friction +=
-                self.points.slope_unit() * weighted_sum(&self.load_fractions, &slope_terms);
-        }
-        Ok(changes)
-    }
-
-    /// The change from one material and velocity to another, on the base of the contact.
-    pub(super) fn between_materials(
-        &self,
-        ends: [&SlidingCreep; 2],
-    ) -> Result<Change<f64>, BemError> {
-        // With as many retardation elements as here the derivatives by them suffice; otherwise contract both whole kernels.
-        let [from, to] = ends.map(SlidingCreep::over_distance);
-        if self.has_same_retardations(&from) && self.has_same_retardations(&to) {
-            return Ok(self.by_basis(|basis| basis.between_creeps(&from, &to)));
-        }
-        let [from, to] = ends.map(|end| Basis::to_elastomer(&self.bases(), end));
-        let pairs = from?.into_iter().zip(to?).zip(&self.gradients);
-        let changes = pairs.map(|((from, to), gradient)| gradient.unit * (to - from));
-        Ok(self.with_moving_boundary(changes.collect()))
-    }
-
-    /// The change from the elastomer of each contact to another; each kernel is computed once for all contacts.
-    pub(super) fn all_to_elastomer(
-        contacts: &[Self],
-        creep: &SlidingCreep,
-    ) -> Result<Vec<Change<f64>>, BemError> {
-        let gradients = contacts.iter().flat_map(|contact| &contact.gradients);
-        let bases: Vec<&Basis> = gradients.map(|gradient| &gradient.basis).collect();
-        let mut changes = Basis::to_elastomer(&bases, creep)?.into_iter();
-        let of_contact = |contact: &Self| {
-            let pairs = contact.gradients.iter().zip(&mut changes);
-            let changes = pairs.map(|(gradient, change)| gradient.unit * change);
-            contact.with_moving_boundary(changes.collect())
-        };
-        Ok(contacts.iter().map(of_contact).collect())
-    }
-
-    /// The derivatives by the logarithms of the storage and of the loss modulus in each band of frequencies.
-    pub(super) fn by_moduli(&self, bands: &[[f64; 2]]) -> Result<Vec<[Change<f64>; 2]>, BemError> {
-        let of_band = |sums: Vec<[f64; 2]>| {
-            [0, 1].map(|modulus| {
-                let pairs = self.gradients.iter().zip(&sums);
-                let changes = pairs.map(|(gradient, sums)| gradient.unit * sums[modulus]);
-                self.with_moving_boundary(changes.collect())
-            })
-        };
-        let sums = Basis::by_moduli(&self.bases(), bands)?;
-        Ok(sums.into_iter().map(of_band).collect())
+        let change = self.between_heights(&|point| from.height(point), &|point| to.height(point));
+        Ok(self.change(change?))
     }
 
     /// The derivative by the given force or depth.
     pub(super) fn by_load(&self) -> Change<f64> {
-        self.by(|gradient| gradient.by_load)
-    }
-
-    /// The derivative by the logarithm of the velocity.
-    pub(super) fn by_velocity(&self) -> Change<f64> {
-        self.by_basis(Basis::by_velocity)
-    }
-
-    /// The derivative by the logarithm of the thickness of the layer.
-    pub(super) fn by_thickness(&self) -> Change<f64> {
-        self.by(|gradient| gradient.by_log_thickness)
-    }
-
-    /// The derivative by the logarithm of the length of the track.
-    pub(super) fn by_track(&self) -> Change<f64> {
-        self.by(|gradient| gradient.by_log_track)
-    }
-
-    /// Number of unknown pressures.
-    pub(super) const fn n_unknowns(&self) -> usize {
-        self.n_unknowns
-    }
-
-    /// The given force or depth.
-    pub(super) const fn given(&self) -> f64 {
-        let (Control::NormalForce(given) | Control::IndentationDepth(given)) = self.control;
-        given
-    }
-
-    fn has_same_retardations(&self, creep: &CreepOverDistance) -> bool {
-        let mut gradients = self.gradients.iter();
-        gradients.all(|one| one.basis.has_same_retardations(creep))
-    }
-
-    fn bases(&self) -> Vec<&Basis> {
-        self.gradients.iter().map(|one| &one.basis).collect()
-    }
-
-    fn by(&self, derivative: impl Fn(&QuantityGradient) -> f64) -> Change<f64> {
-        self.with_moving_boundary(self.gradients.iter().map(derivative).collect())
-    }
-
-    fn by_basis(&self, change: impl Fn(&Basis) -> f64) -> Change<f64> {
-        self.by(|gradient| gradient.unit * change(&gradient.basis))
-    }
-
-    /// Adds the effect of the moving contact boundary to changes of all quantities on fixed elements. It is −R times the change of the
-    /// boundary weight over that by dilation, with the defects R of the scaling identity.
-    fn with_moving_boundary(&self, mut changes: Vec<f64>) -> Change<f64> {
-        let measures = self.has_measures.then(|| pop_measures(&mut changes));
-        let known = self.dilation.as_ref().zip(measures);
-        let contact_area = known.map(|(dilation, measures)| {
-            // Growth of the contact in units of ln λ.
-            let growth = measures.boundary_weight / dilation.boundary_weight;
-            for (change, defect) in changes.iter_mut().zip(&dilation.defects) {
-                *change -= growth * defect;
-            }
-            dilation.area_exponent * measures.area / dilation.area
-        });
-        // The quantities in their order.
-        let mut changes = changes.into_iter();
-        let friction_coefficient = changes.next().unwrap_or(f64::NAN);
-        let other = changes.next();
-        let (indentation_depth, normal_force) = match self.control {
-            Control::NormalForce(_) => (other, None),
-            Control::IndentationDepth(_) => (None, other),
-        };
-        Change {
-            friction_coefficient,
-            indentation_depth,
-            normal_force,
-            contact_area,
+        let by_force = self.under_force(|gradient| gradient.by_force);
+        match self.control {
+            Control::NormalForce(_) => by_force,
+            Control::IndentationDepth(_) => Change::by_depth(&by_force),
         }
     }
-}
 
-/// Changes of the two measures of a contact.
-struct Measures {
-    area: f64,
-    boundary_weight: f64,
-}
-
-/// Removes the measures, which are the last two, from the quantities.
-fn pop_measures(quantities: &mut Vec<f64>) -> Measures {
-    let mut last = || quantities.pop().unwrap_or(f64::NAN);
-    let boundary_weight = last();
-    Measures {
-        area: last(),
-        boundary_weight,
-    }
-}
-
-fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
-    let pairs = weights.iter().zip(values);
-    pairs.map(|(weight, value)| weight * value).sum()
-}
-
-impl UnassembledState {
-    /// Solves the contact on one grid, and the adjoint equations of its quantities.
-    fn new(
-        surface: &dyn Surface,
-        loading: &Loading,
-        options: SteadyOptions,
-        reuse: &mut Reuse,
-    ) -> Result<Self, BemError> {
-        let (mesh, solution) = solve_on_mesh(surface, loading, &options, reuse)?;
-        reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
-        // Slopes whose mean under the load is the friction.
-        let contact = LoadedContact::new(&mesh, &solution, &mut reuse.plans)?;
-        let points = CollocationPoints::new(&contact, loading);
-        let slope_terms = points.explicit_slope_terms(&|point| surface.height(point))?;
-        let slopes = match points.slope {
-            FrictionSlope::Body => contact.slopes_of_body(slope_terms),
-            _ => contact.slopes_of_surface(&slope_terms, &mut reuse.plans),
-        };
-        // Adjoint loads of all quantities.
-        let (mean_slope, adjoint) = contact.adjoint(&slopes, &mut reuse.plans)?;
-        let loads = contact.elements.iter().zip(&contact.loads);
-        let load_fractions =
-            loads.map(|(&element, load)| mesh.weight(element) * load / contact.total);
-        let assembly = GradientAssembly {
-            contact: &contact,
-            loading,
-            adjoint,
-            slope: points.slope,
-        };
-        Ok(Self {
-            friction_coefficient: mean_slope * points.slope_unit(),
-            load_fractions: load_fractions.collect(),
-            n_unknowns: contact.n_touching(),
-            gradients: assembly.all(),
-            kernel: KernelParameters::new(&loading.creep, &mesh)?,
-            points,
-        })
-    }
-}
-
-/// What the gradients of one contact are made of.
-struct GradientAssembly<'a> {
-    contact: &'a LoadedContact<'a>,
-    loading: &'a Loading,
-    adjoint: AdjointLoads,
-    slope: FrictionSlope,
-}
-
-impl GradientAssembly<'_> {
-    /// The gradients in the order of [`ContactDerivatives::gradients`].
-    fn all(&self) -> Vec<UnassembledGradient> {
-        let Loading {
-            control,
-            strip,
-            creep,
-            depth_scale,
-            ..
-        } = self.loading;
-        // The quantities that depend on the depth, in terms of the derivative of the total load by the depth.
-        let stiffness = self.contact.sum(&self.adjoint.depth);
-        let other = match control {
-            Control::NormalForce(_) => {
-                let has_depth = creep.fluidity() <= 0.0 && strip.is_none();
-                let by_load = self.load_per_force() / stiffness;
-                has_depth
-                    .then(|| self.proportional_to_depth(*depth_scale, stiffness.recip(), by_load))
-            }
+    /// The change of all quantities under the given force or at the given depth, from that of each on fixed elements under a constant
+    /// force.
+    pub(super) fn change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
+        let under_force = self.under_force(of);
+        match self.control {
+            Control::NormalForce(_) => under_force,
             Control::IndentationDepth(_) => {
-                let unit = self.contact.mesh.loading.force_of(1.0);
-                Some(self.proportional_to_depth(unit, -1.0, stiffness / depth_scale))
+                under_force.at_constant_depth(&self.under_force(|gradient| gradient.by_force))
             }
-        };
-
-        // All gradients in their order.
-        let mut gradients = vec![self.friction(stiffness)];
-        gradients.extend(other);
-        let measures = self.contact.measures().zip(&self.adjoint.measures);
-        gradients.extend(measures.map(|(measure, by_loads)| {
-            let mut gradient = self.function_of_loads(by_loads, 1.0, stiffness);
-            gradient.correlation = gradient
-                .correlation
-                .with_second_difference(measure.by_second_difference);
-            gradient
-        }));
-        gradients
-    }
-
-    /// Total load in the units of the mesh per unit of the given force, or depth.
-    fn load_per_force(&self) -> f64 {
-        let Loading { control, strip, .. } = self.loading;
-        let (Control::NormalForce(given) | Control::IndentationDepth(given)) = control;
-        self.contact.total * strip.unwrap_or(1.0) / given
-    }
-
-    fn friction(&self, stiffness: f64) -> UnassembledGradient {
-        let unit = self.loading.depth_scale / self.contact.mesh.options.spacing[0];
-        let mut gradient = self.function_of_loads(&self.adjoint.friction, unit, stiffness);
-        if self.slope != FrictionSlope::Body {
-            gradient.correlation = gradient.correlation.plus(&self.contact.slope_correlation());
         }
+    }
+
+    /// Adds the effect of the moving contact boundary to the change of each quantity on fixed elements. It is −R times the change of the
+    /// boundary weight over that by dilation, with the defects R of the scaling identity.
+    fn under_force(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
+        let fixed = self.gradients.map(&of);
+        let Some((dilation, weight)) = self.dilation.as_ref().zip(self.boundary_weight.as_ref())
+        else {
+            return Change {
+                contact_area: None,
+                ..fixed
+            };
+        };
+        // Growth of the contact in units of ln λ.
+        let growth = of(weight) / dilation.boundary_weight;
+        let defects = &dilation.defects;
+        let depth = fixed.indentation_depth.zip(defects.indentation_depth);
+        let area = fixed.contact_area;
+        Change {
+            friction_coefficient: fixed.friction_coefficient
+                - growth * defects.friction_coefficient,
+            indentation_depth: depth.map(|(change, defect)| change - growth * defect),
+            normal_force: None,
+            contact_area: area.map(|change| dilation.area_exponent * change / dilation.area),
+        }
+    }
+}
+
+/// The adjoint equations of a contact under a constant force: bordered by the depth, which is a further unknown.
+struct BorderedSystem<'a> {
+    contact: &'a LoadedContact<'a>,
+    /// Adjoint loads of a unit depth, and their sum.
+    unit_depth: &'a [f64],
+    stiffness: f64,
+    /// Normal force of a unit of the total load, in plane strain per length.
+    force_per_load: f64,
+    /// Compliance over the length of an element, the unit of the kernel of the mesh, \[1/Pa].
+    compliance: f64,
+}
+
+impl BorderedSystem<'_> {
+    /// The gradient of a function of loads and gaps from its adjoint loads, for a quantity of some SI unit.
+    fn gradient(&self, adjoint: &[f64], unit: f64) -> Gradient {
+        self.with_depth_response(adjoint, self.contact.sum(adjoint) / self.stiffness, unit)
+    }
+
+    /// The gradient of the depth.
+    fn depth(&self, depth_scale: f64) -> Gradient {
+        let no_loads = vec![0.0; self.unit_depth.len()];
+        self.with_depth_response(&no_loads, self.stiffness.recip(), depth_scale)
+    }
+
+    /// The gradient of a measure of the contact.
+    fn measure(&self, adjoint: &[f64], measure: &BoundaryDerivatives) -> Gradient {
+        let mut gradient = self.gradient(adjoint, 1.0);
+        let by_second_difference = measure.by_second_difference;
+        gradient
+            .kernel
+            .correlation
+            .add_second_difference(by_second_difference.map(|one| one / self.compliance));
         gradient
     }
 
-    /// The gradient of a function of the loads, from its adjoint loads.
-    fn function_of_loads(
-        &self,
-        by_loads: &[f64],
-        unit: f64,
-        stiffness: f64,
-    ) -> UnassembledGradient {
-        let by_depth = self.contact.sum(by_loads);
-        // Under a force the depth δ is a further unknown: add the constant that keeps the total load.
-        let (constant, by_load) = match self.loading.control {
-            Control::NormalForce(_) => (
-                by_depth / stiffness,
-                by_depth / stiffness * self.load_per_force(),
-            ),
-            Control::IndentationDepth(_) => (0.0, by_depth / self.loading.depth_scale),
-        };
-        let pairs = by_loads.iter().zip(&self.adjoint.depth);
-        let adjoint: Vec<f64> = pairs.map(|(one, depth)| constant * depth - one).collect();
-        self.gradient(unit, &adjoint, by_load)
-    }
-
-    /// The gradient of a quantity whose adjoint loads are `factor` times those of the depth.
-    fn proportional_to_depth(&self, unit: f64, factor: f64, by_load: f64) -> UnassembledGradient {
-        let depth = self.adjoint.depth.iter();
-        let adjoint: Vec<f64> = depth.map(|load| factor * load).collect();
-        self.gradient(unit, &adjoint, by_load)
-    }
-
-    fn gradient(&self, unit: f64, adjoint: &[f64], by_load: f64) -> UnassembledGradient {
-        let LoadedContact { mesh, elements, .. } = self.contact;
-        let pairs = elements.iter().zip(adjoint);
-        let by_height = pairs.map(|(&element, load)| mesh.weight(element) * load);
-        UnassembledGradient {
-            unit,
-            by_height: by_height.collect(),
-            by_load,
-            correlation: self.contact.correlation(adjoint),
+    /// The gradient for η times the adjoint loads of a unit depth less those of a quantity.
+    fn with_depth_response(&self, adjoint: &[f64], eta: f64, unit: f64) -> Gradient {
+        let pairs = adjoint.iter().zip(self.unit_depth);
+        let loads: Vec<f64> = pairs
+            .map(|(one, depth)| unit * (eta * depth - one))
+            .collect();
+        let mut correlation = self.contact.correlation(&loads);
+        correlation.scale(self.compliance.recip());
+        Gradient {
+            by_height: self.contact.weighted(&loads),
+            by_slope_term: Vec::new(),
+            by_force: unit * eta / self.force_per_load,
+            kernel: KernelGradient::new(correlation),
         }
     }
 }

@@ -4,15 +4,8 @@
 //! λᵀ K x = Σ_m c_m k_m,      c_m = Σ_j λ_(j+m) x_j
 //! ```
 
-use crate::elements::bounds::Bounds;
-use crate::parallel::reductions::add_scaled;
-use crate::stationary::steady::wake_table::WakeTable;
-
-/// Loads on elements of a box.
-pub(super) struct Field {
-    shape: [usize; 2],
-    values: Vec<f64>,
-}
+use crate::parallel::reductions::{add_scaled, dot};
+use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
 
 /// The weights c of the kernel, by the offset of an element from the loaded one.
 #[derive(Debug, Clone, Default)]
@@ -23,29 +16,17 @@ pub(super) struct Correlation {
     weights: Vec<f64>,
 }
 
-impl Field {
-    pub(super) fn new(bounds: &Bounds, loads: impl Iterator<Item = ([usize; 2], f64)>) -> Self {
-        let shape = bounds.shape();
-        let mut values = vec![0.0; shape[0] * shape[1]];
-        for (element, load) in loads {
-            values[bounds.index_of(element)] = load;
-        }
-        Self { shape, values }
-    }
-}
-
 impl Correlation {
     /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side. If the loads x are mirror symmetric, `left` may
-    /// contain one of two mirror images y with twice the weight.
-    pub(super) fn between(left: &Field, right: &Field) -> Self {
-        let [rows, columns] = left.shape;
+    /// contain one of two mirror images y with twice the weight. Both are row-major over a box of some rows and columns.
+    pub(super) fn between(left: &[f64], right: &[f64], [rows, columns]: [usize; 2]) -> Self {
         // Accumulate by signed distance along y.
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
-        let loaded = left.values.iter().enumerate();
+        let loaded = left.iter().enumerate();
         for (place, &value) in loaded.filter(|(_, value)| **value != 0.0) {
             let (row, column) = (place / columns, place % columns);
-            for (other, from) in right.values.chunks_exact(columns).enumerate() {
+            for (other, from) in right.chunks_exact(columns).enumerate() {
                 // By signed distance along y; the negative side is folded onto the positive one below.
                 let first = (row + rows - other) * width + columns - 1 - column;
                 let weights = &mut signed[first..first + columns];
@@ -70,8 +51,8 @@ impl Correlation {
         }
     }
 
-    /// The weights of k in −½ Σ y_i [k(i + 1 − j) − k(i − 1 − j)] x_j times a factor, with steps along x.
-    pub(super) fn slope(&self, factor: f64) -> Self {
+    /// The weights of k in −½ Σ y_i [k(i + 1 − j) − k(i − 1 − j)] x_j, with steps along x.
+    pub(super) fn slope(&self) -> Self {
         let columns = self.max_offsets[1] + 1;
         let at = |index: usize, rows: isize| {
             let moved = index.checked_add_signed(rows * columns.cast_signed());
@@ -80,7 +61,7 @@ impl Correlation {
                 .copied()
                 .unwrap_or(0.0)
         };
-        let weight = |index| -0.5 * factor * (at(index, -1) - at(index, 1));
+        let weight = |index| -0.5 * (at(index, -1) - at(index, 1));
         Self {
             max_offsets: self.max_offsets,
             weights: (0..self.weights.len()).map(weight).collect(),
@@ -88,7 +69,7 @@ impl Correlation {
     }
 
     /// Adds multiples of the second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
-    pub(super) fn with_second_difference(mut self, [along_x, along_y]: [f64; 2]) -> Self {
+    pub(super) fn add_second_difference(&mut self, [along_x, along_y]: [f64; 2]) {
         let columns = self.max_offsets[1] + 1;
         // Offset 0, and its neighbours along x and y.
         let here = self.max_offsets[0] * columns;
@@ -100,40 +81,16 @@ impl Correlation {
             // The distance stands for both sides.
             weights[here + 1] -= along_y;
         }
-        self
     }
 
-    /// Adds another correlation with the same offsets.
-    pub(super) fn plus(mut self, other: &Self) -> Self {
-        add_scaled(&mut self.weights, 1.0, &other.weights);
-        self
+    /// Adds a multiple of another correlation with the same offsets.
+    pub(super) fn add_scaled(&mut self, factor: f64, other: &Self) {
+        add_scaled(&mut self.weights, factor, &other.weights);
     }
 
-    /// Pads correlations with zeros to the largest offsets among them.
-    pub(super) fn align(all: &mut [Self]) {
-        let max_offsets = all
-            .iter()
-            .map(|one| one.max_offsets)
-            .reduce(|one, other| [0, 1].map(|axis| one[axis].max(other[axis])));
-        for one in all
-            .iter_mut()
-            .filter(|one| Some(one.max_offsets) != max_offsets)
-        {
-            let Some([rows, columns]) = max_offsets else {
-                return;
-            };
-            // Rows of zeros before and after, columns of zeros after.
-            let before = rows - one.max_offsets[0];
-            let mut weights = vec![0.0; (2 * rows + 1) * (columns + 1)];
-            let wide = weights.chunks_exact_mut(columns + 1).skip(before);
-            for (wide, narrow) in wide.zip(one.weights.chunks_exact(one.max_offsets[1] + 1)) {
-                wide[..narrow.len()].copy_from_slice(narrow);
-            }
-            *one = Self {
-                max_offsets: [rows, columns],
-                weights,
-            };
-        }
+    /// Multiplies all weights by a factor.
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.weights.iter_mut().for_each(|weight| *weight *= factor);
     }
 
     /// Largest offsets: along x in either direction, and along y.
@@ -141,19 +98,25 @@ impl Correlation {
         self.max_offsets
     }
 
-    /// The weights of one row: of one offset along x, counted from behind the load on.
-    pub(super) fn row(&self, row: usize) -> &[f64] {
-        let columns = self.max_offsets[1] + 1;
-        &self.weights[row * columns..][..columns]
+    /// The sum Σ c_m k_m with a kernel, whose table may reach further.
+    pub(super) fn contract(&self, kernel: &KernelTable) -> f64 {
+        let rows = self.max_offsets[0].cast_signed();
+        let offsets = -rows..=rows;
+        offsets
+            .map(|offset| self.contract_row(offset, kernel.row(offset)))
+            .sum()
     }
 
-    /// The sum Σ c_m k_m with a kernel.
-    pub(super) fn contract(&self, table: &WakeTable) -> f64 {
-        let [rows, columns] = self.max_offsets;
-        let row_of = |row: usize| row.cast_signed() - rows.cast_signed();
-        let weighted = |(index, weight): (usize, &f64)| {
-            weight * table.displacement(row_of(index / (columns + 1)), index % (columns + 1))
-        };
-        self.weights.iter().enumerate().map(weighted).sum()
+    /// The part of the sum Σ c_m k_m at one offset along x, with the values of the kernel there by distance along y.
+    pub(super) fn contract_row(&self, offset: isize, kernel: &[f64]) -> f64 {
+        dot(self.row(offset), kernel)
+    }
+
+    /// The weights at an offset along x, by distance along y; none beyond the largest offsets.
+    fn row(&self, offset: isize) -> &[f64] {
+        let columns = self.max_offsets[1] + 1;
+        let row = self.max_offsets[0].checked_add_signed(offset);
+        let mut rows = self.weights.chunks_exact(columns);
+        row.and_then(|row| rows.nth(row)).unwrap_or_default()
     }
 }

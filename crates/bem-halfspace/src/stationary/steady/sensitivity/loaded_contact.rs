@@ -3,80 +3,62 @@
 //! Theory: the [module](super).
 
 use crate::BemError;
-use crate::elements::bounds::Bounds;
+use crate::elements::contact_boundary::{BoundaryDerivatives, BoundaryField, ContactBoundary};
 use crate::stationary::steady::body_contact::Solution;
 use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::sensitivity::adjoint_solve::{KernelDirection, solve};
-use crate::stationary::steady::sensitivity::boundary_measures::{
-    BoundaryMeasures, MeasureGradient,
-};
-use crate::stationary::steady::sensitivity::correlation::{Correlation, Field};
+use crate::stationary::steady::sensitivity::collocation_points::FrictionSlope;
+use crate::stationary::steady::sensitivity::correlation::Correlation;
 
 /// A solved contact and the elements next to it, in the units of the mesh.
-pub(super) struct LoadedContact<'mesh> {
-    pub(super) mesh: &'mesh Mesh,
-    /// Elements in contact, then the elements next to it, whose gaps the measures depend on.
+pub(super) struct LoadedContact<'a> {
+    mesh: &'a Mesh,
+    plans: &'a mut Plans,
+    /// Elements in contact, then the elements next to it, whose gaps the measures of the contact depend on; none under a body with
+    /// edges.
     pub(super) elements: Vec<usize>,
+    /// Number of elements in contact, which is that of the unknown pressures.
+    pub(super) n_touching: usize,
     /// Loads of all elements; 0 outside the contact.
     pub(super) loads: Vec<f64>,
-    /// Number of elements in contact.
-    n_touching: usize,
-    /// `None` under a body with edges, where the contact ends at the edges.
-    boundary: Option<BoundaryMeasures>,
     /// Sum of all loads, mirror images included.
     pub(super) total: f64,
-    bounds: Bounds,
+    depth: f64,
+    region: Region,
 }
 
-/// Solutions of `Kᵀ y = r`, in the units of the mesh.
-pub(super) struct AdjointLoads {
-    /// For r the derivative of the friction by the loads.
-    pub(super) friction: Vec<f64>,
-    /// For a unit depth, r = 1.
-    pub(super) depth: Vec<f64>,
-    /// For r the derivatives of area and boundary weight, see [`crate::elements::contact_boundary`]. Empty under a body with edges.
-    pub(super) measures: Vec<Vec<f64>>,
+/// The mean slope under the load, which is the friction, in units of the depth scale over the length of an element.
+pub(super) struct MeanSlope {
+    pub(super) value: f64,
+    /// Derivatives by the loads of all elements; 0 outside the contact.
+    pub(super) by_loads: Vec<f64>,
 }
 
-impl<'mesh> LoadedContact<'mesh> {
-    pub(super) fn new(
-        mesh: &'mesh Mesh,
-        solution: &Solution,
-        plans: &mut Plans,
-    ) -> Result<Self, BemError> {
+impl<'a> LoadedContact<'a> {
+    pub(super) fn new(mesh: &'a Mesh, plans: &'a mut Plans, solution: &Solution) -> Self {
         let pairs = solution.loads.iter().copied();
         let (mut elements, mut loads): (Vec<usize>, Vec<f64>) = pairs.unzip();
         let n_touching = elements.len();
-        let boundary = (!mesh.loading.has_edges)
-            .then(|| BoundaryMeasures::new(mesh, plans, &elements, &loads, solution.depth))
-            .transpose()?;
-        // The elements outside carry no load.
-        elements.extend(boundary.iter().flat_map(|boundary| &boundary.outside));
-        loads.resize(elements.len(), 0.0);
-        let places = elements.iter().flat_map(|&element| mesh.places(element));
-        Ok(Self {
+        if !mesh.loading.has_edges {
+            let mut outside = mesh.with_neighbours(&elements);
+            // Both are in the order of the mesh.
+            outside.retain(|element| elements.binary_search(element).is_err());
+            elements.extend(outside);
+            loads.resize(elements.len(), 0.0);
+        }
+        Self {
             total: mesh.total_load(solution.loads.iter().copied()),
-            bounds: Bounds::enclosing(places).unwrap_or(Bounds::EMPTY),
+            depth: solution.depth,
+            region: mesh.region(elements.iter().copied()),
             mesh,
+            plans,
             elements,
-            loads,
             n_touching,
-            boundary,
-        })
-    }
-
-    /// Number of elements in contact, which is that of the unknown pressures.
-    pub(super) const fn n_touching(&self) -> usize {
-        self.n_touching
-    }
-
-    /// Gradients of area and boundary weight; none under a body with edges.
-    pub(super) fn measures(&self) -> impl Iterator<Item = &MeasureGradient> {
-        let boundary = self.boundary.iter();
-        boundary.flat_map(|boundary| [&boundary.area, &boundary.boundary_weight])
+            loads,
+        }
     }
 
     /// Sum of some loads over all elements, mirror images included.
@@ -85,88 +67,79 @@ impl<'mesh> LoadedContact<'mesh> {
         self.mesh.total_load(elements.zip(loads.iter().copied()))
     }
 
+    /// Weights of all elements in sums times some loads.
+    pub(super) fn weighted(&self, loads: &[f64]) -> Vec<f64> {
+        let pairs = self.elements.iter().zip(loads);
+        pairs
+            .map(|(&element, load)| self.mesh.weight(element) * load)
+            .collect()
+    }
+
     /// The correlation of adjoint loads with the loads of the contact.
     pub(super) fn correlation(&self, adjoint: &[f64]) -> Correlation {
-        let pairs = |loads: &[f64]| -> Vec<(usize, f64)> {
-            let elements = self.elements.iter().copied();
-            elements.zip(loads.iter().copied()).collect()
-        };
+        let [mut left, mut right] = [0; 2].map(|_| vec![0.0; self.region.n_places()]);
         // An element represents its mirror image.
-        let adjoint = pairs(adjoint).into_iter().map(|(element, load)| {
-            let [place, _] = self.mesh.places(element);
-            (place, self.mesh.weight(element) * load)
-        });
-        let loads = self.mesh.loaded_places(&pairs(&self.loads)).into_iter();
-        Correlation::between(
-            &Field::new(&self.bounds, adjoint),
-            &Field::new(&self.bounds, loads),
-        )
-    }
-
-    /// The correlation of the mean slope of the displacements under the load.
-    pub(super) fn slope_correlation(&self) -> Correlation {
-        self.correlation(&self.loads).slope(self.total.recip())
-    }
-
-    /// The mean slope under the load, in units of the depth scale over the length of an element, and the adjoint loads.
-    pub(super) fn adjoint(
-        &self,
-        slopes: &Slopes,
-        plans: &mut Plans,
-    ) -> Result<(f64, AdjointLoads), BemError> {
-        // The mean slope and its derivative by the loads.
-        let loads = self.elements.iter().zip(&self.loads);
-        let weighted = loads
-            .zip(&slopes.at_elements)
-            .map(|((&element, load), slope)| self.mesh.weight(element) * load * slope);
-        let mean = weighted.sum::<f64>() / self.total;
-        let by_loads = slopes.at_elements.iter().zip(&slopes.by_others);
-        let by_loads = by_loads.map(|(here, others)| (here + others - mean) / self.total);
-
-        // Right sides: mean slope, unit depth, measures.
-        let n = self.n_touching;
-        let mut right_sides = vec![by_loads.take(n).collect(), vec![1.0; n]];
-        let measures = self.measures();
-        right_sides
-            .extend(measures.map(|one| one.total_by_loads(self.mesh, plans, &self.elements)));
-
-        // Solve, and extend the loads by the elements outside the contact: by 0, or for the measures by −∂G/∂gap.
-        let touching = &self.elements[..n];
-        let reversed = KernelDirection::Reversed;
-        let mut solutions = solve(self.mesh, plans, touching, reversed, &right_sides)?.into_iter();
-        let mut next_padded = || {
-            let mut loads = solutions.next().unwrap_or_default();
-            loads.resize(self.elements.len(), 0.0);
-            loads
-        };
-        let [friction, depth] = [next_padded(), next_padded()];
-        let measures = self.measures().map(|one| {
-            let mut loads = next_padded();
-            for (load, by_gap) in loads[n..].iter_mut().zip(&one.by_gaps) {
-                *load = -by_gap;
-            }
-            loads
-        });
-        let adjoint = AdjointLoads {
-            friction,
-            depth,
-            measures: measures.collect(),
-        };
-        Ok((mean, adjoint))
-    }
-
-    /// Slopes of the body over the elements, which do not depend on the loads.
-    pub(super) fn slopes_of_body(&self, slope_terms: Vec<f64>) -> Slopes {
-        Slopes {
-            by_others: vec![0.0; slope_terms.len()],
-            at_elements: slope_terms,
+        let places = self.region.places().iter();
+        for ([place, _], load) in places.zip(self.weighted(adjoint)) {
+            left[*place] = load;
         }
+        self.region.scatter(&self.loads, &mut right);
+        Correlation::between(&left, &right, self.region.shape)
     }
 
-    /// Explicit slope terms of the body less the slopes of the displacements between the neighbours of each element along x.
-    pub(super) fn slopes_of_surface(&self, slope_terms: &[f64], plans: &mut Plans) -> Slopes {
-        // A region of the neighbours ahead, the neighbours behind and the elements, with the loads on the last.
-        let n = self.elements.len();
+    /// Adjoint loads λ, up to the constraint of the force, of quantities with the given derivatives by the loads in contact and the
+    /// gaps next to it: `Kᵀ y = r` in the contact, and −∂J/∂gap outside.
+    pub(super) fn adjoint_loads(
+        &mut self,
+        derivatives: &[&[f64]],
+    ) -> Result<Vec<Vec<f64>>, BemError> {
+        // Right sides: derivatives by the loads, explicit and through the gaps.
+        let n = self.n_touching;
+        let reversed = self.region.reversed();
+        let mut right_side = |by_values: &&[f64]| -> Vec<f64> {
+            let mut by_gaps = by_values.to_vec();
+            by_gaps[..n].fill(0.0);
+            let through_gaps = displacements(self.plans, &reversed, &by_gaps);
+            let pairs = by_values[..n].iter().zip(through_gaps);
+            pairs
+                .map(|(explicit, through)| explicit + through)
+                .collect()
+        };
+        let right_sides: Vec<_> = derivatives.iter().map(&mut right_side).collect();
+
+        // Solve, and extend the loads by the elements outside the contact.
+        let (contact, direction) = (&self.elements[..n], KernelDirection::Reversed);
+        let mut solutions = solve(self.mesh, self.plans, contact, direction, &right_sides)?;
+        for (loads, by_values) in solutions.iter_mut().zip(derivatives) {
+            loads.extend(by_values[n..].iter().map(|by_gap| -by_gap));
+        }
+        Ok(solutions)
+    }
+
+    /// The mean slope, from the explicit slope terms of the body.
+    pub(super) fn mean_slope(&mut self, slope: FrictionSlope, mut slopes: Vec<f64>) -> MeanSlope {
+        // Sum over all elements of the load times the derivative of the slope by the load of each element.
+        let mut by_others = vec![0.0; slopes.len()];
+        if slope != FrictionSlope::Body {
+            // Slopes of the displacements; the reversed motion gives the derivatives.
+            let region = self.with_neighbours_along_x();
+            for (slope, moved) in slopes.iter_mut().zip(self.differences_along_x(&region)) {
+                *slope -= moved;
+            }
+            by_others = self.differences_along_x(&region.reversed());
+        }
+
+        let weighted = self.weighted(&self.loads).into_iter().zip(&slopes);
+        let value = weighted.map(|(load, slope)| load * slope).sum::<f64>() / self.total;
+        let pairs = slopes.iter().zip(by_others);
+        let by_loads = pairs.map(|(here, others)| (here + others - value) / self.total);
+        let mut by_loads: Vec<f64> = by_loads.collect();
+        by_loads[self.n_touching..].fill(0.0);
+        MeanSlope { value, by_loads }
+    }
+
+    /// A region of the neighbours ahead, the neighbours behind and the elements.
+    fn with_neighbours_along_x(&self) -> Region {
         let places = || {
             let elements = self.elements.iter();
             elements.map(|&element| self.mesh.places(element))
@@ -175,31 +148,85 @@ impl<'mesh> LoadedContact<'mesh> {
             places().map(move |both| both.map(|[row, column]| [step(row), column]))
         };
         // A field takes the last of several values at one place: that of the element.
-        let with_neighbours = moved(|row| row + 1)
+        let all = moved(|row| row + 1)
             .chain(moved(|row| row - 1))
             .chain(places());
-        let region = Region::around(with_neighbours.collect::<Vec<_>>().iter().copied());
-        let loads = [&vec![0.0; 2 * n], &self.loads[..]].concat();
+        Region::around(all.collect::<Vec<_>>().iter().copied())
+    }
 
-        // Central differences for the motion and for the reversed one, which gives the derivative by the other loads.
-        let mut differences = |region: &Region| -> Vec<f64> {
-            let mut operator = KernelOperator::new(plans.kernel(region.shape), region);
-            let displacements = operator.apply(0, &loads, region);
-            let difference = |element| 0.5 * (displacements[element] - displacements[n + element]);
-            (0..n).map(difference).collect()
-        };
-        let [slopes, reversed] = [differences(&region), differences(&region.reversed())];
-        let at_elements = slope_terms.iter().zip(&slopes);
-        Slopes {
-            at_elements: at_elements.map(|(term, slope)| term - slope).collect(),
-            by_others: reversed,
+    /// Central differences of the displacements along x, on a region of the neighbours ahead and behind and the elements.
+    fn differences_along_x(&mut self, region: &Region) -> Vec<f64> {
+        let n = self.elements.len();
+        let loads = [&vec![0.0; 2 * n], &self.loads[..]].concat();
+        let displacements = displacements(self.plans, region, &loads);
+        let difference = |element| 0.5 * (displacements[element] - displacements[n + element]);
+        (0..n).map(difference).collect()
+    }
+
+    /// Derivatives of the area and of the boundary weight by the loads in contact and the gaps next to it, element by element.
+    pub(super) fn boundary(&mut self) -> Result<ContactBoundary, BemError> {
+        // Loads inside and gaps outside the boundary.
+        let n = self.n_touching;
+        let mut values = self.loads.clone();
+        let moved = displacements(self.plans, &self.region, &self.loads);
+        let outside = values.iter_mut().zip(&self.elements).zip(moved).skip(n);
+        for ((value, &element), moved) in outside {
+            *value = self.mesh.height(element) + moved - self.depth;
         }
+
+        // Each end of a strip has one pair of elements only, for which the mean ratio of loads to gaps would be wrong.
+        let unit_depth_response = if self.mesh.loading.is_strip {
+            let response = self.unit_depth_response()?;
+            Some(self.over_box(response.into_iter(), f64::NAN))
+        } else {
+            None
+        };
+        let boundary = ContactBoundary::new(&BoundaryField {
+            shape: self.region.shape,
+            is_periodic: false,
+            aspect: self.mesh.aspect(),
+            inside: self.over_box((0..values.len()).map(|index| index < n), false),
+            values: self.over_box(values.into_iter(), f64::NAN),
+            second_difference: [0, 1].map(|axis| self.mesh.kernel_second_difference(axis)),
+            unit_depth_response,
+        });
+        let by_element = |measure: BoundaryDerivatives| BoundaryDerivatives {
+            by_values: self.region.gather(&measure.by_values),
+            ..measure
+        };
+        Ok(ContactBoundary {
+            area: by_element(boundary.area),
+            boundary_weight: by_element(boundary.boundary_weight),
+        })
+    }
+
+    /// Increase of the loads in the contact, and decrease of the gaps outside, per unit of depth.
+    fn unit_depth_response(&mut self) -> Result<Vec<f64>, BemError> {
+        let n = self.n_touching;
+        let (contact, direction) = (&self.elements[..n], KernelDirection::Forward);
+        let unit_depth = vec![vec![1.0; n]];
+        let mut response = solve(self.mesh, self.plans, contact, direction, &unit_depth)?.remove(0);
+        response.resize(self.elements.len(), 0.0);
+        let moved = displacements(self.plans, &self.region, &response);
+        for (value, moved) in response.iter_mut().zip(moved).skip(n) {
+            *value = 1.0 - moved;
+        }
+        Ok(response)
+    }
+
+    /// Values of all elements, and of their mirror images, over the box of the region.
+    fn over_box<T: Copy>(&self, values: impl Iterator<Item = T>, elsewhere: T) -> Vec<T> {
+        let mut field = vec![elsewhere; self.region.n_places()];
+        for (places, value) in self.region.places().iter().zip(values) {
+            for place in places {
+                field[*place] = value;
+            }
+        }
+        field
     }
 }
 
-/// The slopes whose mean under the load is the friction.
-pub(super) struct Slopes {
-    at_elements: Vec<f64>,
-    /// Sum over all elements of the load times the derivative of the slope by the load of this element.
-    by_others: Vec<f64>,
+/// Displacements of the elements of a region by loads on them.
+fn displacements(plans: &mut Plans, region: &Region, loads: &[f64]) -> Vec<f64> {
+    KernelOperator::new(plans.kernel(region.shape), region).apply(0, loads, region)
 }

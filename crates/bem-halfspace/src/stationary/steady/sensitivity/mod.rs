@@ -26,27 +26,30 @@
 //! Theory: docs/sensitivity.md, "What is known of them".
 
 mod adjoint_solve;
-mod basis;
-mod boundary_measures;
 mod collocation_points;
 mod contact_derivatives;
 mod correlation;
-mod correlation_spectrum;
+mod kernel_gradient;
+mod kernel_table;
+mod kernel_waves;
 mod loaded_contact;
 mod two_grid_extrapolation;
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Estimate, InvalidParameter, in_range, not_negative};
+use numerics::{Estimate, in_range};
 use rheology::Material;
 
+use crate::stationary::change;
+pub use crate::stationary::change::{ByModuli, Change};
 use crate::stationary::steady::line::Strip;
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
 use crate::{BemError, Elastomer};
-use contact_derivatives::ContactDerivatives;
+use contact_derivatives::{ContactDerivatives, Gradient};
+use kernel_gradient::{CreepChange, GridKernel};
 pub(crate) use two_grid_extrapolation::TwoGridExtrapolation;
-use two_grid_extrapolation::{MeanAndSpread, mean_over_shifts};
+use two_grid_extrapolation::mean_over_shifts;
 
 /// Spacing of the coarse grids over that of the fine ones.
 const COARSE_SPACING_FACTOR: f64 = 2.0;
@@ -74,33 +77,6 @@ const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
 const ALLOWED_FLUIDITY_AT_DEPTH: &str =
     "0 on a half space at a depth, which otherwise belongs to a distance";
 
-/// The change of a stationary state to first order. For a periodic surface forces are those of one period, and the depth is that of the
-/// mean plane.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[must_use]
-pub struct Change<T> {
-    /// Change of the friction coefficient.
-    pub friction_coefficient: T,
-    /// Change of the indentation depth under a given force, \[m]. `None` at a given depth, in plane strain, and on a half space that flows.
-    pub indentation_depth: Option<T>,
-    /// Change of the normal force at a given depth, \[N]. `None` under a given force.
-    pub normal_force: Option<T>,
-    /// Change of the logarithm of the contact area, or of the width in plane strain. `None` under bodies with edges.
-    pub contact_area: Option<T>,
-}
-
-/// The derivatives by the complex modulus in a band of frequencies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[must_use]
-pub struct ByModuli {
-    /// Lowest and highest angular frequency of the band, \[rad/s].
-    pub frequencies: [f64; 2],
-    /// Derivative by the logarithm of the storage modulus in the band.
-    pub storage_modulus: Change<Estimate>,
-    /// Derivative by the logarithm of the loss modulus in the band.
-    pub loss_modulus: Change<Estimate>,
-}
-
 /// A stationary contact with its adjoint loads on fine and coarse grids, whose difference gives the errors of all derivatives.
 #[derive(Debug)]
 #[must_use]
@@ -113,6 +89,7 @@ pub struct SteadySensitivity {
 #[derive(Debug)]
 #[must_use]
 pub struct SensitivityOnGrid {
+    kernel: GridKernel,
     contacts: Vec<ContactDerivatives>,
 }
 
@@ -189,7 +166,8 @@ impl SteadySensitivity {
         let sensitivity = Self { fine, coarse };
 
         // Halve the spacing where the derivatives are inaccurate and the contact has few elements.
-        if sensitivity.fine.n_unknowns() > HALVING_MAX_UNKNOWNS || sensitivity.is_accurate() {
+        let is_large = sensitivity.fine.contacts[0].n_unknowns > HALVING_MAX_UNKNOWNS;
+        if is_large || sensitivity.is_accurate(loading.control) {
             return Ok(sensitivity);
         }
         Ok(Self {
@@ -199,30 +177,12 @@ impl SteadySensitivity {
     }
 
     /// True if the derivatives of the friction by load and velocity are accurate to the tolerance.
-    fn is_accurate(&self) -> bool {
-        let error = |derivative: fn(&ContactDerivatives) -> Change<f64>| {
-            self.limit_of(derivative).friction_coefficient.error
-        };
-        let by_load = error(ContactDerivatives::by_load) * self.fine.given();
+    fn is_accurate(&self, control: Control) -> bool {
+        let (Control::NormalForce(given) | Control::IndentationDepth(given)) = control;
+        let by_load = self.by_load().friction_coefficient.error * given;
+        let by_velocity = limit(self.fine.by_velocity(), self.coarse.by_velocity());
         let allowed = LOG_DERIVATIVE_TOLERANCE * self.fine.friction_coefficient().abs();
-        by_load.max(error(ContactDerivatives::by_velocity)) <= allowed
-    }
-
-    /// The extrapolated limit of a derivative.
-    fn limit_of(
-        &self,
-        derivative: impl Fn(&ContactDerivatives) -> Change<f64>,
-    ) -> Change<Estimate> {
-        let mean = |grids: &SensitivityOnGrid| grids.mean_over_grids(&derivative);
-        EXTRAPOLATION.limit(mean(&self.fine), mean(&self.coarse))
-    }
-
-    /// The extrapolated limit of a change that may fail on a grid.
-    fn limit_of_change(
-        &self,
-        change: impl Fn(&SensitivityOnGrid) -> Result<Change<MeanAndSpread>, BemError>,
-    ) -> Result<Change<Estimate>, BemError> {
-        Ok(EXTRAPOLATION.limit(change(&self.fine)?, change(&self.coarse)?))
+        by_load.max(by_velocity.friction_coefficient.error) <= allowed
     }
 
     /// The change from one body to another, both near that of the state.
@@ -230,7 +190,7 @@ impl SteadySensitivity {
     /// # Errors
     /// [`BemError::InvalidParameter`] where a height in the contact is not finite.
     pub fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Change<Estimate>, BemError> {
-        self.limit_of_change(|grids| grids.try_mean(|state| state.between_bodies(bodies)))
+        self.limit(|grids| grids.between_bodies(bodies))
     }
 
     /// The change from one material and velocity to another, both near those of the state, on the same base. It is fast if both
@@ -243,7 +203,8 @@ impl SteadySensitivity {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        self.limit_of_change(|grids| grids.mean_between(materials, velocities))
+        let ends = creeps(materials, velocities)?;
+        self.limit(|grids| grids.between_creeps(&ends))
     }
 
     /// The change from the elastomer and velocity of the state to others near them, such as a layer of another Poisson ratio.
@@ -256,38 +217,49 @@ impl SteadySensitivity {
         velocity: f64,
     ) -> Result<Change<Estimate>, BemError> {
         let creep = SlidingCreep::new(elastomer, velocity)?;
-        self.limit_of_change(|grids| {
-            Ok(mean_over_shifts(ContactDerivatives::all_to_elastomer(
-                &grids.contacts,
-                &creep,
-            )?))
-        })
+        self.limit(|grids| grids.to_elastomer(&creep))
+    }
+
+    /// The extrapolated limit of a change.
+    fn limit(
+        &self,
+        of: impl Fn(&SensitivityOnGrid) -> Result<Vec<Change<f64>>, BemError>,
+    ) -> Result<Change<Estimate>, BemError> {
+        Ok(limit(of(&self.fine)?, of(&self.coarse)?))
     }
 
     /// The extrapolated friction coefficient.
     pub fn friction_coefficient(&self) -> Estimate {
-        let friction = |contact: &ContactDerivatives| Change {
-            friction_coefficient: contact.friction_coefficient,
-            indentation_depth: None,
-            normal_force: None,
-            contact_area: None,
-        };
-        self.limit_of(friction).friction_coefficient
+        let [fine, coarse] = [&self.fine, &self.coarse].map(|grids| {
+            let frictions = grids.contacts.iter().map(|one| one.friction_coefficient);
+            let no_others = |friction_coefficient| Change {
+                friction_coefficient,
+                indentation_depth: None,
+                normal_force: None,
+                contact_area: None,
+            };
+            frictions.map(no_others).collect()
+        });
+        limit(fine, coarse).friction_coefficient
     }
 
     /// The derivative by the given normal force, per newton, or by the given depth, per metre.
     pub fn by_load(&self) -> Change<Estimate> {
-        self.limit_of(ContactDerivatives::by_load)
+        limit(self.fine.by_load(), self.coarse.by_load())
     }
 
     /// The derivatives by the logarithm of the thickness of the layer; 0 on a half space.
     pub fn by_thickness(&self) -> Change<Estimate> {
-        self.limit_of(ContactDerivatives::by_thickness)
+        let [fine, coarse] = [&self.fine, &self.coarse]
+            .map(|grids| grids.changes(|gradient| gradient.kernel.by_log_thickness));
+        limit(fine, coarse)
     }
 
     /// The derivatives by the logarithm of the length of the track; 0 without one.
     pub fn by_track(&self) -> Change<Estimate> {
-        self.limit_of(ContactDerivatives::by_track)
+        let [fine, coarse] = [&self.fine, &self.coarse]
+            .map(|grids| grids.changes(|gradient| gradient.kernel.by_log_track));
+        limit(fine, coarse)
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies \[rad/s], each between
@@ -300,34 +272,11 @@ impl SteadySensitivity {
     /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, [`BemError::Material`] where the
     /// material is not known at them, and [`BemError::Indenter`] on a track, which only discrete waves fit.
     pub fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>, BemError> {
-        let bands = bands(frequencies)?;
-        // Means over the shifts, for each band by storage and by loss modulus.
-        let means =
-            |grids: &SensitivityOnGrid| -> Result<Vec<[Change<MeanAndSpread>; 2]>, BemError> {
-                let by_contact = grids
-                    .contacts
-                    .iter()
-                    .map(|state| state.by_moduli(&bands))
-                    .collect::<Result<Vec<_>, _>>()?;
-                let of_band = |band: usize| {
-                    [0, 1].map(|modulus| {
-                        let changes = by_contact.iter().map(|state| state[band][modulus]);
-                        mean_over_shifts(changes.collect())
-                    })
-                };
-                Ok((0..bands.len()).map(of_band).collect())
-            };
-        let pairs = means(&self.fine)?.into_iter().zip(means(&self.coarse)?);
-        let found = pairs.zip(&bands).map(|((fine, coarse), &frequencies)| {
-            let [storage_modulus, loss_modulus] =
-                [0, 1].map(|modulus| EXTRAPOLATION.limit(fine[modulus], coarse[modulus]));
-            ByModuli {
-                frequencies,
-                storage_modulus,
-                loss_modulus,
-            }
-        });
-        Ok(found.collect())
+        change::by_moduli(frequencies, |band| {
+            let [fine, coarse] = [&self.fine, &self.coarse].map(|grids| grids.by_moduli(band));
+            let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
+            Ok([limit(fine_storage, storage), limit(fine_loss, loss)])
+        })
     }
 }
 
@@ -371,15 +320,35 @@ impl SensitivityOnGrid {
         phases: &[[f64; 2]],
         reuse: &mut Reuse,
     ) -> Result<Self, BemError> {
+        // Contacts and their adjoint equations.
         let tolerance = options.tolerance.min(MAX_CONTACT_TOLERANCE);
-        let grids = phases.iter().map(|&phase| SteadyOptions {
-            phase,
-            tolerance,
-            ..*options
+        let mut on_grid = |&phase| {
+            let options = SteadyOptions {
+                phase,
+                tolerance,
+                ..*options
+            };
+            ContactDerivatives::new(surface, loading, &options, reuse)
+        };
+        let mut contacts: Vec<_> = phases.iter().map(&mut on_grid).collect::<Result<_, _>>()?;
+
+        // Contract the correlations of all of them with the kernel; then find the defects of the scaling identity.
+        let gradients = contacts.iter_mut();
+        let mut gradients: Vec<_> = gradients
+            .flat_map(ContactDerivatives::kernel_gradients)
+            .collect();
+        let max_offsets = gradients
+            .iter()
+            .map(|gradient| gradient.correlation.max_offsets());
+        let max_offsets = max_offsets.fold([0; 2], |most, one| {
+            [0, 1].map(|axis| most[axis].max(one[axis]))
         });
-        Ok(Self {
-            contacts: ContactDerivatives::on_grids(surface, loading, grids, reuse)?,
-        })
+        let kernel = GridKernel::new(&loading.creep, options.spacing, max_offsets)?;
+        kernel.contract(&mut gradients)?;
+        for contact in &mut contacts {
+            contact.find_dilation(surface, loading.strip, &kernel)?;
+        }
+        Ok(Self { kernel, contacts })
     }
 
     /// The mean friction coefficient of the grids.
@@ -397,49 +366,81 @@ impl SensitivityOnGrid {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<f64, BemError> {
-        let change = self.mean_between(materials, velocities)?;
-        Ok(change.friction_coefficient.mean)
+        let changes = self.between_creeps(&creeps(materials, velocities)?)?;
+        Ok(mean_over_shifts(changes).friction_coefficient.mean)
     }
 
-    /// Number of unknown pressures of one grid.
-    fn n_unknowns(&self) -> usize {
-        self.contacts
-            .first()
-            .map_or(0, ContactDerivatives::n_unknowns)
+    /// The change on each grid, from that of each quantity on fixed elements under a constant force.
+    fn changes(&self, of: impl Fn(&Gradient) -> f64) -> Vec<Change<f64>> {
+        let contacts = self.contacts.iter();
+        contacts.map(|contact| contact.change(&of)).collect()
     }
 
-    /// The given force or depth.
-    fn given(&self) -> f64 {
-        self.contacts.first().map_or(0.0, ContactDerivatives::given)
+    fn by_load(&self) -> Vec<Change<f64>> {
+        let contacts = self.contacts.iter();
+        contacts.map(ContactDerivatives::by_load).collect()
     }
 
-    /// The mean over the shifted grids of a derivative.
-    fn mean_over_grids(
-        &self,
-        of: impl Fn(&ContactDerivatives) -> Change<f64>,
-    ) -> Change<MeanAndSpread> {
-        mean_over_shifts(self.contacts.iter().map(of).collect())
+    fn by_creep(&self, change: &CreepChange) -> Vec<Change<f64>> {
+        self.changes(|gradient| gradient.kernel.by_creep(change))
     }
 
-    /// The mean change between two materials and velocities.
-    fn mean_between(
-        &self,
-        materials: [&dyn Material; 2],
-        velocities: [f64; 2],
-    ) -> Result<Change<MeanAndSpread>, BemError> {
-        let [from, to] = [0, 1].map(|end| SlidingCreep::new(&materials[end], velocities[end]));
-        let ends = [from?, to?];
-        self.try_mean(|state| state.between_materials(ends.each_ref()))
+    fn by_velocity(&self) -> Vec<Change<f64>> {
+        self.by_creep(&self.kernel.by_velocity())
     }
 
-    /// The mean over the shifted grids of a change that may fail.
-    fn try_mean(
-        &self,
-        of: impl Fn(&ContactDerivatives) -> Result<Change<f64>, BemError>,
-    ) -> Result<Change<MeanAndSpread>, BemError> {
-        let changes = self.contacts.iter().map(of).collect::<Result<_, _>>()?;
-        Ok(mean_over_shifts(changes))
+    fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Vec<Change<f64>>, BemError> {
+        let contacts = self.contacts.iter();
+        contacts
+            .map(|contact| contact.between_bodies(bodies))
+            .collect()
     }
+
+    /// The change from one material and velocity to another, on the base of the contact.
+    fn between_creeps(&self, ends: &[SlidingCreep; 2]) -> Result<Vec<Change<f64>>, BemError> {
+        // With as many retardation elements as here the derivatives by them suffice; otherwise contract both whole kernels.
+        let [from, to] = ends.each_ref().map(SlidingCreep::over_distance);
+        let kernel = &self.kernel;
+        if [&from, &to]
+            .into_iter()
+            .all(|end| kernel.has_same_retardations(end))
+        {
+            return Ok(self.by_creep(&kernel.between_creeps(&from, &to)));
+        }
+        let [from, to] = ends.clone().map(|end| kernel.of_material(end));
+        let (from, to) = (from?, to?);
+        Ok(self.changes(|Gradient { kernel, .. }| {
+            kernel.correlation.contract(&to) - kernel.correlation.contract(&from)
+        }))
+    }
+
+    fn to_elastomer(&self, creep: &SlidingCreep) -> Result<Vec<Change<f64>>, BemError> {
+        let other = self.kernel.of_elastomer(creep.clone())?;
+        let own = self.kernel.whole_creep();
+        Ok(self.changes(|Gradient { kernel, .. }| {
+            kernel.correlation.contract(&other) - kernel.by_creep(&own)
+        }))
+    }
+
+    /// The derivatives by the logarithms of the storage and of the loss modulus in a band of frequencies.
+    fn by_moduli(&self, band: [f64; 2]) -> Result<[Vec<Change<f64>>; 2], BemError> {
+        let kernels = self.kernel.by_moduli(band)?;
+        Ok(kernels.map(|kernel| self.changes(|one| one.kernel.correlation.contract(&kernel))))
+    }
+}
+
+/// The extrapolated limit of changes on fine and coarse grids.
+fn limit(fine: Vec<Change<f64>>, coarse: Vec<Change<f64>>) -> Change<Estimate> {
+    EXTRAPOLATION.limit(mean_over_shifts(fine), mean_over_shifts(coarse))
+}
+
+/// The creep of two materials at their velocities.
+fn creeps(
+    materials: [&dyn Material; 2],
+    velocities: [f64; 2],
+) -> Result<[SlidingCreep; 2], BemError> {
+    let [from, to] = [0, 1].map(|end| SlidingCreep::new(&materials[end], velocities[end]));
+    Ok([from?, to?])
 }
 
 /// The loading, if the contact has derivatives under it.
@@ -462,22 +463,6 @@ fn loading(
         ALLOWED_FLUIDITY_AT_DEPTH,
     )?;
     Ok(loading)
-}
-
-/// The bands between increasing frequencies.
-pub(crate) fn bands(frequencies: &[f64]) -> Result<Vec<[f64; 2]>, InvalidParameter> {
-    let band = |ends: &[f64]| {
-        not_negative("frequency", ends[0])?;
-        let increases = ends[1] > ends[0];
-        in_range(
-            "frequency",
-            ends[1],
-            increases,
-            "greater than the one before",
-        )?;
-        Ok([ends[0], ends[1]])
-    };
-    frequencies.windows(2).map(band).collect()
 }
 
 #[cfg(test)]

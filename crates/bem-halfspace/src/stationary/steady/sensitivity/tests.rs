@@ -62,7 +62,7 @@ impl Case {
         factors: &Factors,
         options: SteadyOptions,
         start: Option<&SteadySliding>,
-    ) -> (ContactDerivatives, SteadySliding) {
+    ) -> (SensitivityOnGrid, SteadySliding) {
         let (surface, material) = ((self.body)(factors[0]), self.material(factors));
         let layer = Layer::new(&material, self.thickness * factors[4]).expect("a layer");
         let loading = Loading::new(&*surface, &layer, &self.load(factors), &options.footprint);
@@ -70,10 +70,10 @@ impl Case {
             solution: start.cloned(),
             ..Reuse::default()
         };
-        let (loading, grids) = (loading.expect("a loading"), std::iter::once(options));
-        let states =
-            ContactDerivatives::on_grids(&*surface, &loading, grids, &mut reuse).expect("a state");
-        let state = states.into_iter().next().expect("one state");
+        let (loading, phases) = (loading.expect("a loading"), [options.phase]);
+        let state =
+            SensitivityOnGrid::on_shifted_grids(&*surface, &loading, &options, &phases, &mut reuse);
+        let state = state.expect("a state");
         (state, reuse.solution.expect("a solution"))
     }
 
@@ -84,7 +84,7 @@ impl Case {
             Control::NormalForce(_) => found.depth.at_distance(None),
             Control::IndentationDepth(_) => found.normal_force,
         };
-        [state.friction_coefficient, other]
+        [state.friction_coefficient(), other]
     }
 }
 
@@ -100,7 +100,7 @@ const NAMES: [&str; 8] = [
     "track",
 ];
 
-fn changed(case: &Case, state: &ContactDerivatives, index: usize) -> Change<f64> {
+fn changed(case: &Case, state: &SensitivityOnGrid, index: usize) -> Change<f64> {
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 8];
         factors[index] += step;
@@ -116,7 +116,10 @@ fn changed(case: &Case, state: &ContactDerivatives, index: usize) -> Change<f64>
             let [Control::NormalForce(given) | Control::IndentationDepth(given)] = [case.control];
             Ok(scaled(state.by_load(), 2.0 * STEP * given))
         }
-        "track" => Ok(scaled(state.by_track(), 2.0 * STEP)),
+        "track" => Ok(scaled(
+            state.changes(|gradient| gradient.kernel.by_log_track),
+            2.0 * STEP,
+        )),
         name => {
             let creeps = [0, 1].map(|end| {
                 let thickness = case.thickness * ends[end][4];
@@ -124,16 +127,14 @@ fn changed(case: &Case, state: &ContactDerivatives, index: usize) -> Change<f64>
                 SlidingCreep::new(&layer, case.load(&ends[end]).velocity()).expect("a creep")
             });
             match name {
-                "ratio" | "thickness" => {
-                    let states = std::slice::from_ref(state);
-                    ContactDerivatives::all_to_elastomer(states, &creeps[1])
-                        .map(|found| scaled(found[0], 2.0))
-                }
-                _ => state.between_materials(creeps.each_ref()),
+                "ratio" | "thickness" => state
+                    .to_elastomer(&creeps[1])
+                    .map(|found| scaled(found, 2.0)),
+                _ => state.between_creeps(&creeps),
             }
         }
     };
-    change.expect("a change")
+    change.expect("a change")[0]
 }
 
 /// Of the friction, and of the depth or the force.
@@ -142,14 +143,11 @@ fn values(change: &Change<f64>) -> [f64; 2] {
     [change.friction_coefficient, other.unwrap_or(0.0)]
 }
 
-fn scaled(change: Change<f64>, factor: f64) -> Change<f64> {
-    let times = |known: f64| factor * known;
-    Change {
-        friction_coefficient: times(change.friction_coefficient),
-        indentation_depth: change.indentation_depth.map(times),
-        normal_force: change.normal_force.map(times),
-        contact_area: change.contact_area.map(times),
-    }
+fn scaled(changes: Vec<Change<f64>>, factor: f64) -> Vec<Change<f64>> {
+    let changes = changes.iter();
+    changes
+        .map(|change| change.map(|value| factor * value))
+        .collect()
 }
 
 fn cases() -> [Case; 6] {
@@ -190,8 +188,8 @@ fn cases() -> [Case; 6] {
 /// Derivatives of friction, and of depth or force, by differences and by the adjoint loads.
 fn compared(case: &Case, index: usize, options: SteadyOptions) -> [[f64; 2]; 2] {
     let (mut state, solution) = case.state(&[1.0; 8], options, None);
-    if let Some(dilation) = &mut state.dilation {
-        dilation.defects.fill(0.0);
+    if let Some(dilation) = &mut state.contacts[0].dilation {
+        dilation.defects = dilation.defects.map(|_| 0.0);
     }
     let ends = [-STEP, STEP].map(|step| {
         let mut factors = [1.0; 8];
@@ -225,7 +223,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
         } else {
             solution.friction_from_dissipation
         };
-        let off = (state.friction_coefficient - found).abs();
+        let off = (state.friction_coefficient() - found).abs();
         assert!(off < 1e-11, "{}: {off:e}", case.name);
         let rows = [0, 1, 2, 3, 4, 5, 6, 7].map(|index| compared(&case, index, options));
         for quantity in 0..2 {
@@ -249,7 +247,7 @@ fn derivatives_are_those_of_the_equations_on_the_grid() {
 /// quantities, with the sum of the absolute values.
 fn by_frequencies(
     case: &Case,
-    state: &ContactDerivatives,
+    state: &SensitivityOnGrid,
     index: usize,
     options: SteadyOptions,
 ) -> [[f64; 2]; 2] {
@@ -264,7 +262,10 @@ fn by_frequencies(
     let edges = edges.take_while(|edge| *edge < last);
     let edges: Vec<f64> = [0.0].into_iter().chain(edges).collect();
     let bands: Vec<[f64; 2]> = edges.windows(2).map(|ends| [ends[0], ends[1]]).collect();
-    let found = state.by_moduli(&bands).expect("derivatives");
+    let found = bands.iter().map(|band| {
+        let by_moduli = state.by_moduli(*band).expect("derivatives");
+        by_moduli.map(|changes| changes[0])
+    });
     let [mut sums, mut sizes] = [[0.0; 2]; 2];
     for ([from, to], derivatives) in bands.iter().zip(found) {
         let [before, after] = materials.each_ref().map(|material| {
@@ -288,7 +289,7 @@ fn by_frequencies(
     [sums, sizes]
 }
 
-/// CorrelationSpectrum are another way to the same number: those of a modulus, of a time and of the unit of stress.
+/// Waves are another way to the same number: those of a modulus, of a time and of the unit of stress.
 #[test]
 fn derivatives_by_frequencies_add_up_to_those_by_moduli_and_times() {
     let side = [-1.7, 1.7];
@@ -296,7 +297,7 @@ fn derivatives_by_frequencies_add_up_to_those_by_moduli_and_times() {
     for case in cases() {
         let (state, _) = case.state(&[1.0; 8], options, None);
         if case.track.is_some() {
-            let refused = state.by_moduli(&[[0.0, 1.0]]);
+            let refused = state.by_moduli([0.0, 1.0]);
             assert!(matches!(refused, Err(BemError::Indenter(_))), "waves");
             continue;
         }
@@ -407,7 +408,7 @@ fn derivatives_add_up_in_units_of_length() {
             assert!(off < 1e-5 * size, "{}, {quantity}: {sum:e}", case.name);
         }
         if case.flows {
-            let power = load[0] / state.friction_coefficient;
+            let power = load[0] / state.friction_coefficient();
             assert!((power - 0.5).abs() < 1e-6, "{power} instead of 1/2");
         }
     }

@@ -19,15 +19,14 @@ use std::iter;
 use rustfft::num_complex::Complex;
 
 use crate::Base;
-use crate::parallel::reductions::dot;
-use crate::stationary::steady::sensitivity::correlation::Correlation;
+use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
 
 /// Step of u of the trapezoidal rule, for an integrand that does not oscillate; chosen.
 const QUADRATURE_STEP: f64 = 0.25;
 /// Steps of the trapezoidal rule per shortest wave of an oscillating integrand. This wave is at the end of the range, where the integrand
 /// is negligible; chosen.
 const STEPS_PER_WAVE: f64 = 2.0;
-/// Product of wave number and thickness above which M − 1 is negligible, so that a layer acts like a half space; chosen.
+/// Product x of wave number and thickness above which a layer acts like a half space: M − 1, of the order x² e^(−2x), is below 1e-13.
 const MAX_LAYER_WAVE_NUMBER: f64 = 18.0;
 /// Largest length of a panel of the integral over a band, in waves over the longest distance of the correlation; chosen.
 const WAVES_PER_PANEL: f64 = 0.4;
@@ -38,22 +37,23 @@ const FIRST_PANEL_END: f64 = 1e-3;
 /// The nodes ±1/√3 of the Gauss rule of two points on [−1, 1].
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 
-/// The correlations of quantities on one grid, and the parameters of its kernels.
-pub(super) struct CorrelationSpectrum<'a> {
-    pub(super) quantities: Vec<&'a Correlation>,
+/// The kernel of a unit compliance on a grid, as a sum of waves.
+pub(super) struct KernelWaves<'a> {
     /// The base, with lengths in Δx.
     pub(super) base: &'a Base,
     /// Δy/Δx.
     pub(super) aspect: f64,
     /// Position of the collocation points, in elements from their centres.
     pub(super) collocation_shift: f64,
+    /// Largest offsets along x and y.
+    pub(super) max_offsets: [usize; 2],
 }
 
-impl CorrelationSpectrum<'_> {
+impl KernelWaves<'_> {
     /// Nodes and weights of an integral over wave numbers. The panels resolve the waves over the longest distance of the correlation, and
     /// functions of the logarithm of the frequency.
     pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
-        let rows = (2 * self.max_offsets()[0] + 1) as f64;
+        let rows = (2 * self.max_offsets[0] + 1) as f64;
         let widest = WAVES_PER_PANEL * TAU / rows;
         let next = move |from: f64| {
             to.min(from + widest)
@@ -67,26 +67,23 @@ impl CorrelationSpectrum<'_> {
         })
     }
 
-    fn max_offsets(&self) -> [usize; 2] {
-        self.quantities
-            .first()
-            .map_or([0; 2], |correlation| correlation.max_offsets())
-    }
-
-    /// Contractions of each quantity with the wave of one wave number in the kernel of a unit compliance.
-    pub(super) fn at_wave_number(&self, wave_number: f64) -> Vec<Complex<f64>> {
-        let [rows, columns] = self.max_offsets();
-        let kernel = self.along_y(wave_number, columns);
+    /// Adds the waves of one wave number with given amplitudes, relative to those of a unit compliance, to one kernel each.
+    pub(super) fn add(
+        &self,
+        kernels: &mut [KernelTable; 2],
+        wave_number: f64,
+        amplitudes: [Complex<f64>; 2],
+    ) {
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
-        let sum = |correlation: &&Correlation| -> Complex<f64> {
-            let wave = |row: usize| {
-                let x = row as f64 - rows as f64 + self.collocation_shift;
-                dot(correlation.row(row), &kernel) * Complex::cis(wave_number * x)
+        let along_y = self.along_y(wave_number, self.max_offsets[1]);
+        for (kernel, amplitude) in kernels.iter_mut().zip(amplitudes) {
+            let along_x = |offset: isize| {
+                let x = offset as f64 + self.collocation_shift;
+                mean * (Complex::cis(wave_number * x) * amplitude).re
             };
-            (0..=2 * rows).map(wave).sum::<Complex<f64>>() * mean
-        };
-        self.quantities.iter().map(sum).collect()
+            kernel.add_product(along_x, &along_y);
+        }
     }
 
     /// The factor of k̂ that depends on y, at the distance of each column.
