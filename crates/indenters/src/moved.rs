@@ -4,7 +4,7 @@
 //! μ = ∫ F_t dx / ∫ F_N |dx|
 //! ```
 
-use numerics::{ErrorParts, Estimate, Quantity};
+use numerics::{ErrorParts, Estimate, Quantity, Refined};
 
 use crate::{Control, MovingLoad, Stage};
 
@@ -192,6 +192,8 @@ pub struct MotionView<'a> {
     pub load: &'a MovingLoad,
     /// Whether the material is elastic; the slope is then the scale of the friction coefficient.
     pub is_elastic: bool,
+    /// Order q with which the friction and the work of a cycle are extrapolated from n/2 and n elements; `None` if they are not.
+    pub extrapolation_order: Option<f64>,
 }
 
 impl MotionView<'_> {
@@ -266,6 +268,7 @@ impl MotionView<'_> {
                 },
                 error_floor: if is_cycle { imbalance.abs() } else { 0.0 },
                 rounding_error: FRICTION_ROUNDING * steepness,
+                extrapolation_order: self.extrapolation_order,
                 ..Quantity::from(friction)
             },
             Quantity {
@@ -279,6 +282,7 @@ impl MotionView<'_> {
                     0.0
                 },
                 rounding_error: FRICTION_ROUNDING * steepness * record.normal_work,
+                extrapolation_order: self.extrapolation_order,
                 controls_refinement: false,
                 ..Quantity::from(record.work)
             },
@@ -333,15 +337,22 @@ impl MotionView<'_> {
             .collect()
     }
 
-    /// The motion with the errors of its [`quantities`](Self::quantities).
-    pub fn moved(&self, record: MotionRecord, error: &[f64], error_parts: ErrorParts) -> Moved {
+    /// The motion with the values and errors of its [`quantities`](Self::quantities).
+    pub fn moved(&self, refined: Refined<MotionRecord>) -> Moved {
+        let Refined {
+            value: record,
+            quantities: stated,
+            error,
+            parts,
+            ..
+        } = refined;
         let is_cycle = self.load.is_cycle();
         // A negative dissipation within its error is 0, because no passive material gives energy back.
         let not_negative = |value: f64, error: f64| match value {
             value if is_cycle && value < 0.0 && -value <= error => Estimate::new(0.0, error),
             value => Estimate::new(value, error),
         };
-        let friction = not_negative(record.friction(), error[0]);
+        let friction = not_negative(stated[0], error[0]);
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
         let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
         let stations = self.stations().into_iter().enumerate();
@@ -370,9 +381,9 @@ impl MotionView<'_> {
         let end = |end: f64| Estimate::new(end, 2.0 * record.spacing);
         Moved {
             friction_coefficient: friction,
-            error_parts,
-            peak_friction: Estimate::new(record.peak(), error[1]),
-            dissipated_energy: is_cycle.then(|| not_negative(record.work, error[2])),
+            error_parts: parts[0],
+            peak_friction: Estimate::new(stated[1], error[1]),
+            dissipated_energy: is_cycle.then(|| not_negative(stated[2], error[2])),
             points: points.collect(),
             ends: last.map(|ends| ends.map(end)),
             n_cycles: record.n_cycles,

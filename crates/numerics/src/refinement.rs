@@ -12,6 +12,8 @@
 //! so that one or two differences alone may vanish by chance. Differences of close resolutions are divided by little, and
 //! hence carry most of this scatter. Measured on random scenes: docs/calibration.md, "What was measured".
 
+use std::f64::consts::LN_2;
+
 use thiserror::Error;
 
 use crate::progress::{Progress, SilentProgress, WorkProgress};
@@ -105,6 +107,9 @@ pub struct Quantity {
     pub error_floor: f64,
     /// Convergence order q > 0 of this quantity; `None` if it is that of the [goal](Goal::order).
     pub order: Option<f64>,
+    /// Order q with which the stated value is extrapolated to n → ∞ from n/2 and n elements, where errors are known to have one sign;
+    /// `None` if it is the value on n elements.
+    pub extrapolation_order: Option<f64>,
     /// True if the refinement continues until this quantity has the requested error; otherwise its error is only estimated.
     pub controls_refinement: bool,
 }
@@ -118,6 +123,7 @@ impl From<f64> for Quantity {
             rounding_error: 0.0,
             error_floor: 0.0,
             order: None,
+            extrapolation_order: None,
             controls_refinement: true,
         }
     }
@@ -128,6 +134,8 @@ impl From<f64> for Quantity {
 pub struct Refined<T> {
     /// The result.
     pub value: T,
+    /// Value of each quantity: that of the result, or [extrapolated](Quantity::extrapolation_order).
+    pub quantities: Vec<f64>,
     /// Absolute error of each quantity: the sum of its parts and rounding.
     pub error: Vec<f64>,
     /// Parts of each error by their sources.
@@ -345,12 +353,28 @@ pub fn refine<T, E>(
             }
         }
 
+        // Richardson extrapolation, where the order is known.
+        let stated = fine.iter().zip(&half).map(|(fine, half)| {
+            let gain = fine
+                .extrapolation_order
+                .map(|order| (order * LN_2).exp_m1());
+            gain.map_or(fine.value, |gain| {
+                fine.value + (fine.value - half.value) / gain
+            })
+        });
+        let stated: Vec<f64> = stated.collect();
+
         // Double the elements; their half and three eighths are known then.
-        let missed = not_reached(relative_error, &fine, &parts, elements);
+        let missed =
+            not_reached(relative_error, &fine, &parts, elements).map(|missed| NotReached {
+                value: stated[missed.quantity],
+                ..missed
+            });
         let unfinished = missed.filter(|_| !is_last());
         let level = Level {
             found: Refined {
                 error: errors(&fine, &parts),
+                quantities: stated,
                 value,
                 parts,
                 elements,
@@ -492,6 +516,37 @@ mod tests {
             let estimate_over_error = (got.error[0] - ROUNDING_ERROR) / (got.value - 3.0);
             assert_relative_eq!(estimate_over_error, 1.25, epsilon = 1e-9);
         }
+    }
+
+    #[test]
+    fn an_extrapolated_value_is_exact_for_its_order_and_keeps_its_bar() {
+        let goal = Goal {
+            request: Accuracy::Elements(64).into(),
+            initial_elements: FIRST_ELEMENTS,
+            max_elements: 128,
+            order: 1.0,
+            work_exponent: 0.0,
+            extra_work: 0.0,
+            selection_factor: 1.0,
+        };
+        let extrapolated = |value: &f64| {
+            let plain = Quantity::from(*value);
+            let extrapolation_order = Some(2.0);
+            vec![
+                plain,
+                Quantity {
+                    extrapolation_order,
+                    ..plain
+                },
+            ]
+        };
+        let solve =
+            |elements, _: &dyn Fn(f64)| Ok::<f64, NotReached>(3.0 + (elements as f64).powi(-2));
+        let got = refine(&goal, solve, extrapolated, |_, _| Ok(Vec::new())).expect("a value");
+        let [plain, best] = [got.quantities[0], got.quantities[1]];
+        assert_eq!(plain.to_bits(), got.value.to_bits(), "{got:?}");
+        assert_relative_eq!(best, 3.0, epsilon = 1e-15);
+        assert_eq!(got.error[0].to_bits(), got.error[1].to_bits(), "{got:?}");
     }
 
     #[test]

@@ -44,8 +44,9 @@ pub(super) fn refine_motion(
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(other_errors(record)),
     )?;
-    let found = view.moved(refined.value, &refined.error, refined.parts[0]);
-    let Some(missed) = refined.missed else {
+    let missed = refined.missed;
+    let found = view.moved(refined);
+    let Some(missed) = missed else {
         return Ok(found);
     };
     Err(BemError::NotReached {

@@ -118,6 +118,7 @@ pub fn move_along<'w>(
     let view = MotionView {
         load,
         is_elastic: material.creep().is_elastic(),
+        extrapolation_order: None,
     };
     let refined = refine(
         &goal,
@@ -129,8 +130,9 @@ pub fn move_along<'w>(
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, MdrError>(view.rests(record)),
     )?;
-    let found = view.moved(refined.value, &refined.error, refined.parts[0]);
-    match refined.missed {
+    let missed = refined.missed;
+    let found = view.moved(refined);
+    match missed {
         None => Ok(found),
         Some(missed) => Err(MdrError::MotionNotReached {
             missed,

@@ -103,6 +103,7 @@ pub fn move_along<'w>(
     let view = MotionView {
         load,
         is_elastic: problem.spectra.creep.is_elastic(),
+        extrapolation_order: None,
     };
     refine_motion(
         &goal,
