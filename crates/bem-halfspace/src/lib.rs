@@ -30,7 +30,12 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+// Factorises where the feature `dense` is off.
+#[cfg(feature = "dense")]
+use nalgebra as _;
+
 pub mod contact;
+mod dense;
 mod elements;
 mod error;
 mod estimate;

@@ -22,6 +22,7 @@ use numerics::transforms::Real as _;
 use rustfft::num_complex::Complex;
 
 use crate::contact::active_set::ActiveSet;
+use crate::dense;
 use crate::parallel::reductions::{add_scaled, larger, sum};
 use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr};
@@ -47,11 +48,9 @@ pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
 /// Ratio of two successive residuals above which the coarse-space correction is solved more accurately; chosen.
 const STAGNATION_RATIO: f64 = 0.9;
-/// Largest number of unknowns of a direct solve, which bounds its memory; chosen.
-const DIRECT_SOLVE_MAX_UNKNOWNS: f64 = 1000.0;
-/// Cost of a direct solve with n unknowns on a grid of N elements, in steps, over n³/N; measured on one thread from 16² to 64²
-/// elements.
-const DIRECT_SOLVE_COST: f64 = 0.005;
+/// Cost of a direct solve with n unknowns on a grid of N elements, in steps, over n³/N; measured on one thread. With faer it is 2e-4 to
+/// 7e-4 from 300 to 4000 unknowns.
+const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 };
 /// Operator applications on one grid, in direct solves of the present cost, beyond which active sets are solved directly.
 ///
 /// Of 5000 contacts and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000
@@ -191,7 +190,7 @@ impl Equations {
 
         // Iterate, unless a direct solve is known to be cheap; at most for the cost of a direct solve, if one is possible.
         let n_elements = self.scattered.len();
-        let can_be_direct = self.n_unknowns() <= DIRECT_SOLVE_MAX_UNKNOWNS;
+        let can_be_direct = self.n_unknowns() <= dense::MAX_UNKNOWNS as f64;
         let direct_cost = DIRECT_SOLVE_COST * self.n_unknowns().powi(3) / n_elements as f64;
         let affordable =
             (self.products as f64 / ITERATIONS_IN_DIRECT_SOLVES).max(self.largest_direct_cost);

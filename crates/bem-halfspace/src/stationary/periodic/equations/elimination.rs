@@ -4,11 +4,11 @@
 //! solve) the pressure that closes all gaps follows from the inverse of K on the whole grid, once the gaps of the open elements
 //! are known. These are the gaps that leave no pressure there.
 
-use nalgebra::DMatrix;
 use numerics::transforms::Real as _;
 
 use super::{Equations, unit_response};
 use crate::contact::active_set::Run;
+use crate::dense;
 use crate::parallel::reductions::add_scaled;
 use crate::parallel::row_blocks::copies;
 use crate::stationary::periodic::kernel::PeriodicKernel;
@@ -60,16 +60,16 @@ impl Equations {
         );
         image.iter_mut().for_each(|gap| *gap /= self.self_influence);
         // Responses to the gaps and to the unit gap, combined so that the mean pressure vanishes.
-        let vectors = [&self.gap, &*self.inside];
-        let right_sides = DMatrix::from_fn(elements.len(), 2, |row, side| {
-            f64::from(vectors[side][packed[row]])
+        let right_sides = [&self.gap, &*self.inside].map(|vector| {
+            let values = packed.iter().map(|index| f64::from(vector[*index]));
+            values.collect()
         });
-        let matrix = dense_matrix(&image, self.neighbourhood.columns, &elements);
-        let solved = matrix.lu().solve(&right_sides)?;
-        let depth = solved.column(0).sum() / solved.column(1).sum();
+        let entry = translation_invariant(&image, self.neighbourhood.columns, &elements);
+        let solved = dense::solve(entry, right_sides.into())?;
+        let depth = solved[0].iter().sum::<f64>() / solved[1].iter().sum::<f64>();
         let mut loads = vec![0.0; self.inside.len()];
-        for (row, index) in packed.into_iter().enumerate() {
-            loads[index] = depth * solved[(row, 1)] - solved[(row, 0)];
+        for (index, (gap, unit)) in packed.into_iter().zip(solved[0].iter().zip(&solved[1])) {
+            loads[index] = depth * unit - gap;
         }
         Some(loads)
     }
@@ -92,10 +92,10 @@ impl Equations {
             image
                 .iter_mut()
                 .for_each(|load| *load *= self.self_influence);
-            let right_side = DMatrix::from_fn(open.len(), 1, |row, _| loads[open[row]]);
-            let matrix = dense_matrix(&image, self.neighbourhood.columns, &open);
-            let open_gaps = matrix.lu().solve(&right_side)?;
-            for (element, gap) in open.iter().zip(&open_gaps) {
+            let right_side = open.iter().map(|element| loads[*element]).collect();
+            let entry = translation_invariant(&image, self.neighbourhood.columns, &open);
+            let open_gaps = dense::solve(entry, vec![right_side])?;
+            for (element, gap) in open.iter().zip(&open_gaps[0]) {
                 field[*element] = -gap;
             }
             self.apply_exact_inverse(&field, &mut loads);
@@ -117,17 +117,19 @@ impl Equations {
     }
 }
 
-/// Dense matrix, for some elements, of a translation-invariant map with the unit response `image`.
-fn dense_matrix(image: &[f64], columns: usize, elements: &[usize]) -> DMatrix<f64> {
+/// Entry (row, column) of the dense matrix, for some elements, of a translation-invariant map with the unit response `image`.
+fn translation_invariant(
+    image: &[f64],
+    columns: usize,
+    elements: &[usize],
+) -> impl Fn(usize, usize) -> f64 {
     let rows = image.len() / columns;
-    let between = |to: usize, from: usize| {
+    move |to: usize, from: usize| {
+        let [to, from] = [elements[to], elements[from]];
         let row = (to / columns + rows - from / columns) % rows;
         let column = (to % columns + columns - from % columns) % columns;
         image[row * columns + column]
-    };
-    DMatrix::from_fn(elements.len(), elements.len(), |to, from| {
-        between(elements[to], elements[from])
-    })
+    }
 }
 
 #[cfg(test)]

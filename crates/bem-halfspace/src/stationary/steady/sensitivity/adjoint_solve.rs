@@ -4,9 +4,8 @@
 //!
 //! Theory: docs/sensitivity.md.
 
-use nalgebra::{DMatrix, DVector};
-
 use crate::BemError;
+use crate::dense;
 use crate::stationary::conjugate_residuals::{gcr, norm};
 use crate::stationary::steady::contact_equations::{
     DIRECT_SOLVE_MAX_UNKNOWNS, GCR_LIMITS, MAX_GCR_STEPS, prefers_direct_solve,
@@ -94,7 +93,6 @@ fn solve_directly(
     motion: KernelDirection,
     right_sides: &[Vec<f64>],
 ) -> Option<Vec<Vec<f64>>> {
-    let n = contact.len();
     let entry = |row: usize, column: usize| {
         let [to, from] = [contact[row], contact[column]];
         match motion {
@@ -102,12 +100,7 @@ fn solve_directly(
             KernelDirection::Reversed => mesh.reversed_influence(to, from),
         }
     };
-    let factors = DMatrix::from_fn(n, n, entry).lu();
-    let solve_one = |right: &Vec<f64>| {
-        let solution = factors.solve(&DVector::from_column_slice(right))?;
-        Some(Vec::from(solution.data))
-    };
-    right_sides.iter().map(solve_one).collect()
+    dense::solve(entry, right_sides.to_vec())
 }
 
 const fn not_converged(residual: f64) -> BemError {
