@@ -8,7 +8,7 @@ use crate::BemError;
 use crate::dense;
 use crate::stationary::conjugate_residuals::{gcr, norm};
 use crate::stationary::steady::contact_equations::{
-    DIRECT_SOLVE_MAX_UNKNOWNS, GCR_LIMITS, MAX_GCR_STEPS, prefers_direct_solve,
+    GCR_LIMITS, MAX_GCR_STEPS, prefers_direct_solve,
 };
 use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
@@ -17,6 +17,7 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 
 /// Relative residual of the adjoint equations, ‖r‖ over the norm of the right side; chosen.
 const ADJOINT_TOLERANCE: f64 = 1e-9;
+
 /// Direction of the motion in the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum KernelDirection {
@@ -80,7 +81,7 @@ pub(super) fn solve(
     }
 
     // A material that is nearly viscous over the contact length may need as many directions as unknowns.
-    (n <= DIRECT_SOLVE_MAX_UNKNOWNS)
+    (n <= dense::MAX_UNKNOWNS)
         .then(|| solve_directly(mesh, contact, motion, right_sides))
         .flatten()
         .ok_or_else(|| not_converged(worst_residual))
