@@ -65,7 +65,7 @@ fn a_report_is_one_page_that_needs_no_other_file() {
     let friction = answer["friction_coefficient"].as_f64().expect("a friction");
     for part in [
         "A sphere slides over a standard solid material",
-        &format!("{friction:.9}"),
+        &format!("{friction:.7} ± "),
         "speed v [m/s]",
         "material.standard-solid.viscosity",
         "adhesion",

@@ -31,7 +31,7 @@ const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
 /// Largest number of footprints; chosen. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
 /// Memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes].
-const STEADY_BYTES_PER_ELEMENT: f64 = 900.0;
+const STEADY_BYTES_PER_ELEMENT: f64 = 1000.0;
 
 /// Largest memory of [`steady`] for a number of elements along the contact, \[bytes]. Where the contact is longer than expected, its
 /// footprint grows, and takes 9/4 of the memory each time.
