@@ -51,7 +51,7 @@ pub(super) fn check_surfaces(problem: &Problem) -> Result<(), SceneError> {
 
 /// The contact of an answer with its adjoint loads.
 pub(super) enum Contact {
-    Single(SteadySensitivity),
+    Single(Box<SteadySensitivity>),
     Periodic(Box<PeriodicSensitivity>),
 }
 
@@ -62,12 +62,12 @@ impl Contact {
         Ok(match (problem.body(), answer.stationary) {
             (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {
                 let of_line = SteadySensitivity::of_line(cylinder, &elastomer, load, &options);
-                Self::Single(of_line?)
+                Self::Single(Box::new(of_line?))
             }
             (body, Some(StationaryGrid::Contact(options))) => {
                 let surface = body.surface().ok_or(NONE)?;
                 let near = SteadySensitivity::new(surface, &elastomer, load, &options);
-                Self::Single(near?)
+                Self::Single(Box::new(near?))
             }
             (Body::Periodic(surface), _) => {
                 let pressure = answer.fields.pressure.as_ref().ok_or(NONE)?;
