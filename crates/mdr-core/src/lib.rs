@@ -29,12 +29,11 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-mod compensated;
-mod element_heights;
+mod branches;
 mod error;
-mod force_balance;
 mod history;
-mod motion;
+mod line;
+mod march;
 mod press;
 mod refinement;
 mod slide;
@@ -51,7 +50,7 @@ pub use error::MdrError;
 pub use history::{
     CurvePoint, ForceDerivatives, HistoryOptions, force_derivatives, indent_along, work_along,
 };
-pub use motion::{elements_of_motion, move_along, move_along_memory};
+pub use march::{elements_of_motion, move_along, move_along_memory};
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, indent, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};

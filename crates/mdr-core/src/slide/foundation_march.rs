@@ -15,10 +15,9 @@ use rheology::{CreepSpectrum, ExponentialStep, Material, check_spectra};
 use super::on_grid::SlideRow;
 use super::subgrid::{LastStep, StepScaleModuli, SubgridForces};
 use crate::MdrError;
-use crate::compensated::CompensatedSum;
-use crate::element_heights::ElementHeights;
 use crate::error::{enough_elements, finite};
-use crate::force_balance::ForceBalance;
+use crate::line::ElementHeights;
+use crate::march::{CompensatedSum, ForceBalance};
 
 /// A line that slides over a Winkler foundation. All lists run from the rear to the front of the line.
 pub(super) struct FoundationMarch {

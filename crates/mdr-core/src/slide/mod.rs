@@ -12,9 +12,9 @@ use numerics::{ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Quantity, Request, re
 use rheology::Material;
 
 use crate::MdrError;
-use crate::element_heights::lowest_candidate;
+use crate::line::{has_steep_kinks, lowest_candidate};
 use crate::refinement::{MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, MIN_ORDER, WORK_EXPONENT};
-use crate::steady::{LineProblem, has_steep_kinks};
+use crate::steady::LineProblem;
 use half_step_shift::{depends_on_step, half_step_shifted};
 use on_grid::march;
 pub use on_grid::{SlideOptions, SlideRow, Transient, slide_memory, slide_on_grid};

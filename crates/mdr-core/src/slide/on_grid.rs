@@ -20,8 +20,8 @@ use rheology::{ExponentialStep, Material};
 
 use super::foundation_march::{FoundationMarch, MarchStep};
 use crate::MdrError;
-use crate::element_heights::{ElementHeights, MAX_ELEMENTS, checked_height};
 use crate::error::{enough_elements, finite};
+use crate::line::{ElementHeights, MAX_ELEMENTS, checked_height};
 use crate::refinement::FOUNDATION_PER_CONTACT;
 use crate::steady::LineProblem;
 

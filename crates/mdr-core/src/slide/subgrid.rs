@@ -20,8 +20,7 @@
 use indenters::RigidLine;
 use rheology::Material;
 
-use crate::element_heights::ElementHeights;
-use crate::steady::has_steep_kinks;
+use crate::line::{ElementHeights, has_steep_kinks};
 
 /// Chords by which the tip in an element at the lowest point is resolved.
 const N_TIP_CHORDS: usize = 64;

@@ -14,15 +14,8 @@
 //!
 //! Theory: docs/theory/line-viscoelastic.md.
 
-mod branch;
 mod depth;
-mod foundation;
-mod legendre;
 mod problem;
-mod profile;
-mod range;
-mod segment;
-mod steep_kinks;
 mod sweep;
 mod track;
 
@@ -31,9 +24,7 @@ use numerics::{Estimate, between_zero_and_one};
 use rheology::Material;
 
 use crate::MdrError;
-pub(crate) use foundation::{Branch, Foundation, Mode};
 pub(crate) use problem::LineProblem;
-pub(crate) use steep_kinks::has_steep_kinks;
 
 /// The contact of a rigid line that slides, in the stationary state, or is pressed.
 #[derive(Debug, Clone, PartialEq)]

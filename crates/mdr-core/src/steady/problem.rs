@@ -8,14 +8,12 @@ use rheology::Material;
 
 use super::SteadySliding;
 use super::depth::{depth_of_load, polished_depth};
-use super::foundation::{Foundation, FreeSurface};
-use super::profile::{Profile, Resolution};
-use super::range::{Range, VerticalEdge, vertical_edge};
-use super::steep_kinks::SteepKink;
 use super::sweep::{SweepSums, sweep};
 use super::track::{check_length, sweep_until_periodic};
 use crate::MdrError;
+use crate::branches::{Foundation, FreeSurface};
 use crate::error::finite;
+use crate::line::{Profile, Range, Resolution, SteepKink, VerticalEdge, vertical_edge};
 
 /// Relative error of friction and force by rounding; larger than any seen.
 const STATE_ROUNDING: f64 = 256.0 * f64::EPSILON;

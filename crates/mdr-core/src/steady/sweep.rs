@@ -6,10 +6,9 @@
 
 use numerics::bracketed_root;
 
-use super::foundation::{Foundation, FreeSurface, SegmentSolution};
-use super::profile::{Piece, Profile};
-use super::segment::Segment;
 use crate::MdrError;
+use crate::branches::{Foundation, FreeSurface, SegmentSolution};
+use crate::line::{Piece, Profile, Segment};
 
 /// Positions in a segment at which the signs of load and gap are checked.
 const N_SEGMENT_SAMPLES: usize = 12;

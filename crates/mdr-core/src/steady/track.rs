@@ -12,11 +12,10 @@
 
 use numerics::{FixedPoint, anderson_fixed_point};
 
-use super::foundation::{Foundation, FreeSurface};
-use super::profile::Profile;
-use super::range::Range;
 use super::sweep::{SweepSums, sweep};
 use crate::MdrError;
+use crate::branches::{Foundation, FreeSurface};
+use crate::line::{Profile, Range};
 
 /// Passes of the track after which the search for the periodic state is given up.
 const MAX_PASSES: usize = 300;

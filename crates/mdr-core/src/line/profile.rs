@@ -8,13 +8,13 @@
 use indenters::RigidLine;
 use numerics::bracketed_root;
 
+use super::element_heights::{checked_height, invalid_height};
 use super::legendre::{
     DEGREE, Interpolation, Polynomial, derivative, end_value, start_value, value,
 };
 use super::range::Range;
 use super::segment::Segment;
 use crate::MdrError;
-use crate::element_heights::{checked_height, invalid_height};
 
 /// Positions along the whole range at which the polynomials are compared with the line, besides their nodes.
 const N_STATIONS: f64 = 64.0;
@@ -35,38 +35,38 @@ const MIN_PIECE_LENGTH: f64 = 1024.0 * f64::EPSILON;
 
 /// Criterion for a resolved polynomial.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Resolution {
+pub(crate) struct Resolution {
     /// Indentation depth, \[m].
-    pub(super) depth: f64,
+    pub(crate) depth: f64,
     /// Shortest distance of relaxation, \[m].
-    pub(super) shortest_length: f64,
+    pub(crate) shortest_length: f64,
     /// Size of negligible terms, in depths.
-    pub(super) tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 /// The part of a line that can come into contact, from the front to the rear.
-pub(super) struct Profile {
-    pub(super) pieces: Vec<Piece>,
+pub(crate) struct Profile {
+    pub(crate) pieces: Vec<Piece>,
     /// Distance from its front to its rear, \[m].
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// Height of the lowest point relative to the anchor, in depths.
-    pub(super) lowest: f64,
-    pub(super) interpolation: Interpolation,
+    pub(crate) lowest: f64,
+    pub(crate) interpolation: Interpolation,
 }
 
 /// A stretch over which the line only rises or only falls.
-pub(super) struct Piece {
+pub(crate) struct Piece {
     /// Compression that it imposes when the lowest point of the line is one depth deep. While the pieces are made, it is
     /// relative to that of the anchor.
-    pub(super) segment: Segment,
+    pub(crate) segment: Segment,
     /// Size of the first terms that are left out, in depths.
-    pub(super) tail: f64,
+    pub(crate) tail: f64,
     /// Whether it is as short as a piece can be, and still not resolved.
-    pub(super) singular: bool,
+    pub(crate) singular: bool,
 }
 
 impl Profile {
-    pub(super) fn new(
+    pub(crate) fn new(
         line: &dyn RigidLine,
         range: &Range,
         resolution: Resolution,

@@ -7,11 +7,10 @@
 use indenters::{Control, MotionRecord, MovingStep};
 
 use super::contact_history::{ContactHistory, CycleJacobian};
-use super::march::MotionProblem;
-use super::time_step::n_history;
+use super::motion_problem::MotionProblem;
 use super::winkler::WinklerFoundation;
 use crate::MdrError;
-use crate::steady::Mode;
+use crate::branches::{Mode, n_history};
 
 /// Cycles that are computed before the search for the limit cycle is given up.
 const MAX_CYCLES: usize = 400;

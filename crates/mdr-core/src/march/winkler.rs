@@ -16,14 +16,11 @@ use indenters::RigidLine;
 pub(super) use saved_recovery::SavedRecovery;
 
 use super::contact_history::{ContactHistory, ElementRecord};
-use super::event::ContactEvent;
-use super::heights::{HeightRow, HeightTable};
-use super::time_step::{StepWork, TimeStep, n_history};
+use super::force_balance::ForceBalance;
 use crate::MdrError;
-use crate::element_heights::ElementHeights;
+use crate::branches::{ContactEvent, Foundation, StepWork, TimeStep, n_history};
 use crate::error::finite;
-use crate::force_balance::ForceBalance;
-use crate::steady::Foundation;
+use crate::line::{ElementHeights, HeightRow, HeightTable};
 
 /// Elements of the foundation beyond each end of the range of the line, because a step moves it by up to one element.
 const FOUNDATION_MARGIN: f64 = 2.0;

@@ -16,8 +16,8 @@ const MIN_DIFFERENCE_RATIO: f64 = 1.99;
 const SLOPE_ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope is unbounded.
-pub(super) struct SteepKink {
-    pub(super) position: f64,
+pub(crate) struct SteepKink {
+    pub(crate) position: f64,
     /// The part of the line that is steep, \[m].
     side: [f64; 2],
 }
@@ -29,7 +29,7 @@ pub(crate) fn has_steep_kinks(line: &dyn RigidLine) -> bool {
 
 impl SteepKink {
     /// All steep kinks of a line except at x = 0, where a cusp is resolved as far as numbers reach.
-    pub(super) fn all_of(line: &dyn RigidLine) -> Vec<Self> {
+    pub(crate) fn all_of(line: &dyn RigidLine) -> Vec<Self> {
         let kinks = line.kinks().into_iter().filter(|kink| *kink != 0.0);
         let sides = kinks.flat_map(|position| [-1.0, 1.0].map(|side| (position, side)));
         let steep = sides.filter(|&(position, side)| is_steep(line, position, side));
@@ -44,7 +44,7 @@ impl SteepKink {
     /// Whether the steep side is in one of the contacts `[rear, front]`, or begins at its end.
     ///
     /// A contact that reaches beyond a kink by less than the rounding of its position counts as reaching beyond it.
-    pub(super) fn is_in(&self, contacts: &[[f64; 2]]) -> bool {
+    pub(crate) fn is_in(&self, contacts: &[[f64; 2]]) -> bool {
         let [first, last] = self.side;
         contacts
             .iter()

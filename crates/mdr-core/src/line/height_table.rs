@@ -3,8 +3,8 @@
 use indenters::RigidLine;
 use numerics::whole_part;
 
+use super::element_heights::{ElementHeights, checked_height};
 use crate::MdrError;
-use crate::element_heights::{ElementHeights, checked_height};
 
 /// Cells of the table per element of the foundation.
 const CELLS_PER_ELEMENT: usize = 4;
@@ -13,7 +13,7 @@ const CELLS_PER_ELEMENT: usize = 4;
 const CUBIC_TOLERANCE: f64 = 1e-10;
 
 /// Table of the heights above the lowest point, \[m].
-pub(super) struct HeightTable<'a> {
+pub(crate) struct HeightTable<'a> {
     line: &'a dyn RigidLine,
     lowest: f64,
     start: f64,
@@ -26,7 +26,7 @@ pub(super) struct HeightTable<'a> {
 
 impl<'a> HeightTable<'a> {
     /// Table over the part of a line that can come into contact.
-    pub(super) fn new(line: &'a dyn RigidLine, sampled: &ElementHeights) -> Result<Self, MdrError> {
+    pub(crate) fn new(line: &'a dyn RigidLine, sampled: &ElementHeights) -> Result<Self, MdrError> {
         let spacing = sampled.spacing / CELLS_PER_ELEMENT as f64;
         let [start, end] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let n_cells = ((end - start) / spacing).ceil().max(1.0);
@@ -61,12 +61,12 @@ impl<'a> HeightTable<'a> {
     }
 
     /// Height at a position on the line, \[m].
-    pub(super) fn height_at(&self, x: f64) -> Result<f64, MdrError> {
+    pub(crate) fn height_at(&self, x: f64) -> Result<f64, MdrError> {
         Ok(checked_height(self.line, x)? - self.lowest)
     }
 
     /// Heights over a row of elements, of which the first is at a position on the line, \[m].
-    pub(super) fn fill_row(
+    pub(crate) fn fill_row(
         &self,
         x: f64,
         n_elements: usize,
@@ -113,20 +113,20 @@ impl<'a> HeightTable<'a> {
 
 /// Heights of a line at one position of it, over a row of elements, \[m].
 #[derive(Debug, Default)]
-pub(super) struct HeightRow {
+pub(crate) struct HeightRow {
     /// Index of the first element.
-    pub(super) first: usize,
-    pub(super) heights: Vec<f64>,
+    pub(crate) first: usize,
+    pub(crate) heights: Vec<f64>,
 }
 
 impl HeightRow {
     /// Height over an element of the row.
-    pub(super) fn over(&self, element: usize) -> f64 {
+    pub(crate) fn over(&self, element: usize) -> f64 {
         self.heights[element - self.first]
     }
 
     /// Extends the row to the elements from `first` to `last`, which are at the positions `x` on the line.
-    pub(super) fn cover(
+    pub(crate) fn cover(
         &mut self,
         line: &HeightTable<'_>,
         [first, last]: [usize; 2],

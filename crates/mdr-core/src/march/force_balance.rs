@@ -8,7 +8,7 @@
 //! The load potential of an element under the force f is w = f/(4 Δx), and a step moves the element by α w. The sum is a
 //! convex, increasing, piecewise linear function of the depth, so that Newton's method ends at the exact solution.
 
-use crate::compensated::CompensatedSum;
+use super::compensated::CompensatedSum;
 
 /// A rigid line over a foundation, before the depth is known.
 #[derive(Debug, Clone, Copy)]

@@ -3,8 +3,8 @@
 use indenters::RigidLine;
 use numerics::bracketed_root;
 
+use super::element_heights::{checked_height, lowest_candidate};
 use crate::MdrError;
-use crate::element_heights::{checked_height, lowest_candidate};
 
 /// Samples of the line per doubling of the distance from the anchor. Narrower parts that come down again between
 /// kinks may be overlooked.
@@ -21,11 +21,11 @@ const EDGE_INSET: f64 = 1024.0 * f64::EPSILON;
 
 /// Positions between which all heights below the ceiling lie.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Range {
+pub(crate) struct Range {
     /// Rear and front, \[m].
-    pub(super) ends: [f64; 2],
+    pub(crate) ends: [f64; 2],
     /// Height of the line at the anchor, to which heights are relative, \[m].
-    pub(super) anchor_height: f64,
+    pub(crate) anchor_height: f64,
     /// Height of the front end above the anchor, \[m].
     front_height: f64,
     ends_in_front: bool,
@@ -35,7 +35,7 @@ impl Range {
     /// Everything at most `depth` above the lowest of the kinks, the ends, and x = 0.
     ///
     /// Refuses a depth that is negative or not a number, as a search that overflows may give it.
-    pub(super) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {
+    pub(crate) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {
         if depth.is_nan() || depth < 0.0 {
             return Err(MdrError::NonFinite {
                 quantity: "indentation depth",
@@ -68,7 +68,7 @@ impl Range {
     /// Refuses a line that ends in front before it reaches the ceiling.
     ///
     /// `lowest` is relative to the anchor.
-    pub(super) fn check_front(&self, lowest: f64, depth: f64) -> Result<(), MdrError> {
+    pub(crate) fn check_front(&self, lowest: f64, depth: f64) -> Result<(), MdrError> {
         let available = self.front_height - lowest;
         if self.ends_in_front && available < depth {
             return Err(MdrError::DepthBeyondEdge {
@@ -83,14 +83,14 @@ impl Range {
 
 /// Where a body ends with a vertical edge in front.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct VerticalEdge {
-    pub(super) position: f64,
+pub(crate) struct VerticalEdge {
+    pub(crate) position: f64,
     /// Above the lowest point, next to the edge, \[m].
-    pub(super) height: f64,
+    pub(crate) height: f64,
 }
 
 /// The vertical edge at the front end of a line, if it has one.
-pub(super) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>, MdrError> {
+pub(crate) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>, MdrError> {
     let [_, position] = line.domain();
     if position.is_infinite() || checked_height(line, position)?.is_finite() {
         return Ok(None);

@@ -9,13 +9,12 @@ use rheology::Material;
 
 use super::cycle::find_limit_cycle;
 use super::element_means::average_tangential_forces;
-use super::time_step::n_history;
 use super::winkler::{FoundationStep, Prescribed, SavedRecovery, WinklerFoundation};
 use crate::MdrError;
-use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
+use crate::branches::{Foundation, n_history};
 use crate::error::enough_elements;
+use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
 use crate::refinement::FOUNDATION_PER_CONTACT;
-use crate::steady::{Foundation, has_steep_kinks};
 
 /// Steps of a motion, or of one cycle, beyond which it is refused. Chosen.
 const MAX_STEPS: f64 = 4e6;

@@ -12,7 +12,7 @@
 //! mean load by the change v of the mean free displacement. M is symmetric and positive semidefinite: an element that has
 //! recovered less carries less load.
 
-use crate::steady::{Foundation, Mode};
+use crate::branches::{Foundation, Mode};
 
 /// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the
 /// preconditioned norm. Measured by `evidence tuning`.

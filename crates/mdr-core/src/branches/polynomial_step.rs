@@ -8,31 +8,31 @@
 //! ratio of time constant and piece. Where the layer is wider than the piece the two would cancel, and e itself is
 //! expanded: the integrated equation is tridiagonal in Legendre polynomials, and its pivots are above one.
 
-use super::legendre::{DEGREE, end_value, square_integral, start_value};
+use crate::line::{DEGREE, end_value, square_integral, start_value};
 
 /// Ratio a from which on the boundary layer is split off. Below, the terms of the expansion vanish like (a/2)^k/k!.
 const MIN_LAYER_RATIO: f64 = 4.0;
 /// Legendre terms of a stress: enough for the polynomial and an exponential of a = [`MIN_LAYER_RATIO`] to the last
 /// digit.
-pub(super) const MAX_TERMS: usize = DEGREE + 30;
+pub(crate) const MAX_TERMS: usize = DEGREE + 30;
 
 /// Stress e of a branch over one piece.
-pub(super) struct BranchStress {
+pub(crate) struct BranchStress {
     /// The smooth part p.
-    pub(super) smooth: [f64; MAX_TERMS],
-    pub(super) n_terms: usize,
+    pub(crate) smooth: [f64; MAX_TERMS],
+    pub(crate) n_terms: usize,
     /// Amplitude C of the layer e^(−a (1 + t)).
-    pub(super) layer: f64,
+    pub(crate) layer: f64,
     /// e(1).
-    pub(super) end: f64,
+    pub(crate) end: f64,
     /// ∫ e dt over [−1, 1].
-    pub(super) integral: f64,
+    pub(crate) integral: f64,
     /// ∫ e² dt over [−1, 1].
-    pub(super) square_integral: f64,
+    pub(crate) square_integral: f64,
 }
 
 /// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
-pub(super) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
+pub(crate) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let solve = if ratio < MIN_LAYER_RATIO {
         expanded
     } else {

@@ -8,13 +8,12 @@
 //!
 //! Theory: docs/theory/line-viscoelastic.md, "One law".
 
+mod compensated;
 mod contact_history;
 mod cycle;
 mod element_means;
-mod event;
-mod heights;
-mod march;
-mod time_step;
+mod force_balance;
+mod motion_problem;
 mod winkler;
 
 use std::collections::BTreeMap;
@@ -25,9 +24,12 @@ use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Progress, Request, positive, refi
 use rheology::Material;
 
 use crate::MdrError;
+use crate::line::has_steep_kinks;
 use crate::refinement::{MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, MIN_ORDER, WORK_EXPONENT};
-use crate::steady::{LineProblem, has_steep_kinks};
-use march::MotionProblem;
+use crate::steady::LineProblem;
+pub(crate) use compensated::CompensatedSum;
+pub(crate) use force_balance::ForceBalance;
+use motion_problem::MotionProblem;
 
 /// Elements times steps of all cycles that a refinement does not exceed to reach an error: about a minute of one
 /// thread.

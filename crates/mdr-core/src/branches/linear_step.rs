@@ -7,7 +7,7 @@
 //! ∫ e² dt/(G τ) = (a/G) e₀² φ(2a) + 2 e₀ Δu (φ(a) − φ(2a)) + G Δu² (1 − 2 φ(a) + φ(2a))/a
 //! ```
 
-use crate::steady::{Branch, Foundation, Mode};
+use super::foundation::{Branch, Foundation, Mode};
 
 /// Ratio a = Δt/τ up to which differences of φ are summed as series, because their terms cancel.
 const SERIES_MAX_RATIO: f64 = 0.5;
@@ -21,18 +21,18 @@ const PHI_SERIES: [[f64; N_PHI_TERMS]; 3] = [
 ];
 /// Branches that are computed together, so that the compiler can use vector instructions; a history variable without
 /// a branch is 0.
-pub(super) const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 /// One number for each of [`LANES`] branches.
 type Lanes = [f64; LANES];
 
 /// Coefficients of a step of one duration, for all branches and modes.
 #[derive(Debug, Clone, Default)]
-pub(super) struct TimeStep {
+pub(crate) struct TimeStep {
     /// Duration Δt, \[s].
-    pub(super) duration: f64,
+    pub(crate) duration: f64,
     /// Load of an element at the end per compression in the step: G_∞ + η₀/Δt + Σ G φ.
-    pub(super) stiffness: f64,
+    pub(crate) stiffness: f64,
     spring: f64,
     /// η₀/Δt.
     dashpot: f64,
@@ -59,22 +59,22 @@ struct BranchGroup {
 
 /// Impulse and dissipation of an element in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct StepWork {
+pub(crate) struct StepWork {
     /// ∫ w dt.
-    pub(super) impulse: f64,
+    pub(crate) impulse: f64,
     /// Energy that its dashpots dissipate.
-    pub(super) lost: f64,
+    pub(crate) lost: f64,
 }
 
 /// Number of history variables of an element, stresses of branches or amplitudes of modes: a multiple of [`LANES`].
-pub(super) fn n_history(foundation: &Foundation) -> usize {
+pub(crate) fn n_history(foundation: &Foundation) -> usize {
     let used = foundation.branches.len().max(foundation.modes.len());
     used.max(1).next_multiple_of(LANES)
 }
 
 impl TimeStep {
     /// Coefficients of branches and modes.
-    pub(super) fn new(foundation: &Foundation, duration: f64) -> Self {
+    pub(crate) fn new(foundation: &Foundation, duration: f64) -> Self {
         let decay = |mode: &Mode| (-duration / mode.length).exp();
         let modes = foundation.modes.chunks(LANES);
         Self {
@@ -84,7 +84,7 @@ impl TimeStep {
     }
 
     /// Coefficients of the branches alone.
-    pub(super) fn of_branches(foundation: &Foundation, duration: f64) -> Self {
+    pub(crate) fn of_branches(foundation: &Foundation, duration: f64) -> Self {
         let mut step = Self {
             duration,
             stiffness: foundation.spring,
@@ -137,7 +137,7 @@ impl TimeStep {
     }
 
     /// Displacement that is left to recover at the end of the step, Σ β_k e^(−Δt/λ_k).
-    pub(super) fn remaining_recovery(&self, history: &[f64]) -> f64 {
+    pub(crate) fn remaining_recovery(&self, history: &[f64]) -> f64 {
         let decays = self.decays.iter().zip(history.as_chunks().0);
         total(decays.fold([0.0; LANES], |sum, (decays, history)| {
             add(sum, *decays, *history)
@@ -145,14 +145,14 @@ impl TimeStep {
     }
 
     /// Lets the amplitudes of a free element decay over the step.
-    pub(super) fn recover(&self, history: &mut [f64]) {
+    pub(crate) fn recover(&self, history: &mut [f64]) {
         for (decays, history) in self.decays.iter().zip(history.as_chunks_mut().0) {
             *history = product(*decays, *history);
         }
     }
 
     /// Load of an element at the end of a step without compression.
-    pub(super) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
+    pub(crate) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses.as_chunks().0);
         let left = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
             add(sum, branches.decay, *stresses)
@@ -161,7 +161,7 @@ impl TimeStep {
     }
 
     /// Compresses an element during the step; the length of `stresses` is a multiple of [`LANES`].
-    pub(super) fn compress(
+    pub(crate) fn compress(
         &self,
         displacement: f64,
         compression: f64,

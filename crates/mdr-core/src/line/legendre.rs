@@ -3,20 +3,20 @@
 use numerics::{legendre_values, lobatto_rule};
 
 /// Degree of the polynomial that stands for one piece of a line.
-pub(super) const DEGREE: usize = 10;
+pub(crate) const DEGREE: usize = 10;
 
 /// Coefficients of one piece of a line.
-pub(super) type Polynomial = [f64; DEGREE + 1];
+pub(crate) type Polynomial = [f64; DEGREE + 1];
 
 /// Interpolation at the Gauss–Lobatto nodes: −1, 1 and the zeros of P'_n.
-pub(super) struct Interpolation {
+pub(crate) struct Interpolation {
     nodes: Polynomial,
     /// Row k gives the coefficient c_k from the values at the nodes.
     rows: [Polynomial; DEGREE + 1],
 }
 
 impl Interpolation {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let rule = lobatto_rule(DEGREE + 1);
         let mut nodes = [0.0; DEGREE + 1];
         let mut rows = [[0.0; DEGREE + 1]; DEGREE + 1];
@@ -37,7 +37,7 @@ impl Interpolation {
     }
 
     /// The polynomial with the values of `function` at the nodes, which include both ends.
-    pub(super) fn interpolate(&self, function: impl Fn(f64) -> f64) -> Polynomial {
+    pub(crate) fn interpolate(&self, function: impl Fn(f64) -> f64) -> Polynomial {
         let values = self.nodes.map(function);
         let coefficient = |row: Polynomial| row.iter().zip(&values).map(|(a, b)| a * b).sum();
         self.rows.map(coefficient)
@@ -45,7 +45,7 @@ impl Interpolation {
 }
 
 /// p(t), by Clenshaw's recurrence.
-pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
+pub(crate) fn value(coefficients: &[f64], t: f64) -> f64 {
     let (mut next, mut after) = (0.0, 0.0);
     for (k, coefficient) in coefficients.iter().enumerate().rev() {
         let degree = k as f64;
@@ -57,7 +57,7 @@ pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
 }
 
 /// Coefficients of p'(t), as many as those of p; the last one is 0.
-pub(super) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
+pub(crate) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
     let mut slopes = [0.0; N];
     // c'_k/(2k + 1) = c'_(k+2)/(2k + 5) + c_(k+1).
     let mut sums = [0.0; 2];
@@ -69,20 +69,20 @@ pub(super) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
 }
 
 /// ∫ p(t)² dt over [−1, 1].
-pub(super) fn square_integral(coefficients: &[f64]) -> f64 {
+pub(crate) fn square_integral(coefficients: &[f64]) -> f64 {
     let terms = coefficients.iter().enumerate();
     terms.map(|(k, c)| c * c / (k as f64 + 0.5)).sum()
 }
 
 /// p(−1).
-pub(super) fn start_value(coefficients: &[f64]) -> f64 {
+pub(crate) fn start_value(coefficients: &[f64]) -> f64 {
     let terms = coefficients.iter().enumerate();
     let signed = terms.map(|(k, c)| if k % 2 == 0 { *c } else { -c });
     signed.sum()
 }
 
 /// p(1).
-pub(super) fn end_value(coefficients: &[f64]) -> f64 {
+pub(crate) fn end_value(coefficients: &[f64]) -> f64 {
     coefficients.iter().sum()
 }
 

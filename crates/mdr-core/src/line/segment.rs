@@ -7,41 +7,41 @@ const REINTERPOLATION_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.
 #[derive(Debug, Clone)]
-pub(super) struct Segment {
+pub(crate) struct Segment {
     /// Legendre coefficients of u = d − h̃, in depths.
-    pub(super) displacements: Polynomial,
+    pub(crate) displacements: Polynomial,
     /// Coefficients above this one are zero.
-    pub(super) degree: usize,
+    pub(crate) degree: usize,
     /// Positions of the front and the rear end, \[m].
-    pub(super) ends: [f64; 2],
-    pub(super) length: f64,
+    pub(crate) ends: [f64; 2],
+    pub(crate) length: f64,
     /// Rounding of the displacements, in depths; 0 for a whole piece, whose heights are relative to the lowest point.
-    pub(super) rounding: f64,
+    pub(crate) rounding: f64,
 }
 
 impl Segment {
     /// Position on the line, \[m].
-    pub(super) fn position(&self, t: f64) -> f64 {
+    pub(crate) fn position(&self, t: f64) -> f64 {
         0.5 * (self.ends[0] * (1.0 - t) + self.ends[1] * (1.0 + t))
     }
 
     /// Displacement u, in depths.
-    pub(super) fn displacement(&self, t: f64) -> f64 {
+    pub(crate) fn displacement(&self, t: f64) -> f64 {
         value(&self.displacements[..=self.degree], t)
     }
 
     /// Change of the displacement with the distance ξ, in depths per metre.
-    pub(super) fn rate(&self, t: f64) -> f64 {
+    pub(crate) fn rate(&self, t: f64) -> f64 {
         2.0 / self.length * value(&derivative(&self.displacements), t)
     }
 
     /// Displacement at the rear end, in depths.
-    pub(super) fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         end_value(&self.displacements)
     }
 
     /// The part of the segment between two values of t.
-    pub(super) fn between(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
+    pub(crate) fn between(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
         if from <= -1.0 && to >= 1.0 {
             return self.clone();
         }

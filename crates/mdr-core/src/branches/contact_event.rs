@@ -1,7 +1,7 @@
 //! An element that comes into contact or separates inside a step.
 
-use super::time_step::{StepWork, TimeStep};
-use crate::steady::Foundation;
+use super::foundation::Foundation;
+use super::linear_step::{StepWork, TimeStep};
 
 /// Change of the time, as a part of the step, with which Newton's method ends: the next change is about its square.
 const CROSSING_TOLERANCE: f64 = 1e-9;
@@ -9,12 +9,12 @@ const CROSSING_TOLERANCE: f64 = 1e-9;
 const MAX_CROSSING_STEPS: usize = 60;
 
 /// One element in a step during which it is in contact for a part of the time.
-pub(super) struct ContactEvent<'a> {
-    pub(super) foundation: &'a Foundation,
+pub(crate) struct ContactEvent<'a> {
+    pub(crate) foundation: &'a Foundation,
     /// Duration of the step, \[s].
-    pub(super) duration: f64,
+    pub(crate) duration: f64,
     /// History variables: stresses e_i in contact, amplitudes β_k of recovery if free.
-    pub(super) history: &'a mut [f64],
+    pub(crate) history: &'a mut [f64],
 }
 
 impl ContactEvent<'_> {
@@ -22,7 +22,7 @@ impl ContactEvent<'_> {
     ///
     /// Returns the displacement to which it recovers, and its work. The energy stored at separation counts as dissipated: it is
     /// lost during recovery.
-    pub(super) fn separate(self, [from, to]: [f64; 2]) -> (f64, StepWork) {
+    pub(crate) fn separate(self, [from, to]: [f64; 2]) -> (f64, StepWork) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
@@ -56,7 +56,7 @@ impl ContactEvent<'_> {
     }
 
     /// Separates a loaded element immediately; returns the displacement to which it recovers, and the energy stored in it.
-    pub(super) fn separate_instantly(self, displacement: f64) -> (f64, f64) {
+    pub(crate) fn separate_instantly(self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let stresses = &mut self.history[..n_branches];
@@ -87,7 +87,7 @@ impl ContactEvent<'_> {
     }
 
     /// Brings a free element that recovers to `limit` into contact, while the line moves from one displacement to another.
-    pub(super) fn make_contact(self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
+    pub(crate) fn make_contact(self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
         let gap = |part: f64| {
@@ -124,7 +124,7 @@ impl ContactEvent<'_> {
 
     /// Replaces the amplitudes by stresses of an element that is in contact immediately; returns its displacement, and the energy
     /// stored in it.
-    pub(super) fn make_contact_instantly(self, limit: f64, under: f64) -> (f64, f64) {
+    pub(crate) fn make_contact_instantly(self, limit: f64, under: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let left = self.history[..foundation.modes.len()].to_vec();
         let mut displacement = limit - left.iter().sum::<f64>();

@@ -1,0 +1,163 @@
+//! Law of an element of the Winkler foundation under a line that moves at constant speed.
+//!
+//! ```text
+//! w = G_∞ u + η₀ v du/dξ + Σ e_i,   l_i de_i/dξ + e_i = l_i G_i du/dξ,   l_i = v τ_i        under the line
+//! w = 0,   u = u₀ + Σ β_k (1 − e^(−ξ/L_k)),   L_k = v λ_k                                   behind it
+//! ```
+//! Displacements are in units of the depth, moduli and w in a unit of the material. ξ is the distance by which the line has
+//! moved on. The stresses e_i decompose into the modes of free recovery as into eigenvectors: both directions are sums over
+//! 1/(L_k − l_i).
+//!
+//! Theory: docs/theory/line-viscoelastic.md, "One law".
+
+use numerics::positive;
+use rheology::{Material, check_spectra};
+
+use crate::MdrError;
+
+/// The foundation at one speed, with distances v τ and v λ in the place of times.
+pub(crate) struct Foundation {
+    /// Unit of all stresses, \[Pa], so that their squares stay in range: the instantaneous modulus, or η₀ v over 1 m for a lone
+    /// dashpot.
+    pub(crate) unit: f64,
+    /// G_∞ over the unit.
+    pub(crate) spring: f64,
+    /// η₀ v over the unit, \[m].
+    pub(crate) dashpot: f64,
+    pub(crate) branches: Vec<Branch>,
+    pub(crate) modes: Vec<Mode>,
+}
+
+/// A Maxwell branch.
+pub(crate) struct Branch {
+    /// G_i over the unit.
+    pub(crate) modulus: f64,
+    /// l_i = v τ_i, \[m].
+    pub(crate) length: f64,
+    /// l_i/(L_k − l_i) of all modes.
+    ratios: Vec<f64>,
+}
+
+/// A mode of free recovery.
+#[derive(Debug)]
+pub(crate) struct Mode {
+    /// J_k times the unit.
+    pub(crate) compliance: f64,
+    /// L_k = v λ_k, \[m].
+    pub(crate) length: f64,
+    /// l_i/(L_k − l_i) of all branches.
+    ratios: Vec<f64>,
+}
+
+impl Mode {
+    /// Fraction that recovers within a time, or over a distance, in the unit of the length.
+    pub(crate) fn recovered(&self, time: f64) -> f64 {
+        -(-time / self.length).exp_m1()
+    }
+}
+
+impl Foundation {
+    /// The foundation of a line that moves with `velocity` \[m/s].
+    pub(crate) fn new(material: &dyn Material, velocity: f64) -> Result<Self, MdrError> {
+        check_spectra(material)?;
+        let (relaxation, creep) = (material.relaxation(), material.creep());
+        let factor = material.half_space_factor();
+
+        // Unit of stress.
+        let dashpot = relaxation.viscosity() * velocity / factor;
+        let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
+        let spring = relaxation.equilibrium_modulus() / factor;
+        let instantaneous = spring + moduli.sum::<f64>() / factor;
+        let stiffness = if instantaneous > 0.0 {
+            instantaneous
+        } else {
+            dashpot
+        };
+        let unit = positive("stiffness of the foundation", stiffness)?;
+
+        // Distances of relaxation and retardation.
+        let lengths = |times: Vec<f64>, name| {
+            let lengths = times
+                .into_iter()
+                .map(|time| positive(name, velocity * time));
+            lengths.collect::<Result<Vec<f64>, _>>()
+        };
+        let times = relaxation.branches().iter().map(|b| b.relaxation_time);
+        let relaxation_lengths = lengths(times.collect(), "distance of relaxation")?;
+        let times = creep.elements().iter().map(|e| e.retardation_time);
+        let recovery_lengths = lengths(times.collect(), "distance of retardation")?;
+
+        // Branches and modes with the coefficients of the transformation between them.
+        let ratio = |branch: f64, mode: f64| branch / (mode - branch);
+        let branch_lengths = relaxation.branches().iter().zip(&relaxation_lengths);
+        let branches = branch_lengths.map(|(branch, &length)| Branch {
+            modulus: branch.modulus / factor / unit,
+            length,
+            ratios: recovery_lengths
+                .iter()
+                .map(|&mode| ratio(length, mode))
+                .collect(),
+        });
+        let mode_lengths = creep.elements().iter().zip(&recovery_lengths);
+        let modes = mode_lengths.map(|(element, &length)| Mode {
+            compliance: element.compliance * factor * unit,
+            length,
+            ratios: relaxation_lengths
+                .iter()
+                .map(|&branch| ratio(branch, length))
+                .collect(),
+        });
+        Ok(Self {
+            unit,
+            spring: spring / unit,
+            dashpot: dashpot / unit,
+            branches: branches.collect(),
+            modes: modes.collect(),
+        })
+    }
+
+    pub(crate) fn has_dashpot(&self) -> bool {
+        self.dashpot > 0.0
+    }
+
+    pub(crate) fn is_elastic(&self) -> bool {
+        self.branches.is_empty() && !self.has_dashpot()
+    }
+
+    /// Mean modulus over a time after an instantaneous compression.
+    pub(crate) fn mean_modulus(&self, time: f64) -> f64 {
+        if time <= 0.0 {
+            return 0.0;
+        }
+        let branches = self.branches.iter();
+        let left = |b: &Branch| -(-time / b.length).exp_m1() * b.length / time;
+        let relaxing: f64 = branches.map(|b| b.modulus * left(b)).sum();
+        self.spring + self.dashpot / time + relaxing
+    }
+
+    /// Applies an instantaneous compression to the stresses of the branches.
+    pub(crate) fn apply_strain_jump(&self, stresses: &mut [f64], compression: f64) {
+        for (stress, branch) in stresses.iter_mut().zip(&self.branches) {
+            *stress += branch.modulus * compression;
+        }
+    }
+
+    /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.
+    pub(crate) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
+        let branches = self.branches.iter().zip(stresses);
+        let stored: f64 = branches.map(|(b, e)| e * (e / b.modulus)).sum();
+        0.5 * (self.spring * displacement * displacement + stored)
+    }
+
+    /// Amplitude β of a mode after a separation with this displacement and these stresses.
+    pub(crate) fn amplitude(&self, mode: &Mode, displacement: f64, stresses: &[f64]) -> f64 {
+        let terms = mode.ratios.iter().zip(stresses).map(|(r, e)| r * e);
+        mode.compliance * (terms.sum::<f64>() - self.spring * displacement)
+    }
+
+    /// Stress in a branch of a free surface with the amplitudes `left` = β e^(−ξ/L) in the modes.
+    pub(crate) fn free_stress(branch: &Branch, left: &[f64]) -> f64 {
+        let modes = branch.ratios.iter().zip(left);
+        branch.modulus * modes.map(|(r, beta)| r * beta).sum::<f64>()
+    }
+}

@@ -1,0 +1,146 @@
+//! The foundation under one polynomial segment of the line: loads, dissipation, and their changes with the displacement.
+
+use super::foundation::{Branch, Foundation};
+use super::polynomial_step::{BranchStress, MAX_TERMS, branch_stress};
+use crate::line::{Segment, derivative, square_integral, start_value, value};
+
+/// Change of the dissipation per change of the displacement: the mean change of the rate over a segment, times 2 √2
+/// from the square.
+const DISSIPATION_SENSITIVITY: f64 = 8.0;
+
+/// Bounds of changes of a contact by a jump δ of the displacement, relative to δ.
+pub(crate) struct JumpSensitivity {
+    /// Change of ∫ w dξ, \[m].
+    pub(crate) load: f64,
+    /// Change of the work.
+    pub(crate) work: f64,
+}
+
+/// A boundary layer `amplitude · e^(−ratio (1 + t))`.
+pub(crate) struct Layer {
+    pub(crate) amplitude: f64,
+    pub(crate) ratio: f64,
+}
+
+/// Solution of the foundation under one segment of the line.
+pub(crate) struct SegmentSolution {
+    /// Legendre coefficients of the smooth part of w.
+    smooth: [f64; MAX_TERMS],
+    n_terms: usize,
+    /// Boundary layers of w.
+    pub(crate) layers: Vec<Layer>,
+    /// ∫ w dξ, \[m].
+    pub(crate) load: f64,
+    /// Energy that the dashpots dissipate, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ.
+    pub(crate) dissipation: f64,
+    /// Bound of its change per change of the displacement.
+    pub(crate) dissipation_change: f64,
+    /// Its error by rounding.
+    pub(crate) dissipation_rounding: f64,
+    /// Stresses of the branches at the end.
+    pub(crate) stresses: Vec<f64>,
+}
+
+impl Foundation {
+    /// The shortest distance of relaxation, \[m]; 0 with a lone dashpot, infinite for an elastic foundation.
+    pub(crate) fn shortest_length(&self) -> f64 {
+        if self.dashpot > 0.0 {
+            return 0.0;
+        }
+        let lengths = self.branches.iter().map(|branch| branch.length);
+        lengths.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Bound of the change of ∫ w dξ by a displacement δ on a segment of this length, relative to δ, \[m].
+    pub(crate) fn stiffness(&self, length: f64) -> f64 {
+        let branches = self.branches.iter();
+        let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();
+        self.spring * length + self.dashpot + relaxing
+    }
+
+    /// Bounds of the changes by a jump δ of the displacement that the branches account for: only the lone dashpot is left.
+    ///
+    /// The displacement changes by `rate` per metre at the jump.
+    pub(crate) fn dashpot_sensitivity(&self, rate: f64) -> JumpSensitivity {
+        JumpSensitivity {
+            load: self.dashpot,
+            work: self.dashpot * rate.abs(),
+        }
+    }
+
+    /// Bounds of the changes by a jump δ that is neglected altogether, under a contact of this length \[m].
+    ///
+    /// A fast branch works over its own distance of relaxation, and a slow one returns most of the energy that it takes up.
+    pub(crate) fn sensitivity(&self, rate: f64, length: f64) -> JumpSensitivity {
+        let part = |b: &Branch| {
+            let own = b.length * rate.abs();
+            own.min(4.0 * length / b.length).min(1.0)
+        };
+        let moduli: f64 = self.branches.iter().map(|b| b.modulus * part(b)).sum();
+        JumpSensitivity {
+            load: self.stiffness(length),
+            work: self.dashpot_sensitivity(rate).work + moduli,
+        }
+    }
+
+    /// Solves the foundation under a segment of the line, from the stresses of the branches at its front end.
+    pub(crate) fn solve_segment(&self, segment: &Segment, stresses: &[f64]) -> SegmentSolution {
+        let rates = derivative(&segment.displacements);
+        let per_length = 2.0 / segment.length;
+        let square_rate = square_integral(&rates);
+        let dashpot = self.dashpot * per_length;
+        let rise = segment.end() - start_value(&segment.displacements);
+
+        // The spring and the lone dashpot.
+        let mut solution = SegmentSolution {
+            smooth: [0.0; MAX_TERMS],
+            n_terms: rates.len(),
+            layers: Vec::with_capacity(self.branches.len()),
+            load: self.spring * segment.length * segment.displacements[0] + self.dashpot * rise,
+            dissipation: dashpot * square_rate,
+            dissipation_change: DISSIPATION_SENSITIVITY * dashpot * square_rate.sqrt(),
+            dissipation_rounding: dashpot * segment.rounding * segment.rounding,
+            stresses: Vec::with_capacity(self.branches.len()),
+        };
+        for (k, rate) in rates.iter().enumerate() {
+            solution.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
+        }
+
+        // The branches.
+        let n_rates = segment.degree.max(1);
+        for (branch, start) in self.branches.iter().zip(stresses) {
+            let ratio = 0.5 * segment.length / branch.length;
+            let driven = rates.map(|rate| branch.modulus * rate);
+            let stress = branch_stress(ratio, *start, &driven[..n_rates]);
+            solution.add(&stress, ratio);
+            solution.load += 0.5 * segment.length * stress.integral;
+            solution.dissipation += ratio * (stress.square_integral / branch.modulus);
+            solution.dissipation_change +=
+                DISSIPATION_SENSITIVITY * ratio.min(1.0) * stress.square_integral.sqrt();
+        }
+        solution
+    }
+}
+
+impl SegmentSolution {
+    fn add(&mut self, stress: &BranchStress, ratio: f64) {
+        self.n_terms = self.n_terms.max(stress.n_terms);
+        for (sum, term) in self.smooth.iter_mut().zip(&stress.smooth[..stress.n_terms]) {
+            *sum += term;
+        }
+        self.stresses.push(stress.end);
+        if stress.layer != 0.0 {
+            self.layers.push(Layer {
+                amplitude: stress.layer,
+                ratio,
+            });
+        }
+    }
+
+    /// Load potential w at −1 ≤ t ≤ 1, in the unit of stress.
+    pub(crate) fn potential(&self, t: f64) -> f64 {
+        let layers = self.layers.iter();
+        let decaying = layers.map(|layer| layer.amplitude * (-layer.ratio * (1.0 + t)).exp());
+        value(&self.smooth[..self.n_terms], t) + decaying.sum::<f64>()
+    }
+}
