@@ -283,9 +283,14 @@ pub(crate) fn finite(quantity: &'static str, value: f64, time: f64) -> Result<f6
     if value.is_finite() {
         return Ok(value);
     }
-    Err(MdrError::NonFinite {
+    Err(non_finite(quantity, value, time))
+}
+
+/// The error for a value that is not a number, or out of the range of a quantity.
+pub(crate) const fn non_finite(quantity: &'static str, value: f64, time: f64) -> MdrError {
+    MdrError::NonFinite {
         quantity,
         value,
         time,
-    })
+    }
 }

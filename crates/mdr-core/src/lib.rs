@@ -52,6 +52,6 @@ pub use history::{
 };
 pub use march::{elements_of_motion, move_along, move_along_memory};
 pub use numerics::InvalidParameter;
-pub use press::{Pressed, indent, press};
+pub use press::{indent, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};
 pub use steady::{SteadySliding, steady};

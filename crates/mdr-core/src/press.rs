@@ -14,12 +14,9 @@ use rheology::{Elastic, Material, check_spectra};
 use crate::MdrError;
 use crate::steady::{LineProblem, SteadySliding};
 
-/// A contact without sliding; its friction coefficient is 0.
-pub type Pressed = SteadySliding;
-
 /// Presses a line into a material until it is at rest: on the equilibrium modulus of a solid.
 ///
-/// Force and depth are known to `relative_error`, above 0 and below 1.
+/// Force and depth are known to `relative_error`, above 0 and below 1; the friction coefficient is 0.
 ///
 /// ```
 /// use mdr_core::indenters::{Control, EquivalentLine, PowerProfile};
@@ -40,7 +37,7 @@ pub fn press(
     material: &dyn Material,
     control: Control,
     relative_error: f64,
-) -> Result<Pressed, MdrError> {
+) -> Result<SteadySliding, MdrError> {
     check_spectra(material)?;
     let equilibrium_modulus = material.relaxation().equilibrium_modulus();
     if equilibrium_modulus == 0.0 {
@@ -62,7 +59,7 @@ pub fn indent(
     material: &dyn Material,
     load: &PressingLoad,
     relative_error: f64,
-) -> Result<Pressed, MdrError> {
+) -> Result<SteadySliding, MdrError> {
     check_spectra(material)?;
     let (control, time) = (load.control(), load.duration());
     let compliance = material.creep_compliance(time)?;
@@ -83,7 +80,7 @@ fn on_springs(
     modulus: f64,
     control: Control,
     relative_error: f64,
-) -> Result<Pressed, MdrError> {
+) -> Result<SteadySliding, MdrError> {
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let spring = Elastic::new(modulus)?;
     let problem = LineProblem::new(line, &spring, 1.0)?;
@@ -92,7 +89,7 @@ fn on_springs(
         Control::IndentationDepth(_) => ("normal force [N]", |state| state.normal_force),
     };
     let state = problem.refine(control, relative_error, quantity, sought)?;
-    Ok(Pressed {
+    Ok(SteadySliding {
         friction_coefficient: Estimate::exact(0.0),
         normal_force: match control {
             Control::NormalForce(force) => Estimate::exact(force),

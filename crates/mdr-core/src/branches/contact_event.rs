@@ -22,7 +22,7 @@ impl ContactEvent<'_> {
     ///
     /// Returns the displacement to which it recovers, and its work. The energy stored at separation counts as dissipated: it is
     /// lost during recovery.
-    pub(crate) fn separate(self, [from, to]: [f64; 2]) -> (f64, StepWork) {
+    pub(crate) fn separate(&mut self, [from, to]: [f64; 2]) -> (f64, StepWork) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
@@ -56,7 +56,7 @@ impl ContactEvent<'_> {
     }
 
     /// Separates a loaded element immediately; returns the displacement to which it recovers, and the energy stored in it.
-    pub(crate) fn separate_instantly(self, displacement: f64) -> (f64, f64) {
+    pub(crate) fn separate_instantly(&mut self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let stresses = &mut self.history[..n_branches];
@@ -73,7 +73,7 @@ impl ContactEvent<'_> {
 
     /// Replaces the stresses by amplitudes of recovery, a time after separation; returns the displacement after complete
     /// recovery.
-    fn recover(self, displacement: f64, time: f64) -> f64 {
+    fn recover(&mut self, displacement: f64, time: f64) -> f64 {
         let foundation = self.foundation;
         let stresses = self.history[..foundation.branches.len()].to_vec();
         let mut limit = displacement;
@@ -87,7 +87,7 @@ impl ContactEvent<'_> {
     }
 
     /// Brings a free element that recovers to `limit` into contact, while the line moves from one displacement to another.
-    pub(crate) fn make_contact(self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
+    pub(crate) fn make_contact(&mut self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
         let gap = |part: f64| {
@@ -104,14 +104,7 @@ impl ContactEvent<'_> {
             *slot *= (-part * self.duration / mode.length).exp();
         }
         let start = from + part * rise;
-        let duration = self.duration;
-        let stresses = &mut *self.history;
-        let again = ContactEvent {
-            foundation,
-            duration,
-            history: stresses,
-        };
-        let (displacement, recovered) = again.make_contact_instantly(limit, start);
+        let (displacement, recovered) = self.make_contact_instantly(limit, start);
         let rest = (1.0 - part) * self.duration;
         let mut work = StepWork::default();
         if rest > 0.0 {
@@ -124,7 +117,7 @@ impl ContactEvent<'_> {
 
     /// Replaces the amplitudes by stresses of an element that is in contact immediately; returns its displacement, and the energy
     /// stored in it.
-    pub(crate) fn make_contact_instantly(self, limit: f64, under: f64) -> (f64, f64) {
+    pub(crate) fn make_contact_instantly(&mut self, limit: f64, under: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let left = self.history[..foundation.modes.len()].to_vec();
         let mut displacement = limit - left.iter().sum::<f64>();

@@ -12,10 +12,11 @@
 
 use rheology::RelaxationSpectrum;
 
-use super::ContactSums;
 use super::integrals::{HistoryIntegrals, Ring, StepIntegrals, TimeWeightedIntegrals};
-use super::path::{EXTENT_ROUNDING, LOAD_ROUNDING, change_of_edge, decay_and_mean};
+use super::path::{EXTENT_ROUNDING, change_of_edge, speed_rounding};
 use super::radius::{N_COEFFICIENTS, Radii};
+use super::{ContactSums, SUM_ROUNDING};
+use crate::branches::decay_and_mean;
 
 /// A point of the path.
 #[derive(Debug, Clone, Copy, Default)]
@@ -37,12 +38,6 @@ pub(super) struct EdgePlace {
     pub(super) depth: f64,
 }
 
-/// Sizes of the terms that cancel in the load w of an element, \[Pa m], and in its rate, \[Pa m/s].
-struct LoadScales {
-    load: f64,
-    rate: f64,
-}
-
 /// A step of the search for the edge.
 struct EdgeStep {
     /// How much deeper the edge is, \[m].
@@ -59,6 +54,8 @@ pub(super) struct EdgeElement {
     theta: f64,
     /// Where the sums are computed, short of `shift`; `None` without contact.
     pub(super) place: Option<EdgePlace>,
+    /// Speed ḋ at which it was found, \[m/s].
+    speed: f64,
     /// How much deeper the edge is than `place`, by the last step of the search, \[m].
     shift: f64,
     /// What this shift adds to the sum of the loads, \[Pa m²].
@@ -95,6 +92,8 @@ pub(super) struct Approach {
     pub(super) point: DepthAt,
     /// Speed ḋ up to the point, \[m/s].
     pub(super) speed: f64,
+    /// Time since the point before, \[s].
+    step: f64,
     rings: Vec<Ring>,
     /// Coefficients of the radius over θ, ring by ring.
     coefficients: Vec<f64>,
@@ -161,6 +160,7 @@ impl Approach {
             now,
             point: DepthAt::default(),
             speed: 0.0,
+            step: 0.0,
             rings: Vec::with_capacity(n_points),
             coefficients: Vec::with_capacity(8 * n_points),
             integrals_at_rings: Vec::with_capacity(2 * n * n_points),
@@ -205,7 +205,7 @@ impl Approach {
             load += modulus * sum;
             terms += modulus * sum.abs();
         }
-        let scale = self.scales().load;
+        let scale = self.load_scale();
         ContactSums {
             time,
             depth,
@@ -228,24 +228,29 @@ impl Approach {
         last.map_or(0.0, |ring| ring.start_depth + ring.rise)
     }
 
-    fn scales(&self) -> LoadScales {
-        let mut scales = LoadScales {
-            load: self.viscosity * self.speed.abs(),
-            rate: 0.0,
-        };
-        for (k, depth) in self.now.depth.iter().enumerate() {
-            let stress = self.moduli[k] * depth.abs();
-            scales.load += stress;
-            scales.rate += self.rates[k] * stress;
-        }
-        scales
+    /// Size of the terms that cancel in the load w of an element, \[Pa m].
+    fn load_scale(&self) -> f64 {
+        let viscous = self.viscosity * self.speed.abs();
+        let branches = self.moduli.iter().zip(&self.now.depth);
+        branches.fold(viscous, |scale, (modulus, depth)| {
+            scale + modulus * depth.abs()
+        })
+    }
+
+    /// Size of the terms that cancel in its rate, \[Pa m/s].
+    fn rate_scale(&self) -> f64 {
+        let branches = self.moduli.iter().zip(&self.rates).zip(&self.now.depth);
+        branches
+            .map(|((modulus, rate), depth)| rate * (modulus * depth.abs()))
+            .sum()
     }
 
     /// Follows the body to the next point. Once the body is above the undeformed surface, this counts as recovered.
     pub(super) fn follow(&mut self, time: f64, depth: f64) {
         let start = std::mem::replace(&mut self.point, DepthAt { time, depth });
         let end = self.point;
-        self.speed = match end.time - start.time {
+        self.step = end.time - start.time;
+        self.speed = match self.step {
             0.0 => 0.0,
             step => (end.depth - start.depth) / step,
         };
@@ -318,17 +323,17 @@ impl Approach {
 
     /// Direction of the edge: positive if the load of its element grows while it stays in contact, negative if it falls.
     fn edge_direction(&self) -> f64 {
-        let [mut load, mut rate] = [self.viscosity * self.speed, 0.0];
-        for (k, strain) in self.edge.strains.iter().enumerate() {
-            load += self.moduli[k] * strain;
-            rate += self.moduli[k] * (self.speed - self.rates[k] * strain);
+        // The edge was found where the load vanishes; a dashpot makes it jump with the speed since then.
+        let jump = self.speed - self.edge.speed;
+        let DepthAt { time, depth } = self.point;
+        if self.viscosity > 0.0 && jump.abs() > speed_rounding(self.speed, self.step, time, depth) {
+            return jump;
         }
-        let scales = self.scales();
-        // A dashpot makes the load itself jump with the speed.
-        if self.viscosity > 0.0 && load.abs() > EXTENT_ROUNDING * scales.load {
-            return load;
-        }
-        let has_rate = rate.abs() > LOAD_ROUNDING * scales.rate;
+        let strains = self.edge.strains.iter().enumerate();
+        let rate: f64 = strains
+            .map(|(k, strain)| self.moduli[k] * (self.speed - self.rates[k] * strain))
+            .sum();
+        let has_rate = rate.abs() > SUM_ROUNDING * self.rate_scale();
         if has_rate { rate } else { 0.0 }
     }
 
@@ -423,7 +428,7 @@ impl Approach {
         let place = self.place(ring, 1.0);
         (self.edge.place, self.edge.radius) = (Some(place), place.radius);
         (self.edge.ring, self.edge.theta, self.edge.lag) = (ring, 1.0, 0.0);
-        self.edge.load = self.viscosity * self.speed;
+        (self.edge.speed, self.edge.load) = (self.speed, self.viscosity * self.speed);
         self.edge.modulus = f64::INFINITY;
         self.edge.decays.fill(1.0);
         self.edge.strains.fill(0.0);
@@ -447,7 +452,7 @@ impl Approach {
             (index, theta, self.point.time - (ring.start_time + step));
 
         // Its load w, the modulus −∂w/∂D, and the rate of the modulus.
-        edge.load = self.viscosity * self.speed;
+        (edge.speed, edge.load) = (self.speed, self.viscosity * self.speed);
         let [mut modulus, mut slope] = [0.0; 2];
         for (k, at_contact) in integrals_at_rings.iter().enumerate() {
             let (rate, stiffness) = (self.rates[k], self.moduli[k]);

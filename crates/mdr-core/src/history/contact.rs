@@ -21,10 +21,10 @@ mod sums;
 use indenters::EquivalentProfile;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
-use super::ContactSums;
 use super::element::{EdgeDirection, EdgeMove, ElementState, LineElements};
-use super::path::{EXTENT_ROUNDING, LOAD_ROUNDING, Path, SegmentTime, change_of_edge};
+use super::path::{EXTENT_ROUNDING, Path, SegmentTime, change_of_edge};
 use super::radius::Radii;
+use super::{ContactSums, SUM_ROUNDING};
 use crate::MdrError;
 use edge::Edge;
 
@@ -161,7 +161,7 @@ impl<'a> Contact<'a> {
                     None => self.path.tendency(&self.edge_stresses, at),
                 };
                 let stays = |edge: Edge| {
-                    self.path.load(&edge.stresses, end) >= -LOAD_ROUNDING * self.path.scale(end)
+                    self.path.load(&edge.stresses, end) >= -SUM_ROUNDING * self.path.scale(end)
                 };
                 // At a flat end all elements come into contact together, and none is free but by rounding.
                 let has_free = self.radius() < (1.0 - EXTENT_ROUNDING) * self.largest.radius;

@@ -10,7 +10,8 @@
 use indenters::EquivalentProfile;
 use numerics::bracketed_root;
 
-use super::path::{Path, RecoveryMode, SegmentTime, decay};
+use super::path::{Path, RecoveryMode, SegmentTime};
+use crate::branches::decay;
 
 /// Direction in which the edge moves.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,10 +11,11 @@ use numerics::{Estimate, NotReached, finite, positive, try_bracketed_root};
 use rheology::{CreepSpectrum, Material};
 
 use super::contact::Contact;
-use super::path::{Path, decay_and_mean};
+use super::path::Path;
 use super::radius::Radii;
 use super::{CurvePoint, HistoryOptions};
 use crate::MdrError;
+use crate::branches::decay_and_mean;
 
 /// Parts of all segments together beyond which the refinement under a force stops.
 const MAX_PARTS_UNDER_FORCE: usize = 1 << 14;

@@ -5,8 +5,8 @@
 //! ```
 //! Over a step the radius a is a polynomial of θ ∈ [0, 1], so that the moments ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ are enough.
 
-use super::path::{RECIPROCALS, decay_from_mean, moments};
 use super::radius::N_COEFFICIENTS;
+use crate::branches::{RECIPROCALS, decay_from_mean, moments};
 
 /// A ring of new elements, over which the edge moves in one step; its radius is a polynomial of θ ∈ [0, 1].
 #[derive(Debug, Clone, Copy)]

@@ -11,6 +11,9 @@ use std::sync::Arc;
 
 use rheology::Material;
 
+use super::SUM_ROUNDING;
+use crate::branches::{decay, decay_and_mean};
+
 /// A time in a segment of the path, `part` ∈ [0, 1] of its duration after its beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SegmentTime {
@@ -155,6 +158,12 @@ impl Path {
         }
     }
 
+    /// Difference of the speeds in a segment and in the one before that is within their rounding, \[m/s].
+    fn speed_rounding(&self, segment: usize) -> f64 {
+        let [time, depth] = self.points[segment + 1];
+        speed_rounding(self.speed(segment), self.step(segment), time, depth)
+    }
+
     pub(super) fn time(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][0] + at.part * self.step(at.segment)
     }
@@ -252,9 +261,11 @@ impl Path {
             rate_scale += self.rates[k] * self.moduli[k] * strain_integrals[k].abs();
         }
         let load = self.load(stresses, at);
-        if self.viscosity > 0.0 && load.abs() > LOAD_ROUNDING * self.scale(at) {
+        let load_rounding =
+            SUM_ROUNDING * self.scale(at) + self.viscosity * self.speed_rounding(at.segment);
+        if self.viscosity > 0.0 && load.abs() > load_rounding {
             load
-        } else if rate.abs() > LOAD_ROUNDING * rate_scale {
+        } else if rate.abs() > SUM_ROUNDING * rate_scale {
             rate
         } else {
             0.0
@@ -262,11 +273,7 @@ impl Path {
     }
 }
 
-/// Loads of an element, and their rates, below this part of the terms that cancel in them count as rounding. Chosen,
-/// about 45 units in the last place.
-pub(super) const LOAD_ROUNDING: f64 = 1e-14;
-/// Relative changes of radii and depths below this count as rounding; in `approach.rs` also loads over a lone dashpot.
-/// Chosen.
+/// Relative changes of radii and depths below this count as rounding. Chosen.
 pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
 /// Decay of the branches between two times, and the stresses gained in between.
@@ -277,122 +284,19 @@ pub(super) struct DecayedHistory {
     pub(super) stresses: Vec<f64>,
 }
 
+/// Difference of two speeds up to a time \[s] and depth \[m] that is within their rounding, \[m/s], for steps of one length.
+///
+/// Each of the times and depths is rounded by half a unit in the last place, their differences by one, and two speeds are
+/// compared: 2 ε (d + v t)/Δt.
+pub(super) fn speed_rounding(speed: f64, step: f64, time: f64, depth: f64) -> f64 {
+    2.0 * f64::EPSILON * (depth.abs() + (speed * time).abs()) / step
+}
+
 /// Change of the edge by all of the terms that cancel in its load, \[m]; 0 if all branches have relaxed since contact.
 pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
     if modulus > f64::MIN_POSITIVE {
         slope.abs() / modulus * scale
     } else {
         0.0
-    }
-}
-
-/// e^(−x) at x ≥ 0, without the slow evaluation of the library for results below the smallest number.
-#[inline]
-pub(super) fn decay(x: f64) -> f64 {
-    if x > EXP_UNDERFLOW { 0.0 } else { (-x).exp() }
-}
-
-/// e^(−x) at x ≥ 0 and its mean from 0 to x, both to their own rounding: they may multiply a large force.
-#[inline]
-pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
-    if x > 1.0 {
-        let decay = decay(x);
-        return [decay, (1.0 - decay) / x];
-    }
-    let mean = if x > SERIES_MAX_ARGUMENT {
-        (1.0 - (-x).exp()) / x
-    } else if x < SHORT_SERIES_MAX_ARGUMENT {
-        series::<N_SHORT_SERIES_TERMS>(-x)
-    } else {
-        series::<N_SERIES_TERMS>(-x)
-    };
-    [1.0 - x * mean, mean]
-}
-
-/// e^(−x) from its mean from 0 to x.
-#[inline]
-pub(super) fn decay_from_mean(x: f64, mean: f64) -> f64 {
-    if x > 1.0 { decay(x) } else { 1.0 - x * mean }
-}
-
-/// The first N terms of the mean of e^x, Σ x^n/(n + 1)!. Even and odd ones are summed apart, so that the processor computes
-/// both together.
-#[inline]
-fn series<const N: usize>(x: f64) -> f64 {
-    let square = x * x;
-    let [mut even, mut odd] = [0.0; 2];
-    for n in (0..N / 2).rev() {
-        even = even * square + RECIPROCAL_FACTORIALS[2 * n];
-        odd = odd * square + RECIPROCAL_FACTORIALS[2 * n + 1];
-    }
-    even + x * odd
-}
-
-/// Argument x from which on e^(−x) is less than the smallest positive number, −ln(2^−1075) = 745.13.
-const EXP_UNDERFLOW: f64 = 745.2;
-/// Argument up to which the mean of e^(−x) is summed as a power series; up to there it is as accurate as the
-/// exponential.
-const SERIES_MAX_ARGUMENT: f64 = 0.5;
-/// Terms of the series of the mean of e^(−x) up to [`SERIES_MAX_ARGUMENT`]: the first one left out is 0.5^14/15! =
-/// 5e-17.
-const N_SERIES_TERMS: usize = 14;
-/// Argument up to which [`N_SHORT_SERIES_TERMS`] terms of the series are as accurate as all.
-const SHORT_SERIES_MAX_ARGUMENT: f64 = 0.02;
-/// Terms of the series up to [`SHORT_SERIES_MAX_ARGUMENT`]: the first one left out is 0.02^8/9! = 7e-20.
-const N_SHORT_SERIES_TERMS: usize = 8;
-
-/// 1/(n + 1)!, the coefficients of the mean of e^x.
-const RECIPROCAL_FACTORIALS: [f64; N_SERIES_TERMS] = {
-    let mut factors = [1.0; N_SERIES_TERMS];
-    let mut n = 1;
-    while n < N_SERIES_TERMS {
-        factors[n] = factors[n - 1] / (n + 1) as f64;
-        n += 1;
-    }
-    factors
-};
-
-/// 1/n; the entry of n = 0 is 0 and not used.
-pub(super) const RECIPROCALS: [f64; 64] = {
-    let mut reciprocals = [0.0; 64];
-    let mut n = 1;
-    while n < 64 {
-        reciprocals[n] = 1.0 / n as f64;
-        n += 1;
-    }
-    reciprocals
-};
-
-/// ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0.
-///
-/// The recurrence μ_j = (1 − j μ_(j−1))/z goes upwards to j ≤ z and downwards from the last one, each where it does not
-/// amplify errors.
-pub(super) fn moments(z: f64, moments: &mut [f64]) {
-    let last = moments.len() - 1;
-
-    // Upwards.
-    moments[0] = decay_and_mean(z)[1];
-    let mut order = 1;
-    while order <= last && (order as f64) <= z {
-        moments[order] = (1.0 - order as f64 * moments[order - 1]) / z;
-        order += 1;
-    }
-    if order > last {
-        return;
-    }
-
-    // Downwards from the series 1/(n+1) − z/((n+1)(n+2)) + …, whose terms fall from the first on; 50 of them reach rounding.
-    let mut term = RECIPROCALS[last + 1];
-    let mut sum = term;
-    for reciprocal in &RECIPROCALS[last + 2..] {
-        term *= -z * reciprocal;
-        sum += term;
-        if term.abs() <= 1e-17 * sum {
-            break;
-        }
-    }
-    moments[last] = sum;
-    for order in (order + 1..=last).rev() {
-        moments[order - 1] = (1.0 - z * moments[order]) * RECIPROCALS[order];
     }
 }

@@ -5,6 +5,7 @@ use numerics::bracketed_root;
 
 use super::element_heights::{checked_height, lowest_candidate};
 use crate::MdrError;
+use crate::error::non_finite;
 
 /// Samples of the line per doubling of the distance from the anchor. Narrower parts that come down again between
 /// kinks may be overlooked.
@@ -37,11 +38,7 @@ impl Range {
     /// Refuses a depth that is negative or not a number, as a search that overflows may give it.
     pub(crate) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {
         if depth.is_nan() || depth < 0.0 {
-            return Err(MdrError::NonFinite {
-                quantity: "indentation depth",
-                value: depth,
-                time: 0.0,
-            });
+            return Err(non_finite("indentation depth", depth, 0.0));
         }
         let anchor = lowest_candidate(line)?;
         let anchor_height = checked_height(line, anchor)?;

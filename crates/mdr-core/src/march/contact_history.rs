@@ -12,6 +12,7 @@
 //! mean load by the change v of the mean free displacement. M is symmetric and positive semidefinite: an element that has
 //! recovered less carries less load.
 
+use super::elements::ElementStep;
 use crate::branches::{Foundation, Mode};
 
 /// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the
@@ -43,20 +44,6 @@ struct Element {
     moment: f64,
 }
 
-/// One element in one step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ElementRecord {
-    pub(super) element: usize,
-    /// ∫ w dt over the step.
-    pub(super) impulse: f64,
-    /// Duration of the step, \[s].
-    pub(super) duration: f64,
-    /// Whether it was loaded at the beginning of the step.
-    pub(super) was_loaded: bool,
-    /// Whether it is loaded at the end of the step.
-    pub(super) is_loaded: bool,
-}
-
 impl ContactHistory {
     /// Ratio T/λ below which F is computed from the impulse of the load: the difference of two states would lose its
     /// digits.
@@ -70,14 +57,13 @@ impl ContactHistory {
         }
     }
 
-    /// Records one element in the present step; the elements of a step come in increasing order.
-    pub(super) fn record(&mut self, step: ElementRecord) {
-        let index = step.element;
+    /// Records one element in the present step of this `duration` \[s]; the elements of a step come in increasing order.
+    pub(super) fn record(&mut self, index: usize, step: &ElementStep, duration: f64) {
         let Some(element) = self.elements.get_mut(index) else {
             return;
         };
-        element.impulse += step.impulse;
-        element.moment += step.impulse * (self.period + 0.5 * step.duration);
+        element.impulse += step.work.impulse;
+        element.moment += step.work.impulse * (self.period + 0.5 * duration);
         if !step.is_loaded {
             return;
         }

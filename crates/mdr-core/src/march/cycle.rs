@@ -20,11 +20,12 @@ const CYCLES_AT_FULL_TOLERANCE: usize = 100;
 const LENIENT_TOLERANCE_FACTOR: f64 = 10.0;
 
 /// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as
-/// many cycles as the last one. Measured by `evidence tuning`.
+/// many cycles as the last one: `fac` times the tolerance in the step size control of Hairer, Nørsett & Wanner 1993,
+/// Solving Ordinary Differential Equations I, (II.4.13), of first order. Measured by `evidence tuning`.
 const TARGET_DEVIATION: f64 = 0.4;
-/// Smallest factor on the cycles that a step covers. Measured by `evidence tuning`.
+/// Smallest factor on the cycles that a step covers, `facmin` there. Measured by `evidence tuning`.
 const MIN_CYCLES_FACTOR: f64 = 0.3;
-/// Largest factor on the cycles that a step covers. Measured by `evidence tuning`.
+/// Largest factor on the cycles that a step covers, `facmax` there. Measured by `evidence tuning`.
 const MAX_CYCLES_FACTOR: f64 = 10.0;
 /// Most cycles that a step covers. Measured by `evidence tuning`.
 const MAX_CYCLES_PER_STEP: f64 = 1e16;

@@ -16,12 +16,12 @@ pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths:
         first += steps.len();
         let work =
             CumulativeWork::new(step_lengths, steps.iter().map(|step| step.tangential_force));
-        let to_index = work.distance[steps.len()];
-        let window = spacing.min(to_index);
+        let total = work.distance[steps.len()];
+        let window = spacing.min(total);
         if window > 0.0 {
             for (step, ends) in steps.iter_mut().zip(work.distance.windows(2)) {
                 let middle = ends[0].midpoint(ends[1]);
-                let start = (middle - 0.5 * window).clamp(0.0, to_index - window);
+                let start = (middle - 0.5 * window).clamp(0.0, total - window);
                 step.tangential_force = (work.up_to(start + window) - work.up_to(start)) / window;
             }
         }

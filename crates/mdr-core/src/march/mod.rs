@@ -12,6 +12,7 @@ mod compensated;
 mod contact_history;
 mod cycle;
 mod element_means;
+mod elements;
 mod force_balance;
 mod motion_problem;
 mod winkler;

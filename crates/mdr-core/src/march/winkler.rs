@@ -1,8 +1,7 @@
 //! A Winkler foundation under a line that moves arbitrarily: loaded, free and untouched elements.
 //!
 //! ```text
-//! u = d − h̃(X − x),   w = G_∞ u + η₀ du/dt + Σ e_i           an element at X under the line
-//! w = 0,   u = u_∞ − Σ β_k e^(−t/λ_k)                         a free element
+//! u = d − h̃(X − x)           a loaded element at X under the line, whose lowest point is at x
 //! ```
 //! Over a step position and depth are linear in time, and so is the displacement of a loaded element. Contact and separation
 //! happen at times inside the step, so that the work of the line is stored or dissipated exactly.
@@ -12,13 +11,15 @@
 mod saved_recovery;
 
 use indenters::RigidLine;
+use numerics::whole_part;
 
 pub(super) use saved_recovery::SavedRecovery;
 
-use super::contact_history::{ContactHistory, ElementRecord};
+use super::contact_history::ContactHistory;
+use super::elements::{ElementState, Elements};
 use super::force_balance::ForceBalance;
 use crate::MdrError;
-use crate::branches::{ContactEvent, Foundation, StepWork, TimeStep, n_history};
+use crate::branches::{Foundation, StepWork, TimeStep};
 use crate::error::finite;
 use crate::line::{ElementHeights, HeightRow, HeightTable};
 
@@ -33,25 +34,6 @@ const REST_DISPLACEMENT: f64 = 1e-7;
 /// Height up to which elements are in the window of a step, relative to the depth before it. A deeper step enlarges
 /// the window and is repeated. Measured by `evidence tuning`.
 const WINDOW_HEIGHT_FACTOR: f64 = 1.25;
-
-/// Contact state of an element.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ElementState {
-    /// Never in contact.
-    Untouched,
-    /// Recovers freely.
-    Free {
-        /// Displacement u_∞ after complete recovery, \[m].
-        limit: f64,
-        /// Time to which its amplitudes belong, \[s].
-        since: f64,
-    },
-    /// In contact.
-    Loaded {
-        /// Displacement u, \[m].
-        displacement: f64,
-    },
-}
 
 /// The quantity prescribed at the end of a step.
 #[derive(Debug, Clone, Copy)]
@@ -81,10 +63,7 @@ pub(super) struct WinklerFoundation<'a> {
     sampled: &'a ElementHeights,
     /// Position of the first element over the spacing.
     first: f64,
-    states: Vec<ElementState>,
-    /// History variables, element by element: stresses e_i of a loaded one, amplitudes β_k of a free one.
-    history: Vec<f64>,
-    n_history: usize,
+    elements: Elements<'a>,
     step: TimeStep,
     body: BodyState,
     /// First and last element of the window in which elements can be loaded in the step.
@@ -139,16 +118,13 @@ impl<'a> WinklerFoundation<'a> {
         let [rear, front] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let first = ((range[0] + rear) / spacing).floor() - FOUNDATION_MARGIN;
         let last = ((range[1] + front) / spacing).ceil() + FOUNDATION_MARGIN;
-        let n_elements = to_index(last - first) + 1;
-        let n_history = n_history(foundation);
+        let n_elements = whole_part(last - first) + 1;
         Ok(Self {
             line: HeightTable::new(line, sampled)?,
             foundation,
             sampled,
             first,
-            states: vec![ElementState::Untouched; n_elements],
-            history: vec![0.0; n_elements * n_history],
-            n_history,
+            elements: Elements::untouched(foundation, n_elements),
             step: TimeStep::default(),
             body: BodyState {
                 time,
@@ -272,10 +248,10 @@ impl<'a> WinklerFoundation<'a> {
         let positions = [self.body.position, position];
         let low = (positions[0].min(positions[1]) + rear_x) / spacing - self.first;
         let high = (positions[0].max(positions[1]) + front_x) / spacing - self.first;
-        let last = self.states.len() - 1;
+        let last = self.elements.states.len() - 1;
         let window = [
-            to_index(low.floor() - 1.0),
-            to_index(high.ceil() + 1.0).min(last),
+            whole_part(low.floor() - 1.0),
+            whole_part(high.ceil() + 1.0).min(last),
         ];
 
         // The heights over the window at both positions.
@@ -290,29 +266,11 @@ impl<'a> WinklerFoundation<'a> {
 
     /// Computes the displacements at which the elements of the window carry nothing at the end of the step.
     fn find_unloaded_displacements(&mut self) {
-        let start = self.window[0];
         self.unloaded_displacements.clear();
-        for element in start..=self.window[1] {
-            let history = element * self.n_history..(element + 1) * self.n_history;
-            let history = &mut self.history[history];
-            let displacement_at_end = match &mut self.states[element] {
-                ElementState::Untouched => 0.0,
-                ElementState::Loaded { displacement } => {
-                    *displacement
-                        - self.step.relaxed_load(*displacement, history) / self.step.stiffness
-                }
-                ElementState::Free { limit, since } => {
-                    let waited = self.body.time - *since;
-                    if waited > 0.0 {
-                        for (slot, mode) in history.iter_mut().zip(&self.foundation.modes) {
-                            *slot *= (-waited / mode.length).exp();
-                        }
-                        *since = self.body.time;
-                    }
-                    *limit - self.step.remaining_recovery(history)
-                }
-            };
-            self.unloaded_displacements.push(displacement_at_end);
+        for element in self.window[0]..=self.window[1] {
+            let elements = &mut self.elements;
+            let unloaded = elements.unloaded_displacement(element, &self.step, self.body.time);
+            self.unloaded_displacements.push(unloaded);
         }
     }
 
@@ -338,56 +296,19 @@ impl<'a> WinklerFoundation<'a> {
         let element = self.window[0] + index;
         let heights = [self.heights_before.over(element), self.heights[index]];
         let under = [self.body.depth - heights[0], to.depth - heights[1]];
-        let history = element * self.n_history..(element + 1) * self.n_history;
-        let event = ContactEvent {
-            foundation: self.foundation,
-            duration: self.step.duration,
-            history: &mut self.history[history],
-        };
-
-        // An element is loaded at the end if the line is below its unloaded displacement.
-        let is_loaded = under[1] > self.unloaded_displacements[index];
-        let loaded = ElementState::Loaded {
-            displacement: under[1],
-        };
-        let free = |limit| ElementState::Free {
-            limit,
-            since: to.time,
-        };
-        let (state, work) = match self.states[element] {
-            ElementState::Loaded { displacement } if is_loaded => {
-                let compression = under[1] - displacement;
-                let work = self.step.compress(displacement, compression, event.history);
-                (loaded, work)
-            }
-            ElementState::Loaded { displacement } => {
-                let (limit, work) = event.separate([displacement, under[1]]);
-                (free(limit), work)
-            }
-            ElementState::Free { limit, .. } if is_loaded => {
-                (loaded, event.make_contact(limit, under))
-            }
-            ElementState::Untouched if is_loaded => (loaded, event.make_contact(0.0, under)),
-            ElementState::Free { limit, .. } => {
-                self.step.recover(event.history);
-                self.states[element] = free(limit);
-                return;
-            }
-            ElementState::Untouched => return,
+        let unloaded = self.unloaded_displacements[index];
+        let Some(step) = self
+            .elements
+            .advance(element, under, unloaded, &self.step, to.time)
+        else {
+            return;
         };
 
         // Add its work, and record its contact for the search of a limit cycle.
-        let was_loaded = matches!(self.states[element], ElementState::Loaded { .. });
-        self.contact_history.record(ElementRecord {
-            element,
-            impulse: work.impulse,
-            duration: self.step.duration,
-            was_loaded,
-            is_loaded,
-        });
-        self.states[element] = state;
-        sums.add(work, self.slope(element, heights, to.position));
-        if is_loaded {
+        self.contact_history
+            .record(element, &step, self.step.duration);
+        sums.add(step.work, self.slope(element, heights, to.position));
+        if step.is_loaded {
             sums.n_loaded += 1;
             sums.ends = Some([sums.ends.map_or(element, |[rear, _]| rear), element]);
         }
@@ -413,22 +334,11 @@ impl<'a> WinklerFoundation<'a> {
     pub(super) fn unload_all(&mut self, time: f64) -> f64 {
         let mut lost = 0.0;
         let elapsed = self.body.time - time;
-        for (element, state) in self.states.iter_mut().enumerate() {
-            let history = element * self.n_history..(element + 1) * self.n_history;
-            match state {
-                ElementState::Untouched => {}
-                ElementState::Free { since, .. } => *since -= elapsed,
-                ElementState::Loaded { displacement } => {
-                    let event = ContactEvent {
-                        foundation: self.foundation,
-                        duration: 0.0,
-                        history: &mut self.history[history],
-                    };
-                    let (limit, lent) = event.separate_instantly(*displacement);
-                    lost += lent;
-                    *state = ElementState::Free { limit, since: time };
-                }
+        for element in 0..self.elements.states.len() {
+            if let ElementState::Free { since, .. } = &mut self.elements.states[element] {
+                *since -= elapsed;
             }
+            lost += self.elements.separate_instantly(element, time);
         }
         self.body.time = time;
         lost
@@ -450,21 +360,13 @@ impl<'a> WinklerFoundation<'a> {
         };
         let mut stored = 0.0;
         for (element, height) in (self.window[0]..=self.window[1]).zip(&self.heights) {
-            let history = element * self.n_history..(element + 1) * self.n_history;
-            let history = &mut self.history[history];
-            let ElementState::Free { limit, .. } = self.states[element] else {
+            let ElementState::Free { limit, .. } = self.elements.states[element] else {
                 continue;
             };
             let under = self.body.depth - height;
-            if under + tolerance > limit - history.iter().sum::<f64>() {
-                let event = ContactEvent {
-                    foundation: self.foundation,
-                    duration: 0.0,
-                    history,
-                };
-                let (displacement, returned) = event.make_contact_instantly(limit, under);
-                self.states[element] = ElementState::Loaded { displacement };
-                stored += returned;
+            let recovering: f64 = self.elements.history_of(element).iter().sum();
+            if under + tolerance > limit - recovering {
+                stored += self.elements.make_contact_instantly(element, limit, under);
             }
         }
         Ok(stored)
@@ -472,7 +374,7 @@ impl<'a> WinklerFoundation<'a> {
 
     /// Records the contacts of the elements from now on.
     pub(super) fn start_recording(&mut self) {
-        self.contact_history = ContactHistory::new(self.states.len());
+        self.contact_history = ContactHistory::new(self.elements.states.len());
     }
 
     /// The contacts since the start of the record, which ends.
@@ -482,18 +384,10 @@ impl<'a> WinklerFoundation<'a> {
 
     /// Amplitudes of recovery at the present time, element by element; all elements must be free or untouched.
     pub(super) fn recovery_amplitudes(&mut self) -> &mut [f64] {
-        let time = self.body.time;
-        for (element, state) in self.states.iter_mut().enumerate() {
-            if let ElementState::Free { since, .. } = state {
-                let history = element * self.n_history..(element + 1) * self.n_history;
-                let history = self.history[history].iter_mut();
-                for (slot, mode) in history.zip(&self.foundation.modes) {
-                    *slot *= (-(time - *since) / mode.length).exp();
-                }
-                *since = time;
-            }
+        for element in 0..self.elements.states.len() {
+            self.elements.recover_until(element, self.body.time);
         }
-        &mut self.history
+        &mut self.elements.history
     }
 }
 
@@ -503,14 +397,4 @@ impl StepSums {
         self.tangential_impulse += work.impulse * slope;
         self.lost += work.lost;
     }
-}
-
-/// Conversion of a whole number that is not negative.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "elements are counted before, and fewer than the most allowed"
-)]
-const fn to_index(number: f64) -> usize {
-    number as usize
 }

@@ -6,6 +6,7 @@
 use numerics::try_bracketed_root;
 
 use crate::MdrError;
+use crate::error::non_finite;
 
 /// Depth at which the search starts, \[m]; any other would do.
 const SEARCH_START: f64 = 1.0;
@@ -30,7 +31,7 @@ pub(super) fn depth_of_load(
     let excess = |logarithm: f64| load(depth(logarithm)).map(|load| (load / target).ln());
     let root = try_bracketed_root(excess, bracket.map(f64::ln))?;
     root.map(depth)
-        .ok_or(not_found("normal force", load(bracket[0])?))
+        .ok_or(non_finite("normal force", load(bracket[0])?, 0.0))
 }
 
 /// The depth \[m] at which `load` is as large as `target`, by the secant method in logarithms from a depth near it.
@@ -94,15 +95,7 @@ fn bracket(
         near = reached;
         far = reached * stride;
     }
-    Err(not_found("indentation depth", far))
-}
-
-const fn not_found(quantity: &'static str, value: f64) -> MdrError {
-    MdrError::NonFinite {
-        quantity,
-        value,
-        time: 0.0,
-    }
+    Err(non_finite("indentation depth", far, 0.0))
 }
 
 /// A depth and the load there; the largest depth that the line has, if `depth` is beyond it.

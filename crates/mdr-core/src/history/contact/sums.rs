@@ -1,8 +1,9 @@
 //! Integrals Φ_k of the branch stresses over the contact.
 
 use super::{Contact, EXACT_QUADRATURE_TOLERANCE};
+use crate::branches::{decay_from_mean, moments};
 use crate::history::element::{EdgeDirection, EdgeMove};
-use crate::history::path::{DecayedHistory, SegmentTime, decay_from_mean, moments};
+use crate::history::path::{DecayedHistory, SegmentTime};
 use crate::history::radius::N_COEFFICIENTS;
 
 /// How often a panel of the quadrature over a ring may be halved.

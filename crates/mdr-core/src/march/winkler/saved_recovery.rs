@@ -1,6 +1,9 @@
 //! Transfer of the state of recovery between foundations of different spacing.
 
-use super::{ElementState, WinklerFoundation, to_index};
+use numerics::whole_part;
+
+use super::WinklerFoundation;
+use crate::march::elements::ElementState;
 
 /// Amplitudes of recovery of a foundation.
 #[derive(Debug, Clone)]
@@ -26,21 +29,22 @@ impl WinklerFoundation<'_> {
     /// Sets the amplitudes of recovery by linear interpolation of saved ones.
     pub(crate) fn restore_recovery(&mut self, saved: &SavedRecovery) {
         let (spacing, since) = (self.sampled.spacing, self.body.time);
-        let last = saved.history.len() / self.n_history;
-        for (element, state) in self.states.iter_mut().enumerate() {
+        let n_history = self.elements.n_history;
+        let last = saved.history.len() / n_history;
+        for element in 0..self.elements.states.len() {
             let x = (self.first + element as f64) * spacing;
             let place = ((x - saved.first) / saved.spacing).max(0.0);
-            let (at, part) = (to_index(place), place.fract());
+            let (at, part) = (whole_part(place), place.fract());
             if at + 1 >= last {
                 continue;
             }
-            let history = &mut self.history[element * self.n_history..][..self.n_history];
-            let (rear, front) = saved.history[at * self.n_history..].split_at(self.n_history);
+            let history = self.elements.history_of(element);
+            let (rear, front) = saved.history[at * n_history..].split_at(n_history);
             for (slot, (rear, front)) in history.iter_mut().zip(rear.iter().zip(front)) {
                 *slot = rear + part * (front - rear);
             }
             if history.iter().any(|slot| *slot != 0.0) {
-                *state = ElementState::Free { limit: 0.0, since };
+                self.elements.states[element] = ElementState::Free { limit: 0.0, since };
             }
         }
     }

@@ -1,0 +1,175 @@
+//! The elements of a foundation: untouched, loaded or free, each with its history variables.
+//!
+//! ```text
+//! w = G_∞ u + η₀ du/dt + Σ e_i                                loaded
+//! w = 0,   u = u_∞ − Σ β_k e^(−t/λ_k)                         free
+//! ```
+
+use crate::branches::{ContactEvent, Foundation, StepWork, TimeStep, n_history};
+
+/// Contact state of an element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ElementState {
+    /// Never in contact.
+    Untouched,
+    /// Recovers freely.
+    Free {
+        /// Displacement u_∞ after complete recovery, \[m].
+        limit: f64,
+        /// Time to which its amplitudes belong, \[s].
+        since: f64,
+    },
+    /// In contact.
+    Loaded {
+        /// Displacement u, \[m].
+        displacement: f64,
+    },
+}
+
+/// The elements of a foundation, with their history variables.
+pub(crate) struct Elements<'a> {
+    foundation: &'a Foundation,
+    pub(super) states: Vec<ElementState>,
+    /// History variables, element by element: stresses e_i of a loaded one, amplitudes β_k of a free one.
+    pub(super) history: Vec<f64>,
+    pub(super) n_history: usize,
+}
+
+/// One step of an element that is loaded for a part of it at least.
+pub(crate) struct ElementStep {
+    pub(crate) work: StepWork,
+    /// Whether it was loaded at the beginning.
+    pub(crate) was_loaded: bool,
+    /// Whether it is loaded at the end.
+    pub(crate) is_loaded: bool,
+}
+
+impl<'a> Elements<'a> {
+    /// Undeformed elements.
+    pub(crate) fn untouched(foundation: &'a Foundation, n_elements: usize) -> Self {
+        let n_history = n_history(foundation);
+        Self {
+            foundation,
+            states: vec![ElementState::Untouched; n_elements],
+            history: vec![0.0; n_elements * n_history],
+            n_history,
+        }
+    }
+
+    pub(super) fn history_of(&mut self, element: usize) -> &mut [f64] {
+        &mut self.history[element * self.n_history..(element + 1) * self.n_history]
+    }
+
+    fn event(&mut self, element: usize, duration: f64) -> ContactEvent<'_> {
+        ContactEvent {
+            foundation: self.foundation,
+            duration,
+            history: self.history_of(element),
+        }
+    }
+
+    /// Displacement at which an element carries nothing at the end of a step that begins at `time`, \[m].
+    pub(crate) fn unloaded_displacement(
+        &mut self,
+        element: usize,
+        step: &TimeStep,
+        time: f64,
+    ) -> f64 {
+        match self.states[element] {
+            ElementState::Untouched => 0.0,
+            ElementState::Loaded { displacement } => {
+                let history = self.history_of(element);
+                displacement - step.relaxed_load(displacement, history) / step.stiffness
+            }
+            ElementState::Free { limit, .. } => {
+                self.recover_until(element, time);
+                limit - step.remaining_recovery(self.history_of(element))
+            }
+        }
+    }
+
+    /// Advances the amplitudes of a free element to a time, \[s].
+    pub(super) fn recover_until(&mut self, element: usize, time: f64) {
+        let foundation = self.foundation;
+        let ElementState::Free { limit, since } = self.states[element] else {
+            return;
+        };
+        let waited = time - since;
+        if waited > 0.0 {
+            for (slot, mode) in self.history_of(element).iter_mut().zip(&foundation.modes) {
+                *slot *= (-waited / mode.length).exp();
+            }
+            self.states[element] = ElementState::Free { limit, since: time };
+        }
+    }
+
+    /// Advances an element to the end of a step, over which the line above it moves linearly from one displacement to another.
+    ///
+    /// `unloaded` is its [unloaded displacement](Self::unloaded_displacement). `None` if it is never loaded in the step.
+    pub(crate) fn advance(
+        &mut self,
+        element: usize,
+        under: [f64; 2],
+        unloaded: f64,
+        step: &TimeStep,
+        end_time: f64,
+    ) -> Option<ElementStep> {
+        let state = self.states[element];
+        let mut event = self.event(element, step.duration);
+        // An element is loaded at the end if the line is below its unloaded displacement.
+        let is_loaded = under[1] > unloaded;
+        let loaded = ElementState::Loaded {
+            displacement: under[1],
+        };
+        let free = |limit| ElementState::Free {
+            limit,
+            since: end_time,
+        };
+        let (end_state, work) = match state {
+            ElementState::Loaded { displacement } if is_loaded => {
+                let compression = under[1] - displacement;
+                let work = step.compress(displacement, compression, event.history);
+                (loaded, work)
+            }
+            ElementState::Loaded { displacement } => {
+                let (limit, work) = event.separate([displacement, under[1]]);
+                (free(limit), work)
+            }
+            ElementState::Free { limit, .. } if is_loaded => {
+                (loaded, event.make_contact(limit, under))
+            }
+            ElementState::Untouched if is_loaded => (loaded, event.make_contact(0.0, under)),
+            ElementState::Free { limit, .. } => {
+                step.recover(event.history);
+                self.states[element] = free(limit);
+                return None;
+            }
+            ElementState::Untouched => return None,
+        };
+        self.states[element] = end_state;
+        Some(ElementStep {
+            work,
+            was_loaded: matches!(state, ElementState::Loaded { .. }),
+            is_loaded,
+        })
+    }
+
+    /// Separates a loaded element instantly; returns the energy that was stored in it.
+    pub(super) fn separate_instantly(&mut self, element: usize, time: f64) -> f64 {
+        let ElementState::Loaded { displacement } = self.states[element] else {
+            return 0.0;
+        };
+        let (limit, stored) = self.event(element, 0.0).separate_instantly(displacement);
+        self.states[element] = ElementState::Free { limit, since: time };
+        stored
+    }
+
+    /// Brings an element that recovers to `limit` into contact instantly; returns the energy stored in it.
+    pub(crate) fn make_contact_instantly(&mut self, element: usize, limit: f64, under: f64) -> f64 {
+        let (displacement, stored) = self
+            .event(element, 0.0)
+            .make_contact_instantly(limit, under);
+        self.states[element] = ElementState::Loaded { displacement };
+        stored
+    }
+}
