@@ -1,30 +1,43 @@
-//! What to change in a scene where a method fails: it names what it has computed with, and a person has keys.
+//! Advice appended to error messages: which key of the scene to change. The methods name their own numbers; a user has keys.
 
 use bem_halfspace::BemError;
 use friction_analytic::FrictionError;
 use indenters::IndenterError;
 use mdr_core::MdrError;
 
+/// Advice for grids or time marches that are too large.
 const FEWER: &str = "; give solve.elements, fewer where they are given, or a shorter solve.sliding_distance, or none for the \
      stationary state";
+/// Advice for too many elements of the one-dimensional model.
 const OTHER_DISTANCE: &str = "; give fewer solve.elements, or a longer solve.sliding_distance";
+/// Advice for grids that are too coarse.
 const FINER: &str = "; give more solve.elements, or a smaller solve.relative_error";
+/// Advice if the relative error was not reached.
 const LARGER_ERROR: &str = "; give a larger solve.relative_error, or another solve.method";
+/// Advice if the contact did not converge on one grid.
 const OTHER_ELEMENTS: &str =
     "; give another number of solve.elements, or a larger solve.relative_error";
+/// Advice if the contact reaches the edge of the body.
 const LESS_LOAD: &str =
     "; lower load.normal_force or load.indentation_depth, or give a body that reaches further";
+/// Advice if the contact reaches a vertical wall.
 const NO_WALL: &str =
     "; lower load.normal_force or load.indentation_depth, or give a body without a wall there";
+/// Advice if the track is shorter than the contact allows.
 const LONGER_TRACK: &str = "; give a longer load.track";
+/// Advice if a cycle is too short for the relaxation times.
 const LOWER_FREQUENCY: &str =
     "; give a lower load.frequency, or a material of shorter relaxation times";
+/// Advice if a sliding distance is required.
 const DISTANCE: &str = "; give solve.sliding_distance";
+/// Advice if the stationary state cannot be reached by marching.
 const DISTANCE_OR_STEADY: &str = "; give solve.method = \"bem-steady\", or solve.sliding_distance";
+/// Advice if the material has no equilibrium state.
 const DURATION: &str = "; give solve.duration";
+/// Advice if a number leaves the range of f64 or of a parameter.
 const UNITS: &str = "; check the units of indenter, material and load, from which it follows";
 
-/// Of the half space.
+/// Advice for an error of the half-space methods; empty if there is none.
 pub(super) const fn of_half_space(error: &BemError) -> &'static str {
     match error {
         BemError::GridTooLarge { .. } | BemError::TooManySteps { .. } => FEWER,
@@ -49,7 +62,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
     }
 }
 
-/// Of the one-dimensional model.
+/// Advice for an error of the one-dimensional model; empty if there is none.
 pub(super) const fn of_line(error: &MdrError) -> &'static str {
     match error {
         MdrError::TooManyElements { .. } => OTHER_DISTANCE,
@@ -71,7 +84,7 @@ pub(super) const fn of_line(error: &MdrError) -> &'static str {
     }
 }
 
-/// Of closed forms.
+/// Advice for an error of the closed forms; empty if there is none.
 pub(super) const fn of_closed_form(error: &FrictionError) -> &'static str {
     match error {
         FrictionError::NoStationaryState { .. } => LESS_LOAD,
@@ -81,7 +94,7 @@ pub(super) const fn of_closed_form(error: &FrictionError) -> &'static str {
     }
 }
 
-/// Of the rigid body.
+/// Advice for an error of the rigid body; empty if there is none.
 pub(super) const fn of_body(error: &IndenterError) -> &'static str {
     match error {
         IndenterError::OutOfDomain { .. }

@@ -18,16 +18,17 @@ use super::error::{Result, SolveError};
 use super::half_space::{Simple, simple};
 use crate::scene::{Method, Model};
 
-/// Points of the load along the contact.
+/// Intervals of the sampled line load along the contact (chosen; output only).
 const N_POINTS: usize = 200;
-/// Relative error of the depth by quadrature.
+/// Relative error stated for force, depth and radius of a body pressed into the half space (chosen, above the error of the
+/// quadrature and of the search for the radius).
 const QUADRATURE: f64 = 1e-10;
-/// Relative error that is stated for closed forms of which only the front had to be searched; far above their rounding.
+/// Relative error stated for closed forms whose contact front is found by root search (chosen, far above rounding).
 const SEARCHED: f64 = 1e-12;
-/// Relative rounding of the closed form.
+/// Relative error stated for the closed form of the pressed cylinder (chosen, about 50 units of rounding).
 const ROUNDING: f64 = 1e-14;
 
-/// The same where nothing is lost.
+/// The answer of frictionless sliding on an elastic material: the pressed contact with μ = 0.
 pub(crate) fn without_friction(pressed: Answer) -> Answer {
     Answer {
         friction_coefficient: Some(Estimate::exact(0.0)),
@@ -35,7 +36,7 @@ pub(crate) fn without_friction(pressed: Answer) -> Answer {
     }
 }
 
-/// The stationary state on a viscous line.
+/// Stationary sliding on a viscous Winkler foundation (one-dimensional model).
 pub(crate) fn viscous_line(
     body: &Revolution,
     material: &Viscous,
@@ -67,7 +68,7 @@ pub(crate) fn viscous_line(
     Ok(answer)
 }
 
-/// Force and depth, of which the one that is given is exact.
+/// Normal force and indentation depth as estimates: the given one is exact, the other has the relative error `error`.
 fn found_beside(given: Control, [force, depth]: [f64; 2], error: f64) -> (Estimate, Estimate) {
     match given {
         Control::NormalForce(force) => (Estimate::exact(force), within(depth, error)),
@@ -75,17 +76,18 @@ fn found_beside(given: Control, [force, depth]: [f64; 2], error: f64) -> (Estima
     }
 }
 
-/// The contact of a closed form.
+/// The contact interval of a closed form, with the error of the searched front.
 fn along(ends: [f64; 2]) -> ContactBox {
     let length = ends[1] - ends[0];
     ContactBox::along(ends, SEARCHED * length)
 }
 
+/// Rear and front end of a contact line of one or more intervals; `None` if it is empty.
 fn ends(intervals: &[[f64; 2]]) -> Option<[f64; 2]> {
     Some([intervals.first()?[0], intervals.last()?[1]])
 }
 
-/// w = 4 η v h̃'(x), where it is finite.
+/// Line load w = 4 η v h̃'(x), \[N/m], at equally spaced positions of the contact; infinite values are left out.
 fn load_along(body: &Revolution, per_depth: f64, state: &StationarySliding) -> Vec<[f64; 2]> {
     let Some([rear, front]) = ends(&state.contact_line) else {
         return Vec::new();
@@ -96,7 +98,7 @@ fn load_along(body: &Revolution, per_depth: f64, state: &StationarySliding) -> V
     loads.filter(|[_, load]| load.is_finite()).collect()
 }
 
-/// The stationary state of a power profile on a viscous half space, from the table of s(p).
+/// Stationary sliding of a power profile on a viscous half space, from the table of the scaling factor s(p).
 pub(crate) fn viscous_half_space(
     profile: &PowerProfile,
     material: &Viscous,
@@ -110,8 +112,8 @@ pub(crate) fn viscous_half_space(
     })
 }
 
-/// A body that slides slowly over a solid half space, from its elastic contact; none where the terms that are left out are
-/// more than the part `asked` of the friction.
+/// Slow sliding over a viscoelastic half space with an equilibrium modulus: first order in the velocity about the elastic contact.
+/// `None` if the truncation estimate exceeds the relative error `asked`, or if the elastic contact fails.
 pub(crate) fn slow_half_space(
     body: &Revolution,
     material: &dyn Material,
@@ -134,7 +136,7 @@ pub(crate) fn slow_half_space(
     let ends = [slow.rear.value, front];
     let mut friction = slow.friction_coefficient;
     if let Control::IndentationDepth(_) = load.control() {
-        // It is that under the force of the elastic contact, and falls with the force less than in proportion.
+        // The coefficient belongs to the force of the elastic contact. It falls with the force less than in proportion.
         friction = friction.widened(slow.elastic_error * friction.value.abs());
     }
     (friction.value > 0.0 && friction.is_within(asked)).then(|| Answer {
@@ -148,7 +150,7 @@ pub(crate) fn slow_half_space(
     })
 }
 
-/// Cone and paraboloid on a viscous line, a distance after first touch.
+/// Cone or paraboloid on a viscous Winkler foundation after a sliding distance from first touch, \[m].
 pub(crate) fn viscous_transient(
     profile: &PowerProfile,
     material: &Viscous,
@@ -166,7 +168,7 @@ pub(crate) fn viscous_transient(
     })
 }
 
-/// Cone and paraboloid on a Kelvin–Voigt or Maxwell line.
+/// Stationary sliding of a cone or paraboloid on a Kelvin–Voigt or Maxwell foundation (one-dimensional model).
 pub(crate) fn viscoelastic_line(
     profile: &PowerProfile,
     load: &SlidingLoad,
@@ -193,7 +195,7 @@ pub(crate) fn viscoelastic_line(
     })
 }
 
-/// Where a ratio that grows with the front is one; no ratio means too far out.
+/// Contact front at which an increasing ratio equals 1; a ratio of `None` counts as above 1 while the bracket shrinks.
 fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let mut front = 1.0;
     while ratio(front).is_none_or(|ratio| ratio > 1.0) {
@@ -207,10 +209,10 @@ fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     bracketed_root(excess, [front, 2.0 * front])
 }
 
-/// A body that is pressed, in closed form or by quadrature.
+/// Indentation by a body of revolution without sliding, in closed form or by quadrature.
 ///
-/// While the contact grows, or stays as it is, half space and line agree exactly (Lee & Radok 1960), and a constant force
-/// acts on every material like the impulse F J(t) on a dashpot of unit viscosity:
+/// As long as the contact does not shrink, the half space and the one-dimensional model agree exactly (Lee & Radok 1960).
+/// A constant force acts on every material like the impulse F J(t) on a dashpot of unit viscosity:
 ///
 /// ```text
 /// 8 ∫₀^a x h̃' dx = 2 (1 − ν) F J(t)         constant force
@@ -252,13 +254,13 @@ pub(crate) fn pressed(
     })
 }
 
-/// What a force that is held for a duration does to the material, as an impulse on the dashpot of unit viscosity.
+/// Impulse on the dashpot of unit viscosity that is equivalent to a force held for a duration.
 fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
     Ok(force * compliance)
 }
 
-/// Force at a depth that was held for a duration, over the impulse that leads to it on that dashpot, [1/s].
+/// Force at a depth held for a duration, divided by the impulse on the unit dashpot that reaches the same depth, \[1/s].
 pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     let modulus = material.relaxation_modulus(duration)?;
     let stiffness = modulus / material.half_space_factor();
@@ -268,7 +270,7 @@ pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     Ok(stiffness)
 }
 
-/// A cylinder that is infinite along y, under a constant force in plane strain: all forces and areas are per length.
+/// Indentation by an infinite cylinder under a constant force in plane strain; forces and areas are per unit length along y.
 pub(crate) fn cylinder_pressed(
     cylinder: &Cylinder,
     material: &dyn Material,

@@ -1,4 +1,4 @@
-//! What a method answers: quantities in SI, each with its error.
+//! The answer of a method: quantities in SI units, each with its error.
 
 use bem_halfspace::slide::PressureField;
 use bem_halfspace::steady::{LineOptions, SteadyOptions};
@@ -17,167 +17,167 @@ use super::realisations::Ensemble;
 use super::sensitivity::{Budget, Sensitivity, SpectralSensitivity};
 use crate::scene::{Method, Model};
 
-/// One result in SI; what a method does not know is left out.
+/// The answer to one problem, in SI units; quantities that the method does not compute are `None`.
 ///
-/// As JSON it is flat: every quantity is followed by its absolute error, `friction_coefficient` by
-/// `friction_coefficient_error`; the error of what was given, or is exact, is 0.
+/// Its JSON is flat: each quantity is followed by its absolute error, for example `friction_coefficient` by
+/// `friction_coefficient_error`. The error is 0 for quantities that are given or exact.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
-    /// The method that was asked.
+    /// The method that computed the answer.
     pub method: Method,
-    /// What the elastomer was taken to be.
+    /// The model of the elastomer.
     pub model: Model,
-    /// μ = F_h/F_N, of a motion ∫ F_t dx / ∫ F_N |dx|; none where nothing slides.
+    /// μ = F_h/F_N, for a motion ∫ F_t dx / ∫ F_N |dx|; `None` if nothing slides.
     pub friction_coefficient: Option<Estimate>,
-    /// The largest |F_t|/F_N of a motion; none of any other.
+    /// Largest |F_t|/F_N during a motion; `None` if the load is not a motion.
     pub peak_friction: Option<Estimate>,
-    /// Energy that is dissipated in a cycle of a motion to and fro, \[J].
+    /// Energy dissipated per cycle of a reciprocating motion, \[J]; `None` for other loads.
     pub dissipated_energy: Option<Estimate>,
-    /// F_N, \[N], or \[N/m] of a cylinder.
+    /// Normal force F_N, \[N], or \[N/m] for a cylinder.
     pub normal_force: Estimate,
-    /// Depth of the lowest point below the undeformed surface, \[m], and of the mean plane of a periodic surface; none where
-    /// it has no end.
+    /// Depth of the lowest point below the undeformed surface, \[m]; for a periodic surface that of its mean plane.
+    /// `None` if it is unbounded or not known, as on a half space under a cylinder or a periodic surface.
     pub indentation_depth: Option<Estimate>,
-    /// Parts of the error of the friction coefficient; where nothing slides of the depth, or of the force at a given depth.
+    /// Parts of the error of the friction coefficient; without sliding, of the depth, or of the force at a given depth.
     pub error_parts: ErrorParts,
-    /// \[m²], or the width \[m] of a cylinder's contact; none on a line.
+    /// Contact area, \[m²], or contact width \[m] for a cylinder; `None` if the method is one-dimensional.
     pub contact_area: Option<Estimate>,
-    /// \[Pa]; none where it grows without limit on finer elements.
+    /// Largest pressure, \[Pa]; `None` if it is not known or grows without limit as the grid is refined.
     pub peak_pressure: Option<Estimate>,
-    /// What is said of rough surfaces only.
+    /// Additional quantities of a periodic surface; `None` for other bodies.
     pub rough: Option<RoughAnswer>,
-    /// The rectangle around the contact.
+    /// Bounding rectangle of the contact; `None` if nothing touches or it is not known.
     pub contact_box: Option<ContactBox>,
-    /// Where the dissipated power comes from.
+    /// Fractions of the dissipated power by their origin.
     pub dissipation: Dissipation,
-    /// Unknown pressures, elements or polynomials at the same time; none in a closed form.
+    /// Number of unknowns: pressures, elements or polynomials; 0 for a closed form.
     pub unknowns: usize,
-    /// Iterations or time steps on the finest resolution.
+    /// Iterations or time steps on the finest grid.
     pub iterations: usize,
-    /// Whether forces and areas are per length along y.
+    /// True if forces and areas are per unit length along y.
     pub is_per_length: bool,
     /// Sentences about the validity of the answer.
     pub warnings: Vec<String>,
-    /// Why it is not what was asked, of an answer that a [`SolveError`] holds.
+    /// Reason why the request was not met; `None` unless the answer comes from a [`SolveError`].
     pub not_reached: Option<String>,
-    /// What a reader might take to be in the answer, and is not: words of a fixed list.
+    /// Physical effects that the model leaves out, from a fixed list of words.
     pub not_modelled: Vec<&'static str>,
-    /// Parts of the method that the scene did not need.
+    /// Computations that the method could skip for this scene.
     pub left_out: Vec<Omission>,
-    /// How much it depends on the numbers of its scene, where [that](super::with_sensitivity()) was asked for.
+    /// Derivatives with respect to the numbers of the scene; empty unless [requested](super::with_sensitivity()).
     pub sensitivity: Vec<Sensitivity>,
-    /// How much it depends on the modulus at each frequency, where [that](super::spectral_sensitivity()) was asked for.
+    /// Derivatives with respect to the modulus at each frequency; `None` unless [requested](super::spectral_sensitivity()).
     pub spectral_sensitivity: Option<SpectralSensitivity>,
-    /// The surfaces of which it is the mean; none of a body that is not random, and of one surface alone.
+    /// The random surfaces that the answer averages; `None` for one surface and for bodies that are not random.
     pub ensemble: Option<Ensemble>,
-    /// What makes it uncertain, where that was asked for and its scene says what is uncertain.
+    /// Uncertainty budget; empty unless it was requested and the scene states uncertainties.
     pub budget: Budget,
-    /// The finest boundary elements.
+    /// Finest boundary-element grid of a body that is not periodic.
     pub(crate) grid: Option<Grid>,
-    /// Those of a stationary contact.
+    /// Options of the finest grid of a stationary contact.
     pub(crate) stationary: Option<StationaryGrid>,
-    /// Elements of the finest grid of a period.
+    /// Elements along x and y of the finest grid of a periodic surface.
     pub(crate) period_grid: Option<[usize; 2]>,
     /// Fields and histories.
     pub fields: Fields,
 }
 
-/// What is said of a periodic surface beside other bodies; `normal_force` and `contact_area` are those of one period.
+/// Additional quantities of a periodic surface; [`Answer::normal_force`] and [`Answer::contact_area`] are those of one period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct RoughAnswer {
-    /// \[Pa].
+    /// Mean pressure, \[Pa].
     pub mean_pressure: Estimate,
-    /// Part of the period in contact.
+    /// Contact area as a fraction of the period.
     pub area_fraction: Estimate,
-    /// The friction coefficient from the power that the material dissipates, of a stationary state.
+    /// Friction coefficient from the power that the material dissipates; `None` if the state is not stationary.
     pub friction_from_dissipation: Option<Estimate>,
-    /// Persson's theory of the same waves in the stationary state on a half space; none elsewhere.
+    /// Persson's theory for the same waves; `None` unless the state is stationary sliding on a half space without a fitted series.
     pub persson: Option<Persson>,
-    /// Where the contact is stationary or at rest, and waves are left.
+    /// Answer without the shortest octave; `None` for transients, and if no wave remains.
     pub without_shortest_octave: Option<WithoutShortestOctave>,
 }
 
-/// Persson's theory of the waves of a surface, exact as a sum.
+/// Persson's theory for the waves of a surface, summed exactly.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Persson {
-    /// Part of the period in contact, as in 2001.
+    /// Contact area as a fraction of the period (Persson 2001).
     pub area_fraction: f64,
-    /// The same of Xu and others (2024) with γ = 0.45, in which pressures differ less where less is in contact.
+    /// Contact-area fraction of Xu and others (2024), γ = 0.45, whose pressure distribution is narrower at small contact areas.
     pub area_fraction_xu: f64,
-    /// Friction coefficient with S = 1, as in 2001.
+    /// Friction coefficient with S = 1 (Persson 2001).
     pub friction_coefficient: f64,
-    /// Friction coefficient with S = (1 + P²)/2, as in 2006.
+    /// Friction coefficient with S = (1 + P²)/2 (Persson 2006).
     pub friction_coefficient_2006: f64,
 }
 
-/// The rectangle around the contact, relative to the lowest point, \[m].
+/// Bounding rectangle of the contact, relative to the lowest point of the body, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactBox {
-    /// Rear and front end along the direction of motion.
+    /// Rear and front end along the direction of motion, \[m].
     pub x: [f64; 2],
-    /// Ends across it; none on a line.
+    /// Ends across the direction of motion, \[m]; `None` for one-dimensional methods and for a cylinder.
     pub y: Option<[f64; 2]>,
-    /// Absolute error of each end.
+    /// Absolute error of each end, \[m].
     pub error: f64,
 }
 
-/// The finest boundary elements behind an answer.
+/// Finest boundary-element grid behind an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grid {
-    /// Elements of the footprint behind and ahead of, right and left of the one under the lowest point.
+    /// Elements of the footprint on either side of the element under the lowest point: behind and ahead, right and left.
     pub(crate) footprint: [[usize; 2]; 2],
-    /// Whether the contact was factorised.
+    /// True if the equations of the contact were factorised.
     pub(crate) factorised: bool,
 }
 
-/// The finest grid of a stationary contact.
+/// Options of the finest grid of a stationary contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum StationaryGrid {
     Contact(SteadyOptions),
     Line(LineOptions),
 }
 
-/// Fields and histories behind an answer; what a method does not have is empty.
+/// Fields and histories behind an answer; empty if the method does not compute them.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Fields {
-    /// Pressure on the half space.
+    /// Pressure on the half space, \[Pa].
     pub pressure: Option<PressureField>,
-    /// Position \[m] and load per length \[N/m] along the contact of a line.
+    /// Position \[m] and line load \[N/m] along the contact of the one-dimensional model.
     pub line_load: Vec<[f64; 2]>,
-    /// Position \[m] and pressure \[Pa] across the contact of a cylinder, or along a diameter under a body of revolution that
-    /// does not slide.
+    /// Position \[m] and pressure \[Pa] across the contact of a cylinder, or along a diameter under a body of revolution without
+    /// sliding.
     pub line_pressure: Vec<[f64; 2]>,
-    /// From first touch to the state that was asked for.
+    /// Time steps from first touch to the requested state.
     pub history: Vec<HistoryRow>,
-    /// The points of the history or motion that was asked for, or [since touch](super::with_fields()).
+    /// Points of the requested history or motion, or of the indentation [since first touch](super::with_fields()).
     pub curve: Curve,
-    /// The steps of a motion: time \[s], position \[m] and tangential force \[N].
+    /// Steps of a motion: time \[s], position \[m] and tangential force \[N].
     pub motion_steps: Vec<[f64; 3]>,
 }
 
-/// One step of sliding.
+/// One time step of sliding.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct HistoryRow {
-    /// Since first touch, \[m].
+    /// Sliding distance since first touch, \[m].
     pub sliding_distance_m: f64,
-    /// Since first touch, \[s].
+    /// Time since first touch, \[s].
     pub time_s: f64,
-    /// Depth of the lowest point, or of the mean plane of a periodic surface, \[m].
+    /// Indentation depth of the lowest point, or of the mean plane of a periodic surface, \[m].
     pub indentation_depth_m: f64,
-    /// F_h/F_N of the step.
+    /// Friction coefficient F_h/F_N at this step.
     pub friction_coefficient: f64,
 }
 
-/// A value that is known to a relative error.
+/// A value with a relative error.
 pub(crate) const fn within(value: f64, relative_error: f64) -> Estimate {
     Estimate::new(value, relative_error * value.abs())
 }
 
 impl Answer {
-    /// An answer that knows nothing yet but the force.
+    /// An answer that holds only the normal force.
     pub(crate) fn new(method: Method, model: Model, normal_force: Estimate) -> Self {
         Self {
             method,
@@ -211,15 +211,15 @@ impl Answer {
         }
     }
 
-    /// F_h = μ F_N, \[N] or \[N/m]; none where nothing slides.
+    /// Tangential force F_h = μ F_N, \[N] or \[N/m]; `None` if nothing slides.
     pub fn tangential_force(&self) -> Option<Estimate> {
         let (friction, force) = (self.friction_coefficient?, self.normal_force);
         let error = friction.error * force.value + friction.value.abs() * force.error;
         Some(Estimate::new(friction.value * force.value, error))
     }
 
-    /// The friction coefficient, or where nothing slides the area fraction of a periodic surface, the depth, or the force at a
-    /// given depth: what the relative error is asked of.
+    /// The quantity that the requested relative error refers to: the friction coefficient. Without sliding it is the area fraction
+    /// of a periodic surface, else the depth, or the force at a given depth.
     pub fn requested_quantity(&self) -> Estimate {
         let (force, depth) = (self.normal_force, self.indentation_depth);
         let depth = depth.filter(|_| force.error == 0.0);
@@ -230,7 +230,7 @@ impl Answer {
             .unwrap_or(force)
     }
 
-    /// Quantities by their names in JSON and CSV, in this order, each with its error.
+    /// Quantities by their names in JSON and CSV, in the order of the output.
     fn quantities(&self) -> [(&str, Option<Estimate>); 11] {
         let rough = |of: fn(RoughAnswer) -> Estimate| self.rough.map(of);
         let dissipation = self.rough.and_then(|rough| rough.friction_from_dissipation);
@@ -249,7 +249,7 @@ impl Answer {
         ]
     }
 
-    /// All numbers by their names in CSV; those that are not known stay empty.
+    /// All numbers by their names in CSV; `None` if a number is not known.
     pub fn numbers(&self) -> Vec<(String, Option<f64>)> {
         let mut numbers = Vec::new();
         for (name, known) in self.quantities() {
@@ -286,17 +286,17 @@ impl Answer {
         numbers
     }
 
-    /// The names of all [`numbers`](Self::numbers).
+    /// Names of all [`numbers`](Self::numbers), the columns of the CSV.
     pub fn columns() -> Vec<String> {
         let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
         empty.numbers().into_iter().map(|(name, _)| name).collect()
     }
 
-    /// Refuses numbers that no contact has: one so close to 0 that it has lost its digits, and with them its bar, and a
-    /// friction below 0, by which a material would give back more energy than it takes. Friction that came out below 0
-    /// within its bar is 0 with that bar, which holds all that is left of it.
+    /// Rejects unphysical numbers: underflow, which leaves neither digits nor an error estimate, and negative friction, by which
+    /// a material would return more energy than it receives. Friction that is negative within its error is set to 0 and keeps
+    /// the error.
     ///
-    /// On the way to the stationary state a surface that is not its own mirror image may be pulled along.
+    /// Before the stationary state, a surface without mirror symmetry may have negative friction.
     pub(crate) fn physical(mut self, problem: &Problem) -> Result<Self> {
         if matches!(problem.motion(), Motion::History(_) | Motion::Moving(_)) {
             return Ok(self);
@@ -312,10 +312,11 @@ impl Answer {
             }
             *friction = Estimate::new(0.0, error);
         }
-        // Of an area or a pressure whose extrapolation is not even positive nothing is known.
+        // Discard an area or a pressure whose extrapolated value is not positive within its error.
         for quantity in [&mut self.contact_area, &mut self.peak_pressure] {
             *quantity = quantity.filter(|known| known.value > 0.0 || known.error < -known.value);
         }
+        // Reject underflow. Exactly 0 is allowed for friction on an elastic material, and with an error that does not underflow.
         let is_elastic = problem.simple() == Some(&Simple::Elastic);
         let is_lost = |name: &str, known: Estimate| {
             let is_exact = is_elastic && (name.contains("friction") || name == "tangential_force");
@@ -335,7 +336,7 @@ impl Answer {
         Ok(self)
     }
 
-    /// Refuses a quantity that overflows although what it follows from does not, such as an area from a length.
+    /// Rejects an answer with a quantity that overflows although its inputs do not, such as an area from a length.
     pub(crate) fn finite(self) -> Result<Self> {
         let numbers = self.numbers().into_iter();
         let mut known = numbers.filter_map(|(name, value)| Some((name, value?)));
@@ -346,16 +347,16 @@ impl Answer {
     }
 }
 
-/// The edges of the contact by their names.
+/// Names of the edges of the contact in JSON and CSV.
 const EDGES: [&str; 4] = ["x_min", "x_max", "y_min", "y_max"];
 
 impl ContactBox {
-    /// On a line.
+    /// A contact interval, without a width across the motion.
     pub(crate) const fn along(x: [f64; 2], error: f64) -> Self {
         Self { x, y: None, error }
     }
 
-    /// On a surface.
+    /// A contact rectangle.
     pub(crate) const fn around(x: [f64; 2], y: [f64; 2], error: f64) -> Self {
         let y = Some(y);
         Self { x, y, error }

@@ -1,4 +1,4 @@
-//! The rigid body of a scene.
+//! Construction of the rigid body of a scene.
 
 use std::ops::Deref;
 use std::path::Path;
@@ -18,24 +18,24 @@ use crate::scene::{
 };
 use crate::text::WrongInput;
 
-/// Part by which the slope of a surface is off from that of its spectrum above which it hardly stands for that.
+/// Largest relative deviation of the rms slope of a sampled surface from that of its spectrum without a warning (chosen).
 const MOST_OFF: f64 = 0.1;
 
-/// The rigid body, by what the methods tell apart.
+/// The rigid body, by the kinds that methods distinguish.
 #[derive(Debug)]
 pub enum Body {
     /// A body of revolution.
     Revolution(Revolution),
-    /// Infinite along y.
+    /// A cylinder, infinite along y.
     Cylinder(Cylinder),
     /// A grid of heights.
     HeightMap(HeightMap),
-    /// Repeats itself along x and y.
+    /// A surface that is periodic along x and y.
     Periodic(PeriodicSurface),
 }
 
 impl Body {
-    /// Its surface; none of a cylinder and of a periodic surface, which have no end.
+    /// Surface of a finite body; `None` for a cylinder and a periodic surface, which are unbounded.
     pub fn surface(&self) -> Option<&dyn Surface> {
         match self {
             Self::Revolution(body) => Some(body.surface()),
@@ -44,7 +44,7 @@ impl Body {
         }
     }
 
-    /// Area of one period, \[m²]; none of a body that does not repeat itself.
+    /// Area of one period, \[m²]; `None` if the body is not periodic.
     pub(crate) fn period_area(&self) -> Option<f64> {
         match self {
             Self::Periodic(surface) => Some(surface.period().iter().product()),
@@ -53,12 +53,12 @@ impl Body {
     }
 }
 
-/// The rigid body of a scene, as its files describe it.
+/// The rigid body of a scene, with the warnings of its files.
 #[derive(Debug)]
 pub struct BodyOfScene {
     /// The body.
     pub body: Body,
-    /// Sentences about what is strange in the files, which are part of the warnings of every answer.
+    /// Sentences about implausible contents of the files; every answer repeats them among its warnings.
     pub warnings: Vec<String>,
 }
 
@@ -70,7 +70,7 @@ pub enum Revolution {
     Sum(Superposition),
     /// The exact sphere.
     Sphere(Sphere),
-    /// Any other.
+    /// Any other body of revolution.
     Other(Box<dyn Axisymmetric>),
 }
 
@@ -81,7 +81,7 @@ impl std::fmt::Debug for Revolution {
     }
 }
 
-/// A body of revolution is the shape that it holds.
+/// Gives access to the methods of the shape.
 impl Deref for Revolution {
     type Target = dyn Axisymmetric;
 
@@ -106,7 +106,7 @@ impl Revolution {
     }
 }
 
-/// The body of a table of the scene file.
+/// Builds the rigid body of an `indenter` table of the scene file.
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
@@ -156,7 +156,7 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
     })
 }
 
-/// Refuses a shortest wave that is longer than the longest.
+/// Rejects a shortest wavelength above the longest.
 fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
     let [shortest, longest] = [surface.shortest_wavelength, surface.longest_wavelength];
     if shortest > longest {
@@ -172,6 +172,7 @@ fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// The parameters of a self-affine surface; the roll-off defaults to the longest wavelength.
 fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
     let longest_wavelength = surface.longest_wavelength;
     SelfAffine {
@@ -185,7 +186,7 @@ fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
     }
 }
 
-/// A surface of a power spectrum, and what is strange about that.
+/// Samples a surface with a given power spectrum, with warnings about implausible slopes.
 fn random(surface: &SpectrumSurface, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.spectrum.file", problem);
     let table = files.table(&surface.file);
@@ -221,10 +222,12 @@ fn random(surface: &SpectrumSurface, files: &Files<'_>) -> Result<BodyOfScene, S
     })
 }
 
+/// A body of revolution of any other shape.
 fn other(shape: impl Axisymmetric + 'static) -> Body {
     Body::Revolution(Revolution::Other(Box::new(shape)))
 }
 
+/// A sum of powers; an error names the term.
 fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
     let table = "indenter.superposition.terms";
     for (index, term) in terms.iter().enumerate() {
@@ -242,6 +245,7 @@ fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
         .map_err(|error| SceneError::at(table, error.to_string()))
 }
 
+/// A body of revolution from a table of radii and heights.
 fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
     let table = files.table(file);
@@ -249,7 +253,7 @@ fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
     profile(&file, &contents).map(other).map_err(wrong)
 }
 
-/// The number that the library refuses, with its key.
+/// Attributes an error of the library to the key of the scene.
 fn refused(table: &str, error: IndenterError) -> SceneError {
     match error {
         IndenterError::InvalidParameter(refused) => SceneError::within(table, refused),

@@ -1,58 +1,65 @@
-//! What is known along a history.
+//! Quantities of the contact along a history or a motion.
 
 use std::iter;
 
 use numerics::Estimate;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// The contact at the points of a history, or of a motion; none where nothing was followed.
+/// The contact at the points of a history or a motion; empty if the load has none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Curve {
     /// Times, \[s].
     pub times: Vec<f64>,
-    /// Force, depth, radius or area of the contact, and the work since the first point, where it is known.
+    /// The known ones of force, depth, position, contact radius, contact area, and work since the first point.
     pub columns: Vec<CurveColumn>,
 }
 
-/// One quantity along a history; errors of 0 say that it is given.
+/// One quantity along a history; an error of 0 marks a given value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveColumn {
-    /// Its name and its unit, as tables write them.
+    /// Name and unit, as they appear in the header of a table.
     pub name: [&'static str; 2],
-    /// Its values at all points.
+    /// Values at all points.
     pub values: Vec<Estimate>,
 }
 
-/// Names of columns.
+/// Column of the normal force.
 pub(crate) const FORCE: [&str; 2] = ["normal_force", "n"];
+/// Column of the indentation depth.
 pub(crate) const DEPTH: [&str; 2] = ["indentation_depth", "m"];
+/// Column of the contact radius.
 pub(crate) const RADIUS: [&str; 2] = ["contact_radius", "m"];
+/// Column of the contact area.
 pub(crate) const AREA: [&str; 2] = ["contact_area", "m2"];
+/// Column of the work done since the first point.
 pub(crate) const WORK: [&str; 2] = ["work", "j"];
+/// Column of the position along the surface.
 pub(crate) const POSITION: [&str; 2] = ["position", "m"];
+/// Column of the tangential force.
 pub(crate) const TANGENTIAL: [&str; 2] = ["tangential_force", "n"];
 
-/// The name of a column, and its value at a point.
+/// Name and unit of a column, and the function that extracts its value from a point.
 pub(crate) type OfPoint<P> = ([&'static str; 2], fn(&P) -> Estimate);
 
 impl CurveColumn {
-    /// The largest value, at least 0.
+    /// Largest absolute value over all points.
     pub fn largest(&self) -> f64 {
         self.over(|known| known.value.abs())
     }
 
-    /// The largest error of all points.
+    /// Largest absolute error over all points.
     pub fn error(&self) -> f64 {
         self.over(|known| known.error)
     }
 
+    /// Maximum of a non-negative statistic over all points.
     fn over(&self, of: fn(&Estimate) -> f64) -> f64 {
         self.values.iter().map(of).fold(0.0, f64::max)
     }
 }
 
 impl Curve {
-    /// Columns of the points that a method found.
+    /// Builds the columns from the points computed by a method.
     pub(crate) fn of<P, const N: usize>(
         points: &[P],
         time: fn(&P) -> f64,
@@ -68,28 +75,28 @@ impl Curve {
         }
     }
 
-    /// What it is called in JSON.
+    /// Key in JSON: `motion` if there is a position, else `history`.
     pub fn name(&self) -> &'static str {
         let moves = self.column(POSITION[0]).is_some();
         if moves { "motion" } else { "history" }
     }
 
-    /// The column of a name; none where it is not known.
+    /// The column with a given name; `None` if that quantity is not known.
     pub fn column(&self, name: &str) -> Option<&CurveColumn> {
         self.columns.iter().find(|column| column.name[0] == name)
     }
 
-    /// The largest value of a quantity, 0 where it is not known.
+    /// Largest absolute value of a quantity; 0 if it is not known.
     pub(crate) fn largest(&self, [name, _]: [&str; 2]) -> f64 {
         self.column(name).map_or(0.0, CurveColumn::largest)
     }
 
-    /// The last value of a quantity.
+    /// Last value of a quantity; `None` if it is not known or there are no points.
     pub(crate) fn last(&self, [name, _]: [&str; 2]) -> Option<Estimate> {
         self.column(name)?.values.last().copied()
     }
 
-    /// In JSON: the values at all points, and the largest error of each.
+    /// Writes the JSON: the values at all points, and the largest error of each column.
     pub(crate) fn serialize_into<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         let rows = self.times.iter().enumerate().map(|(index, time)| {
             let columns = self.columns.iter();
@@ -104,7 +111,7 @@ impl Curve {
     }
 }
 
-/// Numbers by their names.
+/// Named numbers, serialized as a map in this order.
 struct Named(Vec<(&'static str, f64)>);
 
 impl Serialize for Named {

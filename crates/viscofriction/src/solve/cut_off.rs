@@ -1,4 +1,4 @@
-//! Whether an answer depends on where the waves of a rough surface were cut off.
+//! Sensitivity of an answer to the shortest waves of a rough surface.
 
 use bem_halfspace::{BemError, PeriodicEstimate, PeriodicSliding, Reached};
 use indenters::rough::PeriodicSurface;
@@ -8,25 +8,25 @@ use serde::ser::{SerializeMap as _, Serializer};
 
 use super::answer::RoughAnswer;
 
-/// Relative change of friction, area and slope by the shortest octave above which they are not converged in the cut-off.
+/// Relative change of friction or area by the shortest octave above which a warning is given (chosen).
 const MOST: f64 = 0.1;
-/// Least relative error of the answer without the octave: it need only tell whether that matters.
+/// Smallest relative error requested of the answer without the octave (chosen): well below the change [`MOST`] to detect.
 const RELATIVE_ERROR: f64 = 0.03;
 
-/// The answer without the waves of the shortest octave, those shorter than twice the shortest.
+/// The answer without the shortest octave, the waves shorter than twice the shortest wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WithoutShortestOctave {
-    /// None where nothing slides.
+    /// Friction coefficient; `None` if nothing slides.
     pub friction_coefficient: Option<Estimate>,
-    /// Part of the period in contact.
+    /// Contact area as a fraction of the period.
     pub area_fraction: Estimate,
-    /// Root mean square slope of the surface.
+    /// Root mean square slope of the remaining surface.
     pub rms_slope: f64,
 }
 
 impl WithoutShortestOctave {
-    /// Solves to the relative error asked for, or a larger one, on no more elements along an edge than the `finest` grid of the
-    /// answer itself has; none where no wave or no answer is left.
+    /// Solves without the shortest octave, to the requested relative error but at least [`RELATIVE_ERROR`]. No grid has more
+    /// elements along an edge than the `finest` grid of the answer itself. `None` if no wave remains or the solution fails.
     pub(super) fn of(
         surface: &PeriodicSurface,
         request: Request,
@@ -63,14 +63,13 @@ impl WithoutShortestOctave {
         })
     }
 
-    /// The part of the friction that comes from the shortest octave; below 0 where it takes some away, and none where nothing
-    /// rubs.
+    /// Fraction of the friction due to the shortest octave; negative if the octave reduces friction, `None` without friction.
     pub(super) fn share(&self, friction: Option<Estimate>) -> Option<f64> {
         let (friction, without) = (friction?, self.friction_coefficient?);
         (friction.value > 0.0).then(|| 1.0 - without.value / friction.value)
     }
 
-    /// A sentence where friction or area changes by more than bars explain.
+    /// A warning if friction or area changes by more than [`MOST`] and by more than the error estimates.
     pub(super) fn warning(
         &self,
         friction: Option<Estimate>,
@@ -104,6 +103,7 @@ impl WithoutShortestOctave {
             )
         });
         let changes: Vec<String> = changes.collect();
+        // Rms slope of the octave itself.
         // Squares of slopes add up over waves.
         let octave = ((slope + self.rms_slope) * (slope - self.rms_slope))
             .max(0.0)

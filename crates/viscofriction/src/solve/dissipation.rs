@@ -1,4 +1,4 @@
-//! Where the power comes from that a stationary state dissipates.
+//! Origin of the power dissipated in a stationary state.
 
 use bem_halfspace::line_spectrum;
 use friction_analytic::{ElasticContact, slow_sliding_spectrum};
@@ -10,21 +10,21 @@ use super::body::Body;
 use super::problem::{Motion, Problem};
 use crate::scene::Model;
 
-/// Parts of the dissipated power, which are those of the friction too; what is not known is none.
+/// Fractions of the dissipated power, equal to those of the friction; `None` if not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dissipation {
-    /// From frequencies at which the material was not measured.
+    /// Fraction from frequencies at which the material was not measured.
     pub outside_window: Option<f64>,
-    /// From those below the window in which it was.
+    /// Fraction from frequencies below the measured window.
     pub below_window: Option<f64>,
-    /// From those above.
+    /// Fraction from frequencies above the measured window.
     pub above_window: Option<f64>,
-    /// From the shortest octave of the waves of a rough surface: what is missing without them. Below 0 where there is more.
+    /// Fraction lost without the shortest octave of a rough surface; negative if friction is larger without it.
     pub shortest_octave: Option<f64>,
 }
 
 impl Dissipation {
-    /// The parts by their names in JSON, and in CSV after `dissipation_`.
+    /// The fractions by their names in JSON; the CSV prefixes them with `dissipation_`.
     pub(super) const fn shares(&self) -> [(&'static str, Option<f64>); 4] {
         [
             ("outside_window", self.outside_window),
@@ -42,7 +42,7 @@ impl Serialize for Dissipation {
     }
 }
 
-/// The parts of an answer that are known.
+/// The known fractions of an answer.
 pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     let outside = outside_window(problem, answer);
     let without = answer.rough.and_then(|rough| rough.without_shortest_octave);
@@ -54,26 +54,27 @@ pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     }
 }
 
-/// Of a stationary state, whose waves have one frequency each; that of a motion from rest is taken as one at its end.
+/// Fractions outside the window for sliding at constant speed, where each wave has one frequency. A march from rest is treated as
+/// stationary at its end.
 fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
     let (Some(window), Motion::Sliding(load)) = (problem.window(), problem.motion()) else {
         return None;
     };
-    // On a track waves are those that fit into it.
+    // On a track the waves are harmonics of its length, which this spectrum does not represent.
     if problem.track().is_some() {
         return None;
     }
     let velocity = load.velocity();
     let creep = problem.material().creep();
     if answer.model == Model::Line {
-        // Every element of the line has the same compliance, whatever the wave.
+        // Every element of the Winkler foundation has the same compliance, whatever the wavelength.
         let bands = creep.bands_along(&answer.fields.line_load, velocity, |_| 1.0);
         return creep.outside_window(window, bands);
     }
     creep.outside_window(window, stress(problem, answer, velocity)?)
 }
 
-/// The frequencies of the pressure on the half space, where something slides.
+/// Frequency spectrum of the pressure on the half space; `None` if the answer has no pressure field or contact.
 fn stress(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<StressBand>> {
     let elastomer = problem.elastomer().ok()?;
     let fields = &answer.fields;

@@ -1,4 +1,4 @@
-//! What boundary elements say, as answers.
+//! Boundary-element solutions as answers.
 
 use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate, indent_along};
 use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow, slide};
@@ -22,7 +22,7 @@ use super::mdr::of_motion;
 use super::problem::{Motion, Problem};
 use crate::scene::{Method, Model};
 
-/// The quantities of an estimate, with the ends of its contact along x and y.
+/// The common quantities of an estimate, with the ends of its contact along x and y.
 fn answer<S, O>(estimate: &ContactEstimate<S, O>, method: Method, [x, y]: [[f64; 2]; 2]) -> Answer {
     Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
@@ -35,7 +35,7 @@ fn answer<S, O>(estimate: &ContactEstimate<S, O>, method: Method, [x, y]: [[f64;
     }
 }
 
-/// The stationary state.
+/// Stationary sliding of a finite body.
 pub(crate) fn stationary(
     problem: &Problem,
     surface: &dyn Surface,
@@ -45,6 +45,7 @@ pub(crate) fn stationary(
     of_steady(steady(surface, &problem.elastomer()?, load, request)?)
 }
 
+/// The answer of a stationary estimate.
 fn of_steady(estimate: SteadyEstimate) -> Result<Answer> {
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
@@ -62,7 +63,7 @@ fn of_steady(estimate: SteadyEstimate) -> Result<Answer> {
     Ok(answer)
 }
 
-/// The stationary state of a cylinder in plane strain.
+/// Stationary sliding of a cylinder in plane strain.
 pub(crate) fn line_contact(
     problem: &Problem,
     cylinder: &Cylinder,
@@ -73,6 +74,7 @@ pub(crate) fn line_contact(
     Ok(of_line(estimate))
 }
 
+/// The answer of a stationary line contact.
 fn of_line(estimate: LineEstimate) -> Answer {
     let finest = &estimate.finest;
     let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
@@ -88,16 +90,16 @@ fn of_line(estimate: LineEstimate) -> Answer {
     answer
 }
 
-/// A periodic surface, and what it is asked for.
+/// A periodic surface with its load.
 #[derive(Clone, Copy)]
 pub(crate) struct Rough<'a> {
     pub(crate) surface: &'a PeriodicSurface,
     pub(crate) load: PeriodicLoad,
-    /// Of the load, \[Pa].
+    /// Mean pressure of the load, \[Pa].
     pub(crate) mean_pressure: f64,
 }
 
-/// The stationary state of a periodic surface; forces and areas are those of one period.
+/// Stationary sliding of a periodic surface; forces and areas are those of one period.
 pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Result<Answer> {
     let elastomer = problem.elastomer()?;
     let solve =
@@ -114,6 +116,7 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Res
     Ok(answer)
 }
 
+/// The answer of a periodic stationary estimate, with Persson's theory.
 fn of_periodic(
     problem: &Problem,
     rough: Rough,
@@ -128,7 +131,7 @@ fn of_periodic(
     Ok(answer.under(estimate.finest.pressure))
 }
 
-/// A periodic surface that was pressed a time ago and does not slide.
+/// Indentation by a periodic surface without sliding, at a time after loading \[s].
 pub(crate) fn periodic_pressed(
     problem: &Problem,
     rough: Rough,
@@ -151,6 +154,7 @@ pub(crate) fn periodic_pressed(
     Ok(answer)
 }
 
+/// The answer of a pressed periodic surface, without friction.
 fn of_pressed(
     problem: &Problem,
     rough: Rough,
@@ -165,13 +169,13 @@ fn of_pressed(
     }
     let mut answer = answer.under(estimate.finest.pressure);
     if !matches!(problem.simple(), Some(Simple::Elastic)) {
-        // It depends on how the contact has grown.
+        // The pressure of a viscoelastic contact depends on how it has grown, which a single state does not represent.
         answer.fields.pressure = None;
     }
     answer
 }
 
-/// What a coarse grid says of a periodic surface that slides or was pressed, without error bars, and Persson's theory.
+/// Coarse-grid solution of a sliding or pressed periodic surface, without error estimates, and Persson's theory if it slides.
 pub(crate) fn on_coarse_grid(
     problem: &Problem,
     rough: Rough,
@@ -188,7 +192,7 @@ pub(crate) fn on_coarse_grid(
     Ok((found, None))
 }
 
-/// A periodic surface on the way from rest to the stationary state.
+/// Sliding of a periodic surface from rest over a distance.
 pub(crate) fn periodic_transient(
     problem: &Problem,
     rough: Rough,
@@ -198,6 +202,7 @@ pub(crate) fn periodic_transient(
     Ok(of_way(problem, rough, estimate))
 }
 
+/// The answer of a periodic march in time.
 fn of_way(
     problem: &Problem,
     rough: Rough,
@@ -216,6 +221,7 @@ fn of_way(
     answer.under(estimate.finest.pressure)
 }
 
+/// The quantities that all periodic estimates share.
 fn of_rough<S>(
     problem: &Problem,
     rough: Rough,
@@ -241,8 +247,8 @@ fn of_rough<S>(
     }
 }
 
-/// What Persson's theory, which is that of the half space, says of a periodic surface under a mean pressure: exact sums over its
-/// waves. None of other scenes, and of a series that stands for another material, for whose error the numbers have no bar.
+/// Persson's theory of a periodic surface on a half space under a mean pressure, summed exactly over its waves. `None` for other
+/// scenes, and if a Prony series stands for another law, whose error would not be part of the result.
 ///
 /// # Errors
 /// [`SolveError::Analytic`](super::SolveError) where a frequency or a result overflows.
@@ -270,10 +276,11 @@ pub fn persson(problem: &Problem) -> Result<Option<PerssonSliding>> {
     Ok(Some(persson_of_waves(&waves, problem.material(), load)?))
 }
 
-/// γ of the area of Xu and others (2024), who find 0.42 to 0.45.
+/// Parameter γ of the contact area of Xu and others (2024), who find 0.42 to 0.45.
 const XU_GAMMA: f64 = 0.45;
 
 impl Persson {
+    /// Evaluates the theory for a problem; `None` if it does not apply.
     fn of(problem: &Problem) -> Result<Option<Self>> {
         let Some(theory) = persson(problem)? else {
             return Ok(None);
@@ -289,7 +296,7 @@ impl Persson {
 }
 
 impl Answer {
-    /// With what is left of it without the shortest waves.
+    /// Adds the answer without the shortest octave, without its friction if nothing slides.
     fn cut_off(&mut self, without: Option<WithoutShortestOctave>) {
         if let (Some(rough), Some(mut without)) = (&mut self.rough, without) {
             let slides = self.friction_coefficient.is_some();
@@ -298,7 +305,7 @@ impl Answer {
         }
     }
 
-    /// With the pressure on a period, whose elements in contact are the unknowns.
+    /// Adds the pressure field of a period; the elements in contact are the unknowns.
     fn under(mut self, pressure: PressureField) -> Self {
         let elements = pressure.pressure.iter();
         self.unknowns = elements.filter(|pressure| **pressure > 0.0).count();
@@ -308,7 +315,7 @@ impl Answer {
     }
 }
 
-/// From first touch to the stationary state, or over a distance.
+/// Time march from first touch to the stationary state, or over a distance.
 pub(crate) fn transient(
     problem: &Problem,
     surface: &dyn Surface,
@@ -318,6 +325,7 @@ pub(crate) fn transient(
     of_slide(slide(surface, &problem.elastomer()?, load, request)?)
 }
 
+/// The answer of a time march.
 fn of_slide(estimate: SlideEstimate) -> Result<Answer> {
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
@@ -338,7 +346,7 @@ fn of_slide(estimate: SlideEstimate) -> Result<Answer> {
     Ok(answer)
 }
 
-/// To and fro, or through points.
+/// Reciprocating motion, or motion through given positions, of a finite body.
 pub(crate) fn moved(
     problem: &Problem,
     surface: &dyn Surface,
@@ -349,7 +357,7 @@ pub(crate) fn moved(
     Ok(of_moved(problem, found))
 }
 
-/// The same of a periodic surface, whose depth is known on a layer only.
+/// Reciprocating motion, or motion through given positions, of a periodic surface; its depth is known on a layer only.
 pub(crate) fn periodic_moved(
     problem: &Problem,
     surface: &PeriodicSurface,
@@ -360,6 +368,7 @@ pub(crate) fn periodic_moved(
     Ok(of_moved(problem, found))
 }
 
+/// The answer of a motion, without the unbounded depth of a periodic surface on a half space.
 fn of_moved(problem: &Problem, found: Moved) -> Answer {
     let mut answer = of_motion(Method::BemTransient, Model::HalfSpace, found);
     if matches!(problem.body(), Body::Periodic(_)) && !problem.thickness().is_finite() {
@@ -368,7 +377,7 @@ fn of_moved(problem: &Problem, found: Moved) -> Answer {
     answer
 }
 
-/// Pressing without sliding.
+/// Indentation without sliding.
 pub(crate) fn pressed(
     problem: &Problem,
     surface: &dyn Surface,
@@ -378,6 +387,7 @@ pub(crate) fn pressed(
     of_press(indent(surface, &problem.elastomer()?, load, request)?)
 }
 
+/// The answer of an indentation.
 fn of_press(estimate: PressEstimate) -> Result<Answer> {
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
@@ -392,7 +402,7 @@ fn of_press(estimate: PressEstimate) -> Result<Answer> {
     Ok(answer)
 }
 
-/// Pressing and letting go along a history; the answer is its last point.
+/// Indentation along a history of loading and unloading; the answer is its last point.
 pub(crate) fn followed(
     problem: &Problem,
     surface: &dyn Surface,
@@ -406,6 +416,7 @@ pub(crate) fn followed(
     )?)
 }
 
+/// The answer of an indentation history.
 fn of_curve(found: &IndentCurve) -> Result<Answer> {
     let last = found.points[found.points.len() - 1];
     let columns: [OfPoint<IndentPoint>; 3] = [
@@ -426,7 +437,7 @@ fn of_curve(found: &IndentCurve) -> Result<Answer> {
     Ok(answer)
 }
 
-/// The answer of what was reached, where that was not enough.
+/// The answer of an estimate that missed the request; `None` if it has no valid answer.
 pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -> Option<Answer> {
     let answer = match found {
         Reached::Steady(found) => of_steady(found),
@@ -444,6 +455,7 @@ pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -
     answer.ok()
 }
 
+/// The finest grid of a time march.
 fn of_march(options: &GridOptions) -> Result<Grid> {
     Ok(Grid {
         footprint: options.footprint.elements(options.spacing)?,

@@ -1,4 +1,4 @@
-//! Why a problem has no answer.
+//! Errors of the solution of a problem.
 
 use bem_halfspace::BemError;
 use friction_analytic::FrictionError;
@@ -13,45 +13,45 @@ use super::answer::Answer;
 use super::sensitivity::EXACT;
 use crate::scene::{Method, SceneError};
 
-/// Why a problem that is well posed has no answer.
+/// Reason why a problem has no answer, or not the requested one.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolveError {
-    /// Of the half space.
+    /// An error of the half-space methods.
     #[error("{_0}{}", of_half_space(_0))]
     HalfSpace(BemError),
-    /// Of the one-dimensional model.
+    /// An error of the one-dimensional model.
     #[error("{_0}{}", of_line(_0))]
     Line(MdrError),
-    /// Of closed forms and quadrature.
+    /// An error of the closed forms or of their quadrature.
     #[error("{_0}{}", of_closed_form(_0))]
     Analytic(FrictionError),
-    /// Of the rigid body.
+    /// An error of the rigid body.
     #[error("{_0}{}", of_body(_0))]
     Indenter(IndenterError),
-    /// Of the material.
+    /// An error of the material.
     #[error(transparent)]
     Material(#[from] RheologyError),
     /// The method needs more memory than the scene or the caller allows.
     #[error(transparent)]
     TooMuchMemory(#[from] SceneError),
-    /// A refinement ended before a grid that needs more memory, or more steps in time, than allowed.
+    /// The refinement stopped before a grid that needs more memory, or more time steps, than allowed.
     #[error("{reached}; {refused}")]
     MemoryReached {
-        /// What was reached.
+        /// The error that the refinement had reached.
         reached: Box<Self>,
-        /// What is needed, and what is allowed.
+        /// The refusal of the next grid, with what it needs and what is allowed.
         refused: Box<Self>,
     },
-    /// What was found is not what was asked.
+    /// The answer does not meet the request.
     #[error("{why}")]
     NotReached {
-        /// All that was found, with its bars.
+        /// The answer so far, with its errors.
         answer: Box<Answer>,
-        /// What is missing.
+        /// The reason.
         why: Box<Self>,
     },
-    /// No method was asked.
+    /// No method was started.
     #[error(transparent)]
     NotOffered(#[from] NotOffered),
     /// The error of the series that stands for the material is too large for the error asked for.
@@ -66,12 +66,12 @@ pub enum SolveError {
         asked: f64,
         /// Relative error of the series.
         series: f64,
-        /// Value that was found.
+        /// Friction coefficient, or other requested quantity.
         value: f64,
         /// Its absolute error.
         error: f64,
     },
-    /// The mean of all surfaces that may be drawn is not known as well as asked for.
+    /// The mean over the random surfaces does not have the requested standard error.
     #[error(
         "the relative standard error {} of the mean was not reached: it is {:.1e} after {surfaces} surfaces; give a larger \
          standard_error, more realisations, or a larger period",
@@ -81,12 +81,12 @@ pub enum SolveError {
     TooFewSurfaces {
         /// Relative standard error asked for.
         asked: f64,
-        /// How many were drawn.
+        /// Number of sampled surfaces.
         surfaces: usize,
-        /// Relative standard error that was reached; infinite where the mean is 0.
+        /// Relative standard error reached; infinite if the mean is 0 or fewer than 10 surfaces are known.
         reached: f64,
     },
-    /// An answer whose derivatives are not known.
+    /// The derivatives of this answer are not available.
     #[error(
         "{} knows no derivatives of this answer; stationary sliding has some by bem-steady, and so have slow sliding and \
          whatever closed forms and mdr-steady know to {EXACT:e}",
@@ -96,7 +96,7 @@ pub enum SolveError {
         /// The method of the answer.
         method: Method,
     },
-    /// An answer whose derivatives by the moduli at each frequency are not known.
+    /// The derivatives of this answer with respect to the moduli at each frequency are not available.
     #[error(
         "{} knows no derivatives of this answer by the moduli at each frequency; stationary sliding by bem-steady has them",
         method.name()
@@ -105,30 +105,30 @@ pub enum SolveError {
         /// The method of the answer.
         method: Method,
     },
-    /// A quantity that no number can hold.
+    /// A quantity over- or underflows f64.
     #[error(
         "{quantity} is {} in units of SI; check the units of indenter, material and load, from which it follows",
         MessageNumber(*value)
     )]
     OutOfRange {
-        /// Its name.
+        /// Name of the quantity.
         quantity: String,
-        /// Infinite, not a number, or so close to 0 that digits are missing.
+        /// Its value: infinite, not a number, or so small that digits are lost.
         value: f64,
     },
-    /// A friction by which the material would give back more energy than it takes.
+    /// Negative friction, by which the material would return more energy than it receives.
     #[error(
         "the friction coefficient came out as {}, and a material that slides gives no energy back; give more solve.elements, or a \
          smaller solve.relative_error",
         Estimate::new(*value, *error)
     )]
     NegativeFriction {
-        /// Its value.
+        /// Friction coefficient.
         value: f64,
         /// Its error.
         error: f64,
     },
-    /// A method that does not answer the problem was asked by its name.
+    /// The method that was named does not answer the problem.
     #[error("{} does not answer this scene: {why}", method.name())]
     Refused {
         /// The method.
@@ -136,51 +136,51 @@ pub enum SolveError {
         /// Why it does not.
         why: &'static str,
     },
-    /// At a depth that is held so long the force has relaxed.
+    /// The force at a constant depth has relaxed to zero within rounding, or is not finite.
     #[error(
         "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:.1e} Pa there; shorten solve.duration, or give load.normal_force"
     )]
     Relaxed {
-        /// Time, \[s].
+        /// Time for which the depth is held, \[s].
         duration: f64,
         /// Relaxation modulus at that time, \[Pa].
         modulus: f64,
     },
-    /// What happens is faster or slower than a series stands for its law.
+    /// A time scale of the contact is outside the time range of the Prony series.
     #[error(
         "the contact takes {time:.1e} s, and time_range of the material is from {shortest:e} to {longest:e} s: widen it"
     )]
     OutsideTimeRange {
-        /// Time of a contact length, of the pressing, of the sliding, or between points of a history, \[s].
+        /// Offending time, \[s]: per contact length, of the indentation or sliding, or between points of a history.
         time: f64,
         /// Shortest time of the range, \[s].
         shortest: f64,
         /// Longest time of the range, \[s].
         longest: f64,
     },
-    /// Long waves under a line contact strain a material for longer than its series stands for it.
+    /// Long waves under a line contact reach times beyond the range of the Prony series.
     #[error(
         "a part of up to {part:.2} of the friction of this line contact comes from times longer than time_range of the material, \
          {longest:e} s, and the relative error asked for is {asked:e}: widen time_range"
     )]
     BeyondTimeRange {
-        /// The part, relative to the friction.
+        /// Upper bound of that fraction of the friction.
         part: f64,
         /// Relative error asked for.
         asked: f64,
         /// Longest time of the range, \[s].
         longest: f64,
     },
-    /// No front of the contact carries the force.
+    /// The search for the contact front found none that carries the force.
     #[error("no front of the contact was found that carries the normal force {}", MessageNumber(*normal_force))]
     FrontNotFound {
-        /// The force, \[N].
+        /// Normal force, \[N].
         normal_force: f64,
     },
 }
 
 impl SolveError {
-    /// What was found where that is not what was asked, as an answer.
+    /// The answer so far, if it does not meet the request; `None` for all other errors.
     pub fn reached(&self) -> Option<&Answer> {
         match self {
             Self::NotReached { answer, .. } => Some(answer),
@@ -188,8 +188,8 @@ impl SolveError {
         }
     }
 
-    /// Whether the scene asks for what has no meaning, so that no computation leads to an answer: a number out of range, a material
-    /// that never comes to rest, a track that is too short.
+    /// True if the input itself is invalid, so that no computation can answer it: a number out of range, a material without
+    /// equilibrium, a track that is too short.
     pub fn is_wrong_input(&self) -> bool {
         match self {
             Self::HalfSpace(error) => match error {
@@ -222,6 +222,7 @@ impl SolveError {
     }
 }
 
+/// True if the body is invalid.
 const fn is_wrong_body(error: &IndenterError) -> bool {
     matches!(
         error,
@@ -232,7 +233,7 @@ const fn is_wrong_body(error: &IndenterError) -> bool {
     )
 }
 
-// Not by the attribute `from`, which would say the cause a second time.
+// The attribute `from` would also make each cause a `source`, and its message would be printed twice.
 macro_rules! causes {
     ($($cause:ty => $variant:ident,)*) => {
         $(impl From<$cause> for SolveError {
@@ -249,34 +250,35 @@ causes! {
     IndenterError => Indenter,
 }
 
-/// An answer or why there is none.
+/// An answer, or the reason why there is none.
 pub type Result<T, E = SolveError> = std::result::Result<T, E>;
 
-/// Why a method does not answer.
+/// Reason why a method does not answer a problem.
 pub(crate) type Refusal = &'static str;
 
-/// Why no method is asked.
+/// Reason why no method was started.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NotOffered {
-    /// The method that the scene names does not answer it.
+    /// The method named by the scene does not answer it.
     #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]
     Method {
         /// The method.
         method: Method,
-        /// Why it does not.
+        /// The reason.
         why: Refusal,
-        /// Methods that do.
+        /// Methods that answer the scene.
         offered: Vec<Method>,
     },
-    /// No method does.
+    /// No method answers the scene.
     #[error("no method answers this scene yet: {}", reasons(refusals))]
     AnyMethod {
-        /// Why each of them does not.
+        /// Each method with its reason.
         refusals: Vec<(Method, Refusal)>,
     },
 }
 
+/// Names the methods that answer the scene.
 fn others(offered: &[Method]) -> String {
     if offered.is_empty() {
         return "no other method does either".to_owned();
@@ -285,6 +287,7 @@ fn others(offered: &[Method]) -> String {
     format!("these do: {}", names.join(", "))
 }
 
+/// Lists the reasons, each with the methods that share it.
 fn reasons(refusals: &[(Method, Refusal)]) -> String {
     let mut methods: Vec<(Refusal, Vec<&str>)> = Vec::new();
     for (method, why) in refusals {

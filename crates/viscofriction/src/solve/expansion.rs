@@ -1,8 +1,7 @@
-//! Prony series that stand for fractional elements, and for laws that users have expanded themselves.
+//! Prony series that approximate fractional elements, or laws that users have expanded themselves.
 //!
-//! At the frequencies of a range of times a series differs from its element by up to δ |G*|. At those times its relaxation
-//! modulus differs the most of all functions, by up to 2 δ Γ(1 − a) ≤ 2 δ/(1 − a) of itself: an element of the exponent a
-//! relaxes to |G*(1/t)|/Γ(1 − a).
+//! Over the frequencies of the time range the series differs from its element by up to δ |G*|. The largest relative error is that
+//! of the relaxation modulus, 2 δ Γ(1 − a) ≤ 2 δ/(1 − a), because an element of exponent a relaxes to |G*(1/t)|/Γ(1 − a).
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -11,33 +10,33 @@ use rheology::{Prony, PronyExpansion, RelaxationSpectrum, RheologyError};
 
 use crate::scene::Approximation;
 
-/// Error of the modulus δ that a series is expanded to.
+/// Relative error δ of the complex modulus requested of an expansion (chosen, far below the errors of the methods).
 const RELATIVE_ERROR: f64 = 1e-7;
 
-/// How well a Prony series stands for another law.
+/// Accuracy of a Prony series that approximates another law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
     /// Relative error of relaxation modulus, creep compliance and complex modulus within the range.
     pub relative_error: f64,
-    /// Shortest and longest time for which it holds, \[s].
+    /// Shortest and longest time of validity, \[s].
     pub time_range: [f64; 2],
-    /// Exponent of the element, or of the power law that has the phase angle of the series after the longest time.
+    /// Exponent of the element, or of the power law with the phase angle of the series at the longest time.
     pub exponent: f64,
-    /// Longest relaxation time, up to which it creeps about as the element does, \[s]; infinite where a spring in parallel has
-    /// ended the creep before.
+    /// Longest time up to which the series creeps about as the element does, \[s]; infinite if a parallel spring ends the creep
+    /// earlier.
     pub creeps_until: f64,
 }
 
 impl Expansion {
-    /// The part of the friction of a line contact that waves make which strain the element for longer than its series creeps,
-    /// at most: the power of the waves in dq is |p̂|² ω J''(ω)/q dq ∼ q^−a dq from q = 0 to the reciprocal of the contact length.
+    /// Upper bound of the fraction of line-contact friction that comes from waves slower than the creep of the series. Waves in dq
+    /// dissipate |p̂|² ω J''(ω)/q dq ∼ q^−a dq from q = 0 to the reciprocal of the contact length.
     pub(super) fn beyond(&self, contact_time: f64) -> f64 {
         (contact_time / self.creeps_until).powf(1.0 - self.exponent)
     }
 }
 
-/// The series that stands for a fractional element, which is expanded over a band of frequencies to an error, and for a
-/// spring beside it.
+/// The Prony series of a fractional element in parallel with a spring. `expand` takes the angular frequencies \[rad/s] and the
+/// relative error.
 pub(crate) fn expanded(
     expand: impl FnOnce([f64; 2], f64) -> Result<PronyExpansion, RheologyError>,
     exponent: f64,
@@ -51,7 +50,7 @@ pub(crate) fn expanded(
         series.spectrum.viscosity(),
         series.spectrum.branches().to_vec(),
     )?;
-    // The spring of the series stands for its slower branches.
+    // The spring of the series represents branches slower than its last one.
     let creeps_until = match series.spectrum.branches().last() {
         Some(slowest) if modulus < series.spectrum.equilibrium_modulus() => slowest.relaxation_time,
         _ => f64::INFINITY,
@@ -66,7 +65,7 @@ pub(crate) fn expanded(
 }
 
 impl Approximation {
-    /// As of an element whose exponent is that of the power law with the phase angle at the end of the range.
+    /// Treats the series as an element whose exponent follows from its phase angle at the end of the range.
     pub(crate) fn of(self, series: &RelaxationSpectrum) -> Result<Expansion, RheologyError> {
         let [lowest, _] = band(self.time_range)?;
         let holds = (0.0..=0.1).contains(&self.relative_error);
@@ -85,6 +84,7 @@ impl Approximation {
     }
 }
 
+/// Range of angular frequencies that corresponds to a range of times, \[rad/s].
 fn band([shortest, longest]: [f64; 2]) -> Result<[f64; 2], RheologyError> {
     positive("time_range[0]", shortest)?;
     positive("time_range[1]", longest)?;

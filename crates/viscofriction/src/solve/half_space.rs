@@ -1,4 +1,4 @@
-//! The material of a scene.
+//! Construction of the viscoelastic material of a scene.
 
 use std::path::Path;
 
@@ -14,18 +14,18 @@ use crate::files::Files;
 use crate::scene::{Approximation, Branch, MaterialTable, SceneError, Source};
 use crate::text::WrongInput;
 
-/// The material of a scene.
+/// The material of a scene, with the accuracy and range of its data.
 #[derive(Debug)]
 pub struct HalfSpace {
-    /// The material, or the series that stands for it.
+    /// The material, or the Prony series that approximates it.
     pub material: Box<dyn Material>,
-    /// How well the series does.
+    /// Accuracy of the series; `None` if the material is exact.
     pub expansion: Option<Expansion>,
-    /// The frequencies in which it was measured, \[rad/s]; none of a material that is known at all.
+    /// Range of angular frequencies covered by measurements, \[rad/s]; `None` if the scene states none.
     pub window: Option<[f64; 2]>,
 }
 
-/// The half space of a table of the scene file.
+/// Builds the material of a `material` table of the scene file.
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
@@ -57,7 +57,7 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     Ok(found)
 }
 
-/// The material that another file holds, at its own temperature or at another one \[°C].
+/// Reads the material table of another file, shifted to a temperature \[°C] if one is given.
 pub(super) fn of_file(
     file: &Path,
     temperature: Option<f64>,
@@ -75,7 +75,7 @@ pub(super) fn of_file(
     }
 }
 
-/// What the table of a material in another file stands for.
+/// Applies `read` to the material table of another file; errors name the place in that file.
 pub(crate) fn of_table_in<T>(
     file: &Path,
     files: &Files<'_>,
@@ -91,11 +91,13 @@ pub(crate) fn of_table_in<T>(
     of_table().map_err(wrong)
 }
 
+/// Rejects a file reference inside the file of a material.
 fn no_file(file: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     let problem = "the file of a material names no other";
     Err(WrongInput(format!("{}: {problem}", file.display())))
 }
 
+/// The material without the Poisson ratio of the scene.
 fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
     let material = match table {
         &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
@@ -148,7 +150,7 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
     })
 }
 
-/// A Prony series, which may stand for another law.
+/// A Prony series, which may approximate another law.
 fn series(
     key: &str,
     spectrum: Result<RelaxationSpectrum, RheologyError>,
@@ -165,7 +167,7 @@ fn series(
     })
 }
 
-/// The series of a fractional element.
+/// The Prony series of a fractional element.
 fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
     let (material, expansion) = match *table {
         MaterialTable::Springpot {
@@ -195,7 +197,7 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
             let expand = |band, error| element.expand(band, error);
             expanded(expand, exponent, equilibrium_modulus, time_range)?
         }
-        // All others have finitely many elements.
+        // Unreachable: `in_shear` passes fractional elements only.
         _ => return Err(RheologyError::NoStiffness),
     };
     Ok(HalfSpace {
@@ -209,7 +211,7 @@ fn boxed(material: impl Material + 'static) -> Box<dyn Material> {
     Box::new(material)
 }
 
-/// The number that the library refuses; a derived one belongs to the whole table.
+/// Attributes an error of the library to its key; a derived parameter is attributed to the table.
 fn refused(table: &str, error: RheologyError) -> SceneError {
     match error {
         RheologyError::InvalidParameter(refused) if KEYS.contains(&refused.parameter) => {
@@ -226,7 +228,7 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
     }
 }
 
-/// Parameters of the library that are keys too.
+/// Parameters of the library that have the name of a key.
 const KEYS: [&str; 12] = [
     "viscosity",
     "shear_modulus",
@@ -242,9 +244,9 @@ const KEYS: [&str; 12] = [
     "time_range[1]",
 ];
 
-/// The four materials that have closed forms, reduced to the incompressible one with the same surface.
+/// The four materials with closed forms, reduced to the incompressible material with the same surface displacement.
 ///
-/// A Poisson ratio makes the surface of a half space 2 (1 − ν) times as compliant, which is a division of all moduli.
+/// A half space of Poisson ratio ν is 2 (1 − ν) times as compliant, so all moduli are divided by this factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Simple {
     Viscous(Viscous),
@@ -253,7 +255,7 @@ pub(crate) enum Simple {
     Maxwell(Maxwell),
 }
 
-/// The material as one of the simple ones, or nothing; refuses a reduced modulus that is out of range.
+/// Reduces a material to one with closed forms; `None` for other materials. Rejects a reduced modulus out of range.
 pub(crate) fn simple(material: &dyn Material) -> Result<Option<Simple>, RheologyError> {
     let spectrum = material.relaxation();
     let factor = material.half_space_factor();

@@ -1,4 +1,4 @@
-//! The rigid body of a grid of heights, and whether the grid is likely to be meant as it is.
+//! The rigid body of a height map, with plausibility checks of its units and edges.
 
 use indenters::rough::PeriodicSurface;
 use indenters::topography::{LateralUnit, Topography};
@@ -8,21 +8,21 @@ use numerics::whole_part;
 use super::body::{Body, BodyOfScene};
 use crate::scene::{Edges, HeightMapTable, SceneError};
 
-/// Root mean square slope above which heights are likely to be in another unit.
+/// Rms slope above which the unit of the heights is probably wrong (chosen).
 pub(super) const STEEPEST: f64 = 1.0;
-/// Root mean square slope below which heights or distances are likely to be in another unit: optical flats have 1e-5.
+/// Rms slope below which the unit of heights or distances is probably wrong: optical flats have 1e-5.
 const FLATTEST: f64 = 1e-5;
-/// Length of a map above which its distances are likely to be in another unit, \[m].
+/// Length of a map above which the unit of its distances is probably wrong, \[m] (chosen).
 const LONGEST: f64 = 1.0;
-/// Part of the heights that were filled above which an answer depends on them.
+/// Fraction of filled heights above which they may influence the answer (chosen).
 const MOST_FILLED: f64 = 0.01;
-/// Part of the mean square slope above which the step at the edge of a map is most of it.
+/// Fraction of the mean square slope due to the step at the edge above which a warning is given: more than half.
 const MOST: f64 = 0.5;
 
-/// The rigid body of heights that were read, as a scene or an array describes them.
+/// Builds the rigid body from measured heights, given by a scene or an array.
 ///
 /// # Errors
-/// [`SceneError`] for the first key that does not fit to the heights.
+/// [`SceneError`] for the first key that does not match the heights.
 pub fn body_of_heights(
     table: &HeightMapTable,
     surface: Topography,
@@ -68,19 +68,19 @@ pub fn body_of_heights(
     Ok(BodyOfScene { body, warnings })
 }
 
-/// What to do about strange heights, in the words in which they were described.
+/// Advice about implausible heights, in the terms of the caller's input.
 #[derive(Debug, Clone, Copy)]
 pub struct Advice {
-    /// Where they are in another unit.
+    /// Advice if the unit of the heights is probably wrong.
     pub unit: &'static str,
-    /// Where their distances are.
+    /// Advice if the unit of the distances is probably wrong.
     pub lateral_unit: &'static str,
-    /// Where a map that repeats itself does not fit to itself.
+    /// Advice if a periodic map has a step at its edge.
     pub step: &'static str,
 }
 
 impl Advice {
-    /// In the keys of a scene.
+    /// Advice in the keys of a scene file.
     pub const SCENE: Self = Self {
         unit: "unit = \"mm\", \"um\" or \"nm\" says another one",
         lateral_unit: "lateral_unit = \"mm\", \"um\" or \"nm\" says another one of x and y in files, and a spacing is in m",
@@ -88,7 +88,7 @@ impl Advice {
     };
 }
 
-/// What is strange about the heights, in sentences with the numbers.
+/// Warnings about implausible heights, with the numbers.
 pub fn warnings(
     table: &HeightMapTable,
     surface: &Topography,
@@ -115,7 +115,7 @@ pub fn warnings(
     warnings
 }
 
-/// That units which are given change nothing, because the file states its own.
+/// Warnings about given units that have no effect because the file states its own.
 fn units_without_effect(table: &HeightMapTable, surface: &Topography) -> Vec<String> {
     let is_stated = surface.lateral_unit == LateralUnit::Stated;
     let units = [
@@ -134,7 +134,7 @@ fn units_without_effect(table: &HeightMapTable, surface: &Topography) -> Vec<Str
     units.map(sentence).collect()
 }
 
-/// Sentences about slopes and lengths that are likely to be in another unit.
+/// Warnings about slopes and lengths that suggest a wrong unit.
 fn sizes(
     table: &HeightMapTable,
     surface: &Topography,
@@ -145,7 +145,7 @@ fn sizes(
     let slopes = [0, 1].map(|axis| Steps::of(map, axis, 1).rms_slope());
     let slope = slopes[0].hypot(slopes[1]);
     let highest = map.heights().iter().copied().fold(0.0, f64::max);
-    // A body that ends may be steep far from its contact.
+    // A finite body may be steep far from its contact, so only a height above its width counts.
     let is_steep = slope > STEEPEST && (table.edges != Edges::Wall || highest > x.max(y));
     let mut sentences = Vec::new();
     if is_steep || slope < FLATTEST {
@@ -168,17 +168,18 @@ fn sizes(
     sentences
 }
 
-/// Differences of heights some points apart along an axis.
+/// Height differences at a fixed lag along an axis.
 struct Steps {
-    /// Sum of the squares inside the map, and their number.
+    /// Sum of squared differences inside the map, \[m²], and their number.
     inside: [f64; 2],
-    /// Likewise from the end of a map that is repeated to its beginning.
+    /// Sum of squared differences across the periodic edge, \[m²], and their number.
     across: [f64; 2],
-    /// Distance of the heights, \[m].
+    /// Lag, \[m].
     length: f64,
 }
 
 impl Steps {
+    /// Differences at a lag of `lag` points along `axis`.
     fn of(map: &HeightMap, axis: usize, lag: usize) -> Self {
         let (shape, heights) = (map.shape(), map.heights());
         let stride = [shape[1], 1][axis];
@@ -199,12 +200,13 @@ impl Steps {
         }
     }
 
+    /// Rms slope inside the map, from the difference quotients.
     fn rms_slope(&self) -> f64 {
         let [sum, count] = self.inside;
         (sum / count).sqrt() / self.length
     }
 
-    /// A sentence where the step across the edge is most of the mean square slope.
+    /// A warning if the step across the edge makes up more than [`MOST`] of the mean square slope.
     fn warning(&self, axis: &str, advice: &str) -> Option<String> {
         let [inside, across] = [self.inside, self.across].map(|[sum, count]| (sum / count).sqrt());
         let all = self.inside[0] + self.across[0];

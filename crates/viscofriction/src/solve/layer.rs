@@ -1,4 +1,4 @@
-//! Histories on a layer, as long as the contact grows once and shrinks once.
+//! Indentation histories on a bonded layer whose contact grows once and shrinks once.
 
 use friction_analytic::{BondedLayer, FrictionError, LayerProfile, indentation_after_impulse};
 use indenters::{Axisymmetric, Control, EquivalentProfile, HistoryPoint};
@@ -12,7 +12,7 @@ use super::mdr::{following, of_curve};
 use super::problem::Problem;
 use crate::scene::Method;
 
-/// The answer along a history; none where contact or material are not among those that the theory knows.
+/// The answer along a history; `None` without points. An error means that the theory does not cover contact or material.
 pub(super) fn followed(problem: &Problem, body: &Revolution, asked: f64) -> Result<Option<Answer>> {
     let profile = profile(problem, body)?;
     let mut options = following(problem, asked);
@@ -24,7 +24,7 @@ pub(super) fn followed(problem: &Problem, body: &Revolution, asked: f64) -> Resu
     Ok(of_curve(problem, Method::Analytic, &curve))
 }
 
-/// The profile with which springs side by side have the force of the body, as deep as the history needs.
+/// The equivalent profile whose Winkler foundation has the force of the body, tabulated to the largest depth of the history.
 fn profile(problem: &Problem, body: &Revolution) -> Result<LayerProfile> {
     let material = problem.material();
     let layer = BondedLayer::new(problem.thickness(), material.poisson_ratio())
@@ -42,11 +42,11 @@ fn profile(problem: &Problem, body: &Revolution) -> Result<LayerProfile> {
     Ok(LayerProfile::new(&**body, &layer, depth)?)
 }
 
-/// A depth that an impulse on the dashpot of unit viscosity does not exceed.
+/// Upper bound of the depth reached by an impulse on the dashpot of unit viscosity.
 fn depth_of(body: &dyn Axisymmetric, layer: &BondedLayer, impulse: f64) -> Result<f64> {
     let on_half_space = indentation_after_impulse(body, &Viscous::new(1.0)?, impulse)?;
     let mut radius = on_half_space.contact_radius.min(layer.max_contact_radius());
-    // A flat punch has no depth of its own.
+    // Compare forces instead of depths: the depth of a flat punch does not depend on its radius.
     let force = |radius| {
         layer
             .press(body, radius)
@@ -56,14 +56,14 @@ fn depth_of(body: &dyn Axisymmetric, layer: &BondedLayer, impulse: f64) -> Resul
         radius *= 0.5;
     }
     let contact = layer.press(body, radius);
-    // Less by rounding, lest the widest contact be too wide.
+    // Stay below the largest contact radius that is allowed, by more than rounding.
     Ok((1.0 - 1e-6)
         * contact.map_or(on_half_space.indentation_depth, |contact| {
             contact.indentation_depth
         }))
 }
 
-/// What has the force of the body along the history.
+/// The profile equivalent to the body: on a layer that of the layer, on a half space the body itself.
 pub(super) fn equivalent<'a>(
     problem: &Problem,
     body: &'a Revolution,

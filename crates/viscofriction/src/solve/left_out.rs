@@ -1,4 +1,4 @@
-//! What a method left out, decided here and nowhere else, and what that saves.
+//! Computations that a method skipped, and what they save. All such decisions are made here.
 
 use rheology::CreepSpectrum;
 
@@ -11,7 +11,7 @@ use Method::{Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
 use Motion::{Pressing, Sliding};
 
 impl Omission {
-    /// The method that does the work of an omission too, where another method does.
+    /// The method that does the omitted work; `None` if no other method does.
     const fn done_by(self, model: Model, motion: Motion) -> Option<Method> {
         match (self, model, motion) {
             (Self::NumericalSolution, Model::Line, Sliding(_)) => Some(MdrSteady),
@@ -23,7 +23,7 @@ impl Omission {
         }
     }
 
-    /// What leaving it out of an answer to a problem saves, as a count where there is one that is exact.
+    /// What the omission saves in an answer to a problem: an exact count if there is one, else a phrase.
     pub fn saves(self, problem: &Problem, answer: &Answer) -> String {
         let (unknowns, iterations) = (answer.unknowns, answer.iterations);
         let n_footprint = |even| answer.grid.map_or(0, |grid| grid.n_elements(even));
@@ -58,7 +58,7 @@ impl Omission {
     }
 }
 
-/// Elements in contact where the body slides, images included.
+/// Number of elements in contact, mirror images included.
 fn n_contact(answer: &Answer) -> usize {
     let field = answer.fields.pressure.iter();
     let pressures = field.flat_map(|field| &field.pressure);
@@ -66,7 +66,7 @@ fn n_contact(answer: &Answer) -> usize {
 }
 
 impl Grid {
-    /// Elements of the footprint, without images along the axes along which everything is even.
+    /// Elements of the footprint, without mirror images along the axes of symmetry.
     fn n_elements(&self, even: [bool; 2]) -> usize {
         let along = |axis: usize| {
             let [before, after] = self.footprint[axis];
@@ -77,16 +77,15 @@ impl Grid {
     }
 }
 
-/// Whether body and motion are their own mirror images along x and y; none of bodies that no other method answers for, one
-/// element of which along y leaves nothing to leave out.
+/// Mirror symmetry of body and motion along x and y. `None` for a cylinder and a periodic surface, for which no omissions are
+/// listed.
 fn mirrors(problem: &Problem) -> Option<[bool; 2]> {
     let [along, across] = problem.body().surface()?.mirrors();
     let is_pressed = matches!(problem.motion(), Pressing(_));
     Some([along && is_pressed, across])
 }
 
-/// What the method of the answer left out. Work that only another method would do is named where that method answers the
-/// scene too.
+/// The omissions of an answer. Work of another method is listed only if that method answers the scene too.
 pub(crate) fn left_out(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let mut parts = candidates(problem, answer);
     parts.retain(|omission| {
@@ -96,6 +95,7 @@ pub(crate) fn left_out(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     parts
 }
 
+/// All omissions of a method for a kind of motion, whether or not another method answers the scene.
 fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let Some(even) = mirrors(problem) else {
         return Vec::new();
@@ -105,14 +105,14 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (Analytic, Sliding(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
-        // No other method does it.
+        // A history or a motion leaves nothing out.
         (_, Motion::History(_) | Motion::Moving(_)) => Vec::new(),
         (MdrSteady, _) => vec![Some(Omission::TimeSteps)],
         (Analytic | MdrTransient, Pressing(_)) => vec![Some(Omission::HalfSpace)],
         (BemSteady, Sliding(load)) => {
-            // After a distance the friction is not yet that of the stationary state.
+            // At a finite sliding distance the friction has not reached its stationary value.
             let is_stationary = load.sliding_distance().is_none();
-            // A box is transformed unless its contact is factorised.
+            // Without a factorisation the bounding box of the contact is Fourier transformed.
             let is_factorised = answer.grid.is_some_and(|grid| grid.factorised);
             let transforms = is_factorised.then_some(Omission::Transforms);
             vec![
@@ -127,7 +127,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
             Some(Omission::RowsBehind),
         ],
         (BemTransient, Pressing(_)) => {
-            // A depth that is held needs another force at every time.
+            // A constant depth needs a different force at each time, so the history matters.
             let constant = matches!(problem.motion().control(), Control::NormalForce(_));
             let remembers = constant && n_fields(&problem.material().creep()) > 1;
             vec![
@@ -142,7 +142,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     candidates.into_iter().flatten().collect()
 }
 
-/// Values that an element of the half space remembers where it is followed in time.
+/// History variables per element of the half space in a time march.
 fn n_fields(creep: &CreepSpectrum) -> usize {
     creep.elements().len() + usize::from(creep.fluidity() > 0.0)
 }

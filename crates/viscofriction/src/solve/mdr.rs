@@ -1,4 +1,4 @@
-//! What the one-dimensional model says, as answers.
+//! Solutions of the one-dimensional model (method of dimensionality reduction) as answers.
 
 use indenters::{
     Axisymmetric, EquivalentLine, EquivalentProfile, Moved, MovedPoint, MovingLoad, PressingLoad,
@@ -17,7 +17,7 @@ use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
 
-/// The stationary state.
+/// Stationary sliding.
 pub(crate) fn stationary(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -28,7 +28,7 @@ pub(crate) fn stationary(
     Ok(of_steady(steady(&line, material, load, relative_error)?))
 }
 
-/// The answer of a stationary state.
+/// The answer of a stationary solution.
 pub(crate) fn of_steady(state: SteadySliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
@@ -42,7 +42,7 @@ pub(crate) fn of_steady(state: SteadySliding) -> Answer {
     answer
 }
 
-/// From first touch to the stationary state, or over a distance.
+/// Time march from first touch to the stationary state, or over a distance.
 pub(crate) fn transient(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -57,7 +57,7 @@ pub(crate) fn transient(
     )?))
 }
 
-/// The answer of a march.
+/// The answer of a time march.
 pub(crate) fn of_march(state: Sliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
@@ -79,7 +79,7 @@ pub(crate) fn of_march(state: Sliding) -> Answer {
     answer
 }
 
-/// To and fro, or through points.
+/// Reciprocating motion, or motion through given positions.
 pub(crate) fn moved(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -90,7 +90,7 @@ pub(crate) fn moved(
     Ok(of_motion(Method::MdrTransient, Model::Line, found))
 }
 
-/// The answer of a motion: of its whole, and of its last point.
+/// The answer of a motion: friction over all of it, force and depth at its last point.
 pub(crate) fn of_motion(method: Method, model: Model, found: Moved) -> Answer {
     let last = found.points.last();
     let force = last.map_or(Estimate::exact(0.0), |point| point.normal_force);
@@ -118,7 +118,7 @@ pub(crate) fn of_motion(method: Method, model: Model, found: Moved) -> Answer {
     answer
 }
 
-/// Pressing without sliding.
+/// Indentation without sliding.
 pub(crate) fn pressed(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -136,7 +136,7 @@ pub(crate) fn pressed(
     })
 }
 
-/// Pressing and letting go along a history; the answer is its last point.
+/// Indentation along a history of loading and unloading; the answer is its last point.
 pub(crate) fn followed(
     problem: &Problem,
     body: &dyn EquivalentProfile,
@@ -149,7 +149,7 @@ pub(crate) fn followed(
     Ok(found.ok_or(MdrError::Empty { list: "history" })?)
 }
 
-/// The answer of a history; none without points.
+/// The answer of a history; `None` if it has no points.
 pub(crate) fn of_curve(problem: &Problem, method: Method, curve: &[CurvePoint]) -> Option<Answer> {
     let last = curve.last()?;
     let radius = last.contact_radius;
@@ -165,6 +165,7 @@ pub(crate) fn of_curve(problem: &Problem, method: Method, curve: &[CurvePoint]) 
     Some(answer)
 }
 
+/// Force, depth and contact radius at the points of a history.
 pub(super) fn curve_of(points: &[CurvePoint]) -> Curve {
     let columns: [OfPoint<CurvePoint>; 3] = [
         (FORCE, |point| point.normal_force),
@@ -174,6 +175,7 @@ pub(super) fn curve_of(points: &[CurvePoint]) -> Curve {
     Curve::of(points, |point| point.time, columns)
 }
 
+/// Options of an indentation history, with the modulus error of the problem.
 pub(super) fn following(problem: &Problem, relative_error: f64) -> HistoryOptions {
     HistoryOptions {
         relative_error,
@@ -181,6 +183,7 @@ pub(super) fn following(problem: &Problem, relative_error: f64) -> HistoryOption
     }
 }
 
+/// The contact interval between two ends; its error is the larger one.
 fn contact_box([rear, front]: [Estimate; 2]) -> ContactBox {
     ContactBox::along([rear.value, front.value], rear.error.max(front.error))
 }

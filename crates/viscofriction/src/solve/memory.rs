@@ -1,4 +1,4 @@
-//! The memory that a method needs, known before each of its grids.
+//! Memory estimates of the methods, evaluated before each grid.
 
 use std::sync::OnceLock;
 
@@ -16,16 +16,16 @@ use super::problem::Problem;
 use crate::scene::Method::{self, BemSteady, BemTransient, MdrTransient};
 use crate::scene::{Accuracy, SceneError};
 
-/// Refuses a method that needs more memory than is allowed, also for the grids that the shortest waves of a periodic surface need.
+/// Rejects a method whose first grid, or for a periodic surface the coarsest grid with error estimates, exceeds the memory limit.
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
     match check_first_grid(problem, method) {
         Err(SolveError::TooMuchMemory(refused)) => Err(refused),
-        // What no grid can begin says why when it is solved.
+        // Any other error is reported when the problem is solved.
         _ => Ok(()),
     }
 }
 
-/// Refuses what the first grid needs and may not have: memory, or steps in time.
+/// Rejects a first grid that exceeds the memory limit or the largest number of time steps.
 pub(super) fn check_first_grid(problem: &Problem, method: Method) -> Result<()> {
     let (elements, change) = match (problem.accuracy(), problem.body(), problem.motion()) {
         (Accuracy::Elements(elements), ..) => (elements, ["solve.elements", "fewer elements"]),
@@ -42,6 +42,7 @@ pub(super) fn check_first_grid(problem: &Problem, method: Method) -> Result<()> 
     check(problem, method, elements, change)
 }
 
+/// Elements of the first grid of a motion in the one-dimensional model.
 fn elements_of_line_motion(problem: &Problem, body: &Body) -> Result<usize> {
     let surface = body.surface().and_then(Surface::as_axisymmetric);
     let Some((surface, load)) = surface.zip(problem.moving()) else {
@@ -51,7 +52,7 @@ fn elements_of_line_motion(problem: &Problem, body: &Body) -> Result<usize> {
     Ok(elements_of_motion(&line, problem.material(), load)?)
 }
 
-/// Refuses waves for which even the coarsest grids with error bars are too large.
+/// Rejects a surface for which even the coarsest grids with error estimates exceed the limit.
 fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), SceneError> {
     let most = periodic::largest_grid(problem.max_memory().map(|bytes| bytes as f64));
     let elements = periodic::elements_for_bars(surface);
@@ -59,6 +60,7 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
         return Ok(());
     }
     problem.set_short_of_memory();
+    // Propose the waves resolved on the largest of successively halved grids that fits.
     let largest = surface.largest_numbers();
     let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
     let told = |shape| surface.told_by(shape);
@@ -68,7 +70,7 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     Err(too_large([elements, most], surface.period(), kept))
 }
 
-/// Refuses waves for which all grids are too large, before they are drawn.
+/// Rejects a surface for which all grids exceed the limit, before it is sampled.
 pub(super) fn check_waves_to_draw(
     period: [f64; 2],
     shortest_wavelength: f64,
@@ -77,7 +79,7 @@ pub(super) fn check_waves_to_draw(
     let numbers = period.map(|period| period / shortest_wavelength);
     let is_drawn = |number: &f64| *number > 0.0 && *number < f64::from(u32::MAX);
     if !numbers.iter().all(is_drawn) {
-        // Drawing refuses them by the name of the parameter.
+        // The constructor of the surface rejects these by parameter name.
         return Ok(());
     }
     let numbers = numbers.map(whole_part);
@@ -92,7 +94,7 @@ pub(super) fn check_waves_to_draw(
     Err(too_large([elements, most], period, kept))
 }
 
-/// The refusal of waves that need so many elements, where so many are allowed, with the largest numbers of waves that fit.
+/// The error for waves that need `elements` elements where `most` are allowed; `kept` are the largest wave numbers that fit.
 fn too_large([elements, most]: [f64; 2], period: [f64; 2], kept: Option<[usize; 2]>) -> SceneError {
     let Some(numbers) = kept else {
         let problem = format!(
@@ -111,9 +113,10 @@ fn too_large([elements, most]: [f64; 2], period: [f64; 2], kept: Option<[usize; 
     SceneError::at("indenter", problem)
 }
 
-/// The key, and what to give, where the number of elements is not given.
+/// Key and advice if the number of elements is chosen by the method.
 const OTHERWISE: [&str; 2] = ["solve.max_memory", "another method"];
 
+/// Rejects a grid of `elements` elements along the contact if it exceeds the memory limit.
 fn check(
     problem: &Problem,
     method: Method,
@@ -141,7 +144,7 @@ fn check(
     Err(SceneError::at(key, problem).into())
 }
 
-/// Ends a refinement before a grid that needs more memory than [`Problem::max_memory`], or more steps in time than are followed.
+/// Progress that stops a refinement before a grid exceeds [`Problem::max_memory`] or the largest number of time steps.
 #[derive(Debug)]
 pub(super) struct Limited<'a> {
     problem: &'a Problem,
@@ -160,7 +163,7 @@ impl<'a> Limited<'a> {
         }
     }
 
-    /// What was reached, and why no more.
+    /// Adds the refusal of the next grid, if there was one, to the error of the method.
     pub(super) fn or_memory(self, reached: SolveError) -> SolveError {
         match self.refused.into_inner() {
             Some(refused) => SolveError::MemoryReached {
@@ -184,7 +187,7 @@ impl Progress for Limited<'_> {
     }
 }
 
-/// Memory that a method which marches or has elements takes for so many of them, \[bytes]; none of other methods.
+/// Memory needed by a grid of `elements` elements along the contact, \[bytes]; `None` for methods without a memory estimate.
 ///
 /// # Errors
 /// As for the method, before anything is solved.
@@ -218,7 +221,7 @@ pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Resu
     Ok(Some(half_space?))
 }
 
-/// The same of marches on the line.
+/// Memory needed by a time march of the one-dimensional model, \[bytes]; `None` for other methods and loads.
 fn of_line(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
     let surface = problem.body().surface();
     let surface = surface.and_then(Surface::as_axisymmetric);
@@ -237,6 +240,7 @@ fn of_line(problem: &Problem, method: Method, elements: usize) -> Result<Option<
     })
 }
 
+/// A memory size in binary units.
 fn written(bytes: f64) -> String {
     if bytes >= 2.0_f64.powi(60) {
         return "more than an exbibyte".to_owned();

@@ -1,4 +1,4 @@
-//! From a problem to its answer.
+//! Solution of a problem: choice of the method, its run, and the completed answer.
 
 mod advice;
 mod analytic;
@@ -62,25 +62,26 @@ use bem_halfspace::BemError;
 use mdr_core::MdrError;
 use numerics::{Progress, SilentProgress};
 
-/// Asks the method of the scene, or the cheapest that answers it.
+/// Solves a problem with the method that the scene names, else with the cheapest that answers it.
 ///
 /// # Errors
-/// [`SolveError`] where no method answers the scene, or what was asked for was not reached; it says what was.
+/// [`SolveError`] if no method answers the scene or the request was not met; it then holds the answer so far.
 pub fn solve(problem: &Problem) -> Result<Answer> {
     plan(problem)?.solve(&SilentProgress)
 }
 
 impl Plan<'_> {
-    /// The answer, of random surfaces the mean of all; `watch` is told how far it is, and may end a refinement before a grid.
+    /// Solves the problem; for random surfaces the answer is the ensemble mean. `watch` receives the progress and may stop a
+    /// refinement before a grid.
     ///
     /// # Errors
-    /// [`SolveError`] where what was asked for was not reached; it says what was.
+    /// [`SolveError`] if the request was not met; it then holds the answer so far.
     pub fn solve(self, watch: &dyn Progress) -> Result<Answer> {
         let problem = self.problem;
         realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
-    /// The answer of the surface that the problem holds.
+    /// Solves for the one surface that the problem holds.
     fn solve_one(self, watch: &dyn Progress) -> Result<Answer> {
         let Self {
             problem,
@@ -110,18 +111,18 @@ impl Plan<'_> {
     }
 }
 
-/// What a method has found, and why it is not what was asked, where it is not.
+/// The result of a method, and the reason if it does not meet the request.
 struct Found {
     answer: Answer,
     missed: Option<SolveError>,
 }
 
 impl Found {
-    /// The answer with what is said of it, and refused where it is not what was asked.
+    /// Completes the answer with modulus error, omissions, dissipation and warnings; an error if it does not meet the request.
     fn complete(self, problem: &Problem, method: Method) -> Result<Answer> {
         let answer = problem.with_modulus_error(self.answer)?;
         let missed = self.missed.or_else(|| problem.missed(&answer));
-        // Closed forms of pressing are those of both models.
+        // Closed forms of indentation belong to both models.
         let model = method.model().unwrap_or(problem.model());
         let mut answer = Answer {
             model,
@@ -144,7 +145,7 @@ impl Found {
     }
 }
 
-/// The answer that an error of a method holds.
+/// The answer contained in an error of a method; `None` if it contains none.
 fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer> {
     match why {
         SolveError::HalfSpace(BemError::NotReached { reached, .. }) => {

@@ -1,4 +1,4 @@
-//! The error of a series that stands for another law, as a part of all bars.
+//! Propagation of the modulus error of an approximating Prony series into all error estimates.
 
 use numerics::ValueWithError;
 
@@ -11,20 +11,20 @@ use super::problem::{Motion, Problem};
 use super::validity::mean_slope;
 use crate::scene::{Accuracy, Method, Model};
 
-/// What is asked of a method, over what is asked of the answer; the rest is for the series.
+/// Fraction of the requested relative error that is left to the method (chosen); the rest is for the error of the series.
 const OF_THE_METHOD: f64 = 0.95;
-/// Change of a quantity over the relative change of the moduli, at most. A force is proportional to them; under a force
-/// depth and radius change less, area and peak pressure at most twice as much.
+/// Bound of the relative change of a quantity per relative change of the moduli. A force is proportional to them. Under a given
+/// force depth and radius change less, area and peak pressure at most twice as much; the bound doubles this again (chosen).
 pub(super) const PER_MODULUS: f64 = 4.0;
 
 impl Problem {
-    /// Relative error of the moduli, 0 of a material that stands for itself.
+    /// Relative error of the moduli; 0 if the material is exact.
     pub(crate) fn modulus_error(&self) -> f64 {
         self.expansion()
             .map_or(0.0, |expansion| expansion.relative_error)
     }
 
-    /// What is asked of a method, so that the bars have room for the error of the moduli.
+    /// Accuracy requested of the method, reduced to leave room for the error of the moduli.
     pub(crate) fn of_the_method(&self) -> Accuracy {
         match self.accuracy() {
             Accuracy::RelativeError(error) if self.expansion().is_some() => {
@@ -34,7 +34,7 @@ impl Problem {
         }
     }
 
-    /// The answer with the error of the moduli in its bars, unless it needs the material at other times.
+    /// Adds the error of the moduli to the error estimates; an error if the contact needs times outside the range of the series.
     pub(crate) fn with_modulus_error(&self, answer: Answer) -> Result<Answer> {
         let without = answer.requested_quantity().error;
         let mut answer = self.with_wider_bars(answer)?;
@@ -45,6 +45,7 @@ impl Problem {
         Ok(answer)
     }
 
+    /// Widens the error estimates by the error of the moduli.
     fn with_wider_bars(&self, answer: Answer) -> Result<Answer> {
         let Some(expansion) = self.expansion() else {
             return Ok(answer);
@@ -54,27 +55,27 @@ impl Problem {
         if let Motion::History(_) = self.motion() {
             return Ok(match answer.method {
                 Method::BemTransient => answer.curve_widened(relative),
-                // The one-dimensional model has it in its bars.
+                // The one-dimensional model includes the modulus error already.
                 _ => answer,
             });
         }
         let slope = mean_slope(self.body(), &answer).unwrap_or(0.0);
         let mut answer = answer.widened(relative, slope);
         if answer.model == Model::HalfSpace && matches!(self.motion(), Motion::Sliding(_)) {
-            // Far from a sliding contact the surface sinks with the creep at times that no range holds.
+            // Far from a sliding contact the surface subsides by creep at times beyond every range.
             answer.indentation_depth = None;
         }
         self.with_long_waves(answer, &expansion)
     }
 
-    /// The friction of a line contact with the part that is of longer times than the series creeps.
+    /// Widens the friction of a line contact by the part from times longer than the creep of the series.
     fn with_long_waves(&self, mut answer: Answer, expansion: &Expansion) -> Result<Answer> {
         let (Body::Cylinder(_), Motion::Sliding(load)) = (self.body(), self.motion()) else {
             return Ok(answer);
         };
         let length = answer.contact_box.as_ref();
         let length = length.map_or(0.0, |contact| contact.x[1] - contact.x[0]);
-        // Waves that are longer than a layer is thick move nothing.
+        // Waves longer than the thickness of a layer cause negligible displacement.
         if self.thickness() < expansion.creeps_until * load.velocity() {
             return Ok(answer);
         }
@@ -95,7 +96,7 @@ impl Problem {
         Ok(answer)
     }
 
-    /// That the bar with the error of the moduli is larger than what was asked.
+    /// An error if the total error exceeds the requested one; `None` for a history and for an exact material.
     pub(crate) fn missed(&self, answer: &Answer) -> Option<SolveError> {
         let ValueWithError { value, error } = *answer.requested_quantity();
         let series = self.expansion()?.relative_error;
@@ -114,6 +115,7 @@ impl Problem {
         }
     }
 
+    /// Rejects a contact whose time scales are outside the time range of the series.
     fn check_times(&self, answer: &Answer, [shortest, longest]: [f64; 2]) -> Result<()> {
         let contact = answer.contact_box.as_ref();
         let length = contact.map(|contact| contact.x[1] - contact.x[0]);
@@ -137,15 +139,15 @@ impl Problem {
 }
 
 impl Answer {
-    /// With the error that a relative error of the moduli makes; friction has that of the mean slope in contact, of which it
-    /// is a small part on an almost elastic material.
+    /// Widens the errors by a relative error of the moduli. The error of friction is relative to the mean slope in contact, of
+    /// which friction is a small fraction on a nearly elastic material.
     fn widened(mut self, relative: f64, slope: f64) -> Self {
         let given_or_found = [
             Some(&mut self.normal_force),
             self.indentation_depth.as_mut(),
         ];
         let given_or_found = given_or_found.into_iter().flatten();
-        // What is exact was given.
+        // A quantity with error 0 was given.
         let found = given_or_found.filter(|found| found.error > 0.0);
         let others = [self.contact_area.as_mut(), self.peak_pressure.as_mut()];
         for quantity in found.chain(others.into_iter().flatten()) {
@@ -160,7 +162,7 @@ impl Answer {
         self
     }
 
-    /// The same of the points of a history, relative to the largest value of each quantity; the last one is the answer.
+    /// Widens the points of a history, relative to the largest value of each quantity; the last point is the answer.
     fn curve_widened(mut self, relative: f64) -> Self {
         let curve = &mut self.fields.curve;
         for column in &mut curve.columns {

@@ -1,44 +1,44 @@
-//! Parts of the work that a scene may not need.
+//! Computations that a scene may not need.
 
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// A part of the work that was left out.
+/// A computation that was skipped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, IntoStaticStr)]
 #[serde(into = "&'static str")]
 #[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Omission {
-    /// Elements, where there is a closed form.
+    /// No elements, because there is a closed form.
     NumericalSolution,
-    /// Steps in time, where only the state at the end is asked for.
+    /// No time steps, because only the final state is requested.
     TimeSteps,
-    /// Elements of the half space, where the one-dimensional model has the same depth.
+    /// No elements of the half space, because the one-dimensional model has the same depth.
     HalfSpace,
-    /// One side of a plane of symmetry.
+    /// Only one side of a plane of symmetry.
     MirrorHalf,
-    /// Elements that do not touch.
+    /// No elements outside the contact.
     OutsideContact,
-    /// Fourier transforms, where the contact is small.
+    /// No Fourier transforms, because the contact is small enough to be factorised.
     Transforms,
-    /// Rows of elements that the body has left and does not meet again.
+    /// No rows of elements behind the body, which it does not meet again.
     RowsBehind,
-    /// Fields that remember a history, where the result does not depend on it.
+    /// No history variables, because the result does not depend on the history.
     HistoryFields,
-    /// Slopes of the surface, where nothing slides.
+    /// No surface slopes, because nothing slides.
     Gradients,
-    /// Files, where none are asked for.
+    /// No files, because none are requested.
     Files,
 }
 
 impl Omission {
-    /// The name of JSON with spaces for hyphens.
+    /// The JSON name with spaces for hyphens.
     pub fn name(self) -> String {
         let name: &str = self.into();
         name.replace('-', " ")
     }
 
-    /// Why it was not needed.
+    /// Reason why it was not needed.
     pub const fn because(self) -> &'static str {
         match self {
             Self::NumericalSolution => "there is a closed form or a quadrature",

@@ -1,4 +1,4 @@
-//! Which methods answer which scenes.
+//! Choice of the method that answers a scene.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::files::ReadFile;
 use crate::scene::{Method, Model, Scene, SceneError, Source, scene_file};
 use crate::text::WrongInput;
 
-/// The methods from cheap to expensive.
+/// The methods in order of increasing cost; the first that answers is chosen.
 const BY_COST: [Method; 5] = [
     Method::Analytic,
     Method::MdrSteady,
@@ -19,7 +19,7 @@ const BY_COST: [Method; 5] = [
     Method::BemTransient,
 ];
 
-/// A method that answers a problem, with all that it needs.
+/// A method that answers a problem, ready to run.
 pub struct Plan<'a> {
     pub(super) problem: &'a Problem,
     pub(super) method: Method,
@@ -33,13 +33,13 @@ impl fmt::Debug for Plan<'_> {
     }
 }
 
-/// The plan of the method that the scene names, or of the cheapest that answers it.
+/// Plans the method that the scene names, else the cheapest that answers it.
 ///
-/// Nothing is solved for it; only slow sliding is known to be slow, and a contact on a layer to grow once and shrink once, when
-/// they have been computed, and they are kept.
+/// Planning solves nothing, with two exceptions whose validity is known only from the result, which is kept: slow sliding, and a
+/// contact on a layer that must grow once and shrink once.
 ///
 /// # Errors
-/// [`NotOffered`], with what is offered instead.
+/// [`NotOffered`], with the methods that answer instead.
 pub fn plan(problem: &Problem) -> Result<Plan<'_>, NotOffered> {
     let of = |method| match other_model(method, problem.model()) {
         Some(why) => Err(why),
@@ -72,17 +72,17 @@ impl Plan<'_> {
         self.method
     }
 
-    /// Refuses a method that needs more memory than [`Problem::max_memory`], if there is one, and a periodic surface with waves
-    /// that are too short for all grids; [`Self::solve`] does so too.
+    /// Rejects a method that needs more memory than [`Problem::max_memory`], and a periodic surface whose waves are too short for
+    /// all grids. [`Self::solve`] makes the same checks.
     ///
     /// # Errors
-    /// [`SceneError`] with what is needed, what is allowed, and the key that is best changed.
+    /// [`SceneError`] with the memory needed, the memory allowed, and the key to change.
     pub fn check_memory(&self) -> Result<(), SceneError> {
         check_memory(self.problem, self.method)
     }
 }
 
-/// An answer is of the model that was asked for.
+/// Reason if the method belongs to another model than the requested one.
 fn other_model(method: Method, asked: Model) -> Option<Refusal> {
     let of_method = method.model()?;
     if of_method == asked {
@@ -98,7 +98,7 @@ fn other_model(method: Method, asked: Model) -> Option<Refusal> {
     })
 }
 
-/// What a scene file asks, of the method given in the place of its own.
+/// The problem of a scene file; `method` overrides that of the file.
 ///
 /// # Errors
 /// [`WrongInput`] with the place where the scene is wrong.
@@ -112,7 +112,7 @@ pub fn problem_of(
     problem.map_err(|error| source.locate(&error))
 }
 
-/// The scene of a file, with the method given in the place of its own.
+/// The scene of a file; `method` overrides that of the file.
 ///
 /// # Errors
 /// [`WrongInput`] with the place where the scene is wrong.
@@ -123,10 +123,10 @@ pub fn scene_of(source: &Source, method: Option<Method>) -> Result<Scene, WrongI
     Ok(scene)
 }
 
-/// The plan of a problem from a file, which has the memory that it needs.
+/// The plan of a problem from a file, checked against the memory limit.
 ///
 /// # Errors
-/// [`WrongInput`] with the place where the scene is wrong: the method, or the whole scene where there is none.
+/// [`WrongInput`] with the place of the error: the method, or the indenter if no method answers.
 pub fn plan_of<'a>(source: &Source, problem: &'a Problem) -> Result<Plan<'a>, WrongInput> {
     let plan = || {
         let plan = plan(problem).map_err(|error| {

@@ -1,4 +1,4 @@
-//! A scene whose numbers are known to be right.
+//! The validated problem of a scene.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,9 +18,9 @@ use crate::files::{Files, ReadFile};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::WrongInput;
 
-/// What is asked of the methods.
+/// A validated scene, as the methods receive it.
 ///
-/// It is read only, because its parts belong together: to ask something else, change the scene.
+/// It is immutable because its parts depend on each other: to solve another problem, change the scene.
 ///
 /// ```compile_fail
 /// fn another_material(problem: &mut viscofriction::Problem) {
@@ -43,40 +43,40 @@ pub struct Problem {
     model: Model,
     threads: Option<usize>,
     max_memory: Option<u64>,
-    /// Whether the limit of the memory has refused a grid.
+    /// True once the memory limit has rejected a grid.
     is_short_of_memory: Arc<AtomicBool>,
     simple: Option<Simple>,
     realisations: Option<Realisations>,
     shortest_wavelength: Option<f64>,
 }
 
-/// From what the surfaces of a random body are drawn.
+/// The source of the surfaces of a random body.
 #[derive(Debug, Clone)]
 struct Realisations {
-    /// At most.
+    /// Largest number of surfaces.
     count: u64,
-    /// Relative standard error at which they are enough.
+    /// Relative standard error of the mean at which sampling stops; `None` for all `count` surfaces.
     standard_error: Option<f64>,
     scene: Scene,
     folder: PathBuf,
     read: ReadFile,
 }
 
-/// How the body moves.
+/// Load and motion of the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Slides under a force or at a depth, without end or over a distance.
+    /// Sliding under a force or at a depth, to the stationary state or over a distance.
     Sliding(SlidingLoad),
-    /// Is pressed with a force or to a depth for a time, without sliding.
+    /// Indentation with a force or to a depth for a duration, without sliding.
     Pressing(PressingLoad),
-    /// Follows [`Problem::history`], which ends with this.
+    /// Indentation along [`Problem::history`]; the control is that of its last point.
     History(Control),
-    /// Moves as [`Problem::moving`] says, pressed with this at most.
+    /// Motion along [`Problem::moving`]; the control is its largest.
     Moving(Control),
 }
 
 impl Motion {
-    /// Force or depth.
+    /// The given force or depth.
     pub const fn control(&self) -> Control {
         match self {
             Self::Sliding(load) => load.control(),
@@ -85,7 +85,7 @@ impl Motion {
         }
     }
 
-    /// Sliding distance since first touch, \[m]; none for the stationary state, and where nothing slides.
+    /// Sliding distance since first touch, \[m]; `None` for the stationary state, and unless the body slides at constant speed.
     pub fn sliding_distance(&self) -> Option<f64> {
         match self {
             Self::Sliding(load) => load.sliding_distance(),
@@ -166,31 +166,31 @@ impl Problem {
         Ok(problem)
     }
 
-    /// To another accuracy, which need not be one that scenes may ask for.
+    /// Replaces the accuracy, also by one that scenes may not request.
     #[must_use]
     pub const fn with_accuracy(mut self, accuracy: Accuracy) -> Self {
         self.accuracy = accuracy;
         self
     }
 
-    /// With a limit of memory, \[bytes], where the scene gives none.
+    /// Sets a memory limit, \[bytes], unless the scene gives one.
     #[must_use]
     pub fn or_max_memory(mut self, bytes: Option<u64>) -> Self {
         self.max_memory = self.max_memory.or(bytes);
         self
     }
 
-    /// How many random surfaces the answer is the mean of, at most; 1 of any other body.
+    /// Largest number of random surfaces to average; 1 for other bodies.
     pub fn realisations(&self) -> u64 {
         self.realisations.as_ref().map_or(1, |of| of.count)
     }
 
-    /// Relative standard error of the mean at which no more random surfaces are drawn.
+    /// Relative standard error of the mean at which sampling of random surfaces stops; `None` if it is not requested.
     pub fn standard_error(&self) -> Option<f64> {
         self.realisations.as_ref().and_then(|of| of.standard_error)
     }
 
-    /// The seeds of the random surfaces.
+    /// Seeds of the random surfaces; empty for other bodies.
     pub(super) fn seeds(&self) -> Vec<u64> {
         let all = self.realisations.iter();
         let seed = |of: &Realisations, index| Some(of.scene.indenter.realisation(index)?.1);
@@ -198,7 +198,7 @@ impl Problem {
             .collect()
     }
 
-    /// The same problem of one of the random surfaces, counted from 0, with a part of the memory.
+    /// The problem for one of the random surfaces, counted from 0, with one of `parts` equal parts of the memory.
     pub(super) fn of_surface(&self, surface: u64, parts: u64) -> Result<Self, SceneError> {
         let nothing_random = || SceneError::at("indenter", "no surface is drawn".to_owned());
         let of = self.realisations.as_ref().ok_or_else(nothing_random)?;
@@ -221,10 +221,10 @@ impl Problem {
         Ok(problem)
     }
 
-    /// Without the waves of a periodic surface that are shorter than a length \[m].
+    /// Removes the waves of a periodic surface that are shorter than a length \[m].
     ///
     /// # Errors
-    /// [`SceneError`] where no wave is left, and for any other body.
+    /// [`SceneError`] if no wave remains, and for any other body.
     pub fn without_waves_below(mut self, shortest: f64) -> Result<Self, SceneError> {
         let Body::Periodic(surface) = &self.body else {
             let problem = "only a surface that repeats itself is a sum of waves: a self-affine one, one of a spectrum, and a height map \
@@ -245,7 +245,7 @@ impl Problem {
         &self.body
     }
 
-    /// Sentences about the files of the body, which every answer carries.
+    /// Warnings about the files of the body, repeated by every answer.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
@@ -260,32 +260,32 @@ impl Problem {
         self.thickness
     }
 
-    /// How well the series stands for another law; none of a material that stands for itself.
+    /// Accuracy of the Prony series that approximates the material; `None` if the material is exact.
     pub const fn expansion(&self) -> Option<Expansion> {
         self.expansion
     }
 
-    /// The frequencies in which the material was measured, \[rad/s]; none of one that is known at all.
+    /// Range of angular frequencies covered by measurements, \[rad/s]; `None` if the scene states none.
     pub const fn window(&self) -> Option<[f64; 2]> {
         self.window
     }
 
-    /// How the body is pressed and moves.
+    /// Load and motion of the body.
     pub const fn motion(&self) -> Motion {
         self.motion
     }
 
-    /// Points of the history that the body follows; none of any other motion.
+    /// Points of the indentation history; empty for other loads.
     pub fn history(&self) -> &[HistoryPoint] {
         &self.history
     }
 
-    /// How the body moves along the surface, to and fro or through points; none of any other motion.
+    /// Reciprocating motion, or motion through given positions; `None` for other loads.
     pub const fn moving(&self) -> Option<&MovingLoad> {
         self.moving.as_ref()
     }
 
-    /// Length of the track after which the body comes back to the same place, \[m]; none where it never does.
+    /// Length of the closed track, after which the body returns to the same place, \[m]; `None` without a track.
     pub const fn track(&self) -> Option<f64> {
         match self.motion {
             Motion::Sliding(load) => load.track(),
@@ -293,8 +293,8 @@ impl Problem {
         }
     }
 
-    /// How long a force or a depth is held, or the parts of a history between two times take and all of it, \[s]; none of
-    /// sliding.
+    /// Time scales of the load, \[s]: the holding time, or the stages of a history or motion and its total duration. Empty for
+    /// sliding at constant speed.
     pub(super) fn durations(&self) -> Vec<f64> {
         match self.motion {
             Motion::Sliding(_) => Vec::new(),
@@ -315,52 +315,52 @@ impl Problem {
         }
     }
 
-    /// How well the answer is asked for.
+    /// Requested accuracy.
     pub const fn accuracy(&self) -> Accuracy {
         self.accuracy
     }
 
-    /// The method that the scene names; without it the cheapest is taken.
+    /// The method that the scene names; `None` if the cheapest is chosen.
     pub const fn method(&self) -> Option<Method> {
         self.method
     }
 
-    /// What the elastomer is taken to be.
+    /// The model of the elastomer.
     pub const fn model(&self) -> Model {
         self.model
     }
 
-    /// Threads that the scene asks for; the caller provides them.
+    /// Number of threads that the scene requests; the caller provides them.
     pub const fn threads(&self) -> Option<usize> {
         self.threads
     }
 
-    /// Memory that one solution may take, \[bytes]; none for as much as it needs.
+    /// Memory limit of one solution, \[bytes]; `None` for no limit.
     pub const fn max_memory(&self) -> Option<u64> {
         self.max_memory
     }
 
-    /// Whether the limit of the memory has refused a grid, so that the answer may be another one with more.
+    /// True if the memory limit has rejected a grid, so that more memory may change the answer.
     pub fn is_short_of_memory(&self) -> bool {
         self.is_short_of_memory.load(Ordering::Relaxed)
     }
 
-    /// Remembers that the limit of the memory has refused a grid.
+    /// Records that the memory limit has rejected a grid.
     pub(super) fn set_short_of_memory(&self) {
         self.is_short_of_memory.store(true, Ordering::Relaxed);
     }
 
-    /// The material, where it is one of those that have closed forms.
+    /// The reduced material if it has closed forms, else `None`.
     pub(crate) const fn simple(&self) -> Option<&Simple> {
         self.simple.as_ref()
     }
 
-    /// What the body is pressed into.
+    /// The viscoelastic layer or half space.
     pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
         Ok(Layer::new(&*self.material, self.thickness).map_err(BemError::from)?)
     }
 
-    /// Refuses a depth on the half space, which depends on times beyond every range.
+    /// Rejects sliding at a given depth over an approximated half space: its force depends on times beyond every range.
     fn check_control(&self) -> Result<(), SceneError> {
         if self.expansion.is_some()
             && self.model == Model::HalfSpace
@@ -374,7 +374,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Refuses a layer on the one-dimensional model.
+    /// Rejects a layer in the one-dimensional model.
     fn check_layer(&self) -> Result<(), SceneError> {
         if self.thickness.is_finite() && self.model == Model::Line {
             let problem = "the scene asks for the one-dimensional model, and it knows no layer; boundary elements do";
@@ -383,7 +383,7 @@ impl Problem {
         Ok(())
     }
 
-    /// Refuses a track that no method knows.
+    /// Rejects a track of a periodic surface or on a material that flows.
     fn check_track(&self) -> Result<(), SceneError> {
         let problem = match self.track() {
             Some(_) if matches!(self.body, Body::Periodic(_)) => OWN_PERIOD,
@@ -394,7 +394,7 @@ impl Problem {
     }
 }
 
-/// A scene that names no file.
+/// The problem of a scene that names no file.
 impl TryFrom<&Scene> for Problem {
     type Error = SceneError;
 
@@ -403,12 +403,13 @@ impl TryFrom<&Scene> for Problem {
     }
 }
 
+/// Rejects a file reference in a scene without a folder.
 fn no_files(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     let problem = "a scene in memory names no file; Problem::new reads one";
     Err(WrongInput(format!("{}: {problem}", path.display())))
 }
 
-/// A motion that says itself when it ends.
+/// A history or motion, whose end is given by its own points; rejects a duration, a distance and a track.
 fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
     let times = [
         ("solve.duration", scene.solve.duration),
@@ -425,14 +426,19 @@ fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
     Ok(motion)
 }
 
+/// Message for a track without sliding at constant speed.
 const NO_TRACK: &str =
     "a track needs a body that slides at load.velocity, and nothing slides here; leave this out";
+/// Message for a track with a periodic surface.
 const OWN_PERIOD: &str = "a periodic surface meets each place again after its own period, which is its track; leave this out";
+/// Message for a track on a material that flows.
 const NO_PASS: &str = "a material that flows gives way further in every pass, and none is like the one before; give it an equilibrium \
                        modulus, or leave the track out";
+/// Message for a track with a duration or a sliding distance.
 const ENDLESS: &str =
     "on a track the stationary state is answered, which has no duration and no sliding_distance";
 
+/// Sliding if the velocity is positive, else indentation.
 fn motion(scene: &Scene, body: &Body) -> Result<Motion, SceneError> {
     let wrong = |error: IndenterError| SceneError::at("load", error.to_string());
     let control = scene.load.control(body.period_area())?;

@@ -1,4 +1,4 @@
-//! A rough surface without its shortest waves, octave by octave.
+//! Cut-off series: a rough surface without its shortest waves, octave by octave.
 
 use numerics::Progress;
 
@@ -9,45 +9,45 @@ use super::plan::plan;
 use super::problem::Problem;
 use crate::scene::SceneError;
 
-/// A surface without the waves shorter than a length.
+/// One member of the cut-off series.
 #[derive(Debug)]
 pub struct CutOff {
-    /// Waves shorter than this are left out, \[m].
+    /// Cut-off wavelength: shorter waves are left out, \[m].
     pub shortest_wavelength: f64,
-    /// Root mean square slope of what is left; of random surfaces that of the first.
+    /// Root mean square slope of the remaining surface; for random surfaces that of the first.
     pub rms_slope: f64,
-    /// What it answers.
+    /// The answer for the remaining surface.
     pub answer: Result<Answer>,
 }
 
 impl CutOff {
-    /// The answer, or what was reached of it.
+    /// The answer, also one that does not meet the request.
     pub fn known(&self) -> Option<&Answer> {
         self.answer.as_ref().map_or_else(SolveError::reached, Some)
     }
 
-    /// Persson's theory of what is left.
+    /// Persson's theory for the remaining waves; `None` if it does not apply.
     pub fn persson(&self) -> Option<Persson> {
         self.known()?.rough?.persson
     }
 
-    /// What the waves that are left out add to the friction by Persson's theory of 2006, times what was solved of those that are not
-    /// over what it says of them: it knows how friction grows with the waves better than how large it is. `all` is the same surface
-    /// with all its waves.
+    /// Estimated friction of the omitted waves: their friction in Persson's theory (2006), scaled by the ratio of solved to
+    /// theoretical friction of the remaining waves. The theory predicts the growth of friction better than its magnitude.
+    /// `all` is the surface with all its waves.
     pub fn still_to_come(&self, all: &Self) -> Option<f64> {
         let theory = |one: &Self| one.persson().map(|one| one.friction_coefficient_2006);
         let (all, left) = (theory(all)?, theory(self)?);
         let solved = self.known()?.friction_coefficient?.value;
-        // Waves that rub nothing leave nothing to scale.
+        // Without friction of the remaining waves there is no ratio.
         (left > 0.0).then(|| (all - left) * solved / left)
     }
 }
 
-/// Solves a rough surface with all its waves, then without those shorter than twice the shortest, four times and so on, so many times
-/// at most, as long as waves are left; `done` is told how many are solved.
+/// Solves a rough surface with all its waves, then without those shorter than 2, 4, 8, … times the shortest, up to `count`
+/// surfaces or until no wave remains. `done` receives each result.
 ///
 /// # Errors
-/// [`SceneError`] for a body that is no sum of waves.
+/// [`SceneError`] for a body that is not a sum of waves.
 pub fn cut_offs(
     mut problem: Problem,
     count: usize,

@@ -1,28 +1,29 @@
-//! Many tasks at the same time within one limit of memory, with results that do not depend on how many threads there are.
+//! Concurrent tasks within one memory limit, with results independent of the number of threads.
 //!
-//! A method chooses its grids by the memory that it has, so that a smaller limit may change its answer. A result that was found
-//! within a part of the memory is therefore kept only where the limit has refused nothing.
+//! A method chooses its grids by the memory it may use, so a smaller limit may change its answer. A result found within a part of
+//! the memory is therefore kept only if that limit rejected no grid.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of threads that compute.
+/// Number of threads of the pool.
 #[cfg(feature = "rayon")]
 pub(super) fn threads() -> usize {
     rayon::current_num_threads()
 }
 
+/// Number of threads without a pool.
 #[cfg(not(feature = "rayon"))]
 pub(super) const fn threads() -> usize {
     1
 }
 
-/// Does tasks at the same time, one on each thread of the pool, each with an equal part of the memory.
+/// Runs tasks concurrently, one per thread of the pool, each with an equal part of the memory.
 ///
-/// `work` is told the task and in how many parts the memory is divided, and returns `None` if its part was too little. Such tasks
-/// are done again when the others are done, half as many at the same time, and in the end alone with all of the memory. `take`
-/// gets each result as soon as it is there; no task is begun after it breaks.
+/// `work` receives the task and the number of parts of the memory, and returns `None` if its part was too small. Such tasks are
+/// repeated after the others, half as many at a time, finally alone with all of the memory. `take` receives each result as soon
+/// as it is known; after it breaks, no further task is started.
 pub fn share_memory<T>(
     tasks: Vec<usize>,
     work: impl Fn(usize, u64) -> Option<T> + Sync,
@@ -31,7 +32,7 @@ pub fn share_memory<T>(
     share_memory_of((tasks, threads()), work, take);
 }
 
-/// As [`share_memory`], of at most so many tasks at the same time.
+/// Like [`share_memory`], with at most the given number of tasks at a time.
 pub(super) fn share_memory_of<T>(
     (mut tasks, mut at_once): (Vec<usize>, usize),
     work: impl Fn(usize, u64) -> Option<T> + Sync,
@@ -61,7 +62,7 @@ pub(super) fn share_memory_of<T>(
     }
 }
 
-/// Does the tasks one after the other on so many threads.
+/// Runs the tasks from a shared queue on `at_once` threads.
 fn each(
     tasks: &[usize],
     at_once: usize,
@@ -85,8 +86,8 @@ fn each(
     }
 }
 
-/// A thread that waits for a part of its task may be given the work a second time, and leaves it: the task it is in would wait for
-/// all others.
+/// Runs `work` on `count` threads. A thread that waits inside a task may steal a second copy of `work`. It must not run it,
+/// because the waiting task would then wait for all others.
 #[cfg(feature = "rayon")]
 fn on_threads(count: usize, work: impl Fn() + Sync) {
     if count == 1 {
@@ -102,6 +103,7 @@ fn on_threads(count: usize, work: impl Fn() + Sync) {
     rayon::scope(|scope| (0..count).for_each(|_| scope.spawn(|_| once())));
 }
 
+/// Runs `work` on the calling thread.
 #[cfg(not(feature = "rayon"))]
 fn on_threads(_: usize, work: impl Fn()) {
     work();

@@ -1,4 +1,4 @@
-//! Where the linear theory of the contact ends.
+//! Limits of the linear theory of the contact.
 
 use std::f64::consts::PI;
 
@@ -10,14 +10,14 @@ use super::curve::{AREA, DEPTH, RADIUS};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 
-/// Mean slope of the surface in contact above which linear theory is no longer accurate.
+/// Mean slope in contact above which a warning is given (chosen).
 const STEEPEST: f64 = 0.5;
-/// Depth over the radius of a sphere or the thickness of a layer, likewise.
+/// Indentation depth relative to the radius of a sphere or the thickness of a layer above which a warning is given (chosen).
 const DEEPEST: f64 = 1.0 / 3.0;
-/// Part of the friction from outside of the material's window of frequencies, likewise.
+/// Fraction of the friction from outside the measured frequencies above which a warning is given (chosen).
 const MOST_EXTRAPOLATED: f64 = 0.1;
 
-/// Sentences about the validity of an answer, none where linear theory holds.
+/// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
     let body = problem.body();
     let mut warnings = problem.warnings().to_vec();
@@ -50,7 +50,7 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
     warnings
 }
 
-/// That the friction comes from frequencies at which the material was not measured.
+/// Warning about friction from frequencies at which the material was not measured.
 fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
     let [lowest, highest] = problem.window()?;
     let outside = answer.dissipation.outside_window?;
@@ -67,7 +67,7 @@ fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
     })
 }
 
-/// That a force or a depth is held, or a history takes or changes in, times at which the material was not measured.
+/// Warning about times of the load at which the material was not measured.
 fn held_outside(problem: &Problem) -> Option<String> {
     let [longest, shortest] = problem.window()?.map(f64::recip);
     let mut taken = problem.durations();
@@ -81,7 +81,7 @@ fn held_outside(problem: &Problem) -> Option<String> {
     })
 }
 
-/// That the answer of a rough surface depends on the shortest waves that it has.
+/// Warning about an answer that depends on the shortest waves of a rough surface.
 fn cut_off(body: &Body, answer: &Answer) -> Option<String> {
     let (Body::Periodic(surface), Some(rough)) = (body, answer.rough) else {
         return None;
@@ -90,7 +90,7 @@ fn cut_off(body: &Body, answer: &Answer) -> Option<String> {
     without.warning(answer.friction_coefficient, rough, surface.rms_slope())
 }
 
-/// What a measurement has and no method does, of scenes of this kind.
+/// Effects in a measurement that no method models for this kind of scene.
 pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
     let slides = matches!(problem.motion(), Motion::Sliding(_) | Motion::Moving(_));
     let dissipates = problem.simple() != Some(&Simple::Elastic);
@@ -104,8 +104,8 @@ pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
     words.map(|(word, _)| word).collect()
 }
 
-/// From the lowest point to the farthest edge of the contact, and of a periodic surface the root mean square; where no edge
-/// is known the friction, which is a mean of the slope.
+/// Mean slope from the lowest point to the farthest edge of the contact; for a periodic surface the rms slope. If no edge is
+/// known it is the friction coefficient, which is a mean of the slope.
 pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     if let Body::Periodic(surface) = body {
         return Some(surface.rms_slope());

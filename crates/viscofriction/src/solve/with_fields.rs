@@ -1,4 +1,4 @@
-//! The pressure under a body that is pressed, and what has happened since touch.
+//! Pressure under a pressed body, and the contact since first touch.
 
 use std::f64::consts::PI;
 
@@ -15,18 +15,18 @@ use super::problem::{Motion, Problem};
 use super::{layer, mdr};
 use crate::scene::{Control, Method};
 
-/// Places of the pressure on each side of the middle.
+/// Sampled pressures on each side of the middle (chosen; output only).
 const N_PLACES: usize = 100;
-/// Error of the work along a history, relative to the largest.
+/// Error of the work along a history, relative to its largest value (chosen).
 const WORK: f64 = 1e-4;
-/// Points in time after touch.
+/// Intervals in time after first touch (chosen; output only).
 const N_TIMES: usize = 60;
 
-/// Adds the pressure and the history to a closed form of pressing, and the work to a history of the one-dimensional model,
-/// where they take longer than the answer itself; other answers have their fields already.
+/// Adds pressure and history to a closed form of indentation, and the work to an indentation history of the one-dimensional
+/// model. They may take longer than the answer; other answers have their fields already.
 ///
-/// Under a force that is held on a material that creeps, the pressure depends on how the contact has grown, and is left out.
-/// So are that of a body whose slope jumps inside the contact, as of a flat cone, and the history on an elastic material.
+/// Left out are the pressure under a constant force on a material that creeps, which depends on how the contact has grown, the
+/// pressure of a body whose slope jumps inside the contact, such as a flat cone, and the history on an elastic material.
 #[must_use]
 pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     let pressure = match (problem.body(), answer.method) {
@@ -61,8 +61,8 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     answer
 }
 
-/// The contact at times that are dense after touch, where the most happens; those at which a quantity underflows are left
-/// out.
+/// The contact at times that are dense just after first touch, where it changes fastest; times at which a quantity underflows are
+/// left out.
 fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
     let point = |time: f64| {
         let answer = pressed(body, problem.material(), problem.motion().control(), time);
@@ -85,7 +85,7 @@ fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<Curve
     times.filter_map(point).collect()
 }
 
-/// G/(2 (1 − ν)) times the pressure of unit modulus, along a diameter.
+/// Pressure along a diameter, G/(2 (1 − ν)) times that of unit modulus; `None` if it is not defined or not accurate.
 fn pressure_of_revolution(
     problem: &Problem,
     body: &Revolution,
@@ -99,7 +99,7 @@ fn pressure_of_revolution(
     let modulus = stiffness(problem.material(), time).ok()?;
     let depth = answer.indentation_depth?.value;
     let [_, edge] = answer.contact_box.as_ref()?.x;
-    // There it is infinite, and near there no quadrature knows it well enough.
+    // At a slope jump the pressure is infinite, and the quadrature is inaccurate nearby.
     let mut kinks = body.kinks().into_iter();
     if kinks.any(|kink| kink.radius < edge && kink.slope_jump != 0.0) {
         return None;
@@ -108,7 +108,7 @@ fn pressure_of_revolution(
     across(edge, edge < body.max_radius(), pressure)
 }
 
-/// p = p₀ √(1 − (x/b)²) (Hertz 1881).
+/// Pressure under a cylinder, p = p₀ √(1 − (x/b)²) (Hertz 1881).
 fn pressure_of_cylinder(answer: &Answer) -> Option<Vec<[f64; 2]>> {
     let peak = answer.peak_pressure?.value;
     let [_, edge] = answer.contact_box.as_ref()?.x;
@@ -116,8 +116,8 @@ fn pressure_of_cylinder(answer: &Answer) -> Option<Vec<[f64; 2]>> {
     across(edge, true, pressure)
 }
 
-/// An even pressure from edge to edge of a contact, without the places where it may be infinite: the middle, and edges of the
-/// body. Where the contact ends inside the body, the pressure is zero and as steep as a root.
+/// A symmetric pressure from edge to edge of a contact, without the places where it may be infinite: the middle, and the edges of
+/// the body. If the contact ends inside the body, the pressure vanishes there like a square root, so samples are dense.
 fn across(
     edge: f64,
     ends_inside: bool,

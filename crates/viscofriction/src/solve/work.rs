@@ -1,4 +1,4 @@
-//! What a method does for a problem, or why it does not answer it.
+//! The computation of each method for a problem, or the reason why the method does not answer it.
 
 use bem_halfspace::PeriodicLoad;
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
@@ -18,39 +18,55 @@ use super::{analytic, elements, layer, mdr};
 use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
 use crate::scene::{Accuracy, Control, Model};
 
-/// What one method computes, with all that it needs.
+/// The computation of one method, ready to run.
 pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a>;
-/// Or why it does not.
+/// The computation of a method, or the reason why it does not answer the problem.
 pub(crate) type Offer<'a> = Result<Work<'a>, Refusal>;
 
+/// Refusal of a number of elements.
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
+/// Refusal of a layer.
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
+/// Refusal of a history on a layer.
 const ONCE: Refusal = "on a layer it follows a contact that grows once and shrinks once, up to a hundred thicknesses wide and not to the \
      edge of the body; bem-transient follows any";
+/// Refusal of a history of an unbounded body.
 const HISTORY_WITHOUT_END: Refusal = "it follows a history of a body that ends, and a cylinder or a periodic surface does not; hold a force, or a mean \
      pressure, for solve.duration";
+/// Refusal of a motion of a cylinder.
 const MOTION_OF_CYLINDER: Refusal = "it follows the motion of a body that ends or of a periodic surface, and a cylinder is neither; bem-steady \
      slides a cylinder at a constant load.velocity";
+/// Refusal of a cylinder by the time march on the half space.
 const PRESSED_CYLINDER: Refusal = "it takes bodies that end, and a cylinder does not; bem-steady slides it, and analytic presses it";
+/// Refusal of sliding at a given depth.
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
+/// Refusal of a material with a range of valid frequencies.
 const NO_SHARE: Refusal =
     "it does not say which part of the friction comes from outside of valid_frequencies";
+/// Refusal of a duration or a sliding distance.
 const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
+/// Refusal of sliding with a flat punch.
 const NO_FRONT: Refusal = "a flat punch does not rise in front of its contact: its slope is 0 in the contact and infinite at its \
      edge, so that its friction would be that of the edge alone; a flat-cone or a truncated-paraboloid has a flat end and a front";
+/// Refusal of a motion that is not of constant speed.
 const ONLY_STEADY: Refusal =
     "it knows no motion but that of constant speed; mdr-transient and bem-transient follow any";
+/// Refusal of an approximating series in a motion or on a track.
 const NO_BAR: Refusal = "the series that stands for the material has no error bar in a motion or on a track; give a material with finitely many branches";
+/// Refusal of a reciprocating motion on a material that flows.
 const NO_CYCLE: Refusal = "a material that flows gives way further in every cycle, and none is like the one before; give it an equilibrium modulus";
+/// Refusal of an ensemble in a motion.
 const ONE_SURFACE: Refusal =
     "realisations are for sliding and pressing; a motion has one surface, with a seed of its own";
+/// Refusal of a track.
 const NO_TRACK: Refusal =
     "it knows no track on which the body comes back; mdr-steady and bem-steady do";
+/// Refusal of a load without sliding at constant speed.
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
-/// The work of a method, whichever method and model the problem names.
+/// The computation of `method`, also if the problem names another method or model.
 pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     let accuracy = problem.of_the_method();
     let is_history = matches!(problem.motion(), History(_));
@@ -90,13 +106,13 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     }
 }
 
-/// Whether a method answers the problem on its track.
+/// Requires that a method answers the problem on its track.
 fn require_track(problem: &Problem, method: Method) -> Result<(), Refusal> {
     require(matches!(method, MdrSteady | BemSteady), NO_TRACK)?;
     require(problem.expansion().is_none(), NO_BAR)
 }
 
-/// Whether a body rises where it ends; a flat punch does not.
+/// True if the profile rises to its edge; false for a flat punch.
 fn has_front(body: &Body) -> bool {
     match body {
         Body::Revolution(body) => {
@@ -107,26 +123,29 @@ fn has_front(body: &Body) -> bool {
     }
 }
 
+/// An accepted computation.
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
 fn ready<'a>(answer: impl FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a) -> Offer<'a> {
     Ok(Box::new(answer))
 }
 
+/// Refuses with a reason unless a condition holds.
 fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
     if holds { Ok(()) } else { Err(refusal) }
 }
 
-/// Whether a single body sinks without limit, as it does not on a layer.
+/// True if a single body sinks without limit: the material flows and is not a layer.
 fn sinks(problem: &Problem) -> bool {
     problem.material().creep().fluidity() > 0.0 && !problem.thickness().is_finite()
 }
 
+/// True if the normal force is given.
 fn has_force(problem: &Problem) -> bool {
     matches!(problem.motion().control(), Control::NormalForce(_))
 }
 
-/// Of a body of revolution the one-dimensional model is exact here, on the half space too, and on a layer as long as the contact
-/// grows once and shrinks once.
+/// Indentation along a history. For a body of revolution the one-dimensional model is exact on the half space, and on a layer if
+/// the contact grows once and shrinks once.
 fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> {
     match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
@@ -149,7 +168,7 @@ fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> 
     }
 }
 
-/// To and fro, or through points.
+/// Reciprocating motion, or motion through given positions.
 fn moved<'a>(
     problem: &'a Problem,
     load: &'a MovingLoad,
@@ -181,6 +200,7 @@ fn moved<'a>(
     }
 }
 
+/// A cylinder on the half space, under a force.
 fn line_contact<'a>(
     problem: &'a Problem,
     cylinder: &'a Cylinder,
@@ -225,7 +245,7 @@ fn line_contact<'a>(
     }
 }
 
-/// A periodic surface, and what it is asked for.
+/// A periodic surface with its load; a reason if the load or the material does not suit it.
 pub(super) fn rough<'a>(
     problem: &Problem,
     surface: &'a PeriodicSurface,
@@ -256,6 +276,7 @@ pub(super) fn rough<'a>(
     })
 }
 
+/// A periodic surface, by boundary elements.
 fn periodic<'a>(
     problem: &'a Problem,
     surface: &'a PeriodicSurface,
@@ -283,6 +304,7 @@ fn periodic<'a>(
     }
 }
 
+/// A finite body in sliding or indentation, by boundary elements.
 fn boundary_elements<'a>(
     problem: &'a Problem,
     surface: &'a dyn Surface,
@@ -319,6 +341,7 @@ fn boundary_elements<'a>(
     ready(move |watch| slid(problem, surface, &load, Request { accuracy, watch }))
 }
 
+/// A body of revolution in the one-dimensional model, by elements or polynomials.
 fn one_dimensional<'a>(
     problem: &'a Problem,
     body: &'a dyn Axisymmetric,
@@ -350,6 +373,7 @@ fn one_dimensional<'a>(
     }
 }
 
+/// A body of revolution in closed form or by quadrature.
 fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Offer<'a> {
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
@@ -359,7 +383,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     match (problem.motion(), problem.simple(), problem.model()) {
         (History(_) | Moving(_), _, _) => Err(NOTHING_SLIDES),
         (Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
-        // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
+        // An elastic material dissipates nothing: the pressure is even and the slope odd.
         (Sliding(_), Some(Simple::Elastic), _) => {
             ready(move |_| pressed(1.0).map(without_friction))
         }
@@ -371,7 +395,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     }
 }
 
-/// The closed form of the one-dimensional model, whatever is known of the window of the material.
+/// The closed form of stationary or transient sliding in the one-dimensional model; `window` of the material is not considered.
 pub(crate) fn closed_line<'a>(
     material: Option<&'a Simple>,
     body: &'a Revolution,
@@ -410,6 +434,7 @@ pub(crate) fn closed_line<'a>(
     }
 }
 
+/// Sliding on the half space: powers on a viscous material, else the slow-sliding expansion.
 fn closed_half_space<'a>(
     problem: &'a Problem,
     body: &'a Revolution,

@@ -1,4 +1,4 @@
-//! What one coarse grid says of a surface, without an error bar.
+//! Solution for one surface on one coarse grid, without an error estimate.
 
 use bem_halfspace::PeriodicSliding;
 
@@ -8,22 +8,28 @@ use crate::solve::elements;
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
-/// As few elements as an answer to a relative error begins with, and so many times as many along both axes.
+/// Refinement factors of the coarse grid along both axes, relative to the first grid of an answer (chosen: halving the spacing).
 pub(super) const FINER: [usize; 4] = [1, 2, 4, 8];
 
+/// Quantities of one surface on a coarse grid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coarse {
-    /// From the dissipated power, which falls with the loss of the material; that from slopes errs as on a spring.
+    /// Friction coefficient from the dissipated power, which vanishes with the loss of the material; that from the slopes has a
+    /// discretisation error even on a spring.
     pub(super) friction_coefficient: f64,
+    /// Contact area as a fraction of the period.
     pub(super) area_fraction: f64,
+    /// Contact area of one period, \[m²].
     pub(super) contact_area: f64,
+    /// Depth of the mean plane, \[m].
     pub(super) mean_depth: f64,
-    /// A sum over waves, which needs no grid.
+    /// Persson's theory, a sum over waves that needs no grid.
     pub(super) persson: Option<Persson>,
+    /// Elements of the grid.
     pub(super) elements: usize,
 }
 
-/// Whether the surfaces of a problem are known on one grid alone, as those are that do not march.
+/// True if a single grid solves the problem: stationary sliding or indentation, without a time march.
 pub(super) fn has_coarse_grids(problem: &Problem) -> bool {
     match problem.motion() {
         Motion::Sliding(load) => load.sliding_distance().is_none(),
@@ -32,7 +38,7 @@ pub(super) fn has_coarse_grids(problem: &Problem) -> bool {
     }
 }
 
-/// One surface on a coarse grid; none where its contact is not found there.
+/// Solves for one surface on a coarse grid; `None` if its contact is not found there.
 pub(super) fn solve(problem: &Problem, surface: u64, finer: usize) -> Option<Coarse> {
     let one = problem.of_surface(surface, 1).ok()?;
     let Body::Periodic(surface) = one.body() else {
@@ -44,6 +50,7 @@ pub(super) fn solve(problem: &Problem, surface: u64, finer: usize) -> Option<Coa
 }
 
 impl Coarse {
+    /// Collects the quantities of a solution on one grid.
     fn of(found: &PeriodicSliding, persson: Option<Persson>) -> Self {
         let period = found.pressure.grid.n_elements() as f64 * found.pressure.grid.element_area();
         Self {

@@ -1,4 +1,4 @@
-//! Which surfaces are solved, and which on a coarse grid only.
+//! Choice of the random surfaces that are solved with an error estimate, and of those solved on a coarse grid only.
 
 use std::ops::Range;
 
@@ -12,35 +12,36 @@ use crate::solve::answer::{Answer, Fields};
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::Problem;
 
-/// The surfaces that were drawn.
+/// The sampled surfaces with their solutions.
 pub(super) struct Drawn<'a> {
     problem: &'a Problem,
     progress: WorkProgress<'a>,
     at_once: usize,
-    /// Of the first ones, with error bars.
+    /// Answers of the first surfaces, with error estimates.
     pub(super) answers: Vec<Answer>,
-    /// Of all, where there are more of them than answers.
+    /// Coarse solutions of all surfaces, the first ones included; empty if no coarse grid is used.
     pub(super) coarse: Vec<Coarse>,
-    /// Why the first of those that were not reached was not.
+    /// Reason of the first surface that missed the request, or that the ensemble did; `None` if the request is met.
     pub(super) missed: Option<SolveError>,
 }
 
-/// Part of the elements of an answer that a coarse grid has at most.
+/// Largest number of elements of a coarse grid, as a fraction of those of an answer (chosen).
 const LARGEST_PART: f64 = 0.25;
 
-/// A coarse grid and what it said of the first surfaces.
+/// A coarse grid with its solutions for the first surfaces.
 struct Trial {
     finer: usize,
     found: Vec<Coarse>,
 }
 
-/// How many surfaces may be drawn.
+/// Largest number of surfaces.
 fn most(problem: &Problem) -> usize {
     usize::try_from(problem.realisations()).unwrap_or(usize::MAX)
 }
 
 impl<'a> Drawn<'a> {
-    /// With the answer of the first surface, which tells how much memory one takes.
+    /// Solves the first surface alone, whose grid gives the memory per surface, then the rest: all surfaces, or the smallest sample
+    /// if a standard error is requested.
     pub(super) fn new(
         problem: &'a Problem,
         watch: &'a dyn Progress,
@@ -66,7 +67,7 @@ impl<'a> Drawn<'a> {
         Ok(drawn)
     }
 
-    /// Keeps the fields of the first only.
+    /// Adds answers; only the first keeps its fields.
     fn take(&mut self, found: impl IntoIterator<Item = Result<Answer>>) -> Result<()> {
         for found in found {
             let mut answer = match found {
@@ -85,14 +86,14 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
-    /// Solves until so many are.
+    /// Solves surfaces until `count` are known.
     fn solve(&mut self, count: usize) -> Result<()> {
         let surfaces = self.answers.len()..count;
         let found = solve_each(self.problem, surfaces, self.at_once, &mut self.progress);
         self.take(found)
     }
 
-    /// Draws more until the mean is known to a relative standard error, with the least work.
+    /// Samples more surfaces until the mean has the requested relative standard error, with the least work.
     pub(super) fn until_known(&mut self, asked: f64) -> Result<()> {
         let most = most(self.problem);
         if self.relative_standard_error() > asked && most > FEWEST {
@@ -112,12 +113,12 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
-    /// How many surfaces the mean is of.
+    /// Number of surfaces that the mean includes.
     pub(super) fn surfaces(&self) -> usize {
         self.answers.len().max(self.coarse.len())
     }
 
-    /// Without a coarse grid, no more than are needed.
+    /// Adds answers without a coarse grid. The result is the smallest sufficient number, which does not depend on the batch size.
     fn one_by_one(&mut self, asked: f64, most: usize) -> Result<()> {
         while self.relative_standard_error() > asked && self.answers.len() < most {
             let solved = self.answers.len();
@@ -132,7 +133,8 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
-    /// More of both kinds until they are enough, at most twice as many at a time: few surfaces tell little of how far they scatter.
+    /// Adds answers and coarse solutions until they suffice, at most doubling both at a time, because the variance estimated from
+    /// few surfaces is inaccurate.
     fn with_coarse_grid(&mut self, trial: Trial, asked: f64, most: usize) -> Result<()> {
         let Trial { finer, found } = trial;
         let part = self.part(&found);
@@ -155,7 +157,7 @@ impl<'a> Drawn<'a> {
             self.progress
                 .set_remaining_work(fine_left as f64 + part * coarse_left as f64);
             self.solve(fine)?;
-            // Every surface has an answer, if not on this grid.
+            // If a contact is not found on the coarse grid, continue with answers only.
             let Some(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
                 self.coarse.clear();
                 return self.one_by_one(asked, most);
@@ -166,8 +168,8 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
-    /// The coarse grid with which the first surfaces say that it takes the least work, if any number of surfaces may be drawn; none
-    /// where that is without any. A finer one is not tried where it would take more, however well it told surfaces apart.
+    /// The coarse grid that minimises the estimated work for an unlimited number of surfaces; `None` if no coarse grid saves work.
+    /// A finer grid is not tried if its work would exceed the minimum even with perfect correlation.
     fn trial(&self, asked: f64) -> Option<Trial> {
         if !has_coarse_grids(self.problem) {
             return None;
@@ -190,7 +192,7 @@ impl<'a> Drawn<'a> {
         best
     }
 
-    /// They take a part of the memory; none where one of them has no contact that is found.
+    /// Coarse solutions of a range of surfaces, in batches of four per concurrent answer; `None` if one contact is not found.
     fn on_coarse_grid(&self, finer: usize, surfaces: Range<usize>) -> Option<Vec<Coarse>> {
         let surfaces: Vec<u64> = surfaces.map(|surface| surface as u64).collect();
         let one = |surface| coarse::solve(self.problem, surface, finer);
@@ -200,7 +202,7 @@ impl<'a> Drawn<'a> {
         found.collect()
     }
 
-    /// Work on a coarse grid as a part of that of an answer.
+    /// Work on the coarse grid relative to that of an answer, from the numbers of elements.
     fn part(&self, coarse: &[Coarse]) -> f64 {
         let on = |elements: Option<usize>| elements.map_or(f64::INFINITY, |n| n as f64);
         let of_answer = self.answers[0]
@@ -209,7 +211,7 @@ impl<'a> Drawn<'a> {
         on(coarse.first().map(|one| one.elements)) / on(of_answer)
     }
 
-    /// A statistic of what is asked for, with the values of a coarse grid.
+    /// A statistic of the quantity that the standard error refers to: friction, or the area fraction if nothing slides.
     fn with<T>(&self, coarse: &[Coarse], statistic: impl FnOnce(Sample) -> T) -> Option<T> {
         let asked = match self.answers[0].friction_coefficient {
             Some(_) => FRICTION,
@@ -218,6 +220,7 @@ impl<'a> Drawn<'a> {
         asked.over((&self.answers, coarse), statistic)
     }
 
+    /// Numbers of surfaces with the least work; the largest allowed ones if the quantity is not known.
     fn counts(&self, coarse: &[Coarse], asked: f64, most: usize, part: f64) -> Counts {
         let all = Counts {
             fine: most,
@@ -227,6 +230,7 @@ impl<'a> Drawn<'a> {
         wanted.unwrap_or(all)
     }
 
+    /// Relative standard error so far; infinite if the quantity is not known.
     fn relative_standard_error(&self) -> f64 {
         let error = self.with(&self.coarse, |sample| sample.relative_standard_error());
         error.unwrap_or(f64::INFINITY)

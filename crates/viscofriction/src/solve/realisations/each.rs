@@ -1,4 +1,4 @@
-//! Many surfaces at the same time, with answers that do not depend on how many at once.
+//! Concurrent solution of many surfaces, with answers independent of the number of threads.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::{Mutex, PoisonError};
@@ -14,7 +14,7 @@ use crate::solve::plan::plan;
 use crate::solve::problem::Problem;
 use crate::solve::shared_memory::{share_memory_of, threads};
 
-/// How many surfaces are solved at the same time: as many as there are threads and memory for, if all take what the first did.
+/// Number of surfaces solved concurrently: limited by the threads, and by the memory if all need as much as the first.
 pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
     let elements = first.period_grid.map(|[rows, columns]| rows.max(columns));
     let needed = elements.and_then(|elements| needed(problem, first.method, elements).ok()?);
@@ -28,7 +28,7 @@ pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
         .unwrap_or(1)
 }
 
-/// The answers of some of the surfaces, counted from 0, in their order.
+/// The answers of a range of surfaces, counted from 0, in their order.
 pub(super) fn solve_each(
     problem: &Problem,
     surfaces: Range<usize>,
@@ -36,7 +36,7 @@ pub(super) fn solve_each(
     progress: &mut WorkProgress,
 ) -> Vec<Result<Answer>> {
     let surfaces: Vec<usize> = surfaces.collect();
-    // Several cannot tell of parts of themselves.
+    // Concurrent surfaces report progress only when they are done.
     let is_alone = at_once.min(surfaces.len()) == 1;
     let known = Mutex::new((progress, Vec::new()));
     let within = |surface, parts| {
@@ -58,7 +58,7 @@ pub(super) fn solve_each(
     answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
-/// The answer of a surface within one of so many parts of the memory; `None` if that is too little.
+/// The answer of a surface within one of `parts` equal parts of the memory; `None` if that is too little.
 fn solve_one(
     problem: &Problem,
     surface: usize,
@@ -75,6 +75,7 @@ fn solve_one(
     (parts == 1 || !one.is_short_of_memory()).then_some(answer)
 }
 
+/// Applies a function to each surface, in parallel.
 #[cfg(feature = "rayon")]
 pub(super) fn on_threads<T: Send>(
     surfaces: &[u64],

@@ -1,8 +1,8 @@
-//! Many random surfaces of one spectrum: the mean of their answers, and how far they scatter.
+//! Ensemble of random surfaces of one spectrum: the mean of their answers and its standard error.
 //!
-//! The error of a mean is the mean of the errors of the answers, which may all be off to the same side. How far the mean of so many
-//! surfaces may be off from that of all is another thing, the standard error. Where that is asked for, most surfaces are solved on a
-//! coarse grid only, without a bar, and a few with one, which tell what the coarse grid errs by.
+//! The error of the mean is the mean of the errors of the answers, because these may all have the same sign. The standard error
+//! is separate: the deviation of the sample mean from the ensemble mean. If a standard error is requested, most surfaces are
+//! solved on a coarse grid only; a few answers with error estimates correct its discretisation error.
 
 mod coarse;
 mod draw;
@@ -24,20 +24,20 @@ use draw::Drawn;
 use sample::Sample;
 pub use sample::Scatter;
 
-/// What one of the surfaces answers.
+/// The answer of one of the surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Realisation {
-    /// By which it was drawn.
+    /// Seed of the surface.
     pub seed: u64,
-    /// None where nothing slides.
+    /// Friction coefficient; `None` if nothing slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_coefficient: Option<f64>,
-    /// Its absolute error.
+    /// Absolute error of the friction coefficient.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_coefficient_error: Option<f64>,
-    /// Part of the period in contact.
+    /// Contact area as a fraction of the period.
     pub area_fraction: f64,
-    /// Its absolute error.
+    /// Absolute error of the area fraction.
     pub area_fraction_error: f64,
 }
 
@@ -55,21 +55,21 @@ impl Realisation {
     }
 }
 
-/// The random surfaces of which an answer is the mean.
+/// The ensemble of random surfaces behind an answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ensemble {
-    /// Those that were solved with error bars.
+    /// The surfaces solved with error estimates.
     pub realisations: Vec<Realisation>,
-    /// How many more a coarse grid told apart from these; their answers have no bars.
+    /// Number of further surfaces, solved on a coarse grid only, without error estimates.
     pub on_coarse_grid: usize,
-    /// None where nothing slides.
+    /// Scatter of the friction coefficient; `None` if nothing slides or only one surface has an answer.
     pub friction_coefficient: Option<Scatter>,
-    /// None of one surface.
+    /// Scatter of the area fraction; `None` if only one surface has an answer.
     pub area_fraction: Option<Scatter>,
 }
 
 impl Answer {
-    /// How far friction and area of the surfaces differ, by their names in JSON; none where there is one surface.
+    /// Scatter of friction and area over the surfaces, by their names in JSON; `None` for a single surface.
     pub fn scatters(&self) -> [(&'static str, Option<Scatter>); 2] {
         let known = |of: fn(&Ensemble) -> Option<Scatter>| self.ensemble.as_ref().and_then(of);
         [
@@ -81,7 +81,7 @@ impl Answer {
         ]
     }
 
-    /// What is said of rough surfaces only.
+    /// Writes the entries that only rough surfaces have.
     pub(super) fn serialize_rough<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         for (name, scatter) in self.scatters() {
             if let Some(scatter) = scatter {
@@ -105,7 +105,7 @@ impl Answer {
     }
 }
 
-/// The mean of all answers, of which `first` solves one; that itself where there is one surface.
+/// The ensemble mean; `first` solves the first surface. Without an ensemble it is the answer itself.
 pub(super) fn mean(
     problem: &Problem,
     first: impl FnOnce(&dyn Progress) -> Result<Answer>,
@@ -134,23 +134,26 @@ pub(super) fn mean(
     Err(SolveError::NotReached { answer, why })
 }
 
-/// A quantity that coarse grids know too.
+/// A quantity that answers and coarse solutions share.
 struct Quantity {
     of_answer: fn(&Answer) -> Option<f64>,
     on_coarse_grid: fn(&Coarse) -> f64,
     in_mean: fn(&mut Answer) -> Option<&mut Estimate>,
 }
 
+/// The friction coefficient.
 const FRICTION: Quantity = Quantity {
     of_answer: |one| one.friction_coefficient.map(|known| known.value),
     on_coarse_grid: |one| one.friction_coefficient,
     in_mean: |mean| mean.friction_coefficient.as_mut(),
 };
+/// The contact area as a fraction of the period.
 const AREA_FRACTION: Quantity = Quantity {
     of_answer: |one| one.rough.map(|rough| rough.area_fraction.value),
     on_coarse_grid: |one| one.area_fraction,
     in_mean: |mean| mean.rough.as_mut().map(|rough| &mut rough.area_fraction),
 };
+/// All quantities whose mean the coarse solutions correct.
 const QUANTITIES: [Quantity; 5] = [
     FRICTION,
     AREA_FRACTION,
@@ -172,7 +175,7 @@ const QUANTITIES: [Quantity; 5] = [
 ];
 
 impl Quantity {
-    /// A statistic of it over all surfaces; none where not all answers have it.
+    /// A statistic over all surfaces; `None` if an answer lacks the quantity.
     fn over<T>(
         &self,
         (answers, coarse): (&[Answer], &[Coarse]),
@@ -190,7 +193,7 @@ impl Quantity {
 }
 
 impl Answer {
-    /// With the surfaces that a coarse grid alone knows; the bars are those of the answers.
+    /// Adds the surfaces solved on the coarse grid only: scatter, and shifted means. The errors remain those of the answers.
     fn count(&mut self, all @ (answers, coarse): (&[Self], &[Coarse])) {
         let scatter = |of: Quantity| of.over(all, |sample| sample.scatter()).flatten();
         if let Some(ensemble) = &mut self.ensemble {
@@ -213,6 +216,7 @@ impl Answer {
     }
 }
 
+/// Mean of Persson's theory over all surfaces; `None` if it is missing for one.
 fn mean_of_theory(surfaces: &[Coarse]) -> Option<Persson> {
     let theories: Option<Vec<Persson>> = surfaces.iter().map(|one| one.persson).collect();
     let theories = theories?;
@@ -226,7 +230,7 @@ fn mean_of_theory(surfaces: &[Coarse]) -> Option<Persson> {
     })
 }
 
-/// Fields are those of the first.
+/// The mean of all answers; fields and histories are those of the first.
 fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
     let known = |of: &dyn Fn(&Answer) -> Option<Estimate>| {
         let estimates: Option<Vec<Estimate>> = answers.iter().map(of).collect();
@@ -270,8 +274,10 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
     mean
 }
 
+/// Mean over the answers of a quantity; `None` if one answer lacks it.
 type OfAnswer<'a, T> = &'a dyn Fn(&dyn Fn(&Answer) -> Option<T>) -> Option<T>;
 
+/// Means of the quantities that only rough surfaces have.
 fn rough(known: OfAnswer<'_, Estimate>, number: OfAnswer<'_, f64>) -> Option<RoughAnswer> {
     let estimate = |of: &dyn Fn(&RoughAnswer) -> Option<Estimate>| {
         known(&|answer| answer.rough.as_ref().and_then(of))

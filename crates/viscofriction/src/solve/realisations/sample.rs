@@ -1,46 +1,49 @@
-//! The mean of a quantity over many surfaces that coarse grids know, and few that are known with an error bar.
+//! Two-level Monte Carlo estimate of the mean of a quantity over random surfaces.
 //!
-//! Of N surfaces a coarse grid says cᵢ, and of the first n of them fᵢ is known. The mean of all is
+//! All N surfaces have a coarse value cᵢ, and the first n also a value fᵢ with an error estimate. The mean is
 //!
 //! ```text
 //! ⟨f⟩ₙ + ⟨c⟩_N − ⟨c⟩ₙ,      (standard error)² = s²(f − c)/n + (s²(c) + 2 cov(c, f − c))/N,
 //! ```
 //!
-//! without an error of the coarse grid, which the difference takes away; that scatters the less the better the grid tells surfaces
-//! apart (multilevel Monte Carlo with two levels: Giles 2008). Without a coarse grid c = f and N = n.
+//! unbiased by the coarse grid, whose error cancels in the difference. The variance of the difference is smaller the better both
+//! are correlated (multilevel Monte Carlo with two levels: Giles 2008). Without a coarse grid c = f and N = n.
 
 pub(super) use crate::scene::FEWEST_REALISATIONS as FEWEST;
 
-/// How far the surfaces differ.
+/// Scatter of a quantity over the surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scatter {
-    /// Standard deviation s of one surface.
+    /// Standard deviation s of single surfaces.
     pub standard_deviation: f64,
-    /// Standard error of the mean; s/√N of N surfaces of which each is solved.
+    /// Standard error of the mean; s/√N for N surfaces without a coarse grid.
     pub standard_error: f64,
 }
 
-/// How many surfaces are to be solved, and how many on the coarse grid.
+/// Numbers of surfaces, each set including the first surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Counts {
+    /// Number of answers with error estimates.
     pub(super) fine: usize,
+    /// Number of coarse solutions.
     pub(super) coarse: usize,
 }
 
-/// One quantity of all surfaces.
+/// The values of one quantity on all surfaces.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample<'a> {
-    /// Of the first ones.
+    /// Values fᵢ of the first surfaces.
     pub(super) fine: &'a [f64],
-    /// Of all; the same where there is no coarse grid.
+    /// Values cᵢ of all surfaces; the same as `fine` without a coarse grid.
     pub(super) coarse: &'a [f64],
 }
 
+/// Arithmetic mean.
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Of pairs of values.
+/// Unbiased sample covariance of pairs of values.
 fn covariance(pairs: impl ExactSizeIterator<Item = (f64, f64)> + Clone) -> f64 {
     let count = pairs.len() as f64;
     let (a, b) = pairs
@@ -51,7 +54,7 @@ fn covariance(pairs: impl ExactSizeIterator<Item = (f64, f64)> + Clone) -> f64 {
 }
 
 impl Sample<'_> {
-    /// By which the mean of the surfaces that are known changes when the others count.
+    /// Correction ⟨c⟩_N − ⟨c⟩ₙ of the mean over the answers.
     pub(super) fn shift(&self) -> f64 {
         match self.fine.len() == self.coarse.len() {
             true => 0.0,
@@ -59,11 +62,12 @@ impl Sample<'_> {
         }
     }
 
+    /// Mean over all surfaces.
     pub(super) fn mean(&self) -> f64 {
         mean(self.fine) + self.shift()
     }
 
-    /// Of the difference, and of the rest.
+    /// Variances s²(f − c) of the difference and s²(c) + 2 cov(c, f − c) of the rest.
     fn variances(&self) -> [f64; 2] {
         let values = self.coarse.iter().map(|value| (*value, *value));
         let both = self.fine.iter().zip(self.coarse);
@@ -76,7 +80,7 @@ impl Sample<'_> {
         ]
     }
 
-    /// None of one surface.
+    /// Scatter; `None` for one answer.
     pub(super) fn scatter(&self) -> Option<Scatter> {
         let [difference, rest] = self.variances();
         let error = self.errors_squared([difference, rest]).iter().sum::<f64>();
@@ -86,13 +90,14 @@ impl Sample<'_> {
         })
     }
 
+    /// Contributions of difference and rest to the square of the standard error.
     fn errors_squared(&self, [difference, rest]: [f64; 2]) -> [f64; 2] {
         let [fine, coarse] = [self.fine, self.coarse].map(|values| values.len() as f64);
         [difference / fine, rest / coarse]
     }
 
-    /// The standard error over the mean, as much larger as one of few surfaces may be wrong itself (Student's distribution, to the
-    /// first order in 1/N); without limit of fewer than ten.
+    /// Standard error relative to the mean, enlarged for small samples by Student's distribution to first order in 1/N. It is
+    /// infinite for fewer than [`FEWEST`] answers.
     pub(super) fn relative_standard_error(&self) -> f64 {
         if self.fine.len() < FEWEST {
             return f64::INFINITY;
@@ -106,9 +111,10 @@ impl Sample<'_> {
         }
     }
 
-    /// With how many surfaces the least work leaves a relative standard error, of at most so many; a surface takes a part of the
-    /// work on the coarse grid, 1 where there is none.
+    /// Numbers of surfaces that reach a relative standard error with the least work, at most `most`. `part` is the work of a
+    /// coarse solution relative to that of an answer; 1 without a coarse grid.
     pub(super) fn wanted(&self, asked: f64, most: usize, part: f64) -> Counts {
+        // Minimise n + part N for a given variance (Lagrange multiplier), then bound both by the smallest and largest sample.
         let allowed = (asked * self.mean()).powi(2);
         let [difference, rest] = self.variances();
         let difference = difference * wider(self.fine.len());
@@ -124,7 +130,7 @@ impl Sample<'_> {
             let enough = if left > 0.0 {
                 difference / left
             } else {
-                // The most do not suffice; the error that they leave takes the least work so.
+                // Even the largest sample does not suffice: keep the optimal ratio of both numbers.
                 most * (difference * part / rest).sqrt()
             };
             [enough.max(FEWEST as f64).min(most), most]
@@ -136,7 +142,7 @@ impl Sample<'_> {
     }
 }
 
-/// As few of the values as have a relative standard error, from so many on.
+/// Smallest number of leading values, at least `from`, with the requested relative standard error; `None` if all are too few.
 pub(super) fn first_enough(values: &[f64], from: usize, asked: f64) -> Option<usize> {
     let error = |count: usize| {
         let [fine, coarse] = [&values[..count]; 2];
@@ -145,6 +151,7 @@ pub(super) fn first_enough(values: &[f64], from: usize, asked: f64) -> Option<us
     (from..=values.len()).find(|count| error(*count) <= asked)
 }
 
+/// A number of surfaces, rounded up.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -154,7 +161,7 @@ fn whole(count: f64) -> usize {
     count.ceil() as usize
 }
 
-/// Square of the factor of a standard error of few values.
+/// Square of the factor on the standard error of a sample of `count` values (Student's distribution, first order).
 fn wider(count: usize) -> f64 {
     (1.0 + 0.5 / (count as f64 - 1.0)).powi(2)
 }

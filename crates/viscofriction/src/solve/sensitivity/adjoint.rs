@@ -1,4 +1,4 @@
-//! Stationary contacts on the half space: one adjoint solution for each quantity, whatever the number of parameters.
+//! Derivatives of stationary half-space contacts: one adjoint solution per quantity, whatever the number of parameters.
 
 use bem_halfspace::Elastomer;
 use bem_halfspace::periodic::sensitivity::PeriodicSensitivity;
@@ -16,13 +16,15 @@ use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
-/// Relative step of the numbers; what it leaves out is far below the bars.
+/// Relative step of the finite differences of bodies and materials (chosen; their truncation error is far below the error
+/// estimates).
 const STEP: f64 = 1e-5;
-/// Of a method without derivatives.
+/// Error for a contact without derivatives.
 const NONE: SolveError = SolveError::NoSensitivity {
     method: Method::BemSteady,
 };
 
+/// Derivatives by each number, from one adjoint solution.
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
@@ -40,7 +42,7 @@ pub(super) fn sensitivities(
     all.iter().map(of).collect()
 }
 
-/// Refuses several random surfaces.
+/// Rejects an ensemble of random surfaces.
 pub(super) fn check_surfaces(problem: &Problem) -> Result<(), SceneError> {
     if problem.realisations() > 1 {
         let why = "derivatives are those of one surface; leave out its realisations";
@@ -49,7 +51,7 @@ pub(super) fn check_surfaces(problem: &Problem) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The contact of an answer with its adjoint loads.
+/// The contact of an answer with its adjoint solutions.
 pub(super) enum Contact {
     Single(Box<SteadySensitivity>),
     Periodic(Box<PeriodicSensitivity>),
@@ -79,6 +81,7 @@ impl Contact {
         })
     }
 
+    /// Change per change of the logarithm of the complex modulus, in bands between angular frequencies \[rad/s].
     pub(super) fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>> {
         Ok(match self {
             Self::Single(near) => near.by_moduli(frequencies),
@@ -86,7 +89,7 @@ impl Contact {
         }?)
     }
 
-    /// By the force or mean pressure, or by the depth, whichever is given.
+    /// Change per change of the given load: force, mean pressure or depth.
     fn by_load(&self) -> Change<Estimate> {
         match self {
             Self::Single(near) => near.by_load(),
@@ -94,6 +97,7 @@ impl Contact {
         }
     }
 
+    /// Change between two bodies.
     fn between_bodies(&self, bodies: [&Body; 2]) -> Result<Change<Estimate>> {
         Ok(match self {
             Self::Single(near) => {
@@ -107,6 +111,7 @@ impl Contact {
         }?)
     }
 
+    /// Change between two materials, each at its velocity \[m/s].
     fn between_materials(
         &self,
         materials: [&dyn Material; 2],
@@ -119,7 +124,7 @@ impl Contact {
     }
 }
 
-/// The problems on both sides of a number, or on one where it is the largest or the least allowed one, with its values.
+/// The problems on both sides of a number, with its values. At the end of the allowed range one of them is the number itself.
 fn neighbours(numbers: &Numbers, number: &Number) -> Result<[(Problem, f64); 2], SceneError> {
     let at = |factor: f64| {
         let value = factor * number.value;
@@ -131,6 +136,7 @@ fn neighbours(numbers: &Numbers, number: &Number) -> Result<[(Problem, f64); 2],
     }
 }
 
+/// Change of the quantities between both ends of a number.
 fn change(
     contact: &Contact,
     number: &Number,
@@ -171,6 +177,7 @@ fn change(
     })
 }
 
+/// Surface of a finite body or a cylinder.
 fn surface(body: &Body) -> Result<&dyn Surface> {
     match body {
         Body::Cylinder(cylinder) => Ok(cylinder),
@@ -178,11 +185,12 @@ fn surface(body: &Body) -> Result<&dyn Surface> {
     }
 }
 
+/// All changes multiplied by a factor.
 fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
     change.map(|value| *value * factor)
 }
 
-/// The derivatives of the logarithms by that of a parameter, which changes by so much.
+/// Logarithmic derivatives from the changes per change `width` of the logarithm of the parameter.
 pub(super) fn relative(
     parameter: String,
     answer: &Answer,
@@ -192,7 +200,7 @@ pub(super) fn relative(
     let of = |change: Option<Estimate>, value: Option<Estimate>| {
         let (change, value) = change.zip(value.filter(|value| value.value != 0.0))?;
         let derivative = change.value / (width * value.value);
-        // The answer differs from what these grids have.
+        // The answer is extrapolated, so it differs from the value on this grid by up to its error.
         let of_value = derivative * value.error / value.value;
         let error = change.error / (width * value.value);
         Some(Estimate::new(derivative, error.abs() + of_value.abs()))

@@ -1,11 +1,11 @@
-//! What makes an answer uncertain: standard uncertainties to first order, after the Guide to the expression of uncertainty in
-//! measurement (JCGM 100:2008).
+//! Uncertainty budget of an answer: standard uncertainties to first order, after the Guide to the expression of uncertainty
+//! in measurement (JCGM 100:2008).
 //!
 //! ```text
 //! u² = a²/3 + q² gᵀ C g + Σ (q d ln q/d ln θ · u_θ)²
 //! ```
-//! with the error bar a of the computation, in which the value may be anywhere, the covariance C of the moduli with the
-//! derivatives g by their logarithms, and the relative uncertainties u_θ of the numbers of the scene.
+//! with the error a of the computation, taken as the half width of a uniform distribution. C is the covariance of the moduli,
+//! g the derivatives by their logarithms, and u_θ the relative uncertainty of a number of the scene.
 
 use numerics::Estimate;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
@@ -15,25 +15,25 @@ use super::parameters::Number;
 use crate::scene::{MaterialTable, Scene};
 use crate::solve::answer::Answer;
 
-/// Standard uncertainties of the quantities of an answer, each of its unit; none where it is not known.
+/// Standard uncertainties of the quantities of an answer, each in the unit of its quantity; `None` if not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Uncertainties {
-    /// Of the friction coefficient.
+    /// Standard uncertainty of the friction coefficient.
     pub friction_coefficient: Option<f64>,
-    /// Of the normal force, where the depth is given.
+    /// Standard uncertainty of the normal force, \[N] or \[N/m]; `None` if the force is given.
     pub normal_force: Option<f64>,
-    /// Of the depth, where the force is given.
+    /// Standard uncertainty of the indentation depth, \[m]; `None` if the depth is given.
     pub indentation_depth: Option<f64>,
-    /// Of the contact area.
+    /// Standard uncertainty of the contact area, \[m²] or \[m].
     pub contact_area: Option<f64>,
 }
 
-/// What makes an answer uncertain.
+/// A source of uncertainty.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Source {
-    /// The error bar of the computation.
+    /// The error estimate of the computation.
     Numerics,
     /// The covariance of the moduli.
     Material,
@@ -41,10 +41,10 @@ pub enum Source {
     Number(String),
 }
 
-/// The uncertainties of an answer by their sources; empty without uncertain numbers.
+/// The uncertainties of an answer by source; empty if nothing is uncertain.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Budget {
-    /// Each on its own.
+    /// Contribution of each source.
     pub entries: Vec<(Source, Uncertainties)>,
 }
 
@@ -66,7 +66,7 @@ pub(super) fn budget(
                 one.and_then(|one| one.named()[nth].1)
             };
             let known: Vec<Option<Estimate>> = paths.iter().map(derivative).collect();
-            // A modulus of 0 is no number of its own, and changes nothing.
+            // A modulus of 0 has no logarithmic derivative and contributes nothing.
             let value = |known: &Option<Estimate>| known.map_or(0.0, |known| known.value);
             let derivatives: Vec<f64> = known.iter().map(value).collect();
             let is_known = known.iter().any(Option::is_some);
@@ -87,7 +87,7 @@ pub(super) fn budget(
     }
     let mut budget = Budget { entries };
     if !budget.entries.is_empty() {
-        // Of a quantity without derivatives nothing else is known.
+        // Without derivatives the error of the computation alone is not a budget.
         let mut bars = [None; 4];
         for ((bar, known), (_, sum)) in bars
             .iter_mut()
@@ -112,12 +112,12 @@ fn modulus_paths(material: &MaterialTable, n: usize) -> Vec<String> {
     (0..n).map(path).collect()
 }
 
-/// What may be uncertain of an answer, in the order of the derivatives.
+/// The computed quantities of an answer, in the order of [`Sensitivity::named`].
 struct Quantities([Option<Estimate>; 4]);
 
 impl Quantities {
     fn of(answer: &Answer) -> Self {
-        // What was given is no result.
+        // An error of 0 marks a given quantity.
         let found = |known: &Estimate| known.error > 0.0;
         Self([
             answer.friction_coefficient,
@@ -127,7 +127,7 @@ impl Quantities {
         ])
     }
 
-    /// From the relative uncertainty of each.
+    /// Absolute uncertainties from the relative uncertainty of each quantity.
     fn uncertain(&self, relative: impl Fn(usize) -> Option<f64>) -> Uncertainties {
         let mut all = [None; 4];
         for (nth, (one, known)) in all.iter_mut().zip(self.0).enumerate() {
@@ -165,7 +165,7 @@ impl Uncertainties {
         ]
     }
 
-    /// That of the quantity of a name.
+    /// Uncertainty of the quantity with a given name; `None` if it is not known.
     pub fn of(&self, quantity: &str) -> Option<f64> {
         let mut named = self.named().into_iter();
         named.find(|(name, _)| *name == quantity)?.1
@@ -173,14 +173,14 @@ impl Uncertainties {
 }
 
 impl Budget {
-    /// What the covariance of the moduli makes of the answer; nothing of a material without one.
+    /// Contribution of the covariance of the moduli; all `None` without a covariance.
     pub fn material(&self) -> Uncertainties {
         let mut entries = self.entries.iter();
         let of_material = entries.find(|(source, _)| *source == Source::Material);
         of_material.map_or_else(Uncertainties::default, |(_, known)| *known)
     }
 
-    /// The root of the sum of all squares; nothing without entries.
+    /// Root of the sum of squares over all sources; all `None` without entries.
     pub fn total(&self) -> Uncertainties {
         let mut sums = [None; 4];
         for (_, known) in &self.entries {
@@ -195,7 +195,7 @@ impl Budget {
 }
 
 impl Source {
-    /// The name in a table; that of a number is its path.
+    /// Name in a table; for a number its path.
     pub fn name(&self) -> &str {
         match self {
             Self::Numerics => "numerics",
@@ -205,7 +205,7 @@ impl Source {
     }
 }
 
-/// A list with an entry for each source, and the total at its end.
+/// Serializes a list with one entry per source and the total as the last.
 impl Serialize for Budget {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let entries = self.entries.iter();
@@ -214,6 +214,7 @@ impl Serialize for Budget {
     }
 }
 
+/// One line of the budget in JSON: the source and its contributions.
 struct Entry<'a>(&'a str, Uncertainties);
 
 impl Serialize for Entry<'_> {

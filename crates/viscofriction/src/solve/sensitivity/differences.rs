@@ -1,4 +1,4 @@
-//! Differences of answers of closed forms: exact to rounding, or series that end after a few terms.
+//! Finite differences of closed forms, which are exact to rounding, and of truncated series.
 
 use numerics::{Estimate, SilentProgress, WorkProgress};
 
@@ -10,10 +10,12 @@ use crate::solve::error::Result;
 use crate::solve::plan::Plan;
 use crate::solve::work::work;
 
-/// Step of the logarithm of a number. The sixth order leaves what rounding does, below 1e-11 in closed forms.
+/// Step of the logarithm of a number (chosen: truncation of sixth order is then below the effect of rounding, 1e-11 in closed
+/// forms).
 const STEP: f64 = 2e-3;
-/// Distances in steps, with their weights in differences of the sixth and of the fourth order (Fornberg 1988).
+/// Offset in steps, with its weights in the differences of sixth and fourth order (Fornberg 1988).
 type Point = (i32, [f64; 2]);
+/// Central differences (Fornberg 1988).
 const CENTRAL: [Point; 6] = [
     (-3, [-1.0 / 60.0, 0.0]),
     (-2, [0.15, 1.0 / 12.0]),
@@ -22,7 +24,7 @@ const CENTRAL: [Point; 6] = [
     (2, [-0.15, -1.0 / 12.0]),
     (3, [1.0 / 60.0, 0.0]),
 ];
-/// The same to one side, for a number that is the largest allowed one; with the other sign for the least one.
+/// One-sided differences for a number at its upper bound; with reversed signs for one at its lower bound (Fornberg 1988).
 const FROM_BELOW: [Point; 7] = [
     (0, [2.45, 25.0 / 12.0]),
     (-1, [-6.0, -4.0]),
@@ -33,19 +35,20 @@ const FROM_BELOW: [Point; 7] = [
     (-6, [1.0 / 6.0, 0.0]),
 ];
 
-/// What the errors of the answers are, which decides what they do to a difference.
+/// Kind of error of the answers, which determines the error of a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Values {
-    /// Rounding, which differs from answer to answer.
+    /// Rounding, independent from answer to answer.
     Exact,
-    /// The terms behind the last one of a series in powers of the speed, which change as smoothly as the answer.
+    /// Truncation of a series in powers of the speed, which varies as smoothly as the answer.
     TruncatedSeries,
 }
 
-/// Largest power of a number of the scene in the terms that a series of slow sliding leaves out: they go with (v τ/a)³ at most,
-/// in which a is no steeper than the third root of a load, a modulus or a length.
+/// Bound of the logarithmic derivative of the truncation error by a number of the scene (derived): the omitted terms scale with
+/// (v τ/a)³ at most, and a with the third root of a load, a modulus or a length at most.
 const LARGEST_OMITTED_POWER: f64 = 4.0;
 
+/// Derivatives by each number, from differences of answers.
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     values: Values,
@@ -60,7 +63,7 @@ pub(super) fn sensitivities(
     all.iter().map(of).collect()
 }
 
-/// Differences of answers to either side, or to one.
+/// Derivatives by one number: central differences, or one-sided ones at the end of its allowed range.
 fn sensitivity(
     numbers: &Numbers,
     number: &Number,
@@ -99,7 +102,8 @@ fn sensitivity(
     })
 }
 
-/// The derivative of the logarithm of a quantity; both orders differ by what the fourth one leaves out.
+/// Logarithmic derivative of a quantity. Its error is the propagated error of the answers plus the difference between both
+/// orders.
 fn difference(
     points: &[(Answer, [f64; 2])],
     quantity: impl Fn(&Answer) -> Option<Estimate>,
@@ -116,6 +120,7 @@ fn difference(
     Some(Estimate::new(sixth, error + (sixth - fourth).abs()))
 }
 
+/// The answer of the same method with another value of a number.
 fn solved(numbers: &Numbers, number: &Number, method: Method, value: f64) -> Result<Answer> {
     let problem = numbers.problem(number, value)?;
     let work = work(&problem, method);

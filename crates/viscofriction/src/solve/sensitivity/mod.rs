@@ -1,4 +1,4 @@
-//! How much an answer depends on each number of its scene.
+//! Logarithmic derivatives of an answer by the numbers of its scene.
 
 mod adjoint;
 mod budget;
@@ -31,37 +31,35 @@ pub use spectral::{
     ByFrequency, SpectralSensitivity, check_spectral_sensitivity, spectral_sensitivity,
 };
 
-/// Relative error of an answer up to which differences of answers are derivatives: closed forms and the stationary
-/// one-dimensional model.
+/// Largest relative error of an answer that may be differentiated by finite differences (chosen; closed forms and the stationary
+/// one-dimensional model reach it).
 pub(super) const EXACT: f64 = 1e-9;
 
 /// Derivatives of the quantities of an answer by one number of its scene: d ln(quantity)/d ln(number).
 ///
-/// What is given, or has no derivative by the method, is left out.
+/// A derivative is `None` if the quantity is given, or has none in this method.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sensitivity {
     /// The path of the number in the scene, such as `material.prony.branches[0].modulus`.
     pub parameter: String,
-    /// Of the friction coefficient.
+    /// Derivative of the friction coefficient.
     pub friction_coefficient: Option<Estimate>,
-    /// Of the normal force, where the depth is given.
+    /// Derivative of the normal force; `None` if the force is given.
     pub normal_force: Option<Estimate>,
-    /// Of the depth, where the force is given.
+    /// Derivative of the indentation depth; `None` if the depth is given.
     pub indentation_depth: Option<Estimate>,
-    /// Of the contact area.
+    /// Derivative of the contact area.
     pub contact_area: Option<Estimate>,
 }
 
-/// An answer with its derivatives by all numbers of its scene that are moduli, times, ratios, loads, speeds or lengths, and with
-/// what the covariance of its material and the uncertainties of the scene make of it, where there are some; `watch` is told how
-/// far it is.
+/// Adds the derivatives by all numbers of the scene that are moduli, times, ratios, loads, speeds or lengths. If the scene states
+/// uncertainties or its material has a covariance, the uncertainty budget is added too. `watch` receives the progress.
 ///
-/// Where the scene names no method and the cheapest one has no derivatives, the answer becomes that of boundary elements, which
-/// have them.
+/// If the scene names no method and the cheapest one has no derivatives, the answer is replaced by that of boundary elements.
 ///
 /// # Errors
-/// [`SolveError::NoSensitivity`] for methods and motions without, and the errors of [`Plan::solve`].
+/// [`SolveError::NoSensitivity`] for methods and motions without derivatives, and the errors of [`Plan::solve`].
 pub fn with_sensitivity(
     scene: &Scene,
     (folder, read): (&Path, ReadFile),
@@ -81,12 +79,12 @@ pub fn with_sensitivity(
         }
         found => (answer, found?),
     };
-    // A series changes with a number as its law does, but for the ripple around the law that is in its error.
+    // The derivatives of a Prony series equal those of its law up to the ripple, which its error bounds.
     let series = PER_MODULUS * problem.modulus_error();
     sensitivity.iter_mut().for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
     let budget = budget(&material, scene, &all, &sensitivity, &answer);
-    // Of a temperature in °C there is no logarithm.
+    // A temperature in °C has no logarithmic derivative.
     sensitivity.retain(|one| one.parameter != TEMPERATURE);
     Ok(Answer {
         sensitivity,
@@ -95,7 +93,7 @@ pub fn with_sensitivity(
     })
 }
 
-/// The derivatives by all numbers, by the means of the method of the answer.
+/// The derivatives by all numbers, by the technique that suits the method of the answer.
 fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
@@ -106,7 +104,7 @@ fn sensitivities(
     let method = answer.method;
     let asked = answer.requested_quantity();
     let is_exact = asked.error <= EXACT * asked.value.abs();
-    // The friction of a body that slides slowly over a solid half space is the beginning of a series.
+    // Slow sliding over a half space with an equilibrium modulus is the first term of a series.
     let is_series =
         answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;
     match (method, problem.motion()) {
@@ -124,8 +122,8 @@ fn sensitivities(
     }
 }
 
-/// The answer of boundary elements to stationary sliding in the place of one of a cheaper method; `None` if the scene names its
-/// method or they do not answer it.
+/// The boundary-element answer to stationary sliding, in place of that of a cheaper method. `None` if the scene names its method
+/// or boundary elements do not answer it.
 fn answer_with_derivatives(
     problem: &Problem,
     cheaper: Method,
@@ -145,10 +143,10 @@ fn answer_with_derivatives(
     Some(plan.solve(watch))
 }
 
-/// Refuses a problem whose answer by a method has no derivatives, before it is solved.
+/// Rejects a problem whose answer by a method has no derivatives, before it is solved.
 ///
 /// # Errors
-/// [`SceneError`] at the key that is best changed.
+/// [`SceneError`] at the key to change.
 pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Result<(), SceneError> {
     let none = || {
         SceneError::at(
@@ -166,7 +164,7 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
 }
 
 impl Sensitivity {
-    /// Widens the derivatives, and leaves out those by a number that is too small to have digits.
+    /// Adds `error` to the errors of the derivatives, and removes derivatives that are not finite.
     fn widen(&mut self, error: f64) {
         let quantities = [
             &mut self.friction_coefficient,

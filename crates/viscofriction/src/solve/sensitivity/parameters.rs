@@ -1,4 +1,4 @@
-//! The numbers of a scene that an answer can be differentiated by.
+//! Numbers of a scene by which an answer can be differentiated.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,9 +12,9 @@ use crate::scene::{MaterialTable, Scene, SceneError, quoted};
 use crate::solve::half_space::of_file;
 use crate::solve::problem::Problem;
 
-/// Tables with moduli, times, loads, speeds and lengths.
+/// Tables of the scene that contain moduli, times, loads, speeds and lengths.
 const TABLES: [&str; 5] = ["indenter", "material", "layer", "load", "solve"];
-/// Keys below them that are none of these: ranges of the material, what chooses waves, and what chooses rather than describes.
+/// Keys in these tables that are not differentiated: ranges of the material, the selection of waves, and options.
 const OTHERS: [&str; 11] = [
     "approximation",
     "covariance",
@@ -29,30 +29,31 @@ const OTHERS: [&str; 11] = [
     "valid_frequencies",
 ];
 
-/// The temperature of the material of a file, by which an answer is differentiated only where it is uncertain.
+/// Path of the temperature of a material file; an answer is differentiated by it only if it is uncertain.
 pub(super) const TEMPERATURE: &str = "material.file.temperature";
 
-/// A scene, and the files that it names.
+/// A scene as a tree of keys, with access to its files.
 #[derive(Debug)]
 pub(crate) struct Numbers<'a> {
-    /// The material of a file is that of the scene itself.
+    /// The scene with the file of its material resolved, without uncertainties.
     scene: Table,
-    /// The scene as it is written, and the temperature of its material, \[K], where that may be another one.
+    /// The scene with the reference to its material file, and the temperature \[K]; `None` without a file with a shift law.
     of_file: Option<(Table, f64)>,
     uncertainty: BTreeMap<String, f64>,
     folder: &'a Path,
     read: ReadFile,
 }
 
-/// One number of a scene.
+/// A number of a scene that is finite and not 0.
 #[derive(Debug, Clone)]
 pub(crate) struct Number {
     steps: Vec<Step>,
-    /// Not 0.
+    /// Its value in SI units.
     pub(crate) value: f64,
 }
 
 #[derive(Debug, Clone)]
+/// One step of the path to a number.
 enum Step {
     Key(String),
     Index(usize),
@@ -61,7 +62,7 @@ enum Step {
 impl<'a> Numbers<'a> {
     pub(crate) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
         let mut scene = scene.clone();
-        // What is uncertain is asked of the scene, and of no other value of its numbers.
+        // Uncertainties refer to the scene as given; changed scenes carry none.
         let uncertainty = std::mem::take(&mut scene.uncertainty);
         let written = as_table(&scene)?;
         let (resolved, celsius) = without_file(scene, folder, read)?;
@@ -74,12 +75,12 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// The scene without the file of its material, and without uncertainties.
+    /// The scene with the file of its material resolved, without uncertainties.
     pub(super) fn scene(&self) -> Result<Scene, SceneError> {
         Scene::try_from(self.scene.clone())
     }
 
-    /// The standard uncertainty of a number that the scene gives, or 0.
+    /// Standard uncertainty of a number: relative, for a temperature in \[K]; 0 if the scene states none.
     pub(super) fn uncertainty(&self, number: &Number) -> f64 {
         self.uncertainty
             .get(&number.path())
@@ -87,7 +88,7 @@ impl<'a> Numbers<'a> {
             .unwrap_or_default()
     }
 
-    /// The temperature of the material of a file, \[K], where the scene says how uncertain it is.
+    /// Temperature of the material file, \[K]; `None` unless the scene states its uncertainty.
     pub(super) fn uncertain_temperature(&self) -> Option<Number> {
         let (_, kelvin) = self.of_file.as_ref()?;
         let is_uncertain = self.uncertainty.contains_key(TEMPERATURE);
@@ -100,7 +101,7 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// Refuses uncertainties that are none, and those of what is no number of the scene.
+    /// Rejects uncertainties out of range, and those of paths that are not numbers of the scene.
     fn check(&self) -> Result<(), SceneError> {
         let known: Vec<String> = self.all().iter().map(Number::path).collect();
         let has_covariance = self.scene()?.material.covariance().is_some();
@@ -139,6 +140,7 @@ impl<'a> Numbers<'a> {
         Ok(())
     }
 
+    /// All numbers of the scene, in the order of its tables.
     pub(crate) fn all(&self) -> Vec<Number> {
         let mut numbers = Vec::new();
         for table in TABLES {
@@ -180,7 +182,7 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// Refuses uncertainties of a scene that are none, and those of what is no number of it.
+/// Rejects uncertainties of a scene that are out of range or belong to no number of it.
 pub(crate) fn check_uncertainties(
     scene: &Scene,
     folder: &Path,
@@ -192,8 +194,7 @@ pub(crate) fn check_uncertainties(
     Numbers::new(scene, folder, read)?.check()
 }
 
-/// A scene as keys and values, without the file that its material comes from, and the temperature of the material \[°C] where a
-/// file has a shift law.
+/// A scene as a table with the file of its material resolved, and the temperature \[°C] of a material with a shift law.
 fn without_file(
     mut scene: Scene,
     folder: &Path,
@@ -216,11 +217,12 @@ fn without_file(
     Ok((table, celsius))
 }
 
+/// A scene as a table of keys and values.
 fn as_table(scene: &Scene) -> Result<Table, SceneError> {
     Table::try_from(scene).map_err(|error| SceneError::at("scene", error.to_string()))
 }
 
-/// Puts a value in the place of a number.
+/// Replaces a number by a value.
 fn set(scene: &mut Table, number: &Number, value: f64) {
     let mut steps = number.steps.iter();
     let first = steps.next().and_then(|step| match step {
@@ -230,7 +232,7 @@ fn set(scene: &mut Table, number: &Number, value: f64) {
     let place = steps.try_fold(first, |place, step| {
         Some(match (place, step) {
             (Some(Value::Table(table)), Step::Key(key)) => {
-                // A temperature may be that of the file, and left out.
+                // The temperature may be absent from the scene, and then is that of the file.
                 Some(table.entry(key.clone()).or_insert(Value::Float(value)))
             }
             (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
@@ -242,6 +244,7 @@ fn set(scene: &mut Table, number: &Number, value: f64) {
     }
 }
 
+/// Appends the numbers of a value of the scene, depth first.
 fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
     let below = |step: Step| [steps, &[step]].concat();
     match value {
@@ -264,7 +267,7 @@ fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
 }
 
 impl Number {
-    /// The path of its key, such as `material.prony.branches[0].modulus`.
+    /// Path of the key, such as `material.prony.branches[0].modulus`.
     pub(crate) fn path(&self) -> String {
         let mut path = String::new();
         for step in &self.steps {
@@ -277,11 +280,12 @@ impl Number {
         path
     }
 
+    /// True for the temperature of the material file.
     fn is_temperature(&self) -> bool {
         self.path() == TEMPERATURE
     }
 
-    /// A standard uncertainty as a part of the number; that of a temperature is in K.
+    /// Converts a stated standard uncertainty to a relative one; that of a temperature is stated in \[K].
     pub(super) fn relative(&self, given: f64) -> f64 {
         if self.is_temperature() {
             given / self.value
@@ -290,7 +294,7 @@ impl Number {
         }
     }
 
-    /// The first and the last key.
+    /// First and last key of the path.
     pub(crate) fn ends(&self) -> [&str; 2] {
         let mut keys = self.steps.iter().filter_map(|step| match step {
             Step::Key(key) => Some(&key[..]),

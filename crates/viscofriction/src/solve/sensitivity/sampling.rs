@@ -1,8 +1,8 @@
-//! Scenes whose uncertain numbers are drawn: what a straight line does not know of an uncertainty.
+//! Monte Carlo samples of a scene with uncertain numbers, for uncertainties beyond first order.
 //!
-//! The numbers of a sample follow from its own number alone (Steele, Lea & Flood 2014), so that samples can be computed in any order
-//! and on any machine; pairs of them become two normal numbers (Box & Muller 1958). Sequences that fill a cube more evenly do so for
-//! a handful of numbers, and a material has dozens of moduli.
+//! A sample depends on its index alone (SplitMix64: Steele, Lea & Flood 2014), so samples can be computed in any order and on any
+//! machine. Pairs of uniform numbers give pairs of normal ones (Box & Muller 1958). Quasi-random sequences are efficient in a few
+//! dimensions only, and a material has dozens of moduli.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -11,14 +11,13 @@ use super::parameters::{Number, Numbers};
 use crate::files::ReadFile;
 use crate::scene::{MaterialTable, Scene, SceneError};
 
-/// A sample of a scene, counted from 1; the scene itself is sample 0.
+/// Sample number `sample` of a scene; sample 0 is the scene itself.
 ///
-/// Positive numbers are multiplied by e^(u z), a temperature is shifted by u z, and moduli are changed by what their covariance
-/// gives, which leaves their sums as well known as they are; a modulus that comes out negative is 0. A Poisson ratio above 1/2 is as
-/// far below it.
+/// With a standard normal number z, numbers are multiplied by e^(u z) and a temperature is shifted by u z. Moduli are
+/// multiplied by 1 + δ with δ from their joint covariance, but at least by 0. A Poisson ratio above 1/2 is reflected at 1/2.
 ///
 /// # Errors
-/// [`SceneError`] for uncertainties that are none, and files that cannot be read.
+/// [`SceneError`] for invalid uncertainties, and for files that cannot be read.
 pub fn sampled(
     scene: &Scene,
     (folder, read): (&Path, ReadFile),
@@ -48,6 +47,7 @@ pub fn sampled(
     Ok(drawn)
 }
 
+/// A number multiplied by the exponential of `exponent`; a Poisson ratio is reflected at its upper limit.
 fn drawn(number: &Number, exponent: f64) -> f64 {
     let value = number.value * exponent.exp();
     match number.ends() {
@@ -56,9 +56,10 @@ fn drawn(number: &Number, exponent: f64) -> f64 {
     }
 }
 
-/// Of an incompressible material.
+/// Upper limit of the Poisson ratio, that of an incompressible material.
 const LARGEST_RATIO: f64 = 0.5;
 
+/// Samples the moduli of a Prony series from their covariance.
 fn draw_moduli(material: &mut MaterialTable, normal: &mut Normal) {
     let MaterialTable::Prony {
         equilibrium_modulus,
@@ -69,7 +70,7 @@ fn draw_moduli(material: &mut MaterialTable, normal: &mut Normal) {
     else {
         return;
     };
-    // It was checked when the scene was read.
+    // The covariance was validated when the scene was read.
     let Ok(factor) = covariance.factor() else {
         return;
     };
@@ -88,10 +89,10 @@ fn draw_moduli(material: &mut MaterialTable, normal: &mut Normal) {
     }
 }
 
-/// Independent numbers of the standard normal distribution that belong to a sample.
+/// Generator of independent standard normal numbers for one sample.
 struct Normal {
     state: u64,
-    /// The second one of a pair.
+    /// Second number of the last pair; `None` if it has been used.
     left: Option<f64>,
 }
 
@@ -101,12 +102,13 @@ impl Normal {
             state: 0,
             left: None,
         };
-        // Neighbouring samples begin far apart.
+        // Hash the index, so that the states of neighbouring samples are far apart.
         normal.state = sample as u64;
         normal.state = normal.bits();
         normal
     }
 
+    /// Next standard normal number.
     fn next(&mut self) -> f64 {
         if let Some(left) = self.left.take() {
             return left;
@@ -118,11 +120,12 @@ impl Normal {
         radius * cosine
     }
 
-    /// From 0 to 1, without 1.
+    /// Next uniform number in [0, 1).
     const fn uniform(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Next 64 bits of SplitMix64 (Steele, Lea & Flood 2014).
     const fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.state;

@@ -1,4 +1,4 @@
-//! How much an answer depends on the modulus of its material at each frequency.
+//! Derivatives of an answer by the complex modulus at each frequency.
 
 use std::f64::consts::PI;
 
@@ -13,40 +13,40 @@ use crate::solve::answer::{Answer, StationaryGrid};
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 
-/// Bands in a decade.
+/// Frequency bands per decade (chosen; output resolution only).
 const PER_DECADE: f64 = 10.0;
-/// Bands after which progress is told.
+/// Bands computed between two reports of progress (chosen).
 const BANDS_AT_ONCE: usize = 8;
-/// Lowest frequency that is told from 0, as a part of v/a with the length a of the contact: friction is that of waves far
-/// shorter, and a depth depends on longer ones together.
+/// Lower end of the resolved frequencies, as a fraction of v/a with the contact length a (chosen): friction comes from far
+/// shorter waves, and a depth depends on the longer ones only as a whole.
 const LOWEST: f64 = 0.01;
 
-/// The derivatives of the quantities of an answer by the complex modulus in bands of frequencies.
+/// Derivatives of the quantities of an answer by the complex modulus, in frequency bands.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SpectralSensitivity {
-    /// Bands of increasing frequencies, the first of them from 0 on.
+    /// Bands of increasing frequency; the first begins at 0.
     pub bands: Vec<ByFrequency>,
-    /// Part of the absolute values of all derivatives of the friction that lies outside of the frequencies at which the
-    /// material was measured.
+    /// Fraction of the sum of the absolute derivatives of friction that lies outside the measured frequencies; `None` if the scene
+    /// states no such range.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outside_valid_frequencies: Option<f64>,
 }
 
-/// The derivatives by the logarithm of a modulus that changes between two frequencies and nowhere else.
+/// Derivatives by the logarithm of a modulus that changes in one frequency band only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ByFrequency {
-    /// Lowest and highest angular frequency, \[rad/s].
+    /// Lower and upper angular frequency of the band, \[rad/s].
     pub frequencies: [f64; 2],
-    /// By the logarithm of G'.
+    /// Derivatives by the logarithm of the storage modulus G'.
     pub storage_modulus: Sensitivity,
-    /// By the logarithm of G''.
+    /// Derivatives by the logarithm of the loss modulus G''.
     pub loss_modulus: Sensitivity,
 }
 
-/// The derivatives of an answer by the storage and the loss modulus at each frequency; of stationary sliding by boundary
-/// elements. `watch` is told how far they are.
+/// Computes the derivatives by storage and loss modulus at each frequency, for stationary sliding by boundary elements. `watch`
+/// receives the progress.
 ///
 /// # Errors
 /// [`SolveError::NoSpectralSensitivity`] for other methods and motions.
@@ -61,7 +61,7 @@ pub fn spectral_sensitivity(
     };
     let wave_numbers = wave_numbers(answer).ok_or(SolveError::NoSpectralSensitivity { method })?;
     let ends = wave_numbers.map(|wave_number| load.velocity() * wave_number);
-    // The adjoint loads take about as long as all bands.
+    // The adjoint solutions take about as long as all bands.
     let mut progress = WorkProgress::new(watch, 2.0);
     let contact = Contact::new(problem, &load, answer)?;
     progress.add(1.0);
@@ -80,10 +80,10 @@ pub fn spectral_sensitivity(
     })
 }
 
-/// Refuses a problem whose answer by a method has no derivatives by the modulus at each frequency, before it is solved.
+/// Rejects a problem whose answer by a method has no derivatives by the modulus at each frequency, before it is solved.
 ///
 /// # Errors
-/// [`SceneError`] at the key that is best changed.
+/// [`SceneError`] at the key to change.
 pub fn check_spectral_sensitivity(
     problem: &Problem,
     method: Method,
@@ -103,7 +103,7 @@ pub fn check_spectral_sensitivity(
 }
 
 impl SpectralSensitivity {
-    /// The ends of the bands \[rad/s], and what is known of each quantity by either modulus with its error, as columns.
+    /// Columns of a table: the ends of the bands \[rad/s], then each known derivative by either modulus with its error.
     pub fn columns(&self) -> Vec<(String, Vec<f64>)> {
         let column = |of: &dyn Fn(&ByFrequency) -> f64| self.bands.iter().map(of).collect();
         let mut columns = vec![
@@ -137,7 +137,7 @@ impl SpectralSensitivity {
     }
 }
 
-/// The lowest wave number along x that is told from 0, and that of the shortest wave on the grid.
+/// Smallest resolved wave number along x and the largest one of the grid, \[1/m]; `None` without a contact.
 fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
     let of_contact = |spacing: f64| {
         let [rear, front] = answer.contact_box.as_ref()?.x;
@@ -154,7 +154,7 @@ fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
     }
 }
 
-/// The ends of the bands: 0, round parts of decades, and the ends of the window between them.
+/// Edges of the bands, \[rad/s]: 0, powers of 10^(1/10), and the ends of the measured window between them.
 fn edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64> {
     let [first, last] = [lowest, highest].map(|end| PER_DECADE * end.log10());
     let number = |index: i32| 10.0_f64.powf(f64::from(index) / PER_DECADE);
@@ -169,6 +169,7 @@ fn edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64> {
     edges
 }
 
+/// Derivatives by both moduli in one band.
 fn of_band(answer: &Answer, band: ByModuli) -> ByFrequency {
     let of = |name: &str, change: Change<Estimate>| {
         adjoint::relative(name.to_owned(), answer, change, 1.0)
@@ -180,7 +181,7 @@ fn of_band(answer: &Answer, band: ByModuli) -> ByFrequency {
     }
 }
 
-/// Of the absolute values of both derivatives of the friction.
+/// Fraction of the summed absolute derivatives of friction that lies outside the window.
 fn outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
     let size = |band: &ByFrequency| {
         let both = [&band.storage_modulus, &band.loss_modulus];
@@ -193,7 +194,7 @@ fn outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
     let is_outside =
         |band: &&ByFrequency| band.frequencies[1] <= lowest || band.frequencies[0] >= highest;
     let all: f64 = bands.iter().map(size).sum();
-    // The sum of nothing is -0.
+    // `sum` of an empty iterator is -0, which would be printed.
     let outside = bands.iter().filter(is_outside).map(size);
     outside.fold(0.0, |sum, size| sum + size) / all
 }
