@@ -1,34 +1,34 @@
-//! The files that scenes name, and the memory that they may take.
+//! Access to the files that a scene names, within a memory limit.
 
 use std::path::{Path, PathBuf};
 
 use crate::scene::{Scene, SceneError};
 use crate::text::WrongInput;
 
-/// Reads a file of at most so many bytes; the sentence of a failure names it.
+/// Reads a file of at most the given number of bytes; an error message names the file.
 pub type ReadFile = fn(&Path, u64) -> Result<Vec<u8>, WrongInput>;
 
 /// The files that a scene names.
 #[derive(Debug, Clone, Copy)]
 pub struct Files<'a> {
-    /// Where they are.
+    /// Folder that relative names refer to.
     pub folder: &'a Path,
-    /// How they are read.
+    /// Function that reads a file.
     pub read: ReadFile,
-    /// Memory that one of them may take with all that it stands for, \[bytes]; none for 4 GiB.
+    /// Memory limit for one file with all data derived from it, \[bytes]; `None` stands for 4 GiB.
     pub memory: Option<u64>,
 }
 
-/// Memory for a row of a table while it is read, \[bytes]: the points of a history, thrice while their list grows.
+/// Bound of the memory per table row while it is read, \[bytes]: the points of a history, three times during growth of the list.
 const PER_ROW: u64 = 200;
-/// A material is written by a person or a fit, which has the covariance of up to 200 branches, \[bytes].
+/// Largest size of a material file, \[bytes] (chosen: a fit writes the covariance of up to 200 branches).
 const LARGEST_MATERIAL: u64 = 1 << 21;
 
 impl<'a> Files<'a> {
-    /// Those of a scene, in a folder.
+    /// The files of a scene in a folder.
     ///
     /// # Errors
-    /// [`SceneError`] where the memory that it allows is no size.
+    /// [`SceneError`] if the memory limit of the scene is invalid.
     pub fn of(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
         let memory = scene.solve.checked_memory()?;
         Ok(Self {
@@ -38,12 +38,12 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// Memory that one of them may take, \[bytes].
+    /// Memory limit for one file, \[bytes].
     pub fn memory(&self) -> u64 {
         self.memory.unwrap_or(1 << 32)
     }
 
-    /// A table of numbers, with its path.
+    /// Path and contents of a table of numbers, checked against the memory limit.
     pub(crate) fn table(&self, name: &Path) -> Result<(PathBuf, Vec<u8>), WrongInput> {
         let memory = self.memory();
         let file = self.folder.join(name);
@@ -60,13 +60,13 @@ impl<'a> Files<'a> {
         Ok((file, table))
     }
 
-    /// The text of a material, with its path.
+    /// Path and contents of a material file.
     pub(crate) fn material(&self, name: &Path) -> Result<(PathBuf, Vec<u8>), WrongInput> {
         let contents = self.contents(name, LARGEST_MATERIAL)?;
         Ok((self.folder.join(name), contents))
     }
 
-    /// A file of at most so many bytes.
+    /// Contents of a file of at most `most` bytes.
     pub(crate) fn contents(&self, name: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
         (self.read)(&self.folder.join(name), most)
     }

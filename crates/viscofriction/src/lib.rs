@@ -1,14 +1,14 @@
 //! Friction of rigid bodies that slide over rubber and other viscoelastic materials.
 //!
-//! A [`Scene`] says which body is pressed into which material, how it moves, and how well the answer is asked
-//! for; as a text it is a scene file of the program `viscofriction`. [`solve`](fn@solve) takes the cheapest method of the model that
-//! answers it, and returns an [`Answer`] with its errors. The model is the half space unless the scene asks for the
-//! one-dimensional model (`model = "line"`). [`sweep`] solves a scene for many values of its keys.
+//! A [`Scene`] describes the body, the material, the motion and the requested accuracy; as a text it is a scene file of the
+//! program `viscofriction`. [`solve`](fn@solve) chooses the cheapest method that answers it and returns an [`Answer`] with its
+//! errors. The model is the half space unless the scene requests the one-dimensional model (`model = "line"`). [`sweep`] solves
+//! a scene for many values of its keys.
 //!
-//! The five crates that do the work can be used alone, and are re-exported: [`indenters`] and [`rheology`] for bodies and
+//! The five underlying crates can be used alone and are re-exported: [`indenters`] and [`rheology`] for bodies and
 //! materials, [`friction_analytic`], [`mdr_core`] and [`bem_halfspace`] for the three methods.
 //!
-//! A steel ball on a rubber of one relaxation time, on the half space:
+//! Example: a rigid ball on rubber with one relaxation time, on the half space.
 //!
 //! ```
 //! use viscofriction::{Problem, Scene, solve};
@@ -35,7 +35,7 @@ pub mod solve;
 pub mod sweep;
 mod text;
 
-/// The programs of these pages compile and run.
+/// The programs of this page compile and run.
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/rust.md")]
 struct FromRust;
@@ -44,7 +44,7 @@ struct FromRust;
 #[doc = include_str!("../../../docs/own-material.md")]
 struct OwnMaterial;
 
-/// The program of that page compiles.
+/// The program of this page compiles and runs.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadMe;

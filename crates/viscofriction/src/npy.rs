@@ -1,9 +1,11 @@
-//! Arrays as NumPy keeps them: a header in the notation of Python, then the numbers.
+//! The NumPy array format: a header in Python notation, then the numbers.
 
+/// First bytes of every such file.
 const MAGIC: &[u8] = b"\x93NUMPY";
+/// Version of the format, 1.0.
 const VERSION: [u8; 2] = [1, 0];
 
-/// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
+/// An array in the format NPY 1.0, little-endian, row-major.
 pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
     let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
@@ -12,7 +14,7 @@ pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
     header.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
     header.push('\n');
     let mut bytes = [MAGIC, &VERSION].concat();
-    // A few lengths take no more bytes than two can count.
+    // The length of the header fits into two bytes.
     bytes.extend(&header.len().to_le_bytes()[..2]);
     bytes.extend(header.bytes());
     bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));

@@ -1,17 +1,17 @@
-//! Places in the text of a file, and the error that names them.
+//! Line numbers in text files, and the error that reports them.
 
-/// The input was wrong; one line that names the place.
+/// Invalid input; a message of one line that names the place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", _0.replace(char::is_control, " "))]
 pub struct WrongInput(pub String);
 
-/// The lines at which the records of a CSV file begin, in their order.
+/// Line numbers of the records of a CSV file, queried in their order.
 #[derive(Debug)]
 pub(crate) struct RecordLines<'a> {
     contents: &'a [u8],
-    /// Up to where lines were counted.
+    /// Offset up to which lines were counted.
     counted: usize,
-    /// The line there, counted from 1.
+    /// Line at that offset, counted from 1.
     line: usize,
 }
 
@@ -24,7 +24,7 @@ impl<'a> RecordLines<'a> {
         }
     }
 
-    /// The line of a record that is not before the one asked for last; empty lines before it belong to its position.
+    /// Line of a record that does not precede the last one queried. Its position may include preceding empty lines.
     pub(crate) fn of(&mut self, position: Option<&csv::Position>) -> usize {
         let start = position.map_or(0, csv::Position::byte);
         let start = usize::try_from(start).unwrap_or(usize::MAX);
@@ -38,7 +38,7 @@ impl<'a> RecordLines<'a> {
     }
 }
 
-/// The line of an offset in a text, counted from 1.
+/// Line of an offset in a text, counted from 1.
 pub fn line_of(text: &[u8], offset: usize) -> usize {
     let before = text.iter().take(offset);
     1 + before.filter(|byte| **byte == b'\n').count()

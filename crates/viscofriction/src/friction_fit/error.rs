@@ -1,4 +1,4 @@
-//! Why measured friction has no fit.
+//! Errors of the fit of measured friction.
 
 use measurements::MeasurementError;
 use thiserror::Error;
@@ -6,32 +6,32 @@ use thiserror::Error;
 use crate::scene::SceneError;
 use crate::solve::SolveError;
 
-/// Why measured friction has no fit.
+/// Reason why measured friction cannot be fitted.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FrictionFitError {
-    /// The scene, or what of it is to be found.
+    /// An error of the scene or of the choice of free parameters.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The points.
+    /// An error of the measured points.
     #[error(transparent)]
     Points(#[from] MeasurementError),
-    /// The friction of a point has no answer.
+    /// The friction of a point was not solved.
     #[error("the friction at point {point}, {velocity} m/s: {why}")]
     NotSolved {
-        /// Its number, from 1.
+        /// Number of the point, counted from 1.
         point: usize,
-        /// Its speed, \[m/s].
+        /// Sliding velocity of the point, \[m/s].
         velocity: f64,
-        /// Why.
+        /// The error of the solution.
         why: SolveError,
     },
-    /// No start leads to a minimum.
+    /// The least squares converged from none of the starts.
     #[error(
         "no material of this kind has friction like that of the points; the last that was tried has none: {why}"
     )]
     NotConverged {
-        /// What the model refused.
+        /// The last error of the model.
         why: Box<Self>,
     },
 }

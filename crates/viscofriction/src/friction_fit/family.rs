@@ -1,4 +1,4 @@
-//! The materials among which one is sought: that of a scene with other moduli, or with another shift law.
+//! The family of materials that is fitted: the material of the scene with free moduli, a free shift law, or both.
 
 use std::f64::consts::LN_10;
 
@@ -14,7 +14,7 @@ use crate::scene::{Covariance, MaterialTable, Scene, SceneError};
 use crate::solve::half_space::{half_space, of_table_in};
 use crate::solve::sensitivity::{Number, Numbers};
 
-/// Keys of moduli, which are proportional to a stress.
+/// Keys of moduli, viscosities and coefficients, all proportional to a stress.
 const STRESSES: [&str; 6] = [
     "modulus",
     "equilibrium_modulus",
@@ -23,43 +23,48 @@ const STRESSES: [&str; 6] = [
     "viscosity",
     "coefficient",
 ];
-/// Keys of the other parameters of power laws.
+/// Key of the exponent of a power law.
 const EXPONENT: &str = "exponent";
+/// Key of the relaxation time of a power law.
 const TIME: &str = "relaxation_time";
-/// Range of a modulus or viscosity about the sum of all of its unit, and of a time about its start.
+/// Range of a modulus or viscosity, relative to the sum of all parameters of its unit (chosen).
 const MODULI: [f64; 2] = [1e-5, 1e3];
+/// Range of a relaxation time, relative to its start (chosen).
 const TIMES: [f64; 2] = [1e-4, 1e4];
-/// Ranges of C₁, C₂ \[K] and activation energies [J/mol], which hold those of all polymers.
+/// Range of the WLF constant C₁ (chosen; it includes all polymers).
 const C1: [f64; 2] = [0.1, 1e3];
+/// Upper limit of the WLF constant C₂, \[K] (chosen; it includes all polymers).
 const HIGHEST_C2: f64 = 1e4;
+/// Range of activation energies, \[J/mol] (chosen; it includes all polymers).
 const ENERGIES: [f64; 2] = [1e3, 1e7];
-/// Range of exponents, as scenes allow them.
+/// Range of exponents that scenes accept.
 const EXPONENTS: [f64; 2] = [0.01, 0.99];
-/// Part of the distance from the lowest temperature to the pole of the WLF law that is left at least.
+/// Lower limit of C₂, relative to the distance of the coldest point below the reference temperature (chosen): the pole of the WLF
+/// law stays 1 % of this distance below that point.
 const FROM_POLE: f64 = 1.01;
-/// Relative standard deviation that is added to the covariance of moduli, so that combinations that it holds for exact have a
-/// finite weight; friction is hardly ever measured as well.
+/// Relative standard deviation added to each modulus of the covariance (chosen, below the accuracy of measured friction), so that
+/// combinations of zero variance have a finite weight.
 const LEAST_DEVIATION: f64 = 1e-3;
-/// Largest change of a logarithm in one step.
+/// Largest change of a logarithm in one step of the least squares (chosen).
 const STEP: f64 = 2.0;
 
-/// A scene whose material has free parameters.
+/// A scene whose material has free parameters, and the map from these to the material.
 pub(super) struct Family<'a> {
-    /// With the material in it, of whatever file it was.
+    /// The scene with the file of its material resolved.
     pub(super) scene: Scene,
-    /// Temperature of the material of points without one, \[°C].
+    /// Temperature of points without one of their own, \[°C]; `None` if the scene states none.
     temperature: Option<f64>,
     numbers: Numbers<'a>,
     files: Files<'a>,
-    /// Of the moduli of the scene.
+    /// Covariance of the moduli of the scene; `None` if the material has none.
     covariance: Option<Covariance>,
-    /// The free moduli and other numbers of the material, then those of the law.
+    /// The free numbers of the material; in the parameter vector the constants of the law follow.
     moduli: Vec<Number>,
     shift: Option<Shift>,
     shift_is_free: bool,
 }
 
-/// A constant of a shift law.
+/// A constant of the shift law, with its range.
 struct Constant {
     name: &'static str,
     unit: &'static str,
@@ -109,7 +114,7 @@ impl<'a> Family<'a> {
         })
     }
 
-    /// The parameters with the start of each, as logarithms.
+    /// The free parameters, and the logarithms of their starts.
     pub(super) fn parameters(&self, points: &[FrictionPoint]) -> (Vec<FreeParameter>, Vec<f64>) {
         let of_material = self.moduli.iter().map(|number| {
             let [lowest, highest] = self.range(number);
@@ -132,7 +137,7 @@ impl<'a> Family<'a> {
         of_material.chain(of_law).unzip()
     }
 
-    /// What is known of the logarithms of the parameters before the fit; `start` are those of the scene.
+    /// Prior of the logarithms of the parameters, centred on their starts; `None` if nothing is known.
     pub(super) fn prior(&self, known: FrictionPrior, start: &[f64]) -> Option<Prior> {
         let (places, covariance) = match known {
             FrictionPrior::None => return None,
@@ -152,7 +157,7 @@ impl<'a> Family<'a> {
         })
     }
 
-    /// Places of the moduli of elements that relax at measured frequencies, and their covariance with this standard deviation.
+    /// Indices of the moduli of elements that relax at measured frequencies, and their covariance for one standard deviation.
     fn independent(&self, deviation: f64) -> (Vec<usize>, Vec<f64>) {
         let moduli = self.moduli.iter().enumerate();
         let moduli = moduli.filter(|(_, number)| is_stress(number) && self.is_measured(number));
@@ -169,12 +174,12 @@ impl<'a> Family<'a> {
         (places, entries)
     }
 
-    /// Places of the moduli in the covariance of the material, and that; `None` if the material has none.
+    /// Indices of the moduli with their covariance in the material; `None` if the material has none.
     fn covariance(&self) -> Option<(Vec<usize>, Vec<f64>)> {
         let known = self.covariance.as_ref()?;
         let moduli = self.moduli.iter().enumerate();
         let moduli = moduli.filter_map(|(place, number)| match number.ends() {
-            // It comes first in the covariance.
+            // The equilibrium modulus is the first of the covariance.
             [_, "equilibrium_modulus"] => Some((place, 0)),
             [_, "modulus"] => Some((place, branch_of(number)? + 1)),
             _ => None,
@@ -190,7 +195,7 @@ impl<'a> Family<'a> {
         Some((moduli.iter().map(|(place, _)| *place).collect(), entries))
     }
 
-    /// What of the prior that is asked for there is: a material without a covariance has none.
+    /// The applicable prior: [`FrictionPrior::None`] if its covariance is missing or no modulus is free.
     pub(super) fn known(&self, asked: FrictionPrior) -> FrictionPrior {
         let has_covariance = self.covariance.is_some() && !self.moduli.is_empty();
         match asked {
@@ -200,20 +205,22 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// How many of the parameters are those of the material itself.
+    /// Number of free parameters of the material, without those of the shift law.
     pub(super) const fn n_of_material(&self) -> usize {
         self.moduli.len()
     }
 
-    /// Whether the parameter is a modulus or a viscosity.
+    /// True if the parameter is proportional to a stress.
     pub(super) fn is_stress(&self, parameter: usize) -> bool {
         self.moduli.get(parameter).is_some_and(is_stress)
     }
 
+    /// True if the constants of the shift law are free.
     pub(super) const fn shift_is_free(&self) -> bool {
         self.shift_is_free
     }
 
+    /// Range of a number of the material.
     fn range(&self, number: &Number) -> [f64; 2] {
         let [_, key] = number.ends();
         if key == EXPONENT {
@@ -230,7 +237,7 @@ impl<'a> Family<'a> {
         MODULI.map(|factor| factor * all)
     }
 
-    /// Whether the element relaxes at frequencies at which the material was measured, which all do where none are named.
+    /// True if the element of a modulus relaxes at measured frequencies, or if the material states no such range.
     fn is_measured(&self, number: &Number) -> bool {
         let Some([lowest, highest]) = self.scene.material.valid_frequencies() else {
             return true;
@@ -242,7 +249,7 @@ impl<'a> Family<'a> {
         own.is_some_and(|branch| (lowest..=highest).contains(&branch.relaxation_time.recip()))
     }
 
-    /// The constants of the law that is free, which is known down to so far below its temperature, \[K].
+    /// The constants of the free shift law; it must hold down to `below` kelvin under its reference temperature.
     fn law(&self, below: f64) -> Vec<Constant> {
         let constant = |name, unit, start, bounds| Constant {
             name,
@@ -261,30 +268,32 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// How far the coldest point is below the temperature of the law, \[K].
+    /// Distance of the coldest point below the reference temperature of the law, \[K]; at least 0.
     fn furthest_below(&self, points: &[FrictionPoint]) -> f64 {
         let reference = self.shift.as_ref().map_or(0.0, |shift| shift.temperature);
         let temperatures = points.iter().filter_map(|point| self.temperature_of(point));
         temperatures.fold(0.0, |most, temperature| most.max(reference - temperature))
     }
 
+    /// Temperature of a point, \[°C], else that of the scene.
     fn temperature_of(&self, point: &FrictionPoint) -> Option<f64> {
         point.temperature.or(self.temperature)
     }
 
-    /// The material at the logarithms of the parameters.
+    /// The material for given logarithms of the parameters.
     pub(super) fn material(&self, logs: &[f64]) -> Result<Box<dyn Material>, SceneError> {
         let table = self.table(logs)?;
         Ok(half_space(&table, &self.files)?.material)
     }
 
+    /// The material table for given logarithms of the parameters.
     fn table(&self, logs: &[f64]) -> Result<MaterialTable, SceneError> {
         let values = self.moduli.iter().zip(logs);
         let values = values.map(|(number, log)| (number, log.exp()));
         Ok(self.numbers.scene_with_all(values)?.material)
     }
 
-    /// ln a_T of a point, and its derivatives by the logarithms of the constants of the law that is free.
+    /// ln a_T of a point, and its derivatives by the logarithms of the free constants of the law.
     pub(super) fn shift_of(
         &self,
         point: &FrictionPoint,
@@ -317,10 +326,10 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// The factor of all moduli at a point.
+    /// Factor b_T on all moduli at the temperature of a point.
     pub(super) fn modulus_factor_of(&self, point: &FrictionPoint) -> Result<f64, RheologyError> {
         match (&self.shift, self.temperature_of(point)) {
-            // The range of a law that is free is that of the points.
+            // A free law is valid in the range of the points.
             (Some(shift), Some(temperature)) if self.shift_is_free => {
                 let [low, high] = shift.temperature_range;
                 let temperature_range = [low.min(temperature), high.max(temperature)];
@@ -335,7 +344,7 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// The table of the material that was found, with its law.
+    /// The fitted material table, with its shift law valid in the range of the points.
     pub(super) fn found(
         &self,
         logs: &[f64],
@@ -367,7 +376,7 @@ impl<'a> Family<'a> {
         Ok(table)
     }
 
-    /// Refuses points whose temperatures mean nothing, and temperatures that are all those of the law, of which that says nothing.
+    /// Rejects temperatures without a shift law, and a free shift law without a point at another than the reference temperature.
     pub(super) fn check_temperatures(
         &self,
         points: &[FrictionPoint],
@@ -397,6 +406,7 @@ impl<'a> Family<'a> {
     }
 }
 
+/// The range of a parameter as logarithms.
 fn range(bounds: [f64; 2]) -> ParameterRange {
     ParameterRange {
         bounds: bounds.map(f64::ln),
@@ -404,18 +414,20 @@ fn range(bounds: [f64; 2]) -> ParameterRange {
     }
 }
 
+/// True if a number is proportional to a stress.
 fn is_stress(number: &Number) -> bool {
     let [_, key] = number.ends();
     STRESSES.contains(&key)
 }
 
-/// The branch whose modulus a number is, counted from 0.
+/// Index of the branch whose modulus a number is; `None` for other numbers.
 fn branch_of(number: &Number) -> Option<usize> {
     let path = number.path();
     let (_, branch) = path.strip_suffix("].modulus")?.rsplit_once("branches[")?;
     branch.parse().ok()
 }
 
+/// Unit of a number of the material.
 fn unit(number: &Number) -> &'static str {
     match number.ends() {
         [_, "viscosity"] => "Pa s",
@@ -426,7 +438,7 @@ fn unit(number: &Number) -> &'static str {
     }
 }
 
-/// The numbers of the material that are free: its moduli and viscosities, and of power laws the exponent and the time.
+/// The free numbers of a material: moduli and viscosities, for power laws also exponent and time; none for an elastic material.
 fn free_numbers(numbers: &Numbers, material: &MaterialTable) -> Vec<Number> {
     let is_power_law = matches!(
         material,
@@ -444,7 +456,7 @@ fn free_numbers(numbers: &Numbers, material: &MaterialTable) -> Vec<Number> {
     free
 }
 
-/// The scene with the material that its file holds, and the temperature at which it wants it.
+/// The scene with the file of its material resolved at its reference temperature, and the temperature \[°C] that the scene states.
 fn with_material(scene: &Scene, files: &Files<'_>) -> Result<(Scene, Option<f64>), SceneError> {
     let MaterialTable::File {
         path,

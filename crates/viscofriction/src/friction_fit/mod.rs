@@ -1,4 +1,4 @@
-//! Friction as a rheometer: the moduli of a scene's material from measured friction over speed and temperature.
+//! Fit of the moduli of a material to friction measured over speed and temperature.
 
 mod error;
 mod family;
@@ -39,47 +39,49 @@ pub enum Free {
     Both,
 }
 
-/// How friction is fitted.
+/// Options of the fit.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FrictionFitOptions {
-    /// What is sought.
+    /// The free parameters.
     pub free: Free,
-    /// Errors of points without a standard error.
+    /// Noise model of points without a standard error.
     pub noise: FrictionNoise,
-    /// What is known of the moduli before the fit.
+    /// Prior of the moduli.
     pub prior: FrictionPrior,
 }
 
-/// A material found from friction.
+/// A material fitted to friction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[must_use]
 pub struct FittedFriction {
-    /// What the points say about the parameters.
+    /// Fitted parameters with their statistics.
     pub fit: FrictionFit,
-    /// The material, with its shift law.
+    /// The fitted material, with its shift law.
     pub material: MaterialTable,
-    /// The points.
+    /// The measured points.
     pub points: Vec<FrictionPoint>,
-    /// Speeds at the temperature of the material, by point, \[m/s].
+    /// Reduced velocity a_T v of each point, at the reference temperature, \[m/s].
     pub shifted_velocities: Vec<f64>,
-    /// Largest relative error of the computed friction.
+    /// Largest relative error of the computed friction over the points.
     pub solver_error: f64,
-    /// What was taken to be known of the moduli before the fit.
+    /// The prior that was applied.
     pub prior: FrictionPrior,
 }
 
-/// Points of the first search.
+/// Approximate number of points in the first search (chosen).
 const FEW: usize = 8;
-/// Factors of all moduli, or of the constants of the law, with which a search may begin, as powers of ten.
+/// Scales of the starts of the first search, in decades: on all moduli, or on the constants of the law if no modulus is free
+/// (chosen).
 const SCALES: [f64; 7] = [0.0, -0.5, 0.5, -1.0, 1.0, -1.5, 1.5];
-/// How many of them lead on, where none explains the points.
+/// Largest number of starts followed to a minimum (chosen).
 const STARTS: usize = 4;
-/// Corrections of the grids, and the change of a logarithm below which another one changes nothing.
+/// Largest number of grid corrections (chosen).
 const CORRECTIONS: usize = 4;
+/// Change of the logarithms of all parameters below which the grids are not corrected again (chosen).
 const NEAR: f64 = 0.2;
 
-/// Finds what is free of the material of a scene from points of its body; speeds, and forces and temperatures where they have
-/// some, are those of the points. `watch` is told what the fit has reached.
+/// Fits the free parameters of the material of a scene to measured friction of its body. Velocities, and forces and temperatures
+/// if stated, are those of the points. `watch` receives the progress.
 ///
 /// # Errors
 /// [`FrictionFitError`] with the reason.
@@ -128,7 +130,7 @@ pub fn fit_friction(
     })
 }
 
-/// The scene at the speed and force of the first point, which stand for those of all.
+/// The scene with velocity and force of the first point, for the validation of all.
 fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionFitError> {
     let first = points.first().ok_or(MeasurementError::TooFewPoints {
         needed: 1,
@@ -144,7 +146,7 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
     Ok(scene)
 }
 
-/// Refuses surfaces without end and motions, before a surface is drawn or a motion followed.
+/// Rejects periodic surfaces, motions and histories, before a surface is sampled or a file read.
 fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     let is_endless = match &scene.indenter {
         Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
@@ -168,13 +170,16 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     }
 }
 
+/// Message for a periodic surface.
 const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
      of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
      compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";
+/// Message for a motion or a history.
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";
 
-/// A minimum of few points that explains them, or the best from some scales.
+/// Least squares of about [`FEW`] points on coarser grids, from scaled starts in order of their sum of squares. Returns the first
+/// minimum consistent with the noise, else the best one.
 fn first_search(
     model: &Model,
     family: &Family,
@@ -196,13 +201,15 @@ fn first_search(
         });
         moved.collect()
     };
+    // Rank the scaled starts by their sum of squares.
     let mut tried = SCALES.map(|decades| {
         let start = scaled(decades);
         let sum = of_few.sum(&few, &start);
         (sum.unwrap_or(f64::INFINITY), start)
     });
-    // The moduli of the scene come first.
+    // The start of the scene stays first.
     tried[1..].sort_by(|one, other| one.0.total_cmp(&other.0));
+    // Search from the best starts.
     let sum = |found: &FrictionMinimum| found.minimum.model.sum;
     let mut best: Option<FrictionMinimum> = None;
     for (done, (_, start)) in tried.iter().take(STARTS).enumerate() {
@@ -220,7 +227,7 @@ fn first_search(
     Ok(best.minimum.parameters)
 }
 
-/// The minimum of all points, with grids that are corrected beside it.
+/// Least squares of all points on corrected grids. The correction is repeated until the parameters move by less than [`NEAR`].
 fn corrected(
     model: &mut Model,
     fitting: &FrictionFitting,
@@ -247,6 +254,7 @@ fn corrected(
     }
 }
 
+/// The last error of the model, else that of the least squares.
 fn not_converged(model: &Model) -> FrictionFitError {
     let refused = model.refused.lock().unwrap_or_else(PoisonError::into_inner);
     match refused.clone() {
@@ -256,10 +264,10 @@ fn not_converged(model: &Model) -> FrictionFitError {
 }
 
 impl FittedFriction {
-    /// The material as a file for scenes.
+    /// The material as a TOML file for scenes.
     ///
     /// # Errors
-    /// Where it cannot be written as TOML.
+    /// If the material cannot be written as TOML.
     pub fn material_file(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(&toml::Table::from_iter([(
             "material".to_owned(),

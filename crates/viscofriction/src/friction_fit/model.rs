@@ -1,7 +1,7 @@
-//! Friction of the points of a table over the parameters of a material, with its derivatives.
+//! Friction of the measured points as a function of the material parameters, with derivatives.
 //!
-//! On the half space every point is solved on one coarse grid, whose friction is multiplied by what it lacks from a solution with
-//! an error bar at parameters nearby: the ratio hardly changes with them.
+//! On the half space each point is solved on one coarse grid. Its friction is multiplied by the ratio to a solution with an error
+//! estimate at nearby parameters, because this ratio depends on them only weakly.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -24,26 +24,29 @@ use crate::solve::mdr;
 use crate::solve::work::closed_line;
 use crate::solve::{Motion, Problem, Result, SolveError};
 
-/// Elements along the contact. Their friction is 1 % off, which a correction mends, and its derivatives by logarithms up to 5 %
-/// (docs/fit-friction.md).
+/// Elements along the contact. The error of friction is about 1 %, which the correction removes, and that of its logarithmic
+/// derivatives up to 5 % (measured, docs/fit-friction.md).
 const ELEMENTS: usize = 8;
-/// The same where a search begins.
+/// Elements along the contact in the first search (chosen).
 const FEW_ELEMENTS: usize = 5;
-/// Relative error that is asked of the solutions that the grids are corrected by.
+/// Relative error of the solutions that correct the grids (chosen).
 const CORRECTION: f64 = 5e-3;
-/// Relative error of the one-dimensional model.
+/// Relative error requested of the one-dimensional model (chosen, so that differences give derivatives).
 const EXACT: f64 = 1e-9;
-/// Step of a logarithm for adjoint derivatives, and for differences of friction.
+/// Step of a logarithm for adjoint derivatives (chosen).
 const STEP: f64 = 1e-5;
+/// Step of a logarithm for central differences of friction in the one-dimensional model (chosen): their error is about
+/// [`EXACT`]/step.
 const LONG_STEP: f64 = 1e-4;
 
-/// What is solved for a point.
+/// The forward problem of a point.
 enum Forward<'a> {
     Surface(&'a dyn Surface),
     Cylinder(&'a Cylinder),
     Line(&'a Revolution),
 }
 
+/// The forward model of all points.
 pub(super) struct Model<'a> {
     family: &'a Family<'a>,
     forward: Forward<'a>,
@@ -52,13 +55,13 @@ pub(super) struct Model<'a> {
     control: Control,
     elements: usize,
     pub(super) points: Vec<FrictionPoint>,
-    /// What the friction of each point is multiplied by.
+    /// Factor on the coarse-grid friction of each point.
     corrections: Vec<f64>,
-    /// What was refused last.
+    /// The last error of the model; `None` if there was none.
     pub(super) refused: Mutex<Option<FrictionFitError>>,
 }
 
-/// The materials on both sides of each parameter, and the one between them.
+/// The material at the parameters, and those at both neighbours of each parameter.
 struct Materials {
     own: Box<dyn Material>,
     beside: Vec<[Box<dyn Material>; 2]>,
@@ -96,7 +99,7 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Some of the points, on coarser grids.
+    /// Every `step`-th point, on coarser grids.
     pub(super) fn some(&self, step: usize) -> Self {
         let some = |index: &usize| index.is_multiple_of(step);
         let places = || (0..self.points.len()).filter(some);
@@ -114,7 +117,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Corrects the grids near these parameters; the largest relative error that is left.
+    /// Updates the correction factors at these parameters. Returns the largest relative error of the corrected friction.
     pub(super) fn correct(
         &mut self,
         parameters: &[f64],
@@ -136,7 +139,7 @@ impl<'a> Model<'a> {
         Ok(worst)
     }
 
-    /// In parallel, in the order of the points.
+    /// Applies a function to all points in parallel; results are in the order of the points.
     fn of_all<T: Send>(
         &self,
         of_point: impl Fn(&FrictionPoint) -> Result<T> + Sync,
@@ -152,10 +155,11 @@ impl<'a> Model<'a> {
         let found: Vec<_> = self.points.par_iter().enumerate().map(numbered).collect();
         #[cfg(not(feature = "rayon"))]
         let found: Vec<_> = self.points.iter().enumerate().map(numbered).collect();
-        // The first of the refused points, whichever was refused first.
+        // Of several errors the one of the first point is returned, independent of the order of computation.
         found.into_iter().collect()
     }
 
+    /// The material at the parameters, and optionally at their neighbours.
     fn materials(
         &self,
         parameters: &[f64],
@@ -180,6 +184,7 @@ impl<'a> Model<'a> {
         })
     }
 
+    /// Step of a logarithm for the derivatives of this forward problem.
     const fn step(&self) -> f64 {
         match self.forward {
             Forward::Line(_) => LONG_STEP,
@@ -187,8 +192,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The load of a point at the speed that its temperature makes of it, by which the material is that of the reference
-    /// temperature: with moduli b_T times as large a force does what its b_T-th part does there.
+    /// The equivalent load at the reference temperature: velocity a_T v, and a given force divided by the modulus factor b_T.
     fn load(&self, point: &FrictionPoint, parameters: &[f64]) -> Result<SlidingLoad> {
         let (shift, _) = self.family.shift_of(point, parameters)?;
         let factor = self.family.modulus_factor_of(point)?;
@@ -202,11 +206,13 @@ impl<'a> Model<'a> {
         self.at_speed(control, point.velocity * shift.exp())
     }
 
+    /// A sliding load, on the track of the scene if it has one.
     fn at_speed(&self, control: Control, velocity: f64) -> Result<SlidingLoad> {
         let load = SlidingLoad::with(control, velocity)?;
         Ok(self.track.map_or(Ok(load), |track| load.on_track(track))?)
     }
 
+    /// Coarse-grid solution with its sensitivities; an error for the one-dimensional model.
     fn on_grid(&self, material: &dyn Material, load: &SlidingLoad) -> Result<SensitivityOnGrid> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
         Ok(match self.forward {
@@ -222,6 +228,7 @@ impl<'a> Model<'a> {
         })
     }
 
+    /// Friction with an error estimate, to the relative error [`CORRECTION`].
     fn refined(&self, material: &dyn Material, load: &SlidingLoad) -> Result<Estimate> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
         Ok(match self.forward {
@@ -235,6 +242,7 @@ impl<'a> Model<'a> {
         })
     }
 
+    /// Friction of the one-dimensional model, in closed form if there is one.
     fn on_line(
         &self,
         body: &Revolution,
@@ -251,7 +259,8 @@ impl<'a> Model<'a> {
         friction.ok_or_else(|| no_derivatives(answer.method))
     }
 
-    /// Friction, its derivatives by the parameters of the material, and that by the speed where that is asked for.
+    /// Friction, its logarithmic derivatives by the parameters of the material, and that by the velocity, which is 0 unless the
+    /// shift law is free.
     fn with_derivatives(
         &self,
         materials: &Materials,
@@ -294,6 +303,7 @@ impl<'a> Model<'a> {
         Ok((friction, slopes, by_speed))
     }
 
+    /// Corrected friction of all points, with derivatives by all parameters.
     fn all(&self, parameters: &[f64]) -> std::result::Result<Vec<ModelledPoint>, FrictionFitError> {
         let materials = self.materials(parameters, true)?;
         let mut modelled = self.of_all(|point| {
@@ -325,6 +335,7 @@ impl FrictionModel for Model<'_> {
     }
 }
 
+/// The forward problem of a scene; an error for unsuitable bodies.
 fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitError> {
     match (problem.model(), problem.body()) {
         (Dimensions::Line, Body::Revolution(body)) => Ok(Forward::Line(body)),
@@ -338,9 +349,11 @@ fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitErr
     }
 }
 
+/// Message for an unsuitable body.
 const ONE_BODY: &str = "moduli are fitted to the friction of a single body or a cylinder on the half space, and of a body of revolution \
      in the one-dimensional model; give one of these";
 
+/// Error for a method without derivatives.
 const fn no_derivatives(method: Method) -> SolveError {
     SolveError::NoSensitivity { method }
 }

@@ -1,23 +1,23 @@
-//! What is known of the moduli before a fit of friction.
+//! Prior of the moduli in a fit of friction.
 
 use std::str::FromStr;
 
 use serde::Serialize;
 
-/// What is known of the moduli of a scene's material before the fit.
+/// Prior of the moduli of a scene's material.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionPrior {
-    /// The covariance of the moduli that the material has, as `fit-material` writes it; nothing if it has none.
+    /// The covariance in the material table, as `fit-material` writes it; no prior if there is none.
     #[default]
     Covariance,
-    /// One relative standard deviation > 0 of all moduli of elements that relax within the valid frequencies of the material.
+    /// A relative standard deviation > 0 for all moduli of elements that relax within the valid frequencies of the material.
     Relative(f64),
-    /// Nothing.
+    /// No prior.
     None,
 }
 
-/// `covariance`, `none` or a number.
+/// Parses `covariance`, `none` or a relative standard deviation.
 impl FromStr for FrictionPrior {
     type Err = String;
 

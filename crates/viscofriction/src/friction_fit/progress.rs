@@ -1,44 +1,44 @@
-//! What a fit of friction has reached.
+//! Progress of a fit of friction.
 
 use std::fmt;
 
-/// What a fit of friction does, and what it has reached.
+/// Current stage of a fit of friction, and its residual so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FitProgress {
-    /// What it does.
+    /// Current stage.
     pub stage: FitStage,
-    /// Root mean square residual of the best material so far, of the unit of [`FrictionFit::residual`]; `None` before the first.
+    /// Root mean square residual of the best material so far, in the unit of [`FrictionFit::residual`]; `None` before the first.
     ///
     /// [`FrictionFit::residual`]: measurements::friction::FrictionFit::residual
     pub residual: Option<f64>,
 }
 
-/// A part of a fit.
+/// A stage of the fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FitStage {
-    /// Least squares of some of the points, from one start after the other until one explains them.
+    /// Least squares of some of the points from successive starts, until one is consistent with the noise.
     Starts {
-        /// Starts that are done.
+        /// Number of completed starts.
         done: usize,
-        /// How many are tried at most.
+        /// Largest number of starts.
         of: usize,
     },
-    /// Least squares of all points, on grids that are corrected again where the material has moved.
+    /// Least squares of all points, with grids corrected again after large changes of the material.
     LeastSquares {
-        /// Rounds that are done.
+        /// Number of completed rounds.
         done: usize,
     },
-    /// Intervals of the parameters.
+    /// Confidence intervals of the parameters.
     Intervals {
-        /// Parameters that are done.
+        /// Number of completed parameters.
         done: usize,
-        /// How many there are.
+        /// Number of parameters.
         of: usize,
     },
 }
 
 impl FitProgress {
-    /// About which part of the work is done, where intervals take twice as long as what comes before them; 0 before the first.
+    /// Estimated fraction of the work done, if the intervals take twice as long as all before them; 0 before the first interval.
     pub fn part(&self) -> f64 {
         match self.stage {
             FitStage::Intervals { done, of } => (1.0 + 2.0 * done as f64 / of.max(1) as f64) / 3.0,

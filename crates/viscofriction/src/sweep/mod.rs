@@ -1,4 +1,4 @@
-//! A scene for many values of its keys.
+//! Parameter sweeps: a scene for many values of its keys.
 
 mod plan;
 mod row;

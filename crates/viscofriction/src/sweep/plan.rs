@@ -15,38 +15,38 @@ use crate::solve::{
 };
 use crate::text::WrongInput;
 
-/// Keys of a scene whose values are names of files.
+/// Keys of a scene whose values are file names.
 const FILE_KEYS: [&str; 3] = ["file", "path", "history_file"];
 
-/// A scene and the keys that vary.
+/// A scene with its varied keys.
 #[derive(Debug)]
 pub struct Plan {
     source: Source,
     table: Table,
     vary: Vec<Vary>,
-    /// Of the scene, the contents of the files that it names, and what varies, whatever comments and order.
+    /// Hash of the scene, of the contents of its files, and of the varied keys. It ignores comments, the order of keys in the
+    /// scene, `solve.threads` and `solve.max_memory`.
     pub fingerprint: String,
-    /// Whether rows, but for those of samples, say what the covariance of the material and the uncertainties of the scene make of
-    /// them.
+    /// True if rows contain the uncertainties from the covariance of the material and from the scene; rows of samples never do.
     pub sensitivity: bool,
-    /// Memory that the points which are computed at the same time may take where the scene does not say, \[bytes].
+    /// Memory limit for all points computed concurrently, if the scene gives none, \[bytes]; `None` for no limit.
     pub max_memory: Option<u64>,
     read: ReadFile,
 }
 
 impl Plan {
-    /// The points of a scene and of what varies in it; `read` reads the files that the scene names.
+    /// Plans the sweep; `read` reads the files that the scene names.
     ///
     /// # Errors
-    /// [`WrongInput`] for a key that varies twice, too many points, or a scene that is no TOML.
+    /// [`WrongInput`] for a key that is varied twice, too many points, or a scene that is not TOML.
     pub fn new(source: Source, vary: &[Vary], read: ReadFile) -> Result<Self, WrongInput> {
         let mut table = source.table()?;
-        // A scene may leave it out, and its keys vary all the same.
+        // The table `solve` is optional, but its keys can be varied.
         let solve = || Value::Table(Table::new());
         table.entry("solve").or_insert_with(solve);
         check(&source, vary)?;
         let mut scene = table.clone();
-        // On how many threads a point is computed, and how much memory it may take, does not change it.
+        // Leave threads and memory out of the hash: they do not change a point.
         if let Some(Value::Table(solve)) = scene.get_mut("solve") {
             solve.remove("threads");
             solve.remove("max_memory");
@@ -58,7 +58,7 @@ impl Plan {
         };
         let mut hash = hashed(EMPTY, format!("{scene}\n{vary:?}").as_bytes());
         for file in named_files(&table).into_iter().chain(varied_files(vary)) {
-            // A file that cannot be read is refused with the key that names it, by the first point.
+            // An unreadable file is reported by the first point, with the key that names it.
             let contents = files.contents(file.as_ref(), files.memory());
             hash = hashed(hash, &contents.unwrap_or_default());
         }
@@ -78,17 +78,17 @@ impl Plan {
         self.source.text()
     }
 
-    /// Number of points, all combinations of the values.
+    /// Number of points, the product of the numbers of values.
     pub fn n_points(&self) -> usize {
         self.vary.iter().map(|vary| vary.values.len()).product()
     }
 
-    /// The keys that vary.
+    /// The varied keys.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.vary.iter().map(|vary| vary.key.as_str())
     }
 
-    /// The values of a point; the last key is fastest.
+    /// Values of a point; the last key varies fastest.
     pub fn values(&self, point: usize) -> Vec<&Varied> {
         let mut rest = point;
         let mut values = Vec::new();
@@ -101,7 +101,7 @@ impl Plan {
         values
     }
 
-    /// Checks every point before the first is computed; returns on how many threads, none for all that there are.
+    /// Validates every point before the first is computed. Returns the number of threads; `None` for all.
     ///
     /// # Errors
     /// [`WrongInput`] with the place in the scene and the values of the point.
@@ -116,7 +116,7 @@ impl Plan {
         Ok(threads)
     }
 
-    /// Refuses samples of a scene in which nothing is uncertain.
+    /// Rejects samples of a scene without uncertain numbers.
     fn check_samples(&self) -> Result<(), WrongInput> {
         if self.keys().all(|key| key != SAMPLE) {
             return Ok(());
@@ -136,7 +136,7 @@ impl Plan {
         check().map_err(|error| self.source.locate(&error))
     }
 
-    /// The sample of a point, where samples are among what varies.
+    /// Sample number of a point; `None` if samples are not varied.
     fn sample(&self, point: usize) -> Option<f64> {
         let values = self.values(point);
         let (_, value) = self.keys().zip(values).find(|(key, _)| *key == SAMPLE)?;
@@ -146,7 +146,7 @@ impl Plan {
         }
     }
 
-    /// The rows of points, computed on all threads of the pool within one limit of memory; `take` gets each when it is finished.
+    /// Computes rows on all threads of the pool within one memory limit; `take` receives each row as soon as it is finished.
     pub fn solve_all(
         &self,
         points: &[usize],
@@ -156,7 +156,7 @@ impl Plan {
         share_memory(points.to_vec(), within, |_, row| take(row));
     }
 
-    /// The row of a point; what a method could not reach is part of it.
+    /// The row of a point; a missed request is part of the row.
     ///
     /// # Errors
     /// [`WrongInput`] as of [`Self::validate`].
@@ -165,17 +165,18 @@ impl Plan {
         self.solve_problem(point, (&scene, &problem))
     }
 
-    /// The row of a point within one of so many parts of the memory; `None` if that is too little.
+    /// The row of a point within one of `parts` equal parts of the memory; `None` if that is too little.
     pub fn solve_within(&self, point: usize, parts: u64) -> Option<Result<SweepRow, WrongInput>> {
         if parts == 1 {
             return Some(self.solve(point));
         }
-        // What the whole memory is too little for says so when the point has it.
+        // An error here may be due to the partial memory; with all of the memory it is reported.
         let (scene, problem) = self.scene_and_problem(point, parts).ok()?;
         let row = self.solve_problem(point, (&scene, &problem));
         (!problem.is_short_of_memory()).then_some(row)
     }
 
+    /// Solves a problem, with uncertainties if requested, and makes the row.
     fn solve_problem(
         &self,
         point: usize,
@@ -203,7 +204,7 @@ impl Plan {
         Ok(SweepRow::new(self, point, results))
     }
 
-    /// What tells a row from every other: sweep, point counted from 1, number of points, and values.
+    /// Cells that identify a row: sweep, point counted from 1, number of points, and values.
     pub fn identity(&self, point: usize) -> Vec<String> {
         let numbers = [point + 1, self.n_points()].map(|number| number.to_string());
         let values = self.values(point).into_iter().map(Varied::to_string);
@@ -211,7 +212,7 @@ impl Plan {
         sweep.chain(numbers).chain(values).collect()
     }
 
-    /// Whether a row is of a point of this sweep.
+    /// True if a row belongs to a point of this sweep.
     pub fn has(&self, row: &SweepRow) -> bool {
         let is_same =
             |(computed, found): (String, &String)| canonical(&computed) == canonical(found);
@@ -221,7 +222,7 @@ impl Plan {
         }
     }
 
-    /// The names of the columns of results.
+    /// Names of the columns of results.
     fn columns(&self) -> Vec<String> {
         let uncertainties = Uncertainties::default().named().into_iter();
         let uncertainties = uncertainties.flat_map(|(name, _)| {
@@ -234,7 +235,7 @@ impl Plan {
         Answer::columns().into_iter().chain(asked).collect()
     }
 
-    /// What comes behind the [`identity`](Self::identity) and the checks, but for why there is none.
+    /// Cells after the [`identity`](Self::identity) and the checks, without the failure.
     fn results(&self, found: Option<&Answer>) -> Vec<String> {
         let Some(answer) = found else {
             return vec![String::new(); self.columns().len() + 4];
@@ -259,6 +260,7 @@ impl Plan {
         self.scene_and_problem(point, 1).map(|(_, problem)| problem)
     }
 
+    /// Scene and problem of a point, with one of `parts` equal parts of the memory.
     fn scene_and_problem(&self, point: usize, parts: u64) -> Result<(Scene, Problem), WrongInput> {
         let values = self.values(point);
         let mut table = self.table.clone();
@@ -285,7 +287,7 @@ impl Plan {
     }
 }
 
-/// Refuses a key that varies twice, too many points, and texts that are no cell of a row.
+/// Rejects a key that is varied twice, too many points, and texts that do not fit into a cell.
 fn check(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
     let is_broken =
         |value: &Varied| matches!(value, Varied::Text(text) if text.contains(char::is_control));
@@ -307,7 +309,7 @@ fn check(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
     Ok(())
 }
 
-/// The names of the columns.
+/// Names of all columns.
 pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
     let before = before
@@ -318,21 +320,21 @@ pub fn header(plan: &Plan) -> Vec<String> {
     before.chain(plan.columns()).chain(after).collect()
 }
 
-/// Before the reason why a row has no uncertainty.
+/// Begins the warning of a row without uncertainties.
 const NO_UNCERTAINTY: &str =
     "the columns of uncertainty are empty, because there are no derivatives: ";
 
-/// A row is a line.
+/// Replaces line breaks, because a row is one line.
 fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// A number as JSON and Rust read it back.
+/// Shortest decimal representation that JSON and Rust read back exactly.
 fn written(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A number of samples.
+/// A whole number of samples.
 fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
     if number.fract() == 0.0 && number >= 0.0 && number <= MOST_POINTS as f64 {
         return Ok(whole_part(number));
@@ -341,10 +343,10 @@ fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
     Err(SceneError::at(key, problem))
 }
 
-/// What is said of a key that is in no table of the scene.
+/// Message for a varied key whose table is missing.
 const NO_TABLE: &str = "the scene has no such table to vary a key of; a key is given with its tables, as load.velocity";
 
-/// Sets a key; the table it is in must be there.
+/// Sets a key in an existing table.
 fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
     let missing = || SceneError::at(key, NO_TABLE);
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
@@ -368,7 +370,7 @@ fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// A whole number as an integer, which every key accepts.
+/// Writes a whole number as an integer, which every key accepts.
 fn number(value: f64) -> Value {
     let largest = 2.0_f64.powi(53);
     if value.fract() == 0.0 && value.abs() < largest {
@@ -381,7 +383,7 @@ fn number(value: f64) -> Value {
     Value::Float(value)
 }
 
-/// The files that a scene names, wherever it does.
+/// File names anywhere in a scene.
 fn named_files(table: &Table) -> Vec<&str> {
     let mut files = Vec::new();
     for (key, value) in table {
@@ -394,7 +396,7 @@ fn named_files(table: &Table) -> Vec<&str> {
     files
 }
 
-/// The files that a key takes one after the other.
+/// File names among the varied values.
 fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
     let names_files = |vary: &&Vary| {
         vary.key
@@ -412,7 +414,7 @@ fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Memory that the scene allows, where it is one.
+/// Memory limit of the scene, \[bytes]; `None` if it gives none or is invalid.
 fn memory(table: &Table) -> Option<u64> {
     let scene = scene_file(table.clone()).ok()?;
     scene.solve.checked_memory().ok()?

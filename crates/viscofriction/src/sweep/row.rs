@@ -1,61 +1,60 @@
-//! One row of a sweep, and the check by which a change of any of its cells is noticed.
+//! One row of a sweep, with a checksum that detects a changed cell.
 
 use thiserror::Error;
 
 use super::plan::Plan;
 
-/// The column behind the values of a point.
+/// Name of the checksum column, which follows the values of a point.
 const CHECK: &str = "check";
-/// The columns of what a row is checked by: all other cells, and the program that computed it.
+/// Names of the columns that a row is checked by: the checksum of all other cells, and the program.
 pub(super) const CHECKS: [&str; 2] = [CHECK, "program"];
-/// The program and its version, as rows name it.
+/// Name and version of the program in each row.
 const PROGRAM: &str = concat!("viscofriction ", env!("CARGO_PKG_VERSION"));
 
-/// Why a row is not taken for one that was computed for a point.
+/// Reason why a row is rejected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum RowError {
-    /// It has no check of its cells.
+    /// The row has no checksum.
     #[error(
         "the column `check` has no check of the answers, which older versions of this program did not write; compute the sweep \
          anew"
     )]
     NoCheck,
-    /// One cell is another one.
+    /// One cell was changed.
     #[error("column {number}, {column}, is {found:?}, and not what was computed")]
     Cell {
         /// Name of the column.
         column: String,
         /// Number of the column, counted from 1.
         number: usize,
-        /// What stands there.
+        /// Its contents.
         found: String,
     },
-    /// Several cells are others, or the check itself.
+    /// Several cells or the checksum were changed.
     #[error(
         "the row is not what was computed: several cells were changed, as a spreadsheet rounds them, or the check itself"
     )]
     Cells,
-    /// It was computed by another version.
+    /// The row was computed by another version of the program.
     #[error("the row was computed by {found}, and this is {PROGRAM}")]
     Program {
-        /// Name and version.
+        /// Name and version of that program.
         found: String,
     },
 }
 
-/// One row of a sweep: which point it is, and what came out; times are not among the fields, because they differ from run to
-/// run.
+/// One row of a sweep: the point and its results. Run times are left out, because they differ from run to run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SweepRow {
-    /// Counted from 0.
+    /// Index of the point, counted from 0.
     pub point: usize,
-    /// Texts in the order of the [`header`](super::header).
+    /// Cells in the order of the [`header`](super::header).
     pub fields: Vec<String>,
 }
 
 impl SweepRow {
-    /// The row of a point from its [`identity`](Plan::identity) and what came out, with its check.
+    /// The row of a point from its [`identity`](Plan::identity) and its results, with the checksum.
     pub(super) fn new(plan: &Plan, point: usize, results: Vec<String>) -> Self {
         let mut fields = plan.identity(point);
         let check = fields.len();
@@ -65,12 +64,12 @@ impl SweepRow {
         Self { point, fields }
     }
 
-    /// Refuses a row with a cell that is not what was computed, and one of another version of the program.
+    /// Rejects a row with a changed cell, and a row of another version of the program.
     ///
-    /// Numbers are compared by their values, so that other ways to write them do no harm.
+    /// Numbers are compared by value, so their notation may differ.
     ///
     /// # Errors
-    /// [`RowError`], with the column if it is one.
+    /// [`RowError`], with the column if a single cell was changed.
     pub fn check(&self, header: &[String]) -> Result<(), RowError> {
         let place = header.iter().position(|name| name == CHECK);
         let cell = place.and_then(|place| self.fields.get(place));
@@ -88,7 +87,7 @@ impl SweepRow {
         }
     }
 
-    /// The one cell whose change explains both sums: n times that of the first is that of the second.
+    /// Identifies a single changed cell: its number times the change of the first sum is the change of the second.
     fn changed(&self, header: &[String], expected: [u64; 2], found: [u64; 2]) -> RowError {
         let [plain, weighted] = [0, 1].map(|sum| found[sum].wrapping_sub(expected[sum]));
         let explains = |number: &usize| plain.wrapping_mul(*number as u64) == weighted;
@@ -102,12 +101,12 @@ impl SweepRow {
         }
     }
 
-    /// Whether the point has no answer.
+    /// True if the request was not met.
     pub fn failed(&self) -> bool {
         self.fields.last().is_some_and(|why| !why.is_empty())
     }
 
-    /// The warnings of its answer.
+    /// Warnings of the answer.
     pub fn warnings(&self) -> Vec<&str> {
         let before = self.fields.len().checked_sub(2);
         let sentences = before.map_or("", |place| &self.fields[place]);
@@ -116,22 +115,22 @@ impl SweepRow {
     }
 }
 
-/// Between the sentences of a cell.
+/// Separator of the sentences in a cell.
 pub(super) const BETWEEN_WARNINGS: &str = " | ";
 
-/// A cell as it is compared: a number or a truth value by its value, whatever program has written it.
+/// Canonical form of a cell for comparison: numbers and truth values by value, whichever program wrote them.
 pub(super) fn canonical(cell: &str) -> String {
     let number = cell.trim().parse::<f64>().ok();
     match number.filter(|number| number.is_finite()) {
-        // Without the sign of 0.
+        // Adding 0 removes the sign of -0.
         Some(number) => format!("{:?}", number + 0.0),
         None if ["true", "false"].contains(&&*cell.to_lowercase()) => cell.to_lowercase(),
         None => cell.to_owned(),
     }
 }
 
-/// Sums over the cells of a row but for the check, n = 1, 2, …, modulo 2⁶⁴: of hashes hₙ of a cell with the name of its column, and
-/// of n hₙ. A change of one cell changes them by d and n d, from which n follows.
+/// Sums of hₙ and of n hₙ over the cells n = 1, 2, … of a row, modulo 2⁶⁴, without the checksum. The hash hₙ includes the name of
+/// the column. A change of one cell changes the sums by d and n d, which determines n.
 fn sums(header: &[String], fields: &[String]) -> [u64; 2] {
     let mut sums = [0_u64; 2];
     for (index, cell) in fields.iter().enumerate() {
@@ -147,18 +146,20 @@ fn sums(header: &[String], fields: &[String]) -> [u64; 2] {
     sums
 }
 
-/// Before the digits of a hash: without it some are numbers, which spreadsheets write otherwise.
+/// Prefix of a hash. Without it some hashes are valid numbers, which spreadsheets reformat.
 const NO_NUMBER: char = 'x';
 
-/// A hash in a cell.
+/// A hash as the text of a cell.
 pub(super) fn digits(hash: u64) -> String {
     format!("{NO_NUMBER}{hash:016x}")
 }
 
+/// Both sums as the text of the checksum cell.
 fn written([plain, weighted]: [u64; 2]) -> String {
     format!("{}{weighted:016x}", digits(plain))
 }
 
+/// Both sums from a checksum cell; `None` if it is malformed.
 fn read(check: &str) -> Option<[u64; 2]> {
     let digits = check.strip_prefix(NO_NUMBER)?;
     let (plain, weighted) = digits.split_at_checked(16)?;
@@ -166,10 +167,10 @@ fn read(check: &str) -> Option<[u64; 2]> {
     Some([number(plain)?, number(weighted)?])
 }
 
-/// FNV-1a with 64 bits of nothing.
+/// FNV-1a hash of no bytes, 64 bits (offset basis of the algorithm).
 pub(super) const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// FNV-1a of more bytes behind those that were hashed before.
+/// Continues a FNV-1a hash with more bytes.
 pub(super) fn hashed(before: u64, more: &[u8]) -> u64 {
     more.iter().fold(before, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)

@@ -1,27 +1,27 @@
-//! What the command line says about the points of a sweep.
+//! Varied keys, samples and shards of a sweep, as the command line gives them.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// A key and its values.
+/// A varied key with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vary {
     /// The path of the key, such as `load.velocity`.
     pub key: String,
-    /// In the order in which they were given.
+    /// Values in the given order.
     pub values: Vec<Varied>,
 }
 
-/// The key by which the samples of a scene vary.
+/// Key under which the sample number is varied.
 pub const SAMPLE: &str = "sample";
 
 impl Vary {
-    /// The scene itself, and as many samples of what is uncertain in it as a text says.
+    /// The scene itself, and `count` samples of its uncertain numbers.
     ///
     /// # Errors
-    /// A sentence with the numbers that are allowed.
+    /// A sentence that states the allowed numbers.
     pub fn samples(count: &str) -> Result<Self, String> {
-        // One point is that of the scene itself.
+        // The scene itself takes one of the points.
         let count = whole("N", count, MOST_POINTS - 1)?;
         let values = (0..=count).map(|sample| Varied::Number(sample as f64));
         Ok(Self {
@@ -31,16 +31,16 @@ impl Vary {
     }
 }
 
-/// A value that a key takes.
+/// A value of a varied key.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Varied {
-    /// As a number.
+    /// A number.
     Number(f64),
-    /// As a text, such as the name of a file, or a word of the scene; `true` and `false` are those of TOML.
+    /// A text, such as a file name or a word of the scene; `true` and `false` are those of TOML.
     Text(String),
 }
 
-/// As a row has it: a number as JSON and Rust read it back.
+/// Formats the value as a cell of a row.
 impl fmt::Display for Varied {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -50,22 +50,23 @@ impl fmt::Display for Varied {
     }
 }
 
-/// Every `count`-th point, beginning with the `number`-th.
+/// Every `count`-th point, starting with the `number`-th.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// From 1 to `count`.
+    /// Number of the shard, from 1 to `count`.
     pub number: usize,
     /// Number of shards.
     pub count: usize,
 }
 
+/// Spacing of the values of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scale {
     Linear,
     Logarithmic,
 }
 
-/// More points than this are a mistake.
+/// Largest number of points of a sweep (chosen; more are probably a mistake).
 pub(super) const MOST_POINTS: usize = 1_000_000;
 
 impl FromStr for Vary {
@@ -93,7 +94,7 @@ impl FromStr for Vary {
     }
 }
 
-/// Values between commas, all of them numbers, or none.
+/// Values separated by commas: all numbers, or all texts.
 fn list(values: &str) -> Result<Vec<Varied>, String> {
     let values = values.split(',').map(str::trim);
     let is_number = |value: &str| value.parse::<f64>().is_ok();
@@ -108,7 +109,7 @@ fn list(values: &str) -> Result<Vec<Varied>, String> {
     values.map(text).collect()
 }
 
-/// COUNT values from START to STOP, which are met exactly.
+/// COUNT values from START to STOP, both exact.
 fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Varied>, String> {
     let [start, stop] = [number("START", start)?, number("STOP", stop)?];
     let count = whole("COUNT", count, MOST_POINTS)?;
@@ -127,13 +128,15 @@ fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Varied>, S
     Ok((0..count).map(value).map(Varied::Number).collect())
 }
 
+/// Replaces a value by the nearest power of ten if they differ by rounding only.
 fn or_power_of_ten(value: f64) -> f64 {
     let power = format!("1e{:.0}", value.log10()).parse().unwrap_or(value);
-    // Rounding of the quotient, of its power and of the product.
+    // Bound of the rounding of quotient, power and product.
     let is_power = (value / power - 1.0).abs() <= 8.0 * f64::EPSILON;
     if is_power { power } else { value }
 }
 
+/// A finite number; an error names the parameter.
 fn number(name: &str, text: &str) -> Result<f64, String> {
     let refused = |needed: &str| format!("{name} must be {needed}, but is {text}");
     let value: f64 = text.parse().map_err(|_| refused("a number"))?;
@@ -141,6 +144,7 @@ fn number(name: &str, text: &str) -> Result<f64, String> {
     finite.ok_or_else(|| refused("finite"))
 }
 
+/// A whole number from 1 to `most`; an error names the parameter.
 fn whole(name: &str, text: &str, most: usize) -> Result<usize, String> {
     match text.parse() {
         Ok(value) if (1..=most).contains(&value) => Ok(value),
@@ -162,7 +166,7 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// Whether a point, counted from 0, belongs to this shard.
+    /// True if a point, counted from 0, belongs to this shard.
     pub const fn holds(self, point: usize) -> bool {
         point % self.count == self.number - 1
     }

@@ -1,15 +1,15 @@
-//! The warnings of many answers as a few sentences.
+//! Summary of the warnings of many answers.
 
 use std::fmt;
 
-/// A warning of some of many answers.
+/// A warning that some of many answers share.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SharedWarning {
-    /// As the first of them has it; others differ in their numbers only.
+    /// The sentence of the first answer; others may differ in their numbers.
     pub sentence: String,
-    /// Number of answers that have it.
+    /// Number of answers with this warning.
     pub answers: usize,
-    /// Number of all answers.
+    /// Total number of answers.
     pub of: usize,
 }
 
@@ -24,7 +24,7 @@ impl fmt::Display for SharedWarning {
     }
 }
 
-/// Every warning once, in the order in which they come first.
+/// Each warning once, in order of first appearance.
 pub fn each_once<'a>(answers: impl IntoIterator<Item = Vec<&'a str>>) -> Vec<SharedWarning> {
     let mut found: Vec<(String, SharedWarning)> = Vec::new();
     let mut of = 0;
@@ -55,7 +55,7 @@ pub fn each_once<'a>(answers: impl IntoIterator<Item = Vec<&'a str>>) -> Vec<Sha
     counted.collect()
 }
 
-/// What two sentences have in common that say the same of two answers.
+/// A sentence with `#` in place of each number, so that equal warnings of different answers compare equal.
 fn without_numbers(sentence: &str) -> String {
     let words = sentence.split(' ').map(|word| {
         let bare = word.trim_matches(|mark: char| ",.;:%()".contains(mark));

@@ -40,8 +40,8 @@ fn most(problem: &Problem) -> usize {
 }
 
 impl<'a> Drawn<'a> {
-    /// Solves the first surface alone, whose grid gives the memory per surface, then the rest: all surfaces, or the smallest sample
-    /// if a standard error is requested.
+    /// Solves the first surface alone, whose grid gives the memory per surface, then the rest: all surfaces, or the smallest
+    /// sample if a standard error is requested.
     pub(super) fn new(
         problem: &'a Problem,
         watch: &'a dyn Progress,
