@@ -1,4 +1,4 @@
-//! How well the moduli of a series are known.
+//! Covariance of the moduli of a Prony series.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,13 +16,15 @@ pub struct Covariance {
     pub method: Option<String>,
 }
 
-/// Part of the variance of a modulus that rounding may take from it.
+/// Largest relative error by rounding of a covariance, and of a pivot of the correlation matrix (chosen, far above f64 rounding).
 const ROUNDING: f64 = 1e-9;
-/// Part of the covariance of two moduli that may be left where the variance of one of them is rounding: its root, with some room.
+/// Largest residual correlation in a column whose pivot is rounding: the square root of [`ROUNDING`] with a margin of 3 (derived
+/// from the Cauchy–Schwarz inequality).
 const LEFT: f64 = 1e-4;
 
 impl Covariance {
-    /// Refuses what is no covariance of the moduli of a table with so many branches.
+    /// Rejects a matrix that is not a covariance of the moduli of a table with `n_branches` branches: size, finiteness, symmetry,
+    /// positive semidefiniteness.
     pub(crate) fn check(&self, table: &str, n_branches: usize) -> Result<(), SceneError> {
         let key = format!("{table}.covariance.relative");
         let wrong =
@@ -76,7 +78,8 @@ impl Covariance {
         }
     }
 
-    /// The lower triangular L with L Lᵀ = C, or the row at which C is not positive semidefinite.
+    /// Cholesky factor L with L Lᵀ = C, computed for the correlation matrix; the error is the row at which C is not positive
+    /// semidefinite.
     pub(crate) fn factor(&self) -> Result<Vec<Vec<f64>>, usize> {
         let n = self.relative.len();
         let deviations: Vec<f64> = (0..n).map(|k| self.relative[k][k].sqrt()).collect();
@@ -115,7 +118,7 @@ impl Covariance {
         Ok(factor)
     }
 
-    /// The standard uncertainty of a quantity, relative, of its derivatives d ln q/d ln G by the moduli in their order: √(gᵀ C g).
+    /// Relative standard uncertainty √(gᵀ C g) of a quantity with the derivatives g = d ln q/d ln G by the moduli in their order.
     pub(crate) fn uncertainty(&self, derivatives: &[f64]) -> f64 {
         let row = |(row, derivative): (&Vec<f64>, &f64)| {
             let product: f64 = row
@@ -126,7 +129,7 @@ impl Covariance {
             product * derivative
         };
         let variance: f64 = self.relative.iter().zip(derivatives).map(row).sum();
-        // Rounding of a variance that is 0.
+        // A variance of 0 may be negative by rounding.
         variance.max(0.0).sqrt()
     }
 }

@@ -1,35 +1,35 @@
-//! What can be wrong with a scene, with the key it is wrong at.
+//! Errors of a scene, each with its key.
 
 use numerics::{InvalidParameter, MessageNumber};
 use thiserror::Error;
 
-/// Why a scene is refused; the key is a path such as `material.prony.branches[2].modulus`.
+/// Reason why a scene is rejected; the key is a path such as `material.prony.branches[2].modulus`.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// A number is outside the range it may take.
+    /// A number is out of range.
     #[error("{key} must be {allowed}, but is {}", MessageNumber(*value))]
     Value {
-        /// Where.
+        /// Path of the number.
         key: String,
-        /// The refused value.
+        /// The rejected value.
         value: f64,
-        /// The values it may take.
+        /// The allowed range.
         allowed: &'static str,
     },
-    /// Something else is wrong at a key, alone or together with others: an unknown key, a missing one, a text instead of a
-    /// number, numbers that contradict each other.
+    /// Another error at a key, alone or together with others: an unknown or missing key, a text instead of a number, contradictory
+    /// numbers.
     #[error("{key}: {problem}")]
     At {
-        /// The key, or the one that is best changed.
+        /// Path of the key, or of the key to change.
         key: String,
         /// What is wrong.
         problem: String,
     },
-    /// No TOML.
+    /// The text is not valid TOML.
     #[error("{problem}")]
     Syntax {
-        /// Counted from 1.
+        /// Line, counted from 1.
         line: usize,
         /// What is wrong.
         problem: String,
@@ -37,7 +37,7 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    /// Something is wrong at a key, or at several, of which this one is best changed.
+    /// An error at a key, or at several, of which `key` is the one to change.
     pub fn at(key: impl Into<String>, problem: impl Into<String>) -> Self {
         Self::At {
             key: key.into(),
@@ -45,17 +45,18 @@ impl SceneError {
         }
     }
 
-    /// Refuses the first key of these that is given.
+    /// Rejects the first of these keys that is given.
     pub(crate) fn none_given(keys: &[(&str, Option<f64>)], problem: &str) -> Result<(), Self> {
         let given = keys.iter().find(|(_, value)| value.is_some());
         given.map_or(Ok(()), |(key, _)| Err(Self::at(*key, problem)))
     }
 
+    /// A parameter of a table is out of range.
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
         Self::value(format!("{table}.{}", refused.parameter), refused)
     }
 
-    /// The number at a key is refused.
+    /// The number at a key is out of range.
     pub(crate) const fn value(key: String, refused: InvalidParameter) -> Self {
         let InvalidParameter { value, allowed, .. } = refused;
         Self::Value {
@@ -66,7 +67,7 @@ impl SceneError {
     }
 }
 
-/// A parameter whose name is the whole key.
+/// Converts the error of a parameter whose name is the whole key.
 impl From<InvalidParameter> for SceneError {
     fn from(refused: InvalidParameter) -> Self {
         Self::value(refused.parameter.to_owned(), refused)

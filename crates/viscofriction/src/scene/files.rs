@@ -1,4 +1,4 @@
-//! The tables of numbers that a scene names: radii and heights of a profile, grids of heights, and histories.
+//! Readers of the CSV tables that a scene names: profiles, spectra, motions and histories.
 
 use std::path::Path;
 
@@ -13,6 +13,7 @@ use serde::de::DeserializeOwned;
 use super::load::{LoadPoint, MotionPoint};
 use crate::text::{RecordLines, line_of};
 
+/// A row of a profile.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ProfileRow {
@@ -23,7 +24,7 @@ struct ProfileRow {
 /// A profile from the contents of a CSV file with the columns `radius_m` and `height_m`.
 ///
 /// # Errors
-/// File, line and what is wrong there.
+/// A message with file, line and problem.
 pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<ProfileRow>(contents).map_err(wrong)?;
@@ -33,21 +34,22 @@ pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, S
         .map_err(|error| wrong((line_of_error(&error, &rows), error.to_string())))
 }
 
+/// A row of a power spectrum.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpectrumRow {
     wave_number: f64,
     density: f64,
-    /// How many wave vectors a ring of a measured spectrum has.
+    /// Number of wave vectors in the ring of a measured spectrum; read and ignored.
     #[serde(rename = "waves")]
     _waves: Option<f64>,
 }
 
-/// A power spectrum from the contents of a CSV file with the columns `wave_number` and `density`, whose densities are multiplied
-/// by a factor.
+/// A power spectrum from the contents of a CSV file with the columns `wave_number` and `density`; densities are multiplied by
+/// `factor`.
 ///
 /// # Errors
-/// File, line and what is wrong there.
+/// A message with file, line and problem.
 pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSpectrum, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<SpectrumRow>(contents).map_err(wrong)?;
@@ -70,6 +72,8 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
         .map_err(|error| wrong((last, error.to_string())))
 }
 
+/// A row of a load history.
+/// A row of a motion.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HistoryTableRow {
@@ -87,8 +91,8 @@ struct MotionTableRow {
     indentation_depth_m: Option<f64>,
 }
 
-/// A motion from the contents of a CSV file with the columns `time_s` and `position_m`, and perhaps `indentation_depth_m` or
-/// `normal_force_n`.
+/// A motion from the contents of a CSV file with the columns `time_s` and `position_m`, and optionally `indentation_depth_m`
+/// or `normal_force_n`.
 pub(super) fn motion(file: &Path, contents: &[u8]) -> Result<Vec<MotionPoint>, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<MotionTableRow>(contents).map_err(wrong)?;
@@ -142,7 +146,7 @@ pub(super) fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, St
     rows.into_iter().map(point).collect()
 }
 
-/// Refuses a table of so many points, of which the first is in a line, if there is one.
+/// Rejects a table of fewer than two rows; `first` is the line of its first row, if there is one.
 fn check_count(count: usize, first: Option<usize>) -> Result<(), (usize, String)> {
     match count {
         0 | 1 => {
@@ -155,6 +159,7 @@ fn check_count(count: usize, first: Option<usize>) -> Result<(), (usize, String)
     }
 }
 
+/// Rejects a time that is not finite, is negative, or does not follow the time before.
 fn check_time(time: f64, before: Option<f64>, follows: fn(f64, f64) -> bool) -> Result<(), String> {
     check_finite("time_s", time)?;
     if time < 0.0 {
@@ -174,6 +179,7 @@ fn check_time(time: f64, before: Option<f64>, follows: fn(f64, f64) -> bool) -> 
     }
 }
 
+/// Rejects a number that is not finite.
 fn check_finite(column: &str, number: f64) -> Result<(), String> {
     match number.is_finite() {
         true => Ok(()),
@@ -184,7 +190,7 @@ fn check_finite(column: &str, number: f64) -> Result<(), String> {
     }
 }
 
-/// Refuses a row that has not the force or the depth that the first one has, or has both.
+/// Rejects a row whose control differs from that of the first row, or has both force and depth.
 fn check_control(controls: [Option<f64>; 2], first: [bool; 2]) -> Result<(), String> {
     let names = ["normal_force_n", "indentation_depth_m"];
     for (name, number) in names.into_iter().zip(controls) {
@@ -217,12 +223,13 @@ fn check_control(controls: [Option<f64>; 2], first: [bool; 2]) -> Result<(), Str
     }
 }
 
+/// A message with file and line.
 fn at(file: &Path, line: usize, problem: &str) -> String {
     format!("{}:{line}: {problem}", file.display())
 }
 
-/// The rows and the lines they begin at, or a line and what is wrong there: of a text in UTF-8, or UTF-16 with its mark, with
-/// commas, semicolons or tabs between the columns, and lines of comments after `#`.
+/// The rows with their lines, or a line and its problem. The text is UTF-8, or UTF-16 with a byte-order mark; columns are
+/// separated by commas, semicolons or tabs; comments begin with `#`.
 fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize, String)> {
     let (text, separator) = plain(contents)?;
     let mut reader = ReaderBuilder::new()
@@ -256,8 +263,8 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
     Ok(rows)
 }
 
-/// The text with decimal points, without comments but with as many lines, and what separates its columns: the first comma,
-/// semicolon or tab in the line of names.
+/// The text with decimal points and empty lines for comments, and the separator: the first comma, semicolon or tab in the line
+/// of names.
 fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     let (text, encoding, is_garbled) = UTF_8.decode(contents);
     if is_garbled {
@@ -279,7 +286,7 @@ fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     let Some(separator @ (b';' | b'\t')) = separator else {
         return Ok((text, b','));
     };
-    // Names have neither, and numbers have one of them.
+    // With semicolons or tabs a comma can only be a decimal comma.
     let mixed = lines
         .iter()
         .position(|line| line.contains(',') && text.contains('.'));
@@ -290,7 +297,7 @@ fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     Ok((text.replace(',', "."), separator))
 }
 
-/// What is wrong, with the name of the column and what stands in it.
+/// The problem, with the name of the column and the contents of the cell.
 fn problem(error: &csv::Error, [names, record]: [&StringRecord; 2]) -> String {
     match error.kind() {
         ErrorKind::Deserialize { err, .. } => {
@@ -307,7 +314,7 @@ fn problem(error: &csv::Error, [names, record]: [&StringRecord; 2]) -> String {
     }
 }
 
-/// The line of the row that the library refuses.
+/// Line of the row that the library rejects.
 fn line_of_error(error: &IndenterError, rows: &[(usize, ProfileRow)]) -> usize {
     let has = |row: &ProfileRow, value: f64| {
         let numbers = [row.radius_m, row.height_m];

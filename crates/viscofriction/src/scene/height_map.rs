@@ -1,4 +1,4 @@
-//! `[indenter.height-map]`: a grid of heights, and how they are meant.
+//! `[indenter.height-map]`: a grid of heights with its units and conventions.
 
 use std::path::{Path, PathBuf};
 
@@ -80,6 +80,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
+    /// Length of the unit, \[m].
     const fn metres(self) -> f64 {
         match self {
             Self::M => 1.0,
@@ -90,7 +91,7 @@ impl LengthUnit {
     }
 }
 
-/// The table that keys and values describe, without the lines of a text.
+/// Reads the table from keys and values; errors have no line numbers.
 impl TryFrom<toml::Table> for HeightMapTable {
     type Error = SceneError;
 
@@ -102,7 +103,7 @@ impl TryFrom<toml::Table> for HeightMapTable {
     }
 }
 
-/// What is wrong with a file of heights, with its place.
+/// Message for an error in a file of heights, with the line if it is known.
 pub fn in_file(file: &Path, error: &TopographyError) -> String {
     let file = file.display();
     match error {
@@ -112,10 +113,10 @@ pub fn in_file(file: &Path, error: &TopographyError) -> String {
 }
 
 impl HeightMapTable {
-    /// The surface as the file holds it, of which these are the contents; beside them it takes at most so much `memory` \[bytes].
+    /// Reads the surface from the contents of its file, without conversion; it may take `memory` \[bytes] in addition to them.
     ///
     /// # Errors
-    /// [`SceneError`] with the place in the file, or for a spacing that is missing or not needed.
+    /// [`SceneError`] with the place in the file, or for a spacing that is missing or superfluous.
     pub fn read(
         &self,
         file: &Path,
@@ -132,11 +133,12 @@ impl HeightMapTable {
         })
     }
 
-    /// The surface in metres, with its heights out of the body, x along the motion, and holes and tilt treated as is asked.
+    /// Converts the surface to metres, with heights out of the body and x along the motion. Fills holes and removes the tilt if
+    /// requested.
     ///
     /// # Errors
-    /// [`SceneError`] for a direction or a spacing out of range, for heights that are missing, of which at most a half is
-    /// filled, for those beyond 1e30 m, and for a flat map.
+    /// [`SceneError`] for a direction or spacing out of range, missing heights (at most half can be filled), heights beyond
+    /// 1e30 m, and a flat map.
     pub fn prepared(&self, surface: Topography) -> Result<Topography, SceneError> {
         if self.edges == Edges::Wall && self.shortest_wavelength.is_some() {
             let problem = "needs edges = \"periodic\" or \"mirrored\", because a map with a wall has no waves; leave it out, or give edges";
@@ -162,7 +164,7 @@ impl HeightMapTable {
         Ok(surface.turned(whole_part(quarters)))
     }
 
-    /// With the units that are given where the file states none.
+    /// Converts to metres; units in the file take precedence over those of the table.
     fn in_metres(&self, surface: Topography) -> Result<Topography, SceneError> {
         if self.spacing.is_some() && self.lateral_unit.is_some() {
             let problem =
@@ -185,7 +187,7 @@ impl HeightMapTable {
         Ok(surface)
     }
 
-    /// Refuses heights that no unit has, as markers of missing heights have.
+    /// Rejects implausibly large heights, which are probably markers of missing heights.
     fn check_sizes(&self, surface: &Topography) -> Result<(), SceneError> {
         let columns = surface.shape[1];
         let mut heights = surface.heights.iter();
@@ -200,7 +202,7 @@ impl HeightMapTable {
         )))
     }
 
-    /// With its holes filled, if that is asked and they are no more than a half.
+    /// Fills the holes if requested and if they are at most half of the heights.
     fn without_holes(&self, surface: Topography) -> Result<Topography, SceneError> {
         let (points, missing) = (surface.heights.len(), surface.missing());
         if missing == 0 {
@@ -217,12 +219,12 @@ impl HeightMapTable {
         Err(SceneError::at("indenter.height-map.fill_missing", problem))
     }
 
-    /// Refuses a flat map, of which the largest height was given before it was levelled.
+    /// Rejects a flat map; `largest` is its largest height before the tilt was removed.
     fn check_relief(&self, surface: &Topography, largest: f64) -> Result<(), SceneError> {
         let heights = surface.heights.iter().copied();
         let [lowest, highest] =
             [f64::min, f64::max].map(|pick| heights.clone().fold(f64::NAN, pick));
-        // A single row or column is no map at all, which is said where the body is made of it.
+        // A single row or column is rejected later, by the constructor of the body.
         if highest - lowest > FLAT * largest || surface.shape.contains(&1) {
             return Ok(());
         }
@@ -239,20 +241,21 @@ impl HeightMapTable {
         )))
     }
 
+    /// An error of the file of heights.
     fn in_file(&self, problem: &str) -> SceneError {
         let file = self.file.display();
         SceneError::at("indenter.height-map.file", format!("{file}: {problem}"))
     }
 }
 
-/// Numbers that no length has are refused from here on, \[m].
+/// Largest height, \[m] (chosen, beyond any length and far from overflow).
 const LARGEST_HEIGHT: f64 = 1e30;
-/// Part of the largest height within which all others are the same but for rounding.
+/// Largest height range of a flat map, relative to its largest height (chosen, above rounding).
 const FLAT: f64 = 1e-12;
-/// How many times farther from all other heights than these are from each other a marker is.
+/// Smallest distance of a marker from all other heights, relative to their range (chosen).
 const MARKER_DISTANCE: f64 = 20.0;
 
-/// A sentence if the lowest or highest height stands alone far from all others, as -9999 or 1e10 for missing heights does.
+/// A note if the lowest or highest height is far from all others, like -9999 or 1e10 for missing heights.
 fn marker(heights: &[f64]) -> Option<String> {
     let known = || heights.iter().copied().filter(|height| !height.is_nan());
     let [lowest, highest] = [f64::min, f64::max].map(|pick| known().fold(f64::NAN, pick));
@@ -260,7 +263,7 @@ fn marker(heights: &[f64]) -> Option<String> {
         let others = || known().filter(|height| height.to_bits() != end.to_bits());
         let [from, to] = [f64::min, f64::max].map(|pick| others().fold(f64::NAN, pick));
         let distance = (from - end).abs().min((to - end).abs());
-        // With two heights only there is nothing to compare with.
+        // With two distinct heights there is no range to compare with.
         let is_far = to > from && distance > MARKER_DISTANCE * (to - from);
         let count = known().count() - others().count();
         is_far.then(|| {

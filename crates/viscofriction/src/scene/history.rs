@@ -1,4 +1,4 @@
-//! The history of a load, of a scene or of a file.
+//! Validation of an indentation history, given in the scene or in a file.
 
 use indenters::{Control, HistoryPoint};
 use numerics::in_range;
@@ -10,7 +10,7 @@ use crate::files::Files;
 use crate::text::WrongInput;
 
 impl Load {
-    /// The points of the history; none where the load is constant.
+    /// Validated points of the history; `None` if the load has no history.
     pub(crate) fn checked_history(
         &self,
         files: &Files<'_>,
@@ -38,7 +38,7 @@ impl Load {
         ];
         let problem = "a history says how the body moves, and nothing slides; leave this out";
         SceneError::none_given(&others, problem)?;
-        // Whoever wrote a file reads the number of its row, counted from 0 like an index.
+        // Rows of a file were checked by line when it was read, so its errors here name the file only.
         let key = |index: usize, name: &str| match (of_file, name) {
             (true, _) => "load.history_file".to_owned(),
             (false, "") => format!("load.history[{index}]"),
@@ -48,7 +48,7 @@ impl Load {
     }
 }
 
-/// The points, where time does not go back, and all have a force or all a depth.
+/// Validated points: time does not decrease, and all points have a force or all have a depth.
 fn checked(
     points: &[LoadPoint],
     key: impl Fn(usize, &str) -> String,

@@ -180,7 +180,7 @@ pub enum SpectrumConvention {
 }
 
 impl SpectrumConvention {
-    /// What a density is multiplied by for that of Persson.
+    /// Factor that converts a density to the convention of Persson.
     pub(crate) fn factor(self) -> f64 {
         match self {
             Self::Persson => 1.0,
@@ -189,9 +189,9 @@ impl SpectrumConvention {
     }
 }
 
-/// Most surfaces of one scene.
+/// Largest number of random surfaces of a scene (chosen).
 const MOST_REALISATIONS: u64 = 1000;
-/// Fewest realisations whose scatter tells the standard error of their mean.
+/// Smallest number of surfaces whose scatter gives a standard error of their mean (chosen: its own relative error is 1/√18, 24 %).
 pub(crate) const FEWEST_REALISATIONS: usize = 10;
 
 /// One term of a sum.
@@ -205,14 +205,14 @@ pub struct Term {
 }
 
 impl Indenter {
-    /// The key of the table.
+    /// Path of the table.
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("indenter.{name}")
     }
 
-    /// How many surfaces are drawn at most, 1 of a body that is not random, and the relative standard error of the mean at which no
-    /// more are.
+    /// Largest number of random surfaces, and the relative standard error of the mean at which sampling stops; 1 and `None` for a
+    /// body that is not random.
     ///
     /// # Errors
     /// [`SceneError`] for a number out of range.
@@ -242,7 +242,7 @@ impl Indenter {
         Ok((count, asked))
     }
 
-    /// One surface of those that are drawn, counted from 0, with its seed; none of a body that is not random.
+    /// One of the random surfaces, counted from 0, with its seed; `None` if the body is not random.
     pub fn realisation(&self, index: u64) -> Option<(Self, u64)> {
         let mut one = self.clone();
         let (Self::SelfAffine(SelfAffineSurface {

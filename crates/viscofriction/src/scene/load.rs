@@ -79,8 +79,8 @@ pub struct LoadPoint {
 }
 
 impl Load {
-    /// What is held constant on a body of which one `period` has that area \[m²], or that has none: the mean pressure of a
-    /// period is a force on it.
+    /// The constant force or depth. `period` is the area of one period \[m²], on which a mean pressure is a force; `None` for a
+    /// body that is not periodic.
     pub(crate) fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
         let at = |key: &str, problem: &str| Err(SceneError::at(format!("load.{key}"), problem));
         let pressed = |key, force| Ok(Control::NormalForce(positive(key, force)?));
@@ -114,7 +114,7 @@ impl Load {
         }
     }
 
-    /// The sliding speed, \[m/s].
+    /// Validated sliding velocity, \[m/s].
     pub(crate) fn checked_velocity(&self) -> Result<f64, SceneError> {
         let missing = || {
             let problem = "missing field `velocity`: give a velocity [m/s], or a stroke, a motion or a history";

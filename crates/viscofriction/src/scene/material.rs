@@ -1,4 +1,4 @@
-//! `[material.…]`: the half space.
+//! `[material.…]`: the viscoelastic material of the half space or layer.
 
 use std::path::PathBuf;
 
@@ -153,7 +153,7 @@ pub enum MaterialTable {
     },
 }
 
-/// What the file of a material holds.
+/// Contents of a material file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MaterialFile {
@@ -180,7 +180,7 @@ pub struct Approximation {
     pub time_range: [f64; 2],
 }
 
-/// An incompressible material, with the error of the series.
+/// Converts an expansion to an incompressible material with the error of the series.
 impl From<&PronyExpansion> for MaterialTable {
     fn from(expansion: &PronyExpansion) -> Self {
         let branches = expansion.spectrum.branches().iter();
@@ -204,18 +204,19 @@ impl From<&PronyExpansion> for MaterialTable {
     }
 }
 
+/// Poisson ratio of an incompressible material.
 const fn incompressible() -> f64 {
     0.5
 }
 
 impl MaterialTable {
-    /// The key of the table.
+    /// Path of the table.
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("material.{name}")
     }
 
-    /// Poisson ratio ν; none of a file that keeps its own.
+    /// Poisson ratio ν; `None` for a file whose own ratio is kept.
     pub const fn poisson_ratio(&self) -> Option<f64> {
         match self {
             Self::Viscous { poisson_ratio, .. }
@@ -230,7 +231,7 @@ impl MaterialTable {
         }
     }
 
-    /// How times and moduli change with temperature, where that is known.
+    /// Temperature dependence of times and moduli; `None` if it is not known.
     pub const fn shift(&self) -> Option<&Shift> {
         match self {
             Self::Prony { shift, .. } => shift.as_ref(),
@@ -238,7 +239,7 @@ impl MaterialTable {
         }
     }
 
-    /// How well the moduli are known, where that was found.
+    /// Covariance of the moduli; `None` if it is not known.
     pub const fn covariance(&self) -> Option<&Covariance> {
         match self {
             Self::Prony { covariance, .. } => covariance.as_ref(),
@@ -246,7 +247,7 @@ impl MaterialTable {
         }
     }
 
-    /// The same material without what is known of its moduli, where these become others.
+    /// Removes the covariance, which does not apply to other moduli.
     #[cfg(feature = "fit")]
     pub(crate) fn without_covariance(mut self) -> Self {
         if let Self::Prony { covariance, .. } = &mut self {
@@ -255,7 +256,7 @@ impl MaterialTable {
         self
     }
 
-    /// The material of a file with the Poisson ratio and the window of the scene, where that has them.
+    /// Overrides Poisson ratio and valid frequencies of a material file by those of the scene, if given.
     pub(crate) fn with_given(
         self,
         poisson_ratio: Option<f64>,
@@ -276,7 +277,7 @@ impl MaterialTable {
         Self::try_from(Table::from_iter([("material".to_owned(), material)]))
     }
 
-    /// The same material at another temperature \[°C], by its shift law.
+    /// The material at another temperature \[°C], by its shift law.
     pub(crate) fn at(mut self, celsius: f64) -> Result<Self, SceneError> {
         let key = "material.file.temperature";
         let Self::Prony {
@@ -311,7 +312,7 @@ impl MaterialTable {
         Ok(self)
     }
 
-    /// The window of frequencies in which the material was measured, where it is given here.
+    /// Measured range of angular frequencies, \[rad/s]; `None` if this table states none.
     pub const fn valid_frequencies(&self) -> Option<[f64; 2]> {
         let (Self::Viscous {
             valid_frequencies, ..
@@ -344,7 +345,7 @@ impl MaterialTable {
     }
 }
 
-/// The material that keys and values describe, of a file with one table `[material.…]`.
+/// Reads a material file, with one table `[material.…]`, from its keys and values.
 impl TryFrom<Table> for MaterialTable {
     type Error = SceneError;
 

@@ -1,6 +1,6 @@
-//! The scene file: indenter, material, load and what is asked, as a person types them.
+//! The scene file: indenter, material, load and request, as a user writes them.
 //!
-//! Tables are externally tagged, because only then an error knows the line and the key it belongs to.
+//! Enums are externally tagged, because only then an error knows its line and key.
 
 mod covariance;
 mod error;
@@ -71,7 +71,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A body on the half space, solved to the relative error that scenes have by default.
+    /// A body on the half space, solved to the default relative error.
     pub fn new(indenter: Indenter, material: MaterialTable, load: Load) -> Self {
         Self {
             indenter,
@@ -84,8 +84,7 @@ impl Scene {
     }
 }
 
-/// The scene that a text in TOML describes, as a scene file holds it; numbers are checked by
-/// [`Problem`](crate::Problem).
+/// Parses a scene file in TOML; [`Problem`](crate::Problem) validates its numbers.
 impl FromStr for Scene {
     type Err = WrongInput;
 
@@ -95,7 +94,7 @@ impl FromStr for Scene {
     }
 }
 
-/// The scene that keys and values describe, without the lines of a text.
+/// Reads a scene from keys and values; errors have no line numbers.
 impl TryFrom<toml::Table> for Scene {
     type Error = SceneError;
 
@@ -107,7 +106,7 @@ impl TryFrom<toml::Table> for Scene {
 /// The JSON Schema of the scene file, as docs/scene.schema.json holds it.
 ///
 /// # Errors
-/// When the schema cannot be written as JSON.
+/// If the schema cannot be written as JSON.
 pub fn json_schema() -> Result<String, serde_json::Error> {
     let mut text = serde_json::to_string_pretty(&schemars::schema_for!(Scene))?;
     text.push('\n');

@@ -1,4 +1,4 @@
-//! A motion along the surface, of a scene or of a file: to and fro, or through points.
+//! Validation of a motion along the surface, given in the scene or in a file: reciprocating, or through given positions.
 
 use indenters::{Control, IndenterError, MovingLoad, MovingPoint, Shape, Stroke};
 use numerics::{in_range, positive};
@@ -9,12 +9,16 @@ use super::load::{Load, MotionPoint, StrokeShape};
 use crate::files::Files;
 use crate::text::WrongInput;
 
+/// Message for several motions or histories.
 const ONE_OF: &str = "a body moves through the points of motion or motion_file, or over a stroke, or follows a history: give one of them";
+/// Message for a velocity or a track beside a motion.
 const MOVES: &str = "a motion says how the body moves; leave this out";
+/// Message for a force or depth in the motion of a periodic surface.
 const OWN_PRESSURE: &str = "a periodic surface is pressed by load.mean_pressure all the time; leave forces and depths of points out";
 
 impl Load {
-    /// To and fro, or through points, of a body with that area \[m²] of one `period` or none; none where the speed is constant.
+    /// Validated reciprocating motion, or motion through given positions; `None` if there is none. `period` is the area of one
+    /// period \[m²] of a periodic surface.
     pub(crate) fn checked_motion(
         &self,
         period: Option<f64>,
@@ -67,7 +71,7 @@ impl Load {
         load.map(Some).map_err(|error| refused(key, &error))
     }
 
-    /// Refuses what says something else about the motion.
+    /// Rejects a second description of the motion.
     fn check_alone(&self) -> Result<(), SceneError> {
         let motions = [
             ("load.stroke", self.stroke.is_some()),
@@ -88,7 +92,7 @@ impl Load {
         Ok(())
     }
 
-    /// The points with their forces or depths, or with that of the load.
+    /// The points with their own forces or depths, else with that of the load.
     fn pressed(
         &self,
         points: &[MotionPoint],
@@ -135,20 +139,21 @@ impl Load {
         points.iter().enumerate().map(moving).collect()
     }
 
-    /// The length of a track, of a body that slides with a speed, \[m].
+    /// Validated length of the track, \[m]; `None` if there is none.
     pub(crate) fn checked_track(&self) -> Result<Option<f64>, SceneError> {
         let track = self.track.map(|track| positive("load.track", track));
         Ok(track.transpose()?)
     }
 }
 
-/// A point of a motion, of the scene or of a file, whose rows count from 0 like an index.
+/// Location of a point of a motion for error messages: its index in the scene, or only the file.
 struct Place<'a> {
     key: &'a str,
     index: usize,
 }
 
 impl Place<'_> {
+    /// Path of a value of the point; that of a file is the key of the file.
     fn key(&self, name: &str) -> String {
         let Self { key, index } = self;
         match name {
@@ -158,6 +163,7 @@ impl Place<'_> {
         }
     }
 
+    /// Rejects a number that is not finite or not allowed.
     fn number(
         &self,
         name: &'static str,
@@ -169,7 +175,7 @@ impl Place<'_> {
         in_range(name, value, holds && value.is_finite(), allowed).map_err(wrong)
     }
 
-    /// The force or depth of a point, as the first one has it.
+    /// Force or depth of a point; it must be of the kind of the first point.
     fn control(&self, point: &MotionPoint, first: &MotionPoint) -> Result<Control, SceneError> {
         let wrong = |problem| Err(SceneError::at(self.key(""), problem));
         let control = match (point.normal_force, point.indentation_depth) {
@@ -195,7 +201,7 @@ impl Place<'_> {
     }
 }
 
-/// A number that follows from those of the scene.
+/// Attributes an error of a derived number to a key.
 fn refused(key: &str, error: &IndenterError) -> SceneError {
     let advice = match error {
         IndenterError::InvalidParameter(refused) if refused.value == 0.0 => {

@@ -1,4 +1,4 @@
-//! `[solve]`: what is asked, and how well.
+//! `[solve]`: method, accuracy and resources.
 
 use numerics::{Accuracy, in_range, positive};
 use schemars::JsonSchema;
@@ -71,13 +71,13 @@ pub enum Model {
 }
 
 impl Model {
-    /// The name in a scene file.
+    /// Name in a scene file.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// Units of memory, \[bytes].
+/// Units of memory with their size, \[bytes].
 const UNITS: [(&str, f64); 9] = [
     ("B", 1.0),
     ("kB", 1e3),
@@ -89,19 +89,19 @@ const UNITS: [(&str, f64); 9] = [
     ("GiB", 1_073_741_824.0),
     ("TiB", 1_099_511_627_776.0),
 ];
-/// Whole numbers are exact up to here.
+/// Largest memory limit, \[bytes]: whole numbers are exact in f64 up to 2⁵³.
 const MOST_BYTES: f64 = (1_u64 << 53) as f64;
 
-/// Unless the scene says otherwise.
+/// Default relative error (chosen).
 const RELATIVE_ERROR: f64 = 1e-3;
 
 impl Method {
-    /// The name in a scene file.
+    /// Name in a scene file.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// The one model that the method is of; none of closed forms, which there are of both.
+    /// Model of the method; `None` for closed forms, which exist for both models.
     pub const fn model(self) -> Option<Model> {
         match self {
             Self::Analytic => None,
@@ -112,7 +112,7 @@ impl Method {
 }
 
 impl Solve {
-    /// How well the answer is asked for.
+    /// Validated accuracy: relative error or number of elements.
     pub(crate) fn accuracy(&self) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {
             (Some(_), Some(_)) => Err(SceneError::at(
@@ -135,7 +135,7 @@ impl Solve {
         }
     }
 
-    /// Threads that compute; none for all that there are.
+    /// Validated number of threads; `None` for all available ones.
     pub(crate) fn checked_threads(&self) -> Result<Option<usize>, SceneError> {
         if let Some(threads) = self.threads {
             let holds = (1..=1024).contains(&threads);
@@ -144,7 +144,7 @@ impl Solve {
         Ok(self.threads)
     }
 
-    /// Memory that one solution may take, \[bytes]; none where the scene does not say.
+    /// Validated memory limit of one solution, \[bytes]; `None` if the scene gives none.
     pub(crate) fn checked_memory(&self) -> Result<Option<u64>, SceneError> {
         let Some(text) = &self.max_memory else {
             return Ok(None);
@@ -166,17 +166,17 @@ impl Solve {
         whole.ok_or_else(refused).map(Some)
     }
 
-    /// Allows a part, one in so many, of the memory that the scene gives, or of `otherwise` \[bytes] where it gives none.
+    /// Sets the limit to one of `parts` equal parts of the memory that the scene gives, else of `otherwise` \[bytes].
     ///
     /// # Errors
-    /// [`SceneError`] where the scene gives no size.
+    /// [`SceneError`] if the memory limit of the scene is invalid.
     pub fn limit_memory(&mut self, otherwise: Option<u64>, parts: u64) -> Result<(), SceneError> {
         let whole = self.checked_memory()?.or(otherwise);
         self.max_memory = whole.map(|bytes| format!("{} B", (bytes / parts).max(1)));
         Ok(())
     }
 
-    /// Distance slid to the state that is asked for, \[m]; `None` for the stationary state.
+    /// Validated sliding distance to the requested state, \[m]; `None` for the stationary state.
     pub(crate) fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
         Ok(match (self.duration, self.sliding_distance) {
             (Some(_), Some(_)) => Err(SceneError::at(
@@ -192,7 +192,7 @@ impl Solve {
         })
     }
 
-    /// Time of a pure indentation, \[s].
+    /// Validated duration of an indentation without sliding, \[s].
     ///
     /// # Errors
     /// [`SceneError`] without a duration, with a sliding distance, or for a number out of range.

@@ -1,4 +1,4 @@
-//! From a text to a scene, and from an error to the line it belongs to.
+//! Parsing of scene files, and attribution of errors to lines.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use toml::{Table, Value};
 use super::{Scene, SceneError};
 use crate::text::{WrongInput, line_of};
 
-/// A scene file as it was read.
+/// The text of a scene file with its path.
 #[derive(Debug, Clone)]
 pub struct Source {
     path: PathBuf,
@@ -19,10 +19,10 @@ pub struct Source {
 }
 
 impl Source {
-    /// A file of the given contents.
+    /// Wraps the contents of a file.
     ///
     /// # Errors
-    /// [`WrongInput`] where the text is no UTF-8.
+    /// [`WrongInput`] if the text is not UTF-8.
     pub fn new(path: &Path, contents: Vec<u8>) -> Result<Self, WrongInput> {
         let text = String::from_utf8(contents).map_err(|error| {
             let line = line_of(error.as_bytes(), error.utf8_error().valid_up_to());
@@ -34,25 +34,25 @@ impl Source {
         })
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What stands in it.
+    /// Text of the file.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Where the files are that a scene names.
+    /// Folder of the file, to which file names in the scene are relative.
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
-    /// The keys and values of the file.
+    /// Parses the keys and values of the file.
     ///
     /// # Errors
-    /// [`WrongInput`] where the text is no TOML.
+    /// [`WrongInput`] if the text is not TOML, or if a path contains an escape.
     pub fn table(&self) -> Result<Table, WrongInput> {
         let wrong = |start: usize, problem: String| {
             let line = line_of(self.text.as_bytes(), start);
@@ -81,7 +81,7 @@ impl Source {
         Ok(table)
     }
 
-    /// The error with file and line.
+    /// The message of an error with file and line.
     pub fn locate(&self, error: &SceneError) -> WrongInput {
         let line = match error {
             SceneError::Syntax { line, .. } => *line,
@@ -90,7 +90,7 @@ impl Source {
         WrongInput(format!("{}:{line}: {error}", self.path.display()))
     }
 
-    /// The line of a key, or of the innermost table on the way to it that is there; the first line without any.
+    /// Line of a key, else of the innermost existing table on its path, else line 1.
     fn line_of_key(&self, key: &str) -> usize {
         let Ok(document) = DeTable::parse(&self.text) else {
             return 1;
@@ -114,7 +114,7 @@ impl Source {
     }
 }
 
-/// The keys of a path, some of which are quoted, as in `uncertainty."load.velocity"`; the quotes are left out.
+/// Keys of a path without the quotes that some have, as in `uncertainty."load.velocity"`.
 fn segments(path: &str) -> Vec<&str> {
     let mut is_quoted = false;
     let parts = path.split(|letter| {
@@ -124,7 +124,7 @@ fn segments(path: &str) -> Vec<&str> {
     parts.map(|part| part.trim_matches('"')).collect()
 }
 
-/// The path of a key in a table, in quotes where it has a point, as TOML wants it.
+/// Path of a key in a table, quoted as in TOML if the key contains a point.
 pub(crate) fn quoted(table: &str, key: &str) -> String {
     let key = if key.contains('.') {
         format!("{key:?}")
@@ -135,7 +135,7 @@ pub(crate) fn quoted(table: &str, key: &str) -> String {
     format!("{table}{between}{key}")
 }
 
-/// The path at which serde refuses a value.
+/// Path at which serde rejects a value.
 fn path_of(path: &serde_path_to_error::Path) -> String {
     path.iter()
         .fold(String::new(), |before, segment| match segment {
@@ -146,7 +146,7 @@ fn path_of(path: &serde_path_to_error::Path) -> String {
         })
 }
 
-/// Refuses a path of an uncertain number that is not in quotes, and is tables of its keys.
+/// Rejects the path of an uncertain number without quotes, which TOML reads as nested tables.
 fn check_quotes(table: &Table) -> Result<(), SceneError> {
     let uncertain = table.get("uncertainty").and_then(Value::as_table);
     let Some((first, mut inner)) = uncertain
@@ -165,26 +165,26 @@ fn check_quotes(table: &Table) -> Result<(), SceneError> {
     Err(SceneError::at(format!("uncertainty.{path}"), problem))
 }
 
-/// What to do about a path of Windows between double quotes.
+/// Advice for a Windows path between double quotes.
 const BACKSLASH: &str = "; between double quotes a backslash begins an escape, as \\t a tab: write the path between single quotes, \
     '…', or with / in the place of every backslash";
-/// What to do about a quantity with a unit.
+/// Advice for a quantity with a unit.
 const NO_UNITS: &str = "; numbers of a scene are in SI units, and stand there without a unit";
 
-/// What to do about a value that is none of TOML, as `radius = 5 mm`, `velocity = 0,1` or `model = line`.
+/// Advice for a value that is not TOML, such as `radius = 5 mm`, `velocity = 0,1` or `model = line`.
 const VALUES: &str =
     "; a number is in SI units, with a point and without a unit, and a text stands between quotes";
 
-/// Keys whose values are paths.
+/// Keys whose values are file names.
 const PATHS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
 
-/// The first path with an escape of another sign than a backslash or a quote, which no path has on purpose.
+/// First file name with an escape other than `\\` or `\"`, which is probably an unescaped Windows path.
 fn escaped_path(table: &DeTable<'_>, text: &str) -> Option<Range<usize>> {
     table.iter().find_map(|(key, value)| match value.get_ref() {
         DeValue::Table(table) => escaped_path(table, text),
         DeValue::String(_) if PATHS.contains(&&**key.get_ref()) => {
             let raw = text.get(value.span())?.strip_prefix('"')?;
-            // What is left of a backslash that stands for itself is no escape.
+            // Remove escaped backslashes and quotes; any backslash left begins another escape.
             let plain = raw.replace(r"\\", "").replace(r#"\""#, "");
             plain.contains('\\').then(|| value.span())
         }
@@ -192,13 +192,13 @@ fn escaped_path(table: &DeTable<'_>, text: &str) -> Option<Range<usize>> {
     })
 }
 
-/// The scene that keys and values describe, without an unknown or missing key or a value of the wrong type.
+/// Reads a scene; rejects unknown and missing keys and values of the wrong type.
 pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
     check_quotes(&table)?;
     checked(table, &["indenter", "material"])
 }
 
-/// What the tables of a file describe, of which some are one table each, whose name is the kind.
+/// Deserializes the tables of a file; each table in `kinds` must contain exactly one table, named by its kind.
 pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Result<T, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
@@ -213,7 +213,7 @@ pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Resu
     })
 }
 
-/// What is wrong with a value, in words in the place of types of Rust.
+/// Message for a value of the wrong type, without Rust type names.
 pub(super) fn problem_of(error: &toml::de::Error) -> String {
     let problem = error.message().trim();
     match problem.rsplit_once(", expected ") {
@@ -228,21 +228,21 @@ pub(super) fn problem_of(error: &toml::de::Error) -> String {
     }
 }
 
-/// Keys of lists of lists of numbers.
+/// Keys whose values are matrices.
 const ROWS: [&str; 2] = [".covariance.relative", ".shift.vertical.table"];
 
-/// Refuses lists where tables belong, of which serde would take the values in the order of the keys.
+/// Rejects lists in place of tables, whose values serde would assign to the keys by order.
 fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
     let table = value.as_table().ok_or_else(|| no_table(key, value))?;
     let is_kind = ["indenter", "material"].contains(&key);
     for (name, value) in table {
         let inner = format!("{key}.{name}");
         match value {
-            // Rows of numbers.
+            // A matrix needs no tables.
             Value::Array(_) if ROWS.iter().any(|key| inner.ends_with(key)) => {}
             Value::Table(_) => check_tables(&inner, value)?,
             Value::Array(elements) => {
-                // Serde says itself what it needs in the place of a list of numbers.
+                // For a list of plain values serde reports the expected type itself.
                 let is_plain =
                     |element: &Value| !matches!(element, Value::Array(_) | Value::Table(_));
                 for (index, element) in elements.iter().enumerate() {
@@ -258,13 +258,14 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// Error for a value in place of a table.
 fn no_table(key: &str, value: &Value) -> SceneError {
     let found = value.type_str();
     let problem = format!("a table is needed, and not a value of type {found}");
     SceneError::at(key, problem)
 }
 
-/// Refuses no kind, and several.
+/// Rejects a table without a kind, and one with several.
 fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
     match table.get(key).and_then(Value::as_table) {
         Some(kinds) if kinds.len() != 1 => {
@@ -278,7 +279,7 @@ fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
     }
 }
 
-/// The path with the key that is unknown or missing.
+/// Path of the unknown or missing key that a message names.
 fn full_key(path: &str, problem: &str) -> String {
     let starts = ["unknown field `", "unknown variant `", "missing field `"];
     let rest = starts.iter().find_map(|start| problem.strip_prefix(start));
@@ -292,7 +293,7 @@ fn full_key(path: &str, problem: &str) -> String {
     }
 }
 
-/// `branches[2]` as name and index.
+/// Splits `branches[2]` into name and index.
 pub(crate) fn split_index(segment: &str) -> (&str, Option<usize>) {
     match segment.split_once('[') {
         Some((name, rest)) => (name, rest.trim_end_matches(']').parse().ok()),
