@@ -1,4 +1,4 @@
-//! The checks of what the commands read, without the commands.
+//! Validation of input files without running a command.
 
 use std::path::Path;
 
@@ -16,25 +16,25 @@ use crate::sweep::TableFile;
 /// A kind of file that the commands read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InputKind {
-    /// A scene, of `run` and `sweep`.
+    /// A scene of `run` and `sweep`.
     Scene,
-    /// Radii and heights that a scene names.
+    /// A table of radii and heights that a scene names.
     Profile,
-    /// A grid of heights that a scene names.
+    /// A height map that a scene names.
     HeightMap,
-    /// Measured moduli, of `fit-material`.
+    /// Measured moduli of `fit-material`.
     Moduli,
-    /// Measured force over depth, of `fit-indentation`.
+    /// Measured force over depth of `fit-indentation`.
     Curve,
-    /// Measured friction over speed, of `fit-friction`.
+    /// Measured friction over speed of `fit-friction`.
     Friction,
-    /// Rows of a sweep, of `sweep --resume` and `sweep --merge`.
+    /// Rows of a sweep for `sweep --resume` and `sweep --merge`.
     SweepRows,
 }
 
-/// Checks the contents of a `file` like the command that reads it, up to the point where it would begin to compute.
+/// Validates the contents of a `file` like the command that reads it, up to the start of the computation.
 ///
-/// The file need not be there; what a scene names is beside it.
+/// The file need not exist; files that a scene names are read from its folder.
 ///
 /// # Errors
 /// [`WrongInput`] with file and line.
@@ -49,19 +49,19 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         InputKind::HeightMap => {
             let extension = file.extension().unwrap_or_default().to_string_lossy();
             let read = |spacing| Topography::read(&extension, contents, spacing, u64::MAX);
-            // Texts may state a size, and measured surfaces have a spacing.
+            // Texts may state their size and measured surfaces their spacing; other formats need one.
             let surface = match read(None) {
                 Err(TopographyError::Spacing { .. }) => read(Some([1.0; 2])),
                 other => other,
             };
             let surface = surface.map_err(|error| WrongInput(in_file(file, &error)))?;
-            // All of the surface is wrong.
+            // The error concerns the whole surface, so it names line 1.
             let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
             surface.body().map(drop).map_err(wrong)
         }
         InputKind::Moduli => check_table(file, contents),
         InputKind::Curve => {
-            // A table that does not say how stiff its cantilever is needs what the command line says.
+            // The spring constant may be missing from the table and given on the command line.
             let options = CurveOptions {
                 spring_constant: Some(1.0),
                 ..CurveOptions::default()

@@ -1,4 +1,4 @@
-//! What the commands read: files and the standard input, none of them without end.
+//! Input of the commands: regular files and the standard input, all of limited size.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -11,19 +11,20 @@ use viscofriction::indenters::topography::length;
 use viscofriction::numerics::InvalidParameter;
 use viscofriction::scene::Source;
 
-/// Larger files are no input of this program, \[bytes].
+/// Largest input file, \[bytes] (chosen).
 const LARGEST_FILE: u64 = 1 << 30;
 
-/// A scene is written by a person, and names the files that are large.
+/// Largest scene file, \[bytes] (chosen: scenes are written by hand, and large data are in files of their own).
 const LARGEST_SCENE: u64 = 1 << 24;
 
-/// A file whatever name or link it is opened by: its device and its number there.
+/// Identity of a file independent of names and links: device and inode.
 #[cfg(unix)]
 type Identity = (u64, u64);
-/// A file whatever link it is opened by, with the name that it has in its folder.
+/// Identity of a file independent of symbolic links: its canonical path.
 #[cfg(not(unix))]
 type Identity = std::path::PathBuf;
 
+/// Identity of an existing file.
 fn identity(path: &Path) -> io::Result<Identity> {
     #[cfg(unix)]
     return {
@@ -34,46 +35,46 @@ fn identity(path: &Path) -> io::Result<Identity> {
     path.canonicalize()
 }
 
-/// The inputs of this command, none of which any option replaces.
+/// Input files of this command; no option may replace them.
 static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
 
-/// Keeps a file from being replaced by this command; [`read_input`] does so too.
+/// Protects a file from being replaced by this command; [`read_input`] does so too.
 pub(crate) fn protect(path: &Path) {
     let mut inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
     inputs.extend(identity(path));
 }
 
-/// Whether this command reads the file, under this name or another.
+/// True if the file is an input of this command, under any name.
 pub(crate) fn is_input(path: &Path) -> bool {
     let inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
     identity(path).is_ok_and(|file| inputs.contains(&file))
 }
 
-/// Reads a file that a scene names, of at most so many bytes.
+/// Reads and protects a file that a scene names, of at most `most` bytes.
 pub(crate) fn read_input(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     protect(path);
     read_file(path, most)
 }
 
-/// Reads a table that the command line names.
+/// Reads and protects a table that the command line names.
 pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, WrongInput> {
     protect(path);
     read_rows(path)
 }
 
-/// Reads a table that the command may also write; its cells of two bytes at least fit with their texts into half of the free
-/// memory.
+/// Reads a table that the command may also write. Its size is limited so that the cells, of at least two bytes each, fit into
+/// half of the free memory as texts.
 pub(crate) fn read_rows(path: &Path) -> Result<Vec<u8>, WrongInput> {
     read_file(path, half_of_free_memory().unwrap_or(u64::MAX) / 32)
 }
 
-/// Keeps a table that the command line names from being replaced, and refuses one that cannot be opened.
+/// Protects a table that the command line names; an error if it cannot be opened.
 pub(crate) fn check_file(path: &Path) -> Result<(), WrongInput> {
     protect(path);
     opened(path).map(drop).map_err(|error| unread(path, &error))
 }
 
-/// Reads a regular file of at most so many bytes.
+/// Reads a regular file of at most `most` bytes.
 fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     let most = most.min(LARGEST_FILE);
     let read = || {
@@ -88,6 +89,7 @@ fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     read().map_err(|error| unread(path, &error))
 }
 
+/// Opens a regular file.
 fn opened(path: &Path) -> io::Result<File> {
     if !path.metadata()?.is_file() {
         let needed = "a regular file is needed, and not a folder, a device or a pipe";
@@ -96,11 +98,12 @@ fn opened(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
+/// Error for a file that was not read.
 fn unread(path: &Path, error: &io::Error) -> WrongInput {
     WrongInput(format!("{}: {error}", path.display()))
 }
 
-/// Parameters of the libraries, and the options that give them.
+/// Parameter names of the libraries with the options that set them.
 const OPTIONS: [(&str, &str); 16] = [
     ("n_branches", "--branches"),
     ("branches", "--branches"),
@@ -120,7 +123,7 @@ const OPTIONS: [(&str, &str); 16] = [
     ("run_in", "--run-in"),
 ];
 
-/// The option that gave what a library refuses.
+/// Attributes the error of a parameter to its option.
 pub(crate) fn wrong_option(mut refused: InvalidParameter) -> WrongInput {
     let mut options = OPTIONS.iter();
     if let Some((_, option)) = options.find(|(parameter, _)| *parameter == refused.parameter) {
@@ -129,7 +132,7 @@ pub(crate) fn wrong_option(mut refused: InvalidParameter) -> WrongInput {
     WrongInput(refused.to_string())
 }
 
-/// Half of the memory that the machine has free, \[bytes]; none where the system does not say.
+/// Half of the available memory, \[bytes]; `None` if the system does not state it.
 pub(crate) fn half_of_free_memory() -> Option<u64> {
     let table = fs::read_to_string("/proc/meminfo").ok()?;
     let free = table
@@ -139,16 +142,16 @@ pub(crate) fn half_of_free_memory() -> Option<u64> {
     Some(512 * kilobytes)
 }
 
-/// A length of the command line, in m or with a unit.
+/// Parses a length, in m or with a unit.
 pub(crate) fn metres(text: &str) -> Result<f64, String> {
     let metres = text.trim().parse().ok().or_else(|| length(text));
     metres.ok_or_else(|| "a length is needed, in m or with a unit, as \"10 um\"".to_owned())
 }
 
-/// The scene in a file, or on the standard input.
+/// Reads the scene from a file, or from the standard input for `-`.
 pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     let contents = if path == Path::new("-") {
-        // A file that a shell has opened for it is an input too.
+        // Protect a file that the shell redirects to the standard input.
         protect(Path::new("/dev/stdin"));
         let contents = read_at_most(LARGEST_SCENE, io::stdin());
         contents.map_err(|error| WrongInput(format!("-: {error}")))?
@@ -158,6 +161,7 @@ pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     Source::new(path, contents)
 }
 
+/// Reads at most `most` bytes; an error if there are more.
 fn read_at_most(most: u64, file: impl Read) -> io::Result<Vec<u8>> {
     let mut contents = Vec::new();
     file.take(most + 1).read_to_end(&mut contents)?;

@@ -1,7 +1,6 @@
 //! The program `viscofriction`: scenes, sweeps, and materials and surfaces from measurements.
 //!
-//! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong; 3 what was computed could not be
-//! written.
+//! Exit status: 0 success; 1 the computation failed or missed the request; 2 invalid input; 3 the result could not be written.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod check;
@@ -40,11 +39,11 @@ struct CommandLine {
     command: Command,
 }
 
-/// A negative number is a value, and no option: whether it is allowed is for what it stands for to say.
+/// Lets clap pass negative numbers as values; the range of each option is checked later.
 fn with_negative_numbers(option: Arg) -> Arg {
     let takes_values = option.get_action().takes_values();
     let is_number = option.get_value_parser().type_id() == TypeId::of::<f64>();
-    // What clap takes for a negative number has no sign in its exponent.
+    // clap does not recognize negative numbers with a signed exponent, so allow any leading hyphen.
     option
         .allow_negative_numbers(takes_values)
         .allow_hyphen_values(is_number)
@@ -79,16 +78,16 @@ enum Command {
     },
 }
 
-/// The commands of the program with their options.
+/// The command line of the program.
 pub fn command_line() -> clap::Command {
     CommandLine::command()
 }
 
-/// Does what the command line asks for.
+/// Parses the command line and runs the command.
 pub fn execute() -> ExitCode {
     let result = match CommandLine::try_parse() {
         Ok(line) => line.command.execute(),
-        // Help and the version are output as any other.
+        // Help and version are ordinary output.
         Err(asked) if !asked.use_stderr() => output::printed(|| asked.print()),
         Err(wrong) => wrong.exit(),
     };
@@ -113,6 +112,7 @@ fn status(error: &anyhow::Error) -> u8 {
 }
 
 impl Command {
+    /// Runs the command.
     fn execute(self) -> anyhow::Result<()> {
         match self {
             Self::Run(options) => run::run(&options),
@@ -128,10 +128,12 @@ impl Command {
     }
 }
 
+/// Prints the JSON Schema of scene files.
 fn scene_schema() -> anyhow::Result<()> {
     output::print_text(&viscofriction::scene::json_schema()?)
 }
 
+/// Prints the completion script of a shell.
 fn completions(shell: Shell) -> anyhow::Result<()> {
     let (mut script, mut command) = (Vec::new(), command_line());
     clap_complete::generate(shell, &mut command, "viscofriction", &mut script);

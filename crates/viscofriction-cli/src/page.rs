@@ -1,13 +1,14 @@
-//! A page in HTML that needs no other file and no network.
+//! Self-contained HTML pages, without other files and network access.
 
 use std::fmt::{Display, Write as _};
 
 use comfy_table::{Row, Table};
 use viscofriction_plot::{Figure, draw};
 
+/// Style sheet of the page.
 const STYLE: &str = include_str!("page.css");
 
-/// A page that is being written.
+/// A page under construction.
 #[derive(Debug)]
 pub(crate) struct Page {
     title: String,
@@ -15,6 +16,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
+    /// An empty page with a title.
     pub(crate) fn new(title: &str) -> Self {
         Self {
             title: escaped(title),
@@ -22,19 +24,23 @@ impl Page {
         }
     }
 
+    /// Appends an element with escaped text.
     fn tagged(&mut self, tag: &str, text: &dyn Display) {
         let text = escaped(&text.to_string());
         writeln!(self.body, "<{tag}>{text}</{tag}>").ok();
     }
 
+    /// Appends a heading.
     pub(crate) fn heading(&mut self, text: &str) {
         self.tagged("h2", &text);
     }
 
+    /// Appends a paragraph.
     pub(crate) fn paragraph(&mut self, text: &str) {
         self.tagged("p", &text);
     }
 
+    /// Appends a list.
     pub(crate) fn list(&mut self, items: impl IntoIterator<Item = impl Display>) {
         self.body += "<ul>\n";
         for item in items {
@@ -43,13 +49,14 @@ impl Page {
         self.body += "</ul>\n";
     }
 
-    /// Text that opens when its summary is clicked.
+    /// Appends collapsed text that opens by its summary.
     pub(crate) fn hidden(&mut self, summary: &str, text: &str) {
         let [summary, text] = [summary, text].map(escaped);
         let summary = format!("<summary>{summary}</summary>");
         writeln!(self.body, "<details>{summary}<pre>{text}</pre></details>").ok();
     }
 
+    /// Appends a table.
     pub(crate) fn table(&mut self, table: &Table) {
         let row = |row: &Row, tag: &str| {
             let cells = row.cell_iter().map(|cell| {
@@ -67,9 +74,10 @@ impl Page {
         self.body += "</table></div>\n";
     }
 
+    /// Appends a picture as inline SVG.
     pub(crate) fn picture(&mut self, figure: &Figure, caption: &str) -> anyhow::Result<()> {
         let svg = draw(figure)?.svg;
-        // What stands before the element is for files of their own.
+        // Inline SVG starts at its element, without the XML declaration.
         let svg = svg.find("<svg").map_or("", |start| &svg[start..]);
         let caption = escaped(caption);
         writeln!(
@@ -79,7 +87,7 @@ impl Page {
         Ok(())
     }
 
-    /// The page, with the command that makes it again at its end.
+    /// Completes the page, with the command that reproduces it.
     pub(crate) fn finish(mut self) -> String {
         self.heading("The same again");
         self.tagged("pre", &typed());
@@ -96,7 +104,7 @@ impl Page {
     }
 }
 
-/// The words that were typed; what a shell would take for more than a word is quoted.
+/// The command line, with words quoted for a shell where necessary.
 fn typed() -> String {
     let is_plain = |sign: char| sign.is_alphanumeric() || "-_./=,:+".contains(sign);
     let quoted = |word: String| {
@@ -111,6 +119,7 @@ fn typed() -> String {
     format!("viscofriction {}", words.collect::<Vec<_>>().join(" "))
 }
 
+/// Text with escaped HTML characters.
 fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('>', "&gt;").replace('"', "&quot;")

@@ -1,4 +1,4 @@
-//! Progress on a terminal; silent elsewhere.
+//! Progress bars on a terminal; silent elsewhere.
 
 use std::fmt;
 use std::time::Duration;
@@ -6,13 +6,13 @@ use std::time::Duration;
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use viscofriction::Progress;
 
-/// A bar over `steps` steps of a task, with the time that is left.
+/// A bar over `steps` steps of a task, with the remaining time.
 pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
     shown(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}{left}")
 }
 
-/// Does one task with a sign of life, and with the time that is left where it tells how far it is.
+/// Runs a task with a spinner, and with the remaining time if the task reports progress.
 pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Progress) -> T) -> T {
     let bar = ProgressBar::new(WHOLE).with_message(task);
     let bar = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
@@ -21,7 +21,7 @@ pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Progress) -> T) -> 
     value
 }
 
-/// Does one task that says what it has reached, and which part of it is done.
+/// Runs a task that reports a message and the completed fraction.
 pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -> T) -> T {
     let bar = ProgressBar::new(WHOLE);
     let told = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
@@ -33,10 +33,11 @@ pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -
     value
 }
 
+/// Configures a bar with a template and a steady tick.
 fn shown(bar: ProgressBar, template: &str) -> ProgressBar {
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
         let left = left(state.elapsed(), state.fraction().into());
-        // Nothing helps where a terminal cannot be written on.
+        // An error of the terminal is ignored.
         let _ = text.write_str(&left.unwrap_or_default());
     };
     if let Ok(style) = ProgressStyle::with_template(template) {
@@ -46,16 +47,17 @@ fn shown(bar: ProgressBar, template: &str) -> ProgressBar {
     bar
 }
 
-/// Which part is done, and the time for the rest at the same pace; nothing before a part is known.
+/// Completed fraction and remaining time at constant pace; `None` before any progress.
 fn left(elapsed: Duration, part: f64) -> Option<String> {
     let rest = elapsed.as_secs_f64() * (part.recip() - 1.0);
     let rest = HumanDuration(Duration::try_from_secs_f64(rest).ok()?);
     Some(format!(", {:.0} %, about {rest} left", 100.0 * part))
 }
 
-/// Steps of a task that has none of its own.
+/// Steps of a bar for a task that reports fractions (chosen resolution).
 const WHOLE: u64 = 10_000;
 
+/// A bar that shows the progress of a solution.
 #[derive(Debug)]
 struct Told(ProgressBar);
 

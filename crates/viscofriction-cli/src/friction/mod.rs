@@ -1,4 +1,4 @@
-//! `fit-friction`: the moduli of a scene's material from measured friction.
+//! `fit-friction`: fit of the moduli of a scene's material to measured friction.
 
 mod picture;
 
@@ -60,9 +60,10 @@ pub(crate) struct FitFriction {
     overwrite: bool,
 }
 
+/// Names of the files that the command may write.
 const NAMES: &str = "findings.csv fit.csv fit.svg fit.png material.toml";
 
-/// Reads table and scene, fits, and writes what the friction says.
+/// Runs the command: reads table and scene, fits, and writes the findings.
 pub(crate) fn fit(options: &FitFriction) -> Result<()> {
     let read = FrictionTableOptions {
         track_radius: options.track_radius,
@@ -88,7 +89,7 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
         pool.install(|| fit_friction(&scene, files, &points, &sought, &watch))
     });
     let found = found.map_err(|error| options.refused(&source, error))?;
-    // Before anything is printed, because a pipe that is closed ends the program.
+    // Write the files before printing, because a closed pipe ends the program.
     if let Some(out) = &out {
         options.write(&found, &notes, out)?;
     }
@@ -105,7 +106,7 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
 }
 
 impl FitFriction {
-    /// Wrong input with the file that is wrong; what was not solved or did not converge is none.
+    /// Attributes an error to the table, the scene or an option; a failed solution or fit is not invalid input.
     fn refused(&self, scene: &Source, error: FrictionFitError) -> anyhow::Error {
         match error {
             FrictionFitError::Scene(error) => scene.locate(&error).into(),
@@ -119,6 +120,7 @@ impl FitFriction {
         }
     }
 
+    /// Writes all files; material.toml is the last.
     fn write(&self, found: &FittedFriction, notes: &[String], folder: &OutputFolder) -> Result<()> {
         let out = folder.begin()?;
         let findings = found.fit.findings.iter();
@@ -144,7 +146,7 @@ impl FitFriction {
                       standard_error friction_coefficient_fit residual";
         out.write("fit.csv", &to_csv(header, rows)?)?;
         out.draw("fit", &picture::figure(found))?;
-        // Last: with it the others are there. What is not determined is said in front of the numbers.
+        // Write the material last, so that its presence implies the others. Flags precede the numbers as comments.
         let findings = self.table(found, notes).replace('\n', "\n# ");
         let material = found.material_file()?;
         let material = format!("# {}\n#\n# {findings}\n{material}", self.table.display());
@@ -152,7 +154,7 @@ impl FitFriction {
         out.finish()
     }
 
-    /// How the table was read, what was found, and what is doubtful.
+    /// Text of the result: notes on the table, findings, and flags.
     fn table(&self, found: &FittedFriction, notes: &[String]) -> String {
         let fit = &found.fit;
         let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
@@ -183,7 +185,7 @@ impl FitFriction {
     }
 }
 
-/// What was known of the moduli before the fit, as a line of the output.
+/// Line of the output about the prior.
 fn prior_in_words(prior: FrictionPrior) -> String {
     match prior {
         FrictionPrior::Covariance => {

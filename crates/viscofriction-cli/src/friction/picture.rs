@@ -1,11 +1,12 @@
-//! Measured and fitted friction over the speed at the temperature of the material, and the residuals.
+//! Picture of measured and fitted friction over the reduced velocity, and of the residuals.
 
 use viscofriction::friction_fit::FittedFriction;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Part of the range of values above and below it.
+/// Margin above and below the values, relative to their range (chosen).
 const MARGIN: f64 = 0.06;
 
+/// The figure of a fit.
 pub(super) fn figure(found: &FittedFriction) -> Figure {
     let mut order: Vec<usize> = (0..found.points.len()).collect();
     let speed = |at: usize| found.shifted_velocities[at];
@@ -25,7 +26,7 @@ pub(super) fn figure(found: &FittedFriction) -> Figure {
         .iter()
         .map(|point| point.normal_force)
         .collect();
-    // Under several forces the fit is no curve over the speed.
+    // With several forces the fitted friction is not a function of the velocity, so draw markers.
     let of_fit = if forces.windows(2).all(|pair| pair[0] == pair[1]) {
         Series::line(along(&fitted), Line::thick(Dash::Solid), Colour::Red)
     } else {
@@ -50,6 +51,7 @@ pub(super) fn figure(found: &FittedFriction) -> Figure {
     Figure::new(charts, 2)
 }
 
+/// A chart over the velocity, with room for the error bars.
 fn chart([along, label]: [&str; 2], series: Vec<Series>) -> Chart {
     let points = || series.iter().flat_map(|one| &one.points);
     let speeds = points().map(|point| point[0]);

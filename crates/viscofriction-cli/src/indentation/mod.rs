@@ -1,4 +1,4 @@
-//! `fit-indentation`: the material behind measured curves of force over depth.
+//! `fit-indentation`: fit of a material to measured curves of force over depth.
 
 mod picture;
 
@@ -97,6 +97,7 @@ struct Body {
 }
 
 impl Body {
+    /// The indenter; an error names the option.
     fn shape(&self) -> Result<Box<dyn Axisymmetric>, WrongInput> {
         let slope = |parameter, value: f64| {
             let allowed = "greater than 0 and less than 90 degrees";
@@ -109,7 +110,7 @@ impl Body {
         let paraboloid = |radius| PowerProfile::paraboloid(0.5 / positive("--paraboloid", radius)?);
         let sphere = |radius| Sphere::new(positive("--sphere", radius)?);
         let flat_punch = |radius| FlatPunch::new(positive("--flat-punch", radius)?);
-        // One of them is given.
+        // clap guarantees that exactly one shape is given.
         let shapes = [
             self.sphere.map(|radius| sphere(radius).map(boxed)),
             self.paraboloid.map(|radius| paraboloid(radius).map(boxed)),
@@ -122,7 +123,7 @@ impl Body {
     }
 }
 
-/// A length, or "fit".
+/// Parses a length, or "fit".
 fn thickness(text: &str) -> Result<Thickness, String> {
     if text == "fit" {
         return Ok(Thickness::Fitted);
@@ -131,13 +132,15 @@ fn thickness(text: &str) -> Result<Thickness, String> {
     known.map_err(|needed| format!("{needed}; or \"fit\""))
 }
 
+/// A boxed shape.
 fn boxed(shape: impl Axisymmetric + 'static) -> Box<dyn Axisymmetric> {
     Box::new(shape)
 }
 
+/// Names of the files that the command may write.
 const NAMES: &str = "findings.csv correlation.csv fit.csv fit.svg fit.png material.toml curves.csv";
 
-/// Reads the curves, fits them, and writes what they say.
+/// Runs the command: reads and fits the curves, and writes the findings.
 pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let body = options.body.shape()?;
     if options.branches.is_some() && options.material != Rheology::Prony {
@@ -172,7 +175,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let header = "time_s depth_m force_n force_fit_n";
     out.write("fit.csv", &to_csv(header, &fit.points)?)?;
     out.draw("fit", &picture::figure(&fit))?;
-    // Last: with it the others are there. What is not determined is said in front of the numbers.
+    // Write the material last, so that its presence implies the others. Flags precede the numbers as comments.
     let findings = options.table(&fit).replace('\n', "\n# ");
     let [lowest, highest] = fit.valid_frequencies;
     let measured = format!("valid_frequencies = [{lowest:?}, {highest:?}]\n");
@@ -181,12 +184,13 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
     out.finish()?;
-    // After the files, because a pipe that is closed ends the program.
+    // Print after the files are written, because a closed pipe ends the program.
     print_text(&options.table(&fit))?;
     print_line(&format!("written into {}", folder.path().display()))
 }
 
 impl FitIndentation {
+    /// Reads and fits one curve; `profile` requests profile-likelihood intervals.
     fn fitted(
         &self,
         file: &Path,
@@ -218,7 +222,7 @@ impl FitIndentation {
     }
 }
 
-/// One row for each curve, also where it says nothing.
+/// Fits several curves, one row each; a failed fit has a row without numbers.
 fn map(
     options: &FitIndentation,
     body: &dyn Axisymmetric,
@@ -233,7 +237,7 @@ fn map(
     let fits: Vec<Result<IndentationFit, WrongInput>> = fits.collect();
     bar.finish_and_clear();
     if fits.iter().all(Result::is_err) {
-        // One reason for all, as a wrong option is.
+        // If all fits fail, report the first reason, such as a wrong option.
         let reason = fits.into_iter().find_map(Result::err);
         return Err(reason.map_or(anyhow!("no curves"), Into::into));
     }
@@ -259,11 +263,12 @@ fn map(
     print_line(&format!("written into {}", out.path().display()))
 }
 
+/// Names of the findings of a fit.
 fn names(fit: &IndentationFit) -> Vec<&str> {
     fit.findings.iter().map(|one| &one.name[..]).collect()
 }
 
-/// Those of the longest fit, and before them what only others have, as the one modulus of elastic curves.
+/// Names of all findings: those of the fit with the most findings, preceded by those that only other fits have.
 fn all_names(fits: &[Result<IndentationFit, WrongInput>]) -> Vec<&str> {
     let fits = || fits.iter().flatten();
     let longest = fits().max_by_key(|fit| fit.findings.len());
@@ -275,7 +280,7 @@ fn all_names(fits: &[Result<IndentationFit, WrongInput>]) -> Vec<&str> {
     [others, longest].concat()
 }
 
-/// What was decided, and guessed.
+/// Notes of a fit in one cell.
 fn notes(fit: &Result<IndentationFit, WrongInput>) -> String {
     let notes = fit.iter().flat_map(|fit| &fit.notes);
     notes
@@ -284,7 +289,7 @@ fn notes(fit: &Result<IndentationFit, WrongInput>) -> String {
         .join("; ")
 }
 
-/// What is doubtful, or why there is nothing.
+/// Flags of a fit in one cell, or its error.
 fn flags(fit: &Result<IndentationFit, WrongInput>) -> String {
     match fit {
         Ok(fit) => {
@@ -295,6 +300,7 @@ fn flags(fit: &Result<IndentationFit, WrongInput>) -> String {
     }
 }
 
+/// Four cells for each name; empty if the fit lacks the finding.
 fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option<f64>> {
     let findings = fit.as_ref().map_or(&[][..], |fit| &fit.findings);
     let find = |name: &&str| findings.iter().find(|one| one.name == **name);
@@ -303,7 +309,7 @@ fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option
     cells.flatten().collect()
 }
 
-/// Value, standard error and ends of the interval.
+/// Value, standard error and ends of the confidence interval; `None` if not determined.
 pub(crate) fn numbers(finding: &Finding) -> [Option<f64>; 4] {
     let [lower, upper] = finding.interval;
     let estimate = finding.estimate.map(|one| [one.value, one.error]);
@@ -312,7 +318,7 @@ pub(crate) fn numbers(finding: &Finding) -> [Option<f64>; 4] {
 }
 
 impl FitIndentation {
-    /// What was found, and what is doubtful.
+    /// Text of the result: findings, residual, notes and flags.
     fn table(&self, fit: &IndentationFit) -> String {
         let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
         for finding in &fit.findings {
@@ -338,7 +344,7 @@ impl FitIndentation {
     }
 }
 
-/// A finding times a factor.
+/// Row of a finding, multiplied by a factor.
 pub(crate) fn row(name: &str, factor: f64, finding: &Finding) -> [String; 5] {
     let digits = |number: f64| format!("{:.4e}", factor * number);
     let [value, error] = match finding.estimate {

@@ -1,11 +1,12 @@
-//! A curve, its fit, and the residuals between them.
+//! Picture of a measured curve, its fit, and the residuals.
 
 use measurements::indentation::IndentationFit;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Points of a picture.
+/// Largest number of points drawn (chosen).
 const POINTS: usize = 1500;
 
+/// The figure of a fit.
 pub(super) fn figure(fit: &IndentationFit) -> Figure {
     let step = fit.points.len().div_ceil(POINTS);
     let mut found = fit.findings.iter();
@@ -37,6 +38,7 @@ pub(super) fn figure(fit: &IndentationFit) -> Figure {
     Figure::new(charts, 3)
 }
 
+/// A chart whose range holds all points with a margin.
 fn chart(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let range = |axis: usize| {
         let points = series.iter().flat_map(|one| &one.points);

@@ -1,4 +1,4 @@
-//! `fit-material`: a table of measured moduli becomes the material of a scene.
+//! `fit-material`: fit of a Prony series to a table of measured moduli.
 
 mod output_files;
 mod picture;
@@ -74,6 +74,7 @@ pub(crate) struct FitMaterial {
     vertical: Option<VerticalShift>,
 }
 
+/// Parser of the vertical shift by its names.
 fn vertical_shift() -> impl TypedValueParser<Value = VerticalShift> {
     let names = VerticalShift::NAMED.map(|(name, _)| name);
     PossibleValuesParser::new(names).try_map(|name| {
@@ -83,7 +84,7 @@ fn vertical_shift() -> impl TypedValueParser<Value = VerticalShift> {
     })
 }
 
-/// Reads the table, fits it, and writes the material and its picture.
+/// Runs the command: reads the table, fits it, and writes material and picture.
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let contents = read_table(&options.data)?;
     let table = options.table()?;
@@ -102,7 +103,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
         .map_or("", |celsius| if celsius { "°C" } else { "K" });
     let (points, shifted) = joined(moduli, options).map_err(wrong)?;
     let curve = match &shifted {
-        // It knows its isotherms.
+        // The curve of the master keeps track of the isotherms.
         Some(shifted) => shifted.master.curve.clone(),
         None => points.curve().map_err(wrong)?,
     };
@@ -128,7 +129,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     fitted.leave(out.as_ref())
 }
 
-/// The points of one curve, and where there are temperatures what they were shifted by.
+/// The points of one curve, and the shifts of its isotherms if the table has temperatures.
 fn joined(
     moduli: MeasuredModuli,
     options: &FitMaterial,
@@ -147,7 +148,7 @@ fn joined(
     }
 }
 
-/// Checks what would be a table of incompressible material.
+/// Validates a table of moduli for an incompressible material.
 pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
     let incompressible = TableOptions {
         shear_per_tension: 1.0 / 3.0,
@@ -157,7 +158,7 @@ pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput
     moduli.map(drop).map_err(wrong_table)
 }
 
-/// What is wrong with a table is the user's.
+/// Converts an error of a table to invalid input.
 pub(crate) fn wrong_table(error: MeasurementError) -> WrongInput {
     match error {
         MeasurementError::InvalidParameter(refused) => wrong_option(refused),
@@ -165,25 +166,26 @@ pub(crate) fn wrong_table(error: MeasurementError) -> WrongInput {
     }
 }
 
-/// What the command found.
+/// Result of the command.
 struct Fitted<'a> {
     options: &'a FitMaterial,
     points: Points,
     shifted: Option<Shifted>,
-    /// Of the temperatures.
+    /// Unit of the temperatures.
     unit: &'static str,
-    /// At which the material was measured.
+    /// Range of measured angular frequencies, \[rad/s].
     frequencies: [f64; 2],
     found: Identification,
 }
 
-/// What is fitted.
+/// The fitted points.
 enum Points {
     Oscillation(Vec<ModulusPoint>),
     Relaxation(Vec<RelaxationPoint>),
 }
 
 impl Points {
+    /// The curve to which the series is fitted.
     fn curve(&self) -> Result<MeasuredCurve, RheologyError> {
         match self {
             Self::Oscillation(points) => MeasuredCurve::oscillation(points.clone()),
@@ -193,6 +195,7 @@ impl Points {
 }
 
 impl FitMaterial {
+    /// Options for reading the table.
     fn table(&self) -> Result<TableOptions, WrongInput> {
         Ok(TableOptions {
             shear_per_tension: shear_per_tension(self.poisson_ratio).map_err(wrong_option)?,
@@ -200,6 +203,7 @@ impl FitMaterial {
         })
     }
 
+    /// Options of the time–temperature superposition.
     fn shifting(&self) -> Shifting {
         let wlf = match self.wlf.as_deref() {
             Some([c1, c2]) => Some(ShiftLaw::Wlf([*c1, *c2])),
@@ -212,6 +216,7 @@ impl FitMaterial {
         }
     }
 
+    /// Options of the identification.
     fn identification(&self) -> IdentifyOptions {
         let defaults = IdentifyOptions::default();
         let control = match (self.branches, self.smoothing, self.parsimony) {
@@ -230,7 +235,7 @@ impl FitMaterial {
 }
 
 impl Fitted<'_> {
-    /// Writes what was found into a folder, or prints the material.
+    /// Writes the result into a folder, or prints the material.
     fn leave(&self, out: Option<&OutputFolder>) -> Result<()> {
         for warning in self.warnings() {
             say(&format!("warning: {warning}"));
@@ -246,6 +251,7 @@ impl Fitted<'_> {
         print_line(&format!("written into {}", out.path().display()))
     }
 
+    /// Number of branches and relative errors in one line.
     fn summary(&self) -> String {
         let found = &self.found;
         let n_branches = found.spectrum.branches().len();
@@ -265,7 +271,7 @@ impl Fitted<'_> {
         format!("{n_branches} branches; relative error of {errors}")
     }
 
-    /// How several isotherms were put onto one curve, in sentences.
+    /// Sentences about the superposition of several isotherms; empty for a single one.
     fn superposition(&self) -> Vec<String> {
         let Some(master) = self.isotherms().map(|shifted| &shifted.master) else {
             return Vec::new();
@@ -295,13 +301,13 @@ impl Fitted<'_> {
         sentences
     }
 
-    /// What was shifted, if there are several isotherms.
+    /// The master curve; `None` for a single isotherm.
     fn isotherms(&self) -> Option<&Shifted> {
         let shifted = self.shifted.as_ref();
         shifted.filter(|shifted| shifted.master.shifts.len() > 1)
     }
 
-    /// What the errors show of the series or of the isotherms.
+    /// Warnings about systematic errors of the series or of the superposition.
     fn warnings(&self) -> Vec<String> {
         let moduli = [
             (
@@ -334,5 +340,5 @@ impl Fitted<'_> {
     }
 }
 
-/// Errors below this are smaller than what matters to a friction, whatever their pattern.
+/// Rms relative error below which systematic errors are not reported (chosen: smaller than errors that matter for friction).
 const PATTERN_MATTERS: f64 = 0.01;

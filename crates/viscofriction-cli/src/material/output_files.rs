@@ -1,4 +1,4 @@
-//! The files that the command leaves behind.
+//! The output files of the command.
 
 use std::f64::consts::LN_10;
 
@@ -12,13 +12,13 @@ use super::picture::{Comparison, Isotherms, OSCILLATION, RELAXATION, figure};
 use super::{Fitted, Points};
 use crate::output::{OutputFolder, to_csv};
 
-/// All files that a fit may write.
+/// Names of all files that a fit may write.
 pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv";
 
-/// Points per decade of the curve of the series.
+/// Points per decade of the drawn curve of the series (chosen; output only).
 const PER_DECADE: f64 = 30.0;
 
-/// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
+/// Writes material.toml, fit.csv, fit.svg and fit.png; with several isotherms also shifts.csv.
 pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
     let out = folder.begin()?;
     let comparison = compare(fitted)?;
@@ -28,7 +28,7 @@ pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
     if let Some(shifted) = fitted.isotherms() {
         out.write("shifts.csv", &to_csv(SHIFTS, shifts(fitted, shifted))?)?;
     }
-    // Last: with it the others are there.
+    // Write the material last, so that its presence implies the others.
     out.write("material.toml", material(fitted).as_bytes())?;
     out.finish()
 }
@@ -37,7 +37,7 @@ pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
 const SHIFTS: &str = "temperature log10_shift_factor log10_shift_factor_error vertical_shift_factor \
     vertical_shift_factor_error placed_by_law";
 
-/// A row for each isotherm; an error that is not known is no number.
+/// One row per isotherm; an unknown error is NaN.
 fn shifts(fitted: &Fitted<'_>, shifted: &Shifted) -> Vec<Vec<f64>> {
     let errors = fitted.found.covariance.as_ref();
     let row = |(place, shift): (usize, &IsothermShift)| {
@@ -55,6 +55,7 @@ fn shifts(fitted: &Fitted<'_>, shifted: &Shifted) -> Vec<Vec<f64>> {
     shifted.master.shifts.iter().enumerate().map(row).collect()
 }
 
+/// Measured and fitted moduli, and the curve of the series.
 fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
     let spectrum = &fitted.found.spectrum;
     let oscillation = |point: &ModulusPoint| {
@@ -107,7 +108,7 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
     })
 }
 
-/// From the least to the largest of positive numbers, by equal factors.
+/// Geometrically spaced numbers from the smallest to the largest of the positive numbers.
 fn dense(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
     let positive = numbers.filter(|number| *number > 0.0);
     let [first, last] = positive.fold([f64::INFINITY, 0.0], |[first, last], number| {
@@ -120,7 +121,7 @@ fn dense(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
         .chain([last])
 }
 
-/// The material with where it comes from, as a part of a scene file.
+/// The material table with comments on its origin, as part of a scene file.
 pub(super) fn material(fitted: &Fitted<'_>) -> String {
     let spectrum = &fitted.found.spectrum;
     let data = fitted.options.data.display();
@@ -147,7 +148,7 @@ pub(super) fn material(fitted: &Fitted<'_>) -> String {
     )
 }
 
-/// How well the moduli are known, as keys of the material.
+/// The covariance of the moduli as keys of the material.
 fn covariance_lines(covariance: &ModuliCovariance) -> String {
     let row = |row: &Vec<f64>| format!("    {row:?},\n");
     let rows: String = covariance.relative.iter().map(row).collect();
@@ -155,7 +156,7 @@ fn covariance_lines(covariance: &ModuliCovariance) -> String {
     format!("covariance.method = {method:?}\ncovariance.relative = [\n{rows}]\n")
 }
 
-/// How times and moduli change with temperature, as a key of the material.
+/// The shift law as a key of the material.
 fn shift_line(shift: &Shift) -> String {
     let law = match shift.law {
         ShiftLaw::Wlf([c1, c2]) => format!("wlf = [{c1:?}, {c2:?}]"),
@@ -171,7 +172,7 @@ fn shift_line(shift: &Shift) -> String {
     format!("shift = {{ temperature = {temperature:?}, {range}, law = {{ {law} }}{vertical} }}\n")
 }
 
-/// The table `[material.prony]` of a scene file, with lines about how it was `measured`, and the standard errors of its moduli as
+/// The table `[material.prony]` of a scene file, with the `measured` lines, and with the standard errors of the moduli as
 /// comments.
 pub(crate) fn prony(
     spectrum: &RelaxationSpectrum,

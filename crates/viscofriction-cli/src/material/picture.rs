@@ -1,36 +1,38 @@
-//! Measured and fitted moduli, and the error between them.
+//! Picture of measured and fitted moduli, and of their relative errors.
 
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Columns of fit.csv: what was measured, the same of the series, and the relative error of each.
+/// Columns of fit.csv for oscillation: measured moduli, fitted moduli, and their relative errors.
 pub(super) const OSCILLATION: &str = "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa \
     storage_relative_error loss_relative_error";
+/// Columns of fit.csv for relaxation.
 pub(super) const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_error";
 
-/// Measured against fitted, as rows of a table.
+/// Measured and fitted values as rows of fit.csv.
 pub(super) struct Comparison {
     pub(super) names: &'static str,
     pub(super) rows: Vec<Vec<f64>>,
-    /// Frequencies or times that are dense between the first and the last one, and the moduli of the series.
+    /// Dense frequencies or times over the range of the data, with the moduli of the series.
     pub(super) series: Vec<Vec<f64>>,
-    /// Of several isotherms.
+    /// Isotherms of the rows; `None` for a single one.
     pub(super) isotherms: Option<Isotherms>,
 }
 
-/// Which isotherm every row is of.
+/// Assignment of the rows to isotherms.
 pub(super) struct Isotherms {
-    /// By the places of the temperatures.
+    /// Index into `temperatures`, by row.
     pub(super) of_rows: Vec<usize>,
     pub(super) temperatures: Vec<f64>,
     pub(super) unit: &'static str,
 }
 
+/// The figure of a fit.
 pub(super) fn figure(comparison: &Comparison) -> Figure {
     let (x, moduli) = match comparison.names {
         OSCILLATION => ("angular frequency ω [rad/s]", &["G′", "G″"][..]),
         _ => ("time t [s]", &["G"][..]),
     };
-    // A logarithm has no zero; the CSV file has all points.
+    // Omit zeros on logarithmic axes; the CSV file has all points.
     let points_of = |rows: &[Vec<f64>], column: usize| -> Vec<[f64; 2]> {
         let points = rows.iter().map(|row| [row[0], row[column]]);
         points.filter(|point| point[1] > 0.0).collect()
@@ -59,7 +61,7 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
     Figure::new(charts, columns)
 }
 
-/// The errors of a modulus in per cent, a series for each isotherm in the order of the temperatures.
+/// Relative errors of a modulus in per cent, one series per isotherm in order of temperature.
 fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
     let point = |row: &Vec<f64>| [row[0], 100.0 * row[column]];
     let marker = Marker::open(Shape::Circle);
@@ -84,17 +86,17 @@ fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
         }
     };
     let all = order.iter().enumerate().map(of_isotherm);
-    // All points of an isotherm may have been averaged with those of others.
+    // An isotherm may be empty, because overlapping points are averaged with those of others.
     all.filter(|series| !series.points.is_empty()).collect()
 }
 
-/// Isotherms that are named in the legend, beside the last one.
+/// Approximate number of isotherms in the legend, besides the last one (chosen).
 const LABELLED: usize = 6;
 
-/// Errors below this are drawn as none, \[%].
+/// Smallest half range of the axis of errors, \[%] (chosen).
 const SMALLEST: f64 = 0.01;
 
-/// Numbers of both signs over decades, with the zero in the middle.
+/// A chart of signed values over a logarithmic axis, with 0 in the middle.
 fn signed(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let points = || series.iter().flat_map(|one| &one.points);
     let most = points().map(|point| point[1].abs()).fold(0.0, f64::max);
@@ -106,7 +108,7 @@ fn signed(x: &str, y: &str, series: Vec<Series>) -> Chart {
     Chart::new(x, Axis::linear(y, [-most, most]), all)
 }
 
-/// Series over the decades that they take.
+/// A chart with both axes logarithmic over the decades of the series.
 pub(crate) fn decades(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let values = |axis: usize| series.iter().flat_map(|s| &s.points).map(move |p| p[axis]);
     let [x, y] = [Axis::decades(x, values(0)), Axis::decades(y, values(1))];

@@ -1,13 +1,14 @@
-//! Whether the standard output was closed when the program began.
+//! Detection of a standard output that was closed when the program began.
 //!
-//! Before `main` the standard library opens /dev/null in its place, so that what is printed does not go into the file that is
-//! opened next. Behind it nothing tells the two from each other, and many programs that start others give them /dev/null.
+//! Before `main` the standard library opens /dev/null in its place, so that output does not go into the file opened next.
+//! Afterwards the two cases cannot be distinguished, and many programs start others with /dev/null as output.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// True if the standard output was closed at the start.
 static CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Looks before the standard library does.
+/// Checks the file descriptor before the runtime of the standard library replaces it.
 #[cfg(unix)]
 #[ctor::ctor]
 fn look() {
@@ -16,6 +17,7 @@ fn look() {
     CLOSED.store(is_closed, Ordering::Relaxed);
 }
 
+/// True if the standard output was closed at the start.
 pub(super) fn was_closed() -> bool {
     CLOSED.load(Ordering::Relaxed)
 }

@@ -1,4 +1,4 @@
-//! A folder of one answer: its files are written into another one, which then takes its place.
+//! The folder of one result: its files are written into a temporary folder, which then replaces it.
 
 use std::cell::RefCell;
 use std::fs::{self, File};
@@ -16,11 +16,11 @@ use super::{
 };
 use crate::input::is_input;
 
-/// A folder for the files of one result; nobody else writes into it as long as this value lives.
+/// A folder for the files of one result, locked against other runs while this value lives.
 pub(crate) struct OutputFolder {
-    /// As it was given.
+    /// Path as given.
     path: PathBuf,
-    /// Behind links.
+    /// Path with links resolved.
     real: PathBuf,
     overwrite: bool,
     names: Vec<&'static str>,
@@ -28,25 +28,26 @@ pub(crate) struct OutputFolder {
     _lock: Option<File>,
 }
 
-/// Where the files are until all of them are written.
+/// Location of the files until all of them are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
-    /// In a folder beside, which is exchanged with this one.
+    /// In a temporary folder beside this one, with which it is exchanged.
     Beside,
-    /// In a folder inside this one, which has no answer, and from which they are moved.
+    /// In a temporary folder inside this one, which has no result yet; the files are then moved.
     Inside,
 }
 
-/// What the name of a folder ends with that makes room for another one, where the system cannot exchange them.
+/// Suffix of a folder renamed out of the way, on systems that cannot exchange folders atomically.
 const AWAY_END: &str = ".away";
 
+/// Message if a result cannot be replaced together with its folder.
 const NO_EXCHANGE: &str = "the answer in it is replaced together with its folder, which must not be the one that the command runs in \
                            or a mounted disk, and must be in a folder that can be written; remove the files of the answer first, or \
                            give another folder";
 
 impl OutputFolder {
-    /// A folder that was made, or is there without any of the files that may be written, named between spaces; refused as
-    /// by [`OutputFile::new`] and [`lock`].
+    /// Creates the folder, or opens one without any of the named files (separated by spaces). Errors are those of
+    /// [`OutputFile::new`] and [`lock`].
     pub(crate) fn new(
         path: &Path,
         overwrite: bool,
@@ -65,7 +66,7 @@ impl OutputFolder {
         check_names(path, &names, overwrite)?;
         fs::create_dir_all(&real).map_err(failed)?;
         let real = real.canonicalize().map_err(failed)?;
-        // Not every system opens folders.
+        // Some systems cannot open folders; then there is no lock.
         let folder = File::open(&real).ok();
         if let Some(folder) = &folder {
             lock(folder, path)?;
@@ -81,17 +82,17 @@ impl OutputFolder {
             place: place.ok_or_else(|| wrong(NO_EXCHANGE))?,
             _lock: folder,
         };
-        // Nothing is computed that cannot be written.
+        // Test that files can be written before anything is computed.
         folder.new_part().map_err(failed)?;
         Ok(folder)
     }
 
-    /// The folder as it was given.
+    /// Path of the folder as given.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Begins to write the files.
+    /// Starts writing the files.
     pub(crate) fn begin(&self) -> Result<NewFiles<'_>> {
         let part = self.new_part();
         let part = part.map_err(|error| not_written(self.path.display(), error))?;
@@ -102,6 +103,7 @@ impl OutputFolder {
         })
     }
 
+    /// Creates the temporary folder.
     fn new_part(&self) -> io::Result<TempDir> {
         let within = match self.place {
             Place::Beside => self.real.parent().unwrap_or(&self.real),
@@ -112,17 +114,17 @@ impl OutputFolder {
 }
 
 impl Drop for OutputFolder {
-    /// A folder without files says nothing; one that has some is not removed by the system.
+    /// Removes the folder if it is empty; otherwise the system refuses.
     fn drop(&mut self) {
         fs::remove_dir(&self.real).ok();
     }
 }
 
-/// Files that are to become those of a folder, all at once; without [`Self::finish`] there are none.
+/// New files that replace those of a folder together; they are discarded without [`Self::finish`].
 pub(crate) struct NewFiles<'a> {
     folder: &'a OutputFolder,
     part: TempDir,
-    /// In the order in which they were written.
+    /// Names in the order of writing.
     written: RefCell<Vec<String>>,
 }
 
@@ -135,19 +137,19 @@ impl NewFiles<'_> {
         Ok(())
     }
 
-    /// Draws a picture as SVG and as PNG.
+    /// Writes a picture as SVG and PNG.
     pub(crate) fn draw(&self, name: &str, figure: &Figure) -> Result<()> {
         let (svg, png) = picture(figure).with_context(|| format!("drawing {name}"))?;
         self.write(&format!("{name}.svg"), svg.as_bytes())?;
         self.write(&format!("{name}.png"), &png)
     }
 
-    /// Makes them the files of the folder; where that cannot be done, they stay where they are, and the error says where.
+    /// Moves the files into the folder. If that fails they remain where they are, and the error names the place.
     pub(crate) fn finish(self) -> Result<()> {
         let OutputFolder { real, names, .. } = self.folder;
-        // Somebody else may have written there meanwhile.
+        // Another program may have written there meanwhile.
         check_names(&self.folder.path, names, self.folder.overwrite)?;
-        // As long as it is open, nobody takes it for one that was left.
+        // The lock marks the temporary folder as in use.
         let lock = File::open(self.part.path()).ok();
         lock.as_ref().map(File::try_lock);
         let part = self.part.keep();
@@ -169,13 +171,13 @@ impl NewFiles<'_> {
     }
 }
 
-/// Refuses as [`OutputFile::new`] each of the names in a folder.
+/// Applies the checks of [`OutputFile::new`] to each name in a folder.
 fn check_names(folder: &Path, names: &[&str], overwrite: bool) -> Result<(), WrongInput> {
     let mut names = names.iter();
     names.try_for_each(|name| OutputFile::new(&folder.join(name), overwrite).map(drop))
 }
 
-/// A folder for files on the way to another one, with its permissions.
+/// Creates a temporary folder with the permissions of `folder`.
 fn new_part(folder: &Path, within: &Path) -> io::Result<TempDir> {
     let start = part_start(&name_of(folder));
     let mut builder = tempfile::Builder::new();
@@ -184,7 +186,7 @@ fn new_part(folder: &Path, within: &Path) -> io::Result<TempDir> {
     Ok(part)
 }
 
-/// Where the files can be written; none where an answer is there and the folder cannot be exchanged.
+/// Location for the new files; `None` if a result exists and the folder cannot be exchanged.
 fn place(folder: &Path, names: &[&str]) -> io::Result<Option<Place>> {
     let entries = fs::read_dir(folder)?.flatten();
     let entries: Vec<_> = entries.map(|entry| entry.file_name()).collect();
@@ -200,12 +202,13 @@ fn place(folder: &Path, names: &[&str]) -> io::Result<Option<Place>> {
     });
     Ok(match (has_answer, can_be_exchanged) {
         (true, false) => None,
-        // What else is there need not be moved.
+        // Other files in the folder need not be moved.
         (false, _) if !(can_be_exchanged && entries.is_empty()) => Some(Place::Inside),
         _ => Some(Place::Beside),
     })
 }
 
+/// True if both folders are on one file system.
 #[cfg(unix)]
 fn is_on_one_disk(folder: &Path, parent: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -217,12 +220,12 @@ fn is_on_one_disk(_: &Path, _: &Path) -> bool {
     true
 }
 
-/// Gives a folder what another one has beside its answer, and its files the permissions of those that they replace.
+/// Links the other files of a folder into the new one, and copies the permissions of replaced files.
 fn take_over(part: &Path, folder: &Path, names: &[&str]) -> io::Result<()> {
     for entry in fs::read_dir(folder)?.flatten() {
         let [old, new] = [entry.path(), part.join(entry.file_name())];
         if !is_of_answer(&old, names) {
-            // What has no second name, as a folder, is moved later.
+            // Entries that cannot be hard-linked, such as folders, are moved later.
             fs::hard_link(&old, &new).ok();
         } else if new.exists() && !old.is_symlink() {
             fs::set_permissions(&new, fs::metadata(&old)?.permissions())?;
@@ -231,7 +234,7 @@ fn take_over(part: &Path, folder: &Path, names: &[&str]) -> io::Result<()> {
     Ok(())
 }
 
-/// Exchanges a folder and another one, and says where the old one is then.
+/// Exchanges two folders, atomically where possible; returns the new path of the old one.
 fn exchange(part: &Path, folder: &Path) -> io::Result<PathBuf> {
     #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
     {
@@ -243,7 +246,7 @@ fn exchange(part: &Path, folder: &Path) -> io::Result<PathBuf> {
     exchange_by_renaming(part, folder)
 }
 
-/// The same in two steps, between which [`restore`] finds the old folder.
+/// Exchanges two folders by two renames; [`restore`] recovers from an interruption between them.
 fn exchange_by_renaming(part: &Path, folder: &Path) -> io::Result<PathBuf> {
     let away = part.with_extension(&AWAY_END[1..]);
     fs::rename(folder, &away)?;
@@ -253,14 +256,14 @@ fn exchange_by_renaming(part: &Path, folder: &Path) -> io::Result<PathBuf> {
     Ok(away)
 }
 
-/// Renames a file or a folder, unless something has the new name.
+/// Renames a file or folder; an error if the new name exists.
 fn rename_new(from: &Path, to: &Path) -> io::Result<()> {
     #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
     {
         use rustix::fs::{CWD, RenameFlags, renameat_with};
         use rustix::io::Errno;
         match renameat_with(CWD, from, CWD, to, RenameFlags::NOREPLACE) {
-            // Some file systems do not know how.
+            // Some file systems do not support this flag.
             Err(Errno::INVAL | Errno::NOSYS | Errno::NOTSUP) => {}
             renamed => return Ok(renamed?),
         }
@@ -271,7 +274,7 @@ fn rename_new(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)
 }
 
-/// Where a file of the old answer was a symbolic link, writes the new one into the file that it names, and keeps the link.
+/// Keeps symbolic links among the replaced files: the new contents are written to their targets.
 fn keep_links(old: &Path, folder: &Path, names: &[&str]) -> Result<()> {
     for name in names {
         let [link, new] = [old, folder].map(|folder| folder.join(name));
@@ -289,12 +292,12 @@ fn keep_links(old: &Path, folder: &Path, names: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// Whether a file is one of an answer, which the command has made.
+/// True if a file belongs to a result and is not an input of this command.
 fn is_of_answer(file: &Path, names: &[&str]) -> bool {
     names.contains(&&*name_of(file)) && !is_input(file)
 }
 
-/// Removes a folder with an answer that is given up; what else is in it stays, or goes, into the other folder.
+/// Removes a replaced folder; its other files are moved into the new folder.
 fn clear(old: &Path, folder: &Path, names: &[&str]) {
     let cleared = || -> io::Result<()> {
         let entries = fs::read_dir(old)?.flatten();
@@ -302,7 +305,7 @@ fn clear(old: &Path, folder: &Path, names: &[&str]) {
         let is_given_up =
             |(left, kept): &(PathBuf, PathBuf)| is_of_answer(left, names) || is_same(left, kept);
         let (given_up, others): (Vec<_>, Vec<_>) = paths.partition(is_given_up);
-        // What is not of an answer comes back first.
+        // Move other files back before anything is removed.
         others
             .iter()
             .try_for_each(|(left, kept)| rename_new(left, kept))?;
@@ -319,6 +322,7 @@ fn clear(old: &Path, folder: &Path, names: &[&str]) {
     }
 }
 
+/// True if both paths are the same file.
 #[cfg(unix)]
 fn is_same(one: &Path, other: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -333,8 +337,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
     one.is_file() && other.is_file()
 }
 
-/// Folders beside or inside a folder that a run of this program has left, with names of this end; what another one writes is
-/// locked.
+/// Temporary folders left by interrupted runs, by location and suffix; those of running programs are locked and left out.
 fn left(folder: &Path, within: &Path, end: &str) -> Vec<PathBuf> {
     let start = part_start(&name_of(folder));
     let is_left = |path: &PathBuf| {
@@ -347,7 +350,7 @@ fn left(folder: &Path, within: &Path, end: &str) -> Vec<PathBuf> {
     paths.filter(is_left).collect()
 }
 
-/// Gives a folder its name again that a run has made room with, and that was killed then.
+/// Renames a folder back that an interrupted run had renamed out of the way.
 fn restore(folder: &Path) {
     if folder.symlink_metadata().is_err()
         && let Some(away) = left(folder, folder_of(folder), AWAY_END).first()
@@ -356,7 +359,7 @@ fn restore(folder: &Path) {
     }
 }
 
-/// Clears away what runs that were killed have left of a folder.
+/// Removes the temporary folders of interrupted runs.
 fn clear_left(folder: &Path, names: &[&str]) {
     for within in [folder_of(folder), folder] {
         for end in [PART_END, AWAY_END] {

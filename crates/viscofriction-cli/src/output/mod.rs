@@ -1,4 +1,4 @@
-//! What the program prints and writes; nothing that a person has is replaced unless they say so.
+//! Output of the program: text and files; existing files are replaced only on request.
 
 mod closed;
 mod folder;
@@ -18,7 +18,7 @@ use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 use crate::input::is_input;
 pub(crate) use folder::{NewFiles, OutputFolder};
 
-/// What was computed and could not be written.
+/// A result that could not be written.
 #[derive(Debug)]
 pub(crate) struct NotWritten(String);
 
@@ -28,7 +28,7 @@ impl std::fmt::Display for NotWritten {
     }
 }
 
-/// The error of a file, or of the standard output, that was not written.
+/// Error for a file, or the standard output, that was not written.
 pub(crate) fn not_written(what: impl std::fmt::Display, error: io::Error) -> anyhow::Error {
     anyhow::Error::new(error).context(NotWritten(what.to_string()))
 }
@@ -40,11 +40,12 @@ pub(crate) enum Format {
     Json,
 }
 
+/// Prints a line.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     print_text(&format!("{text}\n"))
 }
 
-/// Prints a text; a pipe that is closed is an error, by which the program ends quietly.
+/// Prints a text; a closed pipe is an error, on which the program ends silently.
 pub(crate) fn print_text(text: &str) -> Result<()> {
     printed(|| {
         let mut output = io::stdout();
@@ -53,7 +54,7 @@ pub(crate) fn print_text(text: &str) -> Result<()> {
     })
 }
 
-/// Prints, and says where that cannot be done.
+/// Runs a print operation; an error names the standard output.
 pub(crate) fn printed(print: impl FnOnce() -> io::Result<()>) -> Result<()> {
     let written = if closed::was_closed() {
         Err(io::Error::other("it is closed"))
@@ -63,21 +64,21 @@ pub(crate) fn printed(print: impl FnOnce() -> io::Result<()>) -> Result<()> {
     written.map_err(|error| not_written("the standard output", error))
 }
 
-/// Whether somebody who reads the output has seen enough.
+/// True if the reader of the output has closed the pipe.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let cause = error.chain().find_map(|cause| cause.downcast_ref());
     cause.is_some_and(|cause: &io::Error| cause.kind() == ErrorKind::BrokenPipe)
 }
 
-/// What stands below the warnings of a command.
+/// Line below the warnings of a command.
 pub(crate) const ABOUT_WARNINGS: &str = "about warnings: docs/numbers.md";
 
-/// Says a line beside the output; where nobody reads it, nothing is lost.
+/// Prints a line to the standard error; errors are ignored.
 pub(crate) fn say(text: &str) {
     writeln!(io::stderr(), "{text}").ok();
 }
 
-/// CSV with a line of names between blanks, which rows with fields have already; numbers read back to the same f64.
+/// CSV with a header of names separated by spaces; an empty header if the rows name their fields. Numbers read back exactly.
 pub(crate) fn to_csv(
     names: &str,
     rows: impl IntoIterator<Item = impl Serialize>,
@@ -92,7 +93,7 @@ pub(crate) fn to_csv(
     Ok(writer.into_inner()?)
 }
 
-/// A table in Markdown; bars divide the header.
+/// A Markdown table; the header is separated by bars.
 pub(crate) fn markdown(header: &str) -> Table {
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
@@ -107,15 +108,15 @@ pub(crate) fn picture(figure: &Figure) -> Result<(String, Vec<u8>)> {
     Ok((drawing.svg, png))
 }
 
-/// A file that is whole or not there.
+/// An output file that is written atomically.
 pub(crate) struct OutputFile {
     path: PathBuf,
     overwrite: bool,
 }
 
 impl OutputFile {
-    /// A file to be written; a symbolic link stands for the file that it names. A device, a pipe, a socket and a folder are
-    /// refused, an input of the same command, and a file that is there unless it may be replaced.
+    /// Validates an output path; a symbolic link stands for its target. Errors: anything but a regular file, an input of this
+    /// command, and an existing file without `overwrite`.
     pub(crate) fn new(path: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
         match fs::metadata(path) {
@@ -134,17 +135,18 @@ impl OutputFile {
         }
     }
 
+    /// Path with links resolved.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes the file under another name and then gives it its own, so that an interruption leaves the old one or the
-    /// new one. A file that is replaced keeps its permissions.
+    /// Writes a temporary file and renames it, so that an interruption leaves the old or the new file. Permissions of a replaced
+    /// file are kept.
     pub(crate) fn write(&self, contents: &[u8]) -> Result<()> {
         self.put(self.part(contents)?)
     }
 
-    /// The contents under another name, in the same folder.
+    /// Writes the contents to a temporary file in the same folder.
     pub(crate) fn part(&self, contents: &[u8]) -> Result<NamedTempFile> {
         let write = || -> io::Result<NamedTempFile> {
             let folder = folder_of(&self.path);
@@ -160,9 +162,9 @@ impl OutputFile {
         write().map_err(|error| not_written(self.path.display(), error))
     }
 
-    /// Gives a part the name of the file.
+    /// Renames a temporary file to the output file.
     pub(crate) fn put(&self, part: NamedTempFile) -> Result<()> {
-        // Somebody else may have written it meanwhile.
+        // Another program may have written the file meanwhile.
         let persisted = if self.overwrite {
             part.persist(&self.path)
         } else {
@@ -172,7 +174,7 @@ impl OutputFile {
         persisted.map_err(|error| not_written(self.path.display(), error))
     }
 
-    /// Removes the file that is to be replaced, if there is one.
+    /// Removes an existing file if it may be replaced.
     pub(crate) fn remove(&self) -> Result<()> {
         if !self.overwrite {
             return Ok(());
@@ -186,7 +188,7 @@ impl OutputFile {
     }
 }
 
-/// The folder that a file is in.
+/// Folder of a file.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -194,37 +196,38 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// The name of a file in its folder.
+/// Name of a file in its folder.
 pub(crate) fn name_of(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default();
     name.to_string_lossy().into_owned()
 }
 
-/// What the name of an unfinished file begins with; 50 letters are 200 bytes at most, and no name may have more than 255.
+/// Prefix of the name of a temporary file. It uses 50 characters of the name, at most 200 bytes, since names have at most 255.
 fn part_start(name: &str) -> String {
     let name: String = name.chars().take(50).collect();
     format!(".{name}.viscofriction-")
 }
 
+/// Suffix of temporary files and folders.
 const PART_END: &str = ".part";
 
-/// A file that is removed unless it is finished, with the permissions of any new file.
+/// A temporary file with default permissions, removed when dropped.
 fn new_part(start: &str, folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(start).suffix(PART_END);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // What the umask forbids is taken away by the system.
+        // The system applies the umask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let part = builder.tempfile_in(folder)?;
-    // As long as it is open, nobody takes it for one that was left.
+    // The lock marks the temporary file as in use.
     part.as_file().try_lock().ok();
     Ok(part)
 }
 
-/// Removes what a program that was killed has left of these files; what another one writes is locked.
+/// Removes temporary files left by interrupted runs; those of running programs are locked and stay.
 pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let part = entry.file_name().to_string_lossy().into_owned();
@@ -237,7 +240,7 @@ pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
     }
 }
 
-/// The file that a symbolic link names, whether or not that is there; links that name each other are no file.
+/// Target of a chain of symbolic links, whether or not it exists.
 fn followed(path: &Path) -> PathBuf {
     match fs::read_link(path) {
         Ok(target) => followed(&path.with_file_name(target)),
@@ -245,14 +248,14 @@ fn followed(path: &Path) -> PathBuf {
     }
 }
 
-/// Takes what only one program may write, and keeps it as long as the file is open; refused while another program has it.
+/// Locks a file while it is open; an error if another program holds the lock.
 pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(WrongInput(format!(
             "--out {}: another viscofriction is writing it",
             path.display()
         ))),
-        // Some file systems have no locks.
+        // Some file systems do not support locks.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
     }
 }

@@ -1,4 +1,4 @@
-//! `road`: friction and area of a rough surface over the shortest waves that are kept.
+//! `road`: friction and contact area of a rough surface over the cut-off wavelength.
 
 mod picture;
 
@@ -43,7 +43,7 @@ pub(crate) struct Road {
     overwrite: bool,
 }
 
-/// What is known of one cut-off; what is not is empty.
+/// One row of the CSV file; unknown numbers are empty.
 #[derive(Debug, Default, Serialize)]
 struct Row {
     shortest_wavelength: f64,
@@ -61,7 +61,7 @@ struct Row {
     failure: String,
 }
 
-/// Solves the scene for one cut-off after the other, and says what came out.
+/// Runs the command: solves the cut-off series and reports it.
 pub(crate) fn road(options: &Road) -> Result<()> {
     let source = read_scene(&options.scene)?;
     let files = options
@@ -107,6 +107,7 @@ pub(crate) fn road(options: &Road) -> Result<()> {
 }
 
 impl Road {
+    /// The problem of the scene, with the number of surfaces of the option.
     fn problem(&self, source: &Source) -> Result<Problem, WrongInput> {
         let mut scene = scene_of(source, None)?;
         if let Some(count) = self.realisations {
@@ -140,6 +141,7 @@ impl Road {
     }
 }
 
+/// The row of a cut-off; `all` is the surface with all its waves.
 fn row(one: &CutOff, all: &CutOff) -> Row {
     let empty = Row {
         shortest_wavelength: one.shortest_wavelength,
@@ -175,7 +177,7 @@ fn row(one: &CutOff, all: &CutOff) -> Row {
     }
 }
 
-/// The rows for a person.
+/// The rows as a printed table.
 fn table(rows: &[Row]) -> comfy_table::Table {
     let mut table = markdown(
         "shortest wavelength [m] | rms slope | friction | error | standard error | area fraction | error | standard error | \
@@ -201,7 +203,7 @@ fn table(rows: &[Row]) -> comfy_table::Table {
     table
 }
 
-/// The rows and their picture.
+/// Output files: the rows and their picture.
 struct Files {
     csv: OutputFile,
     svg: OutputFile,
@@ -209,6 +211,7 @@ struct Files {
 }
 
 impl Files {
+    /// Validates the three output paths.
     fn new(out: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let file = |path: &Path| OutputFile::new(path, overwrite);
         Ok(Self {
@@ -218,7 +221,7 @@ impl Files {
         })
     }
 
-    /// The rows without an older picture, and then their own: a picture never stands beside other rows.
+    /// Replaces the files in an order that never leaves a picture beside the rows of another run.
     fn write(&self, rows: &[Row]) -> Result<()> {
         let (svg, png) = drawn(&picture::figure(rows))?;
         let csv = self.csv.part(&to_csv("", rows)?)?;

@@ -1,11 +1,12 @@
-//! Friction and area over the cut-off, with bars, and beside them theories: of friction that of Persson (2006), of the area that of Xu
-//! and others (2024).
+//! Picture of friction and area over the cut-off wavelength with error bars, compared with the theories of Persson (2006) for the
+//! friction and of Xu and others (2024) for the area.
 
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 use super::Row;
 use crate::run::around;
 
+/// The figure of a cut-off series.
 pub(super) fn figure(rows: &[Row]) -> Figure {
     let friction = chart(["friction coefficient μ", "Persson (2006)"], rows, |row| {
         let theory = row.persson_friction_coefficient_2006;
@@ -22,7 +23,7 @@ pub(super) fn figure(rows: &[Row]) -> Figure {
     Figure::new([friction, area], 2)
 }
 
-/// Value, error and theory of every row.
+/// A chart of one quantity; `of` gives value, error and theory of a row.
 fn chart([label, name]: [&str; 2], rows: &[Row], of: impl Fn(&Row) -> [Option<f64>; 3]) -> Chart {
     let known = |index: usize| {
         let points = rows.iter();

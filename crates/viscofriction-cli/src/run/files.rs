@@ -1,4 +1,4 @@
-//! The files of one answer: result.json, fields as NPY and CSV, pictures as SVG and PNG.
+//! Output files of one answer: result.json, fields as NPY and CSV, pictures as SVG and PNG.
 
 use std::iter;
 
@@ -13,7 +13,7 @@ use viscofriction_plot::Figure;
 
 use crate::output::{NewFiles, OutputFolder, to_csv};
 
-/// All files that an answer may have.
+/// Names of all files that an answer may have.
 pub(super) const NAMES: &str = "result.json report.html realisations.csv history.csv history.svg history.png history_over_time.svg history_over_time.png \
     motion.csv motion.svg motion.png motion_over_time.svg motion_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
@@ -21,10 +21,10 @@ pub(super) const NAMES: &str = "result.json report.html realisations.csv history
     spectral_sensitivity.csv spectral_sensitivity.svg spectral_sensitivity.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
 
-/// Pictures by the names of their files.
+/// Pictures with the names of their files.
 pub(super) type Pictures = Vec<(&'static str, Figure)>;
 
-/// Writes what the answer has and the page that shows it all; result.json comes last: with it the others are there.
+/// Writes all files of the answer and the report; result.json is the last, so that its presence implies the others.
 pub(super) fn write(
     (source, problem): (&Source, &Problem),
     timed: &Timed<'_>,
@@ -57,6 +57,7 @@ pub(super) fn write(
     out.finish()
 }
 
+/// Writes the pressure on the half space.
 fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
@@ -67,7 +68,7 @@ fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Picture
         let places = (0..field.grid.shape()[axis]).map(place);
         places.collect::<Vec<f64>>()
     });
-    // Row by row along x, as height maps are.
+    // Rows run along x, as in height maps.
     let places = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| [column, row]));
     let pressure = |[column, row]: [usize; 2]| field.pressure[column * y.len() + row];
     let pressures: Vec<f64> = places.clone().map(pressure).collect();
@@ -81,7 +82,7 @@ fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Picture
     Ok(())
 }
 
-/// What is known along a line: the name of its files, its column in tables, and its label on axes.
+/// Writes the line load and the line pressure.
 fn write_line(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     let (load, pressure) = (&answer.fields.line_load, &answer.fields.line_pressure);
     let load = ("line_load", "load_n_per_m", "load per length [N/m]", load);
@@ -100,7 +101,7 @@ fn write_line(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) 
     Ok(())
 }
 
-/// The columns of a curve, each with its errors.
+/// Writes the columns of a curve with their errors.
 fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
     let Curve { times, columns } = curve;
     let rows = times.iter().enumerate().map(|(index, time)| {
@@ -114,13 +115,13 @@ fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
     out.write(&format!("{}.csv", curve.name()), &to_csv(&names, rows)?)
 }
 
-/// A motion: its points with their errors, and of all steps the friction force over the position and over time.
+/// Writes a motion: its points with their errors, and the tangential force of all steps over position and over time.
 fn write_motion(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     write_columns(&answer.fields.curve, out)?;
     let steps = &answer.fields.motion_steps;
     let force = "tangential force F_t [N]";
     let over = |x: &str, axis: usize| {
-        // A cycle ends where it begins; its time goes on.
+        // Close the loop of a cycle over the position, but not over time.
         let closes = axis == 1 && answer.dissipated_energy.is_some();
         let first = steps.first().filter(|_| closes);
         let points = steps.iter().chain(first);
@@ -132,8 +133,7 @@ fn write_motion(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)
     Ok(())
 }
 
-/// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
-/// and the one that was found over time.
+/// Writes a history: its points with their errors, force over depth if both vary, and the computed quantity over time.
 fn write_curve(curve: &Curve, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     write_columns(curve, out)?;
     let times = &curve.times;
@@ -164,6 +164,7 @@ fn write_curve(curve: &Curve, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -
     Ok(())
 }
 
+/// Writes the motion, the indentation history or the sliding history that the answer has.
 fn write_history(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     if !answer.fields.motion_steps.is_empty() {
         return write_motion(answer, (out, pictures));

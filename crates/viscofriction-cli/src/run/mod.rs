@@ -1,4 +1,4 @@
-//! `run`: one scene, one answer.
+//! `run`: the answer of one scene.
 
 mod files;
 mod pictures;
@@ -58,7 +58,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Refuses derivatives that the method of the scene has not.
+    /// Rejects requested derivatives that the method does not have.
     fn check_derivatives(&self, problem: &Problem, method: Method) -> Result<(), SceneError> {
         if self.sensitivity {
             let checked = check_sensitivity(problem, method);
@@ -72,7 +72,7 @@ impl Run {
     }
 }
 
-/// The error with the advice to leave out the option that it comes from.
+/// Adds the advice to leave out an option.
 fn or_without(option: &str, error: SceneError) -> SceneError {
     match error {
         SceneError::At { key, problem } => {
@@ -82,15 +82,16 @@ fn or_without(option: &str, error: SceneError) -> SceneError {
     }
 }
 
-/// An answer and the time it took.
+/// An answer with its computing time.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(crate) struct Timed<'a> {
     #[serde(flatten)]
     answer: &'a Answer,
+    /// Wall time, \[s].
     seconds: f64,
 }
 
-/// Reads the scene, solves it, and prints the answer.
+/// Runs the command: reads the scene, solves it, and reports the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
     let problem = problem_of(&source, options.method, read_input)?;
@@ -126,7 +127,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     }
     let answer = &answer;
     let answer = Timed { answer, seconds };
-    // Before anything is printed, because a pipe that is closed ends the program.
+    // Write the files before printing, because a closed pipe ends the program.
     if let Some(out) = &out {
         files::write((&source, &problem), &answer, out)?;
     }
@@ -140,7 +141,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     missed.map_or(Ok(()), |error| Err(error.context(path.to_string())))
 }
 
-/// The answer with the derivatives that were asked for, or why there are none.
+/// Adds the requested derivatives to the answer, or returns the error.
 fn with_derivatives(
     options: &Run,
     (source, problem): (&Source, &Problem),
@@ -169,10 +170,10 @@ fn with_derivatives(
     Ok((answer, None))
 }
 
-/// What follows the name of a method that the scene does not name.
+/// Suffix of the name of a method that was chosen automatically.
 const AUTOMATIC: &str = " (automatic)";
 
-/// Solves on as many threads as the scene says, or on all.
+/// Solves on the number of threads that the scene requests, or on all.
 fn in_pool(plan: Plan<'_>, threads: Option<usize>, watch: &dyn Progress) -> Result<Answer> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads.unwrap_or(0))
@@ -180,6 +181,7 @@ fn in_pool(plan: Plan<'_>, threads: Option<usize>, watch: &dyn Progress) -> Resu
     Ok(pool.install(|| plan.solve(watch))?)
 }
 
+/// Prints the answer as a table or as JSON.
 fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
     let Timed { answer, seconds } = timed;
     match format {
@@ -225,7 +227,7 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
     }
 }
 
-/// Says what the scene did not need; a result as JSON stays alone on the standard output.
+/// Prints the omissions; with JSON on the standard error, so that the standard output stays valid.
 fn explain(problem: &Problem, answer: &Answer, format: Format) -> Result<()> {
     let omissions = table::omissions(problem, answer);
     match format {

@@ -4,12 +4,11 @@ use anyhow::{Context, Result};
 use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
-/// Part of the load on elements of the darkest colour, where colours are logarithmic: stray ones at the edge of a contact
-/// reach many decades below.
+/// Fraction of the load on elements of the darkest colour of a logarithmic scale (chosen): single elements at the edge of the
+/// contact lie many decades below.
 const DARKEST: f64 = 0.01;
 
-/// The pressure over the contact: itself where its peak is known, else, where it grows without limit on finer elements, its
-/// logarithm; with an arrow along the motion, where the body slides.
+/// Map of the pressure, on a logarithmic scale if the peak is unbounded; with an arrow along the motion if the body slides.
 pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure> {
     let shape = field.grid.shape();
     let range = |axis: usize| {
@@ -42,7 +41,7 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
     });
     let [x, y] = [range(0), range(1)];
     let motion = answer.friction_coefficient.map(|_| arrow(x, y, true));
-    // Narrow maps have no room for it.
+    // The title does not fit above narrow maps.
     let has_room = x[1] - x[0] > 0.5 * (y[1] - y[0]);
     let title = (is_cut && has_room).then(|| "darkest: 1 % of the load".to_owned());
     let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
@@ -53,7 +52,7 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
     }))
 }
 
-/// Along the motion, in the lower left corner; `is_true` where a unit of length is equally long on both axes.
+/// Arrow along the motion in the lower left corner; `is_true` if both axes have the same scale.
 pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     let spans = [x, y].map(|[from, to]| 0.03 * (to - from));
     let shorter = spans[0].min(spans[1]);
@@ -69,30 +68,31 @@ pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     Series::line(points, Line::thick(Dash::Solid), Colour::Black)
 }
 
-/// One quantity over another, straight between the points.
+/// A quantity over another as a line.
 pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
     let line = Line::thick(Dash::Solid);
     over(x, y, Series::line(points, line, Colour::Blue))
 }
 
-/// One quantity over another at points between which nothing is known.
+/// A quantity over another as separate points.
 pub(super) fn points(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
     let marker = Marker::filled(Shape::Circle);
     over(x, y, Series::markers(points, marker, Colour::Blue))
 }
 
+/// A figure of one series.
 fn over(x: &str, y: &str, series: Series) -> Figure {
     let range = |axis: usize| around(series.points.iter().map(|point| point[axis]));
     let [x, y] = [Axis::linear(x, range(0)), Axis::linear(y, range(1))];
     Figure::single(Chart::new(x, y, vec![series]))
 }
 
-/// A range that holds zero and all values, with some room.
+/// A range that includes zero and all values, with a margin.
 pub(crate) fn around(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let [low, high] = values.fold([0.0_f64; 2], |[low, high], value| {
         [low.min(value), high.max(value)]
     });
     let room = if high > low { 0.05 * (high - low) } else { 1.0 };
-    // Marks on the border are not cut by the frame.
+    // The margin keeps markers inside the frame.
     [low - room, high + room]
 }

@@ -1,4 +1,4 @@
-//! report.html: one page about one answer.
+//! report.html: a page about one answer.
 
 use anyhow::Result;
 use toml::{Table, Value};
@@ -12,7 +12,7 @@ use crate::output::markdown;
 use crate::page::Page;
 use crate::sweep::labelled;
 
-/// The page, with everything that was computed and the line that computes it again.
+/// The page with all results and the command that reproduces them.
 pub(super) fn page(
     (source, problem): (&Source, &Problem),
     timed: &Timed<'_>,
@@ -56,9 +56,10 @@ pub(super) fn page(
     Ok(page.finish())
 }
 
+/// Explanation of the errors.
 const BARS: &str = "The true value of what is modelled lies within the error of the value; without an error it is given, or exact.";
 
-/// The body and what it does.
+/// Title: the body, its motion and the material.
 fn title(scene: &Table, problem: &Problem) -> String {
     let kind = |table: &str, otherwise: &str| {
         let table = scene.get(table).and_then(Value::as_table);
@@ -86,7 +87,7 @@ fn title(scene: &Table, problem: &Problem) -> String {
     format!("{article} {body} {does} {material}")
 }
 
-/// The method and its model.
+/// Sentence about method, model and time.
 fn how(problem: &Problem, timed: &Timed<'_>) -> String {
     let Timed { answer, seconds } = timed;
     let model = table::model(problem, answer);
@@ -106,7 +107,7 @@ fn how(problem: &Problem, timed: &Timed<'_>) -> String {
     )
 }
 
-/// The numbers of a scene, with the names and symbols of what they are.
+/// The numbers of a scene with their quantities.
 fn numbers(scene: &Table) -> comfy_table::Table {
     let mut rows = markdown("key | quantity | value");
     let keys = [
@@ -125,6 +126,7 @@ fn numbers(scene: &Table) -> comfy_table::Table {
     rows
 }
 
+/// Appends the numbers below a path.
 fn add_numbers(path: &str, value: &Value, rows: &mut comfy_table::Table) {
     match value {
         Value::Table(table) => {
@@ -143,7 +145,7 @@ fn add_numbers(path: &str, value: &Value, rows: &mut comfy_table::Table) {
     }
 }
 
-/// What the answer rests on, where that was asked for.
+/// Appends the derivatives and the uncertainty budget, if requested.
 fn derivatives(page: &mut Page, answer: &Answer) {
     if !answer.budget.entries.is_empty() {
         page.heading("What makes it uncertain");
@@ -165,7 +167,7 @@ fn derivatives(page: &mut Page, answer: &Answer) {
     }
 }
 
-/// What the model has.
+/// Sentence about the model.
 fn modelled(problem: &Problem, answer: &Answer) -> String {
     let body = match answer.model {
         Model::Line => {
@@ -181,6 +183,7 @@ fn modelled(problem: &Problem, answer: &Answer) -> String {
     )
 }
 
+/// Appends the pictures, and the moduli of the material unless they are part of one.
 fn add_pictures(
     page: &mut Page,
     (problem, answer): (&Problem, &Answer),
@@ -202,7 +205,7 @@ fn add_pictures(
     Ok(())
 }
 
-/// The moduli around the frequency of waves as long as the contact, of what slides and dissipates.
+/// The moduli around the frequency v/L with the contact length L; `None` if nothing slides or dissipates.
 fn material(problem: &Problem, answer: &Answer) -> Option<Figure> {
     let Motion::Sliding(load) = problem.motion() else {
         return None;
@@ -218,9 +221,10 @@ fn material(problem: &Problem, answer: &Answer) -> Option<Figure> {
     })
 }
 
-/// From the middle of the frequencies in a picture of the material to their ends.
+/// Half width of the frequency range around v/L, as a factor (chosen).
 const AROUND: f64 = 1e3;
 
+/// Caption of a picture by the name of its file.
 fn caption(name: &str) -> &'static str {
     match name {
         "pressure" => "Pressure over the contact.",

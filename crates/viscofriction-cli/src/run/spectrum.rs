@@ -1,4 +1,4 @@
-//! What an answer rests on, frequency by frequency: a table, and a picture under the master curve.
+//! Derivatives by the modulus at each frequency: a table, and a picture below the master curve.
 
 use std::iter;
 
@@ -10,16 +10,19 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::pictures::around;
 use crate::output::markdown;
 
-/// Part of all that a band needs to have a row in the table, and to be in the picture.
+/// Smallest fraction of the summed absolute derivatives for a row in the table (chosen).
 const IN_TABLE: f64 = 0.01;
+/// Smallest fraction of the summed absolute derivatives for a point in the picture (chosen).
 const IN_PICTURE: f64 = 1e-4;
-/// Points of a master curve in a decade.
+/// Points per decade of a master curve (chosen; output only).
 const POINTS_PER_DECADE: f64 = 20.0;
 
+/// Colours of storage and loss modulus.
 const COLOURS: [Colour; 2] = [Colour::Blue, Colour::Red];
+/// Names of the quantities, in the order of [`derivatives`].
 const QUANTITIES: [&str; 3] = ["friction coefficient", "normal force", "indentation depth"];
 
-/// The derivatives of a band by G' and by G'', quantity by quantity.
+/// Derivatives of each quantity in a band, by G' and by G''.
 fn derivatives(band: &ByFrequency) -> [[Option<Estimate>; 2]; 3] {
     let both = [&band.storage_modulus, &band.loss_modulus];
     [
@@ -29,11 +32,12 @@ fn derivatives(band: &ByFrequency) -> [[Option<Estimate>; 2]; 3] {
     ]
 }
 
-/// Those of the friction.
+/// Derivatives of the friction by G' and by G''; 0 if they are not known.
 fn of_friction(band: &ByFrequency) -> [Estimate; 2] {
     derivatives(band)[0].map(|known| known.unwrap_or(Estimate::exact(0.0)))
 }
 
+/// Sum of the absolute derivatives of the friction in a band.
 fn size(band: &ByFrequency) -> f64 {
     of_friction(band)
         .iter()
@@ -41,7 +45,7 @@ fn size(band: &ByFrequency) -> f64 {
         .sum()
 }
 
-/// The bands with so much of the sum of all absolute values.
+/// Bands with at least the fraction `part` of the sum over all bands.
 fn with_part(spectral: &SpectralSensitivity, part: f64) -> impl Iterator<Item = &ByFrequency> {
     let least = part * spectral.bands.iter().map(size).sum::<f64>();
     spectral
@@ -50,7 +54,7 @@ fn with_part(spectral: &SpectralSensitivity, part: f64) -> impl Iterator<Item = 
         .filter(move |band| size(band) >= least)
 }
 
-/// The bands that matter, and how much of the friction the others have together.
+/// Table of the significant bands, and a sentence about the fraction of all others.
 pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
     let known = spectral.bands.first().map(derivatives).unwrap_or_default();
     let columns: Vec<usize> = (0..known.len())
@@ -82,7 +86,7 @@ pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
     (table, words + ".")
 }
 
-/// The master curve, and below it the derivatives of the friction by both moduli per decade of frequency.
+/// The master curve, and below it the derivatives of friction by both moduli per decade of frequency.
 pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figure {
     let bands: Vec<&ByFrequency> = with_part(spectral, IN_PICTURE)
         .filter(|band| band.frequencies[0] > 0.0)
@@ -107,7 +111,7 @@ pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figur
     Figure::new([above, Chart::new(x, y, series)], 1)
 }
 
-/// The derivatives of the friction by one of the moduli per decade, in the middle of each band.
+/// Derivatives of friction by one modulus per decade, at the geometric mean of each band.
 fn per_decade(bands: &[&ByFrequency], part: usize) -> Series {
     let at = bands.iter().map(|band| {
         let [from, to] = band.frequencies;
@@ -128,7 +132,7 @@ fn per_decade(bands: &[&ByFrequency], part: usize) -> Series {
     .labelled(["by ln G′", "by ln G″"][part])
 }
 
-/// Storage and loss modulus where they are known.
+/// Storage and loss modulus over the range of an axis.
 pub(super) fn master_curve(problem: &Problem, x: Axis) -> Chart {
     let [first, last] = x.range.map(|end| (POINTS_PER_DECADE * end.log10()).round());
     #[expect(clippy::cast_possible_truncation, reason = "logarithms of numbers")]

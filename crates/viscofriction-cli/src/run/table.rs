@@ -1,4 +1,4 @@
-//! An answer for a person.
+//! Printed tables of an answer.
 
 use std::iter;
 
@@ -9,16 +9,16 @@ use viscofriction::{ErrorParts, Estimate};
 
 use crate::output::markdown;
 
-/// A quantity of the answer as it is printed.
+/// A printed quantity of the answer.
 struct Line {
     name: &'static str,
     /// Value, error and unit.
     value: String,
-    /// Standard error by that of the material; `None` if it is not known.
+    /// Standard error due to the covariance of the material; `None` if it is not known.
     material_error: Option<f64>,
 }
 
-/// All quantities that the answer has.
+/// All known quantities of the answer.
 fn lines(answer: &Answer) -> Vec<Line> {
     let [force, area] = if answer.is_per_length {
         ["N/m", "m²/m"]
@@ -60,7 +60,7 @@ fn lines(answer: &Answer) -> Vec<Line> {
     .collect()
 }
 
-/// Names and values of all quantities below each other.
+/// Quantities as aligned lines.
 pub(super) fn listed(answer: &Answer) -> String {
     let lines = lines(answer);
     let width = |text: fn(&Line) -> &str| {
@@ -80,7 +80,7 @@ pub(super) fn listed(answer: &Answer) -> String {
     lines.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The same as a table of a page.
+/// Quantities as a table of the report.
 pub(super) fn table(answer: &Answer) -> Table {
     let mut table = markdown("quantity | value | error by the material");
     for line in lines(answer) {
@@ -90,7 +90,7 @@ pub(super) fn table(answer: &Answer) -> Table {
     table
 }
 
-/// One row per number of the scene, with the derivatives of quantities that have any, and of an area that is known without.
+/// One row per number of the scene with the known derivatives; the contact area has a column if it is known itself.
 pub(super) fn sensitivity(answer: &Answer) -> Table {
     let all = &answer.sensitivity;
     let names = all
@@ -115,7 +115,7 @@ pub(super) fn sensitivity(answer: &Answer) -> Table {
     table
 }
 
-/// One row per source of uncertainty, with the quantities that it makes uncertain, as parts of them.
+/// One row per source of uncertainty, relative to each quantity.
 pub(super) fn budget(answer: &Answer) -> Table {
     let total = ("total", answer.budget.total());
     let entries = answer.budget.entries.iter();
@@ -149,7 +149,7 @@ pub(super) fn budget(answer: &Answer) -> Table {
     table
 }
 
-/// What the error bar consists of; nothing of a method without parts.
+/// Parts of the error estimate; `None` if the method has none.
 pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
     let known = parts.named().into_iter();
     let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
@@ -159,7 +159,7 @@ pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// How far the surfaces differ of which the answer is the mean; nothing of one surface.
+/// Sentence about the ensemble; `None` for a single surface.
 pub(super) fn scatter(answer: &Answer) -> Option<String> {
     let known = answer.scatters().into_iter();
     let known = known.filter_map(|(name, scatter)| Some((name.replace('_', " "), scatter?)));
@@ -182,7 +182,7 @@ pub(super) fn scatter(answer: &Answer) -> Option<String> {
     })
 }
 
-/// What the scene did not need, why, and what that saves.
+/// Table of the omissions with reasons and savings.
 pub(super) fn omissions(problem: &Problem, answer: &Answer) -> Table {
     let mut omissions = markdown("left out | because | what that saves");
     for &omission in &answer.left_out {
@@ -192,7 +192,7 @@ pub(super) fn omissions(problem: &Problem, answer: &Answer) -> Table {
     omissions
 }
 
-/// Hundredths of a second, or thousandths of a short time.
+/// A time to 0.01 s, below 0.1 s to 0.001 s.
 pub(super) fn duration(seconds: f64) -> String {
     let digits = if seconds < 0.1 { 3 } else { 2 };
     format!("{seconds:.digits$} s")

@@ -1,4 +1,4 @@
-//! `surface`: what a height map is like.
+//! `surface`: roughness parameters and spectra of a height map.
 
 mod picture;
 
@@ -58,15 +58,17 @@ pub(crate) struct Surface {
     overwrite: bool,
 }
 
+/// Advice about implausible heights, in the options of this command.
 const ADVICE: AdviceOnHeights = AdviceOnHeights {
     unit: "--unit mm, um or nm says another one",
     lateral_unit: "--lateral-unit mm, um or nm says another one of x and y in files, and --spacing takes a unit, as \"10 um\"",
     step: "in a scene edges = \"mirrored\" has no step",
 };
 
+/// Names of the files that the command may write.
 const NAMES: &str = "roughness.csv spectrum.csv profiles.csv surface.svg surface.png tidied.xyz";
 
-/// Reads the map, and writes what it is like.
+/// Runs the command: reads the map and reports its parameters.
 pub(crate) fn describe(options: &Surface) -> Result<()> {
     protect(&options.file);
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
@@ -96,16 +98,16 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
     let profiles = to_csv("along wave_number density", profiles)?;
     out.write("profiles.csv", &profiles)?;
     out.draw("surface", &picture::figure(&map, &spectrum))?;
-    // Last: with it the others are there.
+    // Write this file last, so that its presence implies the others.
     out.write("tidied.xyz", xyz(&surface)?.as_bytes())?;
     out.finish()?;
-    // After the files, because a pipe that is closed ends the program.
+    // Print after the files are written, because a closed pipe ends the program.
     print_text(&text)?;
     print_line(&format!("written into {}", folder.path().display()))
 }
 
 impl Surface {
-    /// The surface without holes and tilt, around its mean height, and what was done to it.
+    /// The surface with holes filled and tilt removed, relative to its mean height, and notes about these steps.
     fn tidied(&self) -> Result<(Topography, String), WrongInput> {
         let table = self.table();
         let memory = half_of_free_memory().unwrap_or(u64::MAX);
@@ -145,7 +147,7 @@ impl Surface {
         Ok((surface, notes))
     }
 
-    /// The table of a scene with these options.
+    /// The height-map table of a scene with these options.
     fn table(&self) -> HeightMapTable {
         let edges = if self.periodic {
             Edges::Periodic
@@ -167,7 +169,7 @@ impl Surface {
         }
     }
 
-    /// An error of the table of a scene, whose keys are options here.
+    /// Converts the keys in an error of the table to options.
     fn wrong_option(&self, error: &SceneError) -> WrongInput {
         let text = error.to_string();
         let text = text.trim_start_matches("indenter.height-map.");
@@ -180,6 +182,7 @@ impl Surface {
         }
     }
 
+    /// Invalid input, with the name of the file.
     fn wrong(&self, problem: impl std::fmt::Display) -> WrongInput {
         WrongInput(format!("{}: {problem}", self.file.display()))
     }
@@ -188,7 +191,7 @@ impl Surface {
 /// Quantity, symbol, value and unit.
 type Statistic = (&'static str, &'static str, f64, &'static str);
 
-/// Those of the rows.
+/// Quantity, symbol and unit of each row.
 const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
                           mean deviation of the heights|Sa|m\n\
                           highest peak above the mean|Sp|m\n\
@@ -202,6 +205,7 @@ const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
                           root mean square of the mean curvature||1/m\n\
                           Nayak's parameter|α|1";
 
+/// The rows with their values.
 fn rows(of: &Roughness) -> Vec<Statistic> {
     let heights = [
         of.rms_height,
@@ -225,6 +229,7 @@ fn rows(of: &Roughness) -> Vec<Statistic> {
     QUANTITIES.lines().zip(values).map(row).collect()
 }
 
+/// The rows as a printed table.
 fn table(rows: &[Statistic]) -> comfy_table::Table {
     let mut table = markdown("quantity | symbol | value | unit");
     for (quantity, symbol, value, unit) in rows {
@@ -233,7 +238,7 @@ fn table(rows: &[Statistic]) -> comfy_table::Table {
     table
 }
 
-/// The surface as rows of x, y and z in metres.
+/// The surface as lines of x, y and z, \[m].
 fn xyz(surface: &Topography) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     let columns = surface.shape[1];

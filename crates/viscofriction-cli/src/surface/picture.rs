@@ -1,4 +1,4 @@
-//! The heights of a map, and its spectra.
+//! Picture of a height map and its spectra.
 
 use viscofriction::indenters::HeightMap;
 use viscofriction::indenters::rough::PowerSpectrum;
@@ -7,9 +7,10 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker,
 use crate::material::decades;
 use crate::run::arrow;
 
-/// Side of a map over the other above which it is not drawn in true proportions.
+/// Largest aspect ratio of a map drawn to scale (chosen).
 const LONGEST: f64 = 2.0;
 
+/// The figure of a map.
 pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     let isotropic = spectrum.radial.iter();
     let isotropic = isotropic.map(|ring| [ring.wave_number, ring.density]);
@@ -28,7 +29,7 @@ pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     Figure::new(charts, 2)
 }
 
-/// Heights out of the body above the deepest point, and how it moves.
+/// Map of the heights above the deepest point, out of the body, with the direction of motion.
 fn heights(map: &HeightMap) -> Chart {
     let ([along_x, along_y], [dx, dy]) = (map.shape(), map.spacing());
     let highest = map.heights().iter().copied().fold(0.0, f64::max);
@@ -37,7 +38,7 @@ fn heights(map: &HeightMap) -> Chart {
         Some(highest - map.heights()[x * along_y + y])
     });
     let [x, y] = [[0.0, along_x as f64 * dx], [0.0, along_y as f64 * dy]];
-    // In true proportions a long map is too narrow for its labels.
+    // A long map drawn to scale is too narrow for its labels.
     let sides = [x[1], y[1]];
     let is_long = sides[0].max(sides[1]) > LONGEST * sides[0].min(sides[1]);
     let field = if is_long { field.stretched() } else { field };
@@ -48,6 +49,7 @@ fn heights(map: &HeightMap) -> Chart {
     }
 }
 
+/// The arrow along the motion.
 fn motion(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     Series {
         colour: Colour::Red,
@@ -55,7 +57,7 @@ fn motion(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     }
 }
 
-/// The body on the elastomer at first touch, cut along the motion through the point that touches.
+/// Section along the motion through the point of first touch.
 fn section(map: &HeightMap) -> Chart {
     let ([along_x, along_y], [dx, _]) = (map.shape(), map.spacing());
     let touching = map.heights().iter().position(|height| *height == 0.0);
@@ -63,7 +65,7 @@ fn section(map: &HeightMap) -> Chart {
     let point = |x: usize| [x as f64 * dx, map.heights()[x * along_y + row]];
     let points: Vec<[f64; 2]> = (0..along_x).map(point).collect();
     let highest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(0.0, f64::max);
-    // A ridge along x touches everywhere.
+    // A ridge along x touches along its whole length.
     let highest = match highest(&mut points.iter().map(|[_, height]| *height)) {
         0.0 => highest(&mut map.heights().iter().copied()),
         highest => highest,
@@ -87,6 +89,7 @@ fn section(map: &HeightMap) -> Chart {
     }
 }
 
+/// A spectrum, without the points that a logarithmic axis cannot show.
 fn curve(points: Vec<[f64; 2]>, colour: Colour) -> Series {
     let shown = points
         .into_iter()
@@ -98,8 +101,9 @@ fn curve(points: Vec<[f64; 2]>, colour: Colour) -> Series {
     Series::line(shown, Line::thick(Dash::Solid), colour)
 }
 
+/// A chart of spectra.
 fn chart(label: &str, mut series: Vec<Series>) -> Chart {
-    // Waves along one axis alone have no spectrum along the other.
+    // With waves along one axis only, the other spectrum is empty.
     series.retain(|one| !one.points.is_empty());
     decades("wave number [1/m]", label, series)
 }

@@ -1,4 +1,4 @@
-//! The file of a sweep, which grows row by row.
+//! The CSV file of a sweep, written row by row.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -14,29 +14,29 @@ use super::wrong_row;
 use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, lock, name_of, not_written, remove_parts, to_csv};
 
-/// What happens to a file that is there.
+/// Treatment of an existing file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Existing {
-    /// It stays, and nothing is computed.
+    /// An error; nothing is computed.
     Refuse,
-    /// Its rows stay, and those that are missing are added.
+    /// Its rows are kept, and missing ones are added.
     GoOn,
-    /// Its rows are given up.
+    /// Its rows are discarded.
     Replace,
 }
 
-/// An open file and what it has; nobody else writes it as long as it is open.
+/// An open file with its rows, locked while it is open.
 pub(super) struct SweepFile {
     path: PathBuf,
     header: Vec<String>,
     rows: BTreeMap<usize, SweepRow>,
     file: File,
-    /// Length of what stays, \[bytes].
+    /// Length of the kept part of the file, \[bytes].
     kept: u64,
 }
 
 impl SweepFile {
-    /// Takes a file that is to be begun or gone on with, and leaves it as it is until [`Self::begin`].
+    /// Opens and locks a file; it is not changed before [`Self::begin`].
     pub(super) fn open(path: PathBuf, plan: &Plan, existing: Existing) -> Result<Self> {
         let wrong = |error| WrongInput(format!("--out {}: {error}", path.display()));
         fs::create_dir_all(folder_of(&path)).map_err(wrong)?;
@@ -67,7 +67,7 @@ impl SweepFile {
         })
     }
 
-    /// Cuts off what is given up, and what an interruption left of the last line.
+    /// Truncates the file to the kept rows, without an incomplete last line, and writes the header of a new file.
     pub(super) fn begin(&mut self, plan: &Plan) -> Result<()> {
         self.file
             .set_len(self.kept)
@@ -80,18 +80,19 @@ impl SweepFile {
         Ok(())
     }
 
-    /// The points that the file has, and whether they have an answer.
+    /// Points in the file, each with whether it has an answer.
     pub(super) fn points(&self) -> impl Iterator<Item = (usize, bool)> {
         self.rows.values().map(|row| (row.point, !row.failed()))
     }
 
-    /// Writes a row, or nothing of it.
+    /// Appends a row; on an error the file is truncated to its previous length.
     pub(super) fn append(&mut self, row: &SweepRow) -> Result<()> {
         self.write(&line(&row.fields)?)?;
         insert(&mut self.rows, row.clone());
         Ok(())
     }
 
+    /// Appends a text, or restores the previous length on an error.
     fn write(&mut self, text: &str) -> Result<()> {
         let wrong = |error| not_written(self.path.display(), error);
         let end = self.file.stream_position().map_err(wrong)?;
@@ -102,7 +103,7 @@ impl SweepFile {
         written.map_err(wrong)
     }
 
-    /// Puts the rows in order, one for each point.
+    /// Rewrites the file with one row per point, in their order.
     pub(super) fn finish(self) -> Result<RowTable> {
         let rows = self.rows.into_values().collect();
         let table = RowTable {
@@ -117,7 +118,7 @@ impl SweepFile {
     }
 }
 
-/// Adds a row; of two of the same point the answer stays, and of two without one the later.
+/// Adds a row. Of two rows of one point, one with an answer is kept; if both failed, the later one.
 pub(super) fn insert(rows: &mut BTreeMap<usize, SweepRow>, row: SweepRow) {
     match rows.entry(row.point) {
         Entry::Occupied(known) if !known.get().failed() => {}
@@ -130,7 +131,7 @@ pub(super) fn insert(rows: &mut BTreeMap<usize, SweepRow>, row: SweepRow) {
     }
 }
 
-/// The file that may be written, as of [`OutputFile::new`]; a sweep can also go on with a file that is there.
+/// Validates the path like [`OutputFile::new`]; an existing file may also be resumed.
 pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongInput> {
     let file = OutputFile::new(path, existing != Existing::Refuse);
     let file = file.map_err(|WrongInput(mut problem)| {
@@ -142,20 +143,20 @@ pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongI
     Ok(file?.path().to_owned())
 }
 
-/// A file up to its last whole line.
+/// Contents up to the last complete line.
 fn whole(contents: &[u8]) -> &[u8] {
     let end = contents.iter().rposition(|byte| *byte == b'\n');
     &contents[..end.map_or(0, |end| end + 1)]
 }
 
-/// The names and rows of a sweep, in the order of its points.
+/// Header and rows of a sweep, in the order of the points.
 pub(crate) struct RowTable {
     pub(super) header: Vec<String>,
     pub(super) rows: Vec<SweepRow>,
 }
 
 impl RowTable {
-    /// The text of the file.
+    /// Contents of the CSV file.
     pub(super) fn text(&self) -> Result<String> {
         let rows = self.rows.iter().map(|row| &row.fields);
         let lines = std::iter::once(&self.header).chain(rows);
@@ -163,15 +164,15 @@ impl RowTable {
     }
 }
 
-/// The whole lines of a file of rows.
+/// The complete lines of a CSV file of a sweep.
 pub(crate) struct TableFile {
     pub(super) header: Vec<String>,
-    /// Each with its line, counted from 1.
+    /// Rows with their lines, counted from 1.
     pub(super) rows: Vec<(usize, SweepRow)>,
 }
 
 impl TableFile {
-    /// The rows of a file of the given contents, up to its last whole line.
+    /// Parses the contents of a file up to the last complete line.
     pub(crate) fn new(path: &Path, contents: &[u8]) -> Result<Self, WrongInput> {
         let mut reader = csv::Reader::from_reader(whole(contents));
         let wrong = |line: usize, problem: &dyn std::fmt::Display| {
@@ -204,7 +205,7 @@ impl TableFile {
         Ok(Self { header, rows })
     }
 
-    /// Refuses rows that are not what was computed.
+    /// Rejects rows with changed cells.
     pub(crate) fn check(&self, path: &Path) -> Result<(), WrongInput> {
         self.rows.iter().try_for_each(|(line, row)| {
             let checked = row.check(&self.header);
@@ -221,14 +222,14 @@ impl TableFile {
     }
 }
 
-/// The name of the first column of every sweep.
+/// Name of the first column of every sweep.
 const FIRST_COLUMN: &str = "sweep";
 
-/// What a spreadsheet of another language makes of the file.
+/// Message for a file rewritten by a spreadsheet with another locale.
 const BETWEEN_COLUMNS: &str = "commas are needed between the columns and points in numbers, as the sweep has written them, and there \
                                are semicolons or tabs";
 
-/// Refuses rows of another sweep, and those that are not what was computed.
+/// Rejects rows of another sweep, and rows with changed cells.
 fn check(path: &Path, plan: &Plan, table: &TableFile) -> Result<(), WrongInput> {
     table.check(path)?;
     let other = |line| Err(wrong_row(path, line, OTHER_SWEEP));
@@ -240,11 +241,11 @@ fn check(path: &Path, plan: &Plan, table: &TableFile) -> Result<(), WrongInput> 
         .map_or(Ok(()), |(line, _)| other(*line))
 }
 
-/// Why a file is not gone on with.
+/// Message for a file that belongs to another sweep.
 const OTHER_SWEEP: &str = "the file is of another scene, of other values of --vary, or from before a file that the scene names was \
                            changed; give another --out";
 
-/// One record with the end of its line.
+/// A CSV record with its line end.
 pub(super) fn line(fields: &[String]) -> Result<String> {
     Ok(String::from_utf8(to_csv("", [fields])?)?)
 }

@@ -1,4 +1,4 @@
-//! The files of shards as one.
+//! Merging of the files of shards.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use super::{say_samples, say_warnings, wrong_row};
 use crate::input::read_table;
 use crate::output::{OutputFile, print_text, say};
 
-/// Joins files of one sweep, in the order of the points, and says which points none of them has.
+/// Merges the files of one sweep in the order of the points; an error names missing points.
 pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> Result<()> {
     let table = joined(paths)?;
     let files = out.map(|out| {
@@ -42,7 +42,7 @@ pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> R
     Ok(())
 }
 
-/// The rows of all files in the order of their points.
+/// The rows of all files in the order of the points; an error if two files have different answers to a point.
 fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
     let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
     let mut header = Vec::new();

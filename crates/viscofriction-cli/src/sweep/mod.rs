@@ -1,7 +1,6 @@
 //! `sweep`: a scene for many values of its keys, one CSV row per point.
 //!
-//! A row says of which sweep and which point it is, so that an interrupted run goes on where it was and the files of
-//! several machines can be joined.
+//! Each row identifies its sweep and point, so an interrupted run can be resumed, and files of several machines can be merged.
 
 mod file;
 mod merge;
@@ -79,7 +78,7 @@ pub(crate) struct Sweep {
     overwrite: bool,
 }
 
-/// Computes the points of a sweep, or joins files.
+/// Runs the command: computes the points of a sweep, or merges files.
 pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
@@ -117,7 +116,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     Ok(())
 }
 
-/// Says how the answers of samples are distributed.
+/// Reports the distribution of the answers of samples.
 fn say_samples(header: &[String], rows: &[SweepRow]) {
     let table = RowTable {
         header: header.to_vec(),
@@ -128,7 +127,7 @@ fn say_samples(header: &[String], rows: &[SweepRow]) {
     }
 }
 
-/// Says what the points warn of, each once; the column `warnings` has them all.
+/// Reports each warning once; the column `warnings` has all of them.
 fn say_warnings(rows: &[SweepRow]) {
     let warnings = each_once(rows.iter().map(SweepRow::warnings));
     for warning in &warnings {
@@ -140,6 +139,7 @@ fn say_warnings(rows: &[SweepRow]) {
 }
 
 impl Sweep {
+    /// Treatment of an existing file by the options.
     const fn existing(&self) -> Existing {
         match (self.resume || self.retry_failed, self.overwrite) {
             (true, _) => Existing::GoOn,
@@ -149,15 +149,15 @@ impl Sweep {
     }
 }
 
-/// What a sweep has.
+/// The result of a sweep.
 struct Computed {
-    /// In the order of the points.
+    /// Rows in the order of the points.
     rows: Vec<SweepRow>,
-    /// Number of those without an answer that were not computed now.
+    /// Number of failed rows kept from an earlier run.
     n_failed_before: usize,
 }
 
-/// Prints the rows in the order of the points, each as soon as those before it are finished.
+/// Prints the rows in the order of the points, each as soon as all preceding ones are done.
 fn printed(plan: &Plan, points: &[usize], threads: usize) -> Result<Computed> {
     print_text(&line(&header(plan))?)?;
     let mut finished = BTreeMap::new();
@@ -178,7 +178,7 @@ fn printed(plan: &Plan, points: &[usize], threads: usize) -> Result<Computed> {
     })
 }
 
-/// Computes the points that a file does not have, and draws all of it.
+/// Computes the points missing from a file, and draws all of it.
 fn into_file(
     plan: &Plan,
     mut points: Vec<usize>,
@@ -189,7 +189,7 @@ fn into_file(
     let path = checked(out, existing)?;
     let open = || SweepFile::open(path.clone(), plan, existing);
     let (mut file, pictures) = match existing {
-        // Rows of another sweep are named before their picture.
+        // Report rows of another sweep before their picture.
         Existing::GoOn if path.exists() => {
             (open()?, PictureFiles::resumed(out, &plan.fingerprint)?)
         }
@@ -218,7 +218,7 @@ fn into_file(
     })
 }
 
-/// Computes points on several threads, and hands over each row in the order in which it is finished.
+/// Computes points on several threads; `take` receives each row as soon as it is done.
 fn compute(
     plan: &Plan,
     points: &[usize],
@@ -230,7 +230,7 @@ fn compute(
         .build()?;
     let bar = progress::bar("sweep", points.len());
     let (finished, rows) = mpsc::channel();
-    // Where nobody takes rows any more, nothing is computed any more.
+    // Stop computing when the receiver is gone.
     let send = move |row| match finished.send(row) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
@@ -247,6 +247,7 @@ fn compute(
     taken
 }
 
+/// Invalid input at a line of a file.
 fn wrong_row(path: &Path, line: usize, problem: &str) -> WrongInput {
     WrongInput(format!("{}:{line}: {problem}", path.display()))
 }

@@ -1,4 +1,4 @@
-//! What came out of a sweep over what varies, beside its file.
+//! Pictures of a sweep: results over the varied keys, beside the CSV file.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -15,21 +15,20 @@ use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
 use crate::run::around;
 
-/// What may be drawn, as its column and as the label of its axis: friction where something slides, the depth where a force
-/// is given, and else the force.
+/// Quantities that may be drawn, as column and axis label, in order of preference: friction, depth, force.
 pub(super) const QUANTITIES: [(&str, &str); 3] = [
     ("friction_coefficient", "friction coefficient μ"),
     ("indentation_depth", "depth d [m]"),
     ("normal_force", "normal force F [N]"),
 ];
-/// The column before the keys that vary, and the one behind them.
+/// Names of the columns before and after the varied keys.
 pub(super) const AROUND_KEYS: [&str; 2] = ["points", "check"];
-/// Values that follow each other by an equal step or factor do so up to this part of it.
+/// Largest relative deviation of equal steps or factors (chosen, above rounding).
 const EQUAL: f64 = 1e-6;
-/// Values of a list that span a larger factor are drawn over their logarithm.
+/// Smallest ratio of the last to the first value of an irregular list for a logarithmic axis (chosen).
 const WIDE: f64 = 100.0;
 
-/// The picture of a sweep, as SVG and as PNG, and the page about it.
+/// The output files beside the rows: picture as SVG and PNG, and report.
 pub(super) struct PictureFiles {
     svg: OutputFile,
     png: OutputFile,
@@ -37,7 +36,7 @@ pub(super) struct PictureFiles {
 }
 
 impl PictureFiles {
-    /// The files beside that of the rows.
+    /// Validates the paths beside that of the rows.
     pub(super) fn new(rows: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let file = |extension| OutputFile::new(&beside(rows, extension), overwrite);
         Ok(Self {
@@ -47,14 +46,14 @@ impl PictureFiles {
         })
     }
 
-    /// The files of a sweep that is taken up again: its own picture is drawn anew, another one stays.
+    /// Files of a resumed sweep: its own picture may be replaced, another one may not.
     pub(super) fn resumed(rows: &Path, fingerprint: &str) -> Result<Self, WrongInput> {
         let drawn = read_rows(&beside(rows, "svg")).unwrap_or_default();
         Self::new(rows, drawn.ends_with(signature(fingerprint).as_bytes()))
     }
 
-    /// Makes the pictures that are to be replaced those of this sweep, so that it goes on with them when it is taken up again;
-    /// the caller holds the lock of the rows.
+    /// Marks existing pictures as those of this sweep, so that a resumed run may replace them. The caller holds the lock of the
+    /// rows.
     pub(super) fn claim(&self, fingerprint: &str) -> Result<()> {
         if !self.all().iter().any(|file| file.path().exists()) {
             return Ok(());
@@ -65,18 +64,19 @@ impl PictureFiles {
         self.html.remove()
     }
 
+    /// All three files.
     const fn all(&self) -> [&OutputFile; 3] {
         [&self.svg, &self.png, &self.html]
     }
 
-    /// Removes what a sweep that was killed has left of them; the caller holds the lock of the rows.
+    /// Removes temporary files of interrupted runs. The caller holds the lock of the rows.
     pub(super) fn remove_parts(&self) {
         for file in self.all() {
             remove_parts(folder_of(file.path()), &[&name_of(file.path())]);
         }
     }
 
-    /// Draws what can be drawn, and says why where nothing can; writes the page with the scene, where that is known.
+    /// Writes the picture, or reports why there is none, and the report page, with the scene if it is known.
     pub(super) fn draw(&self, table: &RowTable, scene: Option<&str>) -> Result<()> {
         let drawn = figure(table).and_then(|figure| Ok((picture(&figure)?, figure)));
         let figure = match drawn {
@@ -96,7 +96,7 @@ impl PictureFiles {
     }
 }
 
-/// The name of a picture: that of the rows with another extension, or one more.
+/// Path of a picture: that of the rows with its extension replaced, or appended.
 pub(crate) fn beside(rows: &Path, extension: &str) -> PathBuf {
     if rows.extension().is_some_and(|own| own == "csv") {
         return rows.with_extension(extension);
@@ -106,14 +106,15 @@ pub(crate) fn beside(rows: &Path, extension: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// A picture without anything in it.
+/// An empty SVG picture.
 const EMPTY: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n";
 
-/// By this the picture of a sweep is known.
+/// Comment at the end of an SVG file that identifies its sweep.
 fn signature(fingerprint: &str) -> String {
     format!("<!-- sweep {fingerprint} -->\n")
 }
 
+/// The figure of the rows, or the reason why there is none.
 fn figure(table: &RowTable) -> Result<Figure> {
     if let Some(samples) = Samples::of(table) {
         return Ok(samples.figure());
@@ -146,10 +147,10 @@ fn figure(table: &RowTable) -> Result<Figure> {
         values: values(name),
         errors: values(&format!("{name}_error")),
         of_material: values(&format!("{name}_material_error")),
-        // The column of a theory of another quantity is not there.
+        // Only friction has a column of theory.
         theory: values(&format!("persson_{name}_2006")),
     };
-    // Over the key that has the most numbers, the first of several.
+    // Draw over the key with the most numbers, the first of several.
     let most = (0..keys.len())
         .rev()
         .max_by_key(|key| keys[*key].n_numbers());
@@ -168,31 +169,33 @@ fn figure(table: &RowTable) -> Result<Figure> {
     }
 }
 
-/// Decimals behind the first digit of a number in a legend, at least, and those that any number has at most.
+/// Smallest number of decimals of a number in a legend, in scientific notation (chosen).
 const FEWEST_DECIMALS: usize = 2;
+/// Largest number of decimals of a number in a legend: 17 digits are exact for f64.
 const MOST_DECIMALS: usize = 16;
 
-/// More curves than these are not told apart.
+/// Largest number of curves in a chart (chosen).
 const MOST_CURVES: usize = 6;
 
-/// A key that varies, and what each row has in its column.
+/// A varied key with its cell in each row.
 struct Key<'a> {
     name: &'a str,
     cells: Vec<&'a str>,
 }
 
 impl Key<'_> {
+    /// The cells as numbers; `None` for texts.
     fn numbers(&self) -> Vec<Option<f64>> {
         self.cells.iter().map(|cell| cell.parse().ok()).collect()
     }
 
-    /// How many numbers it takes; 0 where it takes texts.
+    /// Number of distinct numbers; 0 if a cell is a text.
     fn n_numbers(&self) -> usize {
         let numbers: Option<Vec<f64>> = self.numbers().into_iter().collect();
         numbers.map_or(0, |numbers| sorted(numbers.into_iter()).len())
     }
 
-    /// What each row has, numbers with as many digits as tell them apart.
+    /// The cells as in a legend, numbers with as many digits as distinguish them.
     fn shown(&self) -> Vec<String> {
         let numbers: Option<Vec<f64>> = self.numbers().into_iter().collect();
         let Some(numbers) = numbers else {
@@ -213,15 +216,16 @@ impl Key<'_> {
     }
 }
 
-/// The rows by the values of the keys over which they are not drawn.
+/// Grouping of the rows by the keys that are not on the axis.
 struct Curves {
-    /// What the rows of each curve have in common, in the order of the rows.
+    /// Labels of the curves, in order of first appearance.
     labels: Vec<String>,
-    /// The curve of each row.
+    /// Index of the curve of each row.
     of: Vec<usize>,
 }
 
 impl Curves {
+    /// Groups the rows; labels beyond one more than [`MOST_CURVES`] are not stored.
     fn new(keys: &[Key<'_>], rows: usize) -> Self {
         let (mut labels, mut of) = (Vec::new(), Vec::new());
         let keys: Vec<(&str, Vec<String>)> =
@@ -249,19 +253,19 @@ impl Curves {
     }
 }
 
-/// A quantity, row by row.
+/// The drawn quantity, by row.
 struct Drawn<'a> {
     label: &'a str,
     values: Vec<Option<f64>>,
     errors: Vec<Option<f64>>,
-    /// What the covariance of the material makes of it.
+    /// Standard error due to the covariance of the material.
     of_material: Vec<Option<f64>>,
-    /// Friction by Persson's theory of 2006, where it is known.
+    /// Friction by Persson's theory (2006), if known.
     theory: Vec<Option<f64>>,
 }
 
 impl Drawn<'_> {
-    /// What was computed over these numbers in these rows, and what theory says there.
+    /// Computed values and theory of the given rows, over their abscissae.
     fn series(&self, rows: &[(f64, usize)]) -> [Series; 2] {
         let at = |values: &[Option<f64>], row: usize| values.get(row).copied().flatten();
         let known = |values: &[Option<f64>]| -> Vec<(usize, [f64; 2])> {
@@ -293,6 +297,7 @@ impl Drawn<'_> {
     }
 }
 
+/// A chart of all curves over a key.
 fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
     let numbers = over.numbers();
     let has_theory = drawn.theory.iter().any(Option::is_some);
@@ -301,7 +306,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
         let rows = (0..numbers.len()).filter(|row| curves.of[*row] == curve);
         let rows = rows.filter_map(|row| Some((numbers[row]?, row)));
         let mut rows: Vec<(f64, usize)> = rows.collect();
-        // Points of shards and of several threads come in any order.
+        // Rows of shards and of several threads may be in any order.
         rows.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let [mut computed, mut theory] = drawn.series(&rows);
         computed.colour = COLOURS[curve % COLOURS.len()];
@@ -332,10 +337,10 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
     })
 }
 
-/// Standard deviations of a normal distribution that hold 95 per cent of it to either side.
+/// Half width of the central 95 % interval of a normal distribution, in standard deviations.
 pub(super) const OF_95_PERCENT: f64 = 1.96;
 
-/// An axis with some room at its ends, so that no mark is cut by the frame.
+/// An axis with a margin, so that no marker is cut; logarithmic for geometric or wide ranges.
 fn axis(key: &str, places: &[f64]) -> Axis {
     let [first, last] = ends_of(places);
     let is_wide = first > 0.0 && last / first >= WIDE;
@@ -347,9 +352,10 @@ fn axis(key: &str, places: &[f64]) -> Axis {
     Axis::linear(labelled(key), [first - room, last + room])
 }
 
-/// Part of an axis.
+/// Margin at each end of an axis, as a fraction of its length (chosen).
 const ROOM: f64 = 0.03;
 
+/// Colours of successive curves.
 const COLOURS: [Colour; 5] = [
     Colour::Blue,
     Colour::Red,
@@ -357,9 +363,10 @@ const COLOURS: [Colour; 5] = [
     Colour::Magenta,
     Colour::Black,
 ];
+/// Markers of successive curves.
 const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
-/// Last parts of keys, with the name, symbol and unit of their quantities.
+/// Last part of a key, with name, symbol and unit of its quantity.
 const NAMES: [(&str, &str); 25] = [
     ("velocity", "speed v [m/s]"),
     ("normal_force", "normal force F [N]"),
@@ -388,7 +395,7 @@ const NAMES: [(&str, &str); 25] = [
     ("temperature", "temperature T [°C]"),
 ];
 
-/// What stands at the axis of a key: its quantity, or the key itself where that is not known.
+/// Axis label of a key: its quantity, or the key itself if it is unknown.
 pub(crate) fn labelled(key: &str) -> String {
     let name = key.rsplit('.').next().unwrap_or(key);
     let mut names = NAMES.iter();
@@ -399,6 +406,7 @@ pub(crate) fn labelled(key: &str) -> String {
     }
 }
 
+/// A colour map over two keys.
 fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn<'_>) -> Result<Figure> {
     let over = [one, other].map(Key::numbers);
     let places = [0, 1].map(|axis: usize| sorted(over[axis].iter().copied().flatten()));
@@ -419,7 +427,7 @@ fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn<'_>) -> Result<Figure> {
     Ok(Figure::single(Chart::map(x, y, field.stretched())))
 }
 
-/// An axis of cells that are as wide as the values in their middle are apart.
+/// An axis of cells centred at equally spaced values.
 fn cells(key: &str, places: &[f64]) -> Result<Axis> {
     let (Some(first), Some(last), true) = (places.first(), places.last(), places.len() > 1) else {
         bail!("{key} has only one value");
@@ -436,15 +444,18 @@ fn cells(key: &str, places: &[f64]) -> Result<Axis> {
     }
 }
 
+/// True if the values have equal steps.
 fn is_arithmetic(places: &[f64]) -> bool {
     is_equal(places.windows(2).map(|pair| pair[1] - pair[0]))
 }
 
+/// True if the values are positive and have equal factors.
 fn is_geometric(places: &[f64]) -> bool {
     let factors = places.windows(2).map(|pair| (pair[1] / pair[0]).ln());
     places.first().is_some_and(|first| *first > 0.0) && is_equal(factors)
 }
 
+/// True if all steps agree within [`EQUAL`].
 fn is_equal(steps: impl Iterator<Item = f64>) -> bool {
     let steps = sorted(steps);
     let (Some(least), Some(most)) = (steps.first(), steps.last()) else {
@@ -453,7 +464,7 @@ fn is_equal(steps: impl Iterator<Item = f64>) -> bool {
     most - least <= EQUAL * most
 }
 
-/// Every value once.
+/// Distinct values in increasing order.
 fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
@@ -461,7 +472,7 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// From the least to the largest of sorted values; some room around a single one.
+/// Range of sorted values; widened around a single one.
 fn ends_of(values: &[f64]) -> [f64; 2] {
     let [low, high] = [values.first(), values.last()].map(|value| value.copied().unwrap_or(0.0));
     if high > low {

@@ -1,4 +1,4 @@
-//! One page about a sweep.
+//! The report page of a sweep.
 
 use anyhow::Result;
 use viscofriction::sweep::each_once;
@@ -10,7 +10,7 @@ use super::samples::Samples;
 use crate::output::markdown;
 use crate::page::Page;
 
-/// Columns with errors that a row of the page has where a point knows them, with their names.
+/// Columns shown with their errors, and their labels.
 const COLUMNS: [(&str, &str); 5] = [
     ("friction_coefficient", "friction coefficient"),
     ("normal_force", "normal force [N]"),
@@ -18,10 +18,10 @@ const COLUMNS: [(&str, &str); 5] = [
     ("contact_area", "contact area [m²]"),
     ("peak_pressure", "peak pressure [Pa]"),
 ];
-/// What a failure stands in.
+/// Name of the column of failures.
 const FAILURE: &str = "failure";
 
-/// The page, with the text of the scene where that is known.
+/// The page, with the text of the scene if it is known.
 pub(super) fn page(
     table: &RowTable,
     figure: Option<&Figure>,
@@ -55,7 +55,7 @@ pub(super) fn page(
     Ok(page.finish())
 }
 
-/// The keys and what is known at each point; why there is no answer, where there is none.
+/// Table of the varied keys and results of each point, and of the failures if there are any.
 fn rows(table: &RowTable, keys: std::ops::Range<usize>) -> comfy_table::Table {
     let place = |name: &str| table.header.iter().position(|column| column == name);
     let is_known = |column: usize| table.rows.iter().any(|row| !row.fields[column].is_empty());

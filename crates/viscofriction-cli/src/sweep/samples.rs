@@ -1,4 +1,4 @@
-//! How the answers of the samples of a scene are distributed, beside what a straight line says.
+//! Distribution of the answers of samples, compared with first-order propagation of uncertainty.
 
 use std::f64::consts::TAU;
 
@@ -11,17 +11,17 @@ use super::picture::{AROUND_KEYS, OF_95_PERCENT, QUANTITIES};
 use crate::output::markdown;
 use crate::run::around;
 
-/// The answers of a sweep over samples alone.
+/// The answers of a sweep over samples only.
 pub(super) struct Samples {
     label: &'static str,
-    /// That of the scene itself, and its standard uncertainty to first order.
+    /// Value for the scene itself, and its standard uncertainty to first order.
     nominal: [f64; 2],
-    /// The least first.
+    /// Values of the samples in increasing order.
     sorted: Vec<f64>,
 }
 
 impl Samples {
-    /// None of another sweep, or where too few have an answer.
+    /// The samples of a sweep; `None` for other sweeps, and for fewer than two answers.
     pub(super) fn of(table: &RowTable) -> Option<Self> {
         let place = |name: &str| table.header.iter().position(|column| column == name);
         let [before, behind] = AROUND_KEYS.map(place);
@@ -30,7 +30,7 @@ impl Samples {
         let number = |row: usize, column: usize| table.rows[row].fields[column].parse::<f64>().ok();
         let is_nominal = |row: &usize| number(*row, key) == Some(0.0);
         let row = (0..table.rows.len()).find(is_nominal)?;
-        // What was given has no uncertainty.
+        // A given quantity has no uncertainty.
         let known = |(name, label): (&str, &'static str)| {
             let uncertainty = number(row, place(&format!("{name}_uncertainty"))?)?;
             let column = place(name)?;
@@ -47,7 +47,7 @@ impl Samples {
         })
     }
 
-    /// Mean, standard deviation and quantiles of the samples, and the same to first order.
+    /// Mean, standard deviation and quantiles of the samples, and those of the normal distribution to first order.
     pub(super) fn table(&self) -> Table {
         let n = self.sorted.len() as f64;
         let mean = self.sorted.iter().sum::<f64>() / n;
@@ -79,7 +79,7 @@ impl Samples {
         table
     }
 
-    /// Between the two samples around it.
+    /// Quantile by linear interpolation between neighbouring samples.
     fn quantile(&self, part: f64) -> f64 {
         let last = self.sorted.len() - 1;
         let place = part * last as f64;
@@ -89,7 +89,7 @@ impl Samples {
         self.sorted[below] + rest * (self.sorted[above] - self.sorted[below])
     }
 
-    /// Which part of the samples is below a value.
+    /// Cumulative distribution of the samples and of the normal distribution to first order.
     pub(super) fn figure(&self) -> Figure {
         let n = self.sorted.len() as f64;
         let values = self.sorted.iter().enumerate();
@@ -116,6 +116,7 @@ impl Samples {
     }
 }
 
-/// Standard deviations of a normal distribution that are drawn to either side, in so many steps.
+/// Half range of the drawn normal distribution, in standard deviations (chosen).
 const FARTHEST: f64 = 4.0;
+/// Steps of the drawn normal distribution on each side (chosen).
 const STEPS: i32 = 200;
