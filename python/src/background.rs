@@ -1,4 +1,4 @@
-//! Work away from the interpreter, which stays free for other threads, shows progress, and can be interrupted.
+//! Computation in background threads: the interpreter stays free, reports progress, and can be interrupted.
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -11,14 +11,14 @@ use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use viscofriction::solve::share_memory;
 
-/// Ctrl-C and the progress are looked after so often.
+/// Interval between checks for signals and finished results (chosen: below the reaction time of a person).
 const LOOK: Duration = Duration::from_millis(50);
 
-/// The results of `work` for 0 to `count` − 1, on `threads` threads of their own or on those of the process, in order.
+/// The results of `work` for 0 to `count` − 1 in order, computed on a pool of `threads` threads, or on that of the process.
 ///
-/// Those that are computed at the same time share the memory, as [`share_memory`] says.
+/// Concurrent computations share the memory as in [`share_memory`].
 ///
-/// What `progress`, called with how many are done and how many there are, or a handler of signals raises is passed on.
+/// `progress` is called with the number of results and `count`. Its exceptions, and those of signal handlers, are passed on.
 pub(crate) fn all<T: Send + 'static>(
     py: Python<'_>,
     count: usize,
@@ -38,9 +38,9 @@ pub(crate) fn all<T: Send + 'static>(
     Ok(results.into_iter().map(|(_, result)| result).collect())
 }
 
-/// Hands over the results of `work` for 0 to `count` − 1 with their numbers, soon after they are there and in any order.
+/// Passes the results of `work` for 0 to `count` − 1 with their indices to `take`, soon after they are ready and in any order.
 ///
-/// After an interruption what is finished is handed over, and no new work begins; what is under way ends unseen.
+/// After an interruption the finished results are passed on and no new work starts; running work is discarded.
 pub(crate) fn each<T: Send + 'static>(
     py: Python<'_>,
     count: usize,
@@ -54,7 +54,7 @@ pub(crate) fn each<T: Send + 'static>(
     };
     let (sender, mut receiver) = channel();
     let compute = move || {
-        // Where nobody takes them any more, none begins.
+        // Stop starting work when the receiver is gone.
         let send = |index, result| match sender.send((index, result)) {
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
@@ -71,7 +71,7 @@ pub(crate) fn each<T: Send + 'static>(
             (finished, has_ended, receiver)
         });
         receiver = back;
-        // An interruption that came meanwhile does not reach what takes the results.
+        // Check signals first, but pass on the results before raising.
         let looked = py.check_signals();
         taken += finished.len();
         if !finished.is_empty() {
@@ -85,12 +85,12 @@ pub(crate) fn each<T: Send + 'static>(
     Ok(())
 }
 
-/// A process and its threads.
+/// The thread pool with the id of its process.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// The threads of this process: a fork has none of those of its parent, and makes its own.
+/// The pool of this process. A forked process does not inherit the threads of its parent and creates a pool of its own.
 ///
-/// The interpreter, which is held here and while a process forks, keeps the two apart.
+/// The interpreter lock, held here and during a fork, excludes a race between both.
 fn pool_of_process(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((process, pool)) = &*known
@@ -99,17 +99,18 @@ fn pool_of_process(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
         return Ok(pool.clone());
     }
     let pool = Arc::new(pool_of(0)?);
-    // To end threads that are not there would wait for them.
+    // Dropping the pool of the parent would wait for threads that do not exist here.
     mem::forget(known.replace((process::id(), pool.clone())));
     Ok(pool)
 }
 
-/// So many threads, or with 0 as many as there are cores.
+/// A pool of `threads` threads; 0 stands for one per core.
 fn pool_of(threads: usize) -> PyResult<ThreadPool> {
     let builder = ThreadPoolBuilder::new().num_threads(threads);
     builder.build().map_err(failed)
 }
 
+/// A `RuntimeError` with a message.
 fn failed(why: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(why.to_string())
 }

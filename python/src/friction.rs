@@ -1,4 +1,4 @@
-//! The moduli of a scene's material from measured friction.
+//! Fit of the moduli of a scene's material to measured friction.
 
 use std::path::PathBuf;
 
@@ -14,15 +14,15 @@ use viscofriction::friction_fit::{Free, FrictionFitOptions, fit_friction};
 use crate::reading::{read_file, read_table};
 use crate::tables::{table, wrong};
 
-/// What [`fit_points`] is asked.
+/// Arguments of [`fit_points`].
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Measured<'py> {
     scene: Bound<'py, PyDict>,
-    /// Where the files are that the scene names.
+    /// Folder of the files that the scene names.
     folder: PathBuf,
-    /// Where the points are read, which else are `columns`: speed and friction, and where there are some standard errors,
-    /// temperatures \[°C] and normal forces.
+    /// File of the points; `None` if they are in `columns`: velocity, friction, and optionally standard errors, temperatures
+    /// \[°C] and normal forces.
     file: Option<PathBuf>,
     columns: Option<[Option<PyReadonlyArray1<'py, f64>>; 5]>,
     free: String,
@@ -33,6 +33,7 @@ pub(crate) struct Measured<'py> {
 }
 
 impl Measured<'_> {
+    /// The points from the file or the columns.
     fn table(&self) -> PyResult<FrictionTable> {
         let Some(columns) = &self.columns else {
             let file = self.file.clone().unwrap_or_default();
@@ -69,6 +70,7 @@ impl Measured<'_> {
         })
     }
 
+    /// The options of the fit; an error names an unknown word.
     fn options(&self) -> PyResult<FrictionFitOptions> {
         let free = match &self.free[..] {
             "moduli" => Free::Moduli,
@@ -95,7 +97,7 @@ impl Measured<'_> {
     }
 }
 
-/// What friction says of a material, as JSON.
+/// Fits a material to friction; returns JSON.
 #[pyfunction]
 pub(crate) fn fit_points(py: Python<'_>, measured: Measured<'_>) -> PyResult<String> {
     let scene = Scene::try_from(table(&measured.scene, "")?).map_err(wrong)?;

@@ -1,4 +1,4 @@
-//! The material behind a measured curve of force over depth.
+//! Fit of a material to a measured curve of force over depth.
 
 use std::path::PathBuf;
 
@@ -18,12 +18,12 @@ use viscofriction::{Body, Files, rheology};
 use crate::reading::{read_file, read_table};
 use crate::tables::{table, wrong};
 
-/// What [`fit_curve`] is asked.
+/// Arguments of [`fit_curve`].
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Curve<'py> {
     body: Bound<'py, PyDict>,
-    /// Where the curve is read, which else is `columns`: time, depth and force.
+    /// File of the curve; `None` if it is in `columns`: time, depth and force.
     file: Option<PathBuf>,
     columns: Option<[PyReadonlyArray1<'py, f64>; 3]>,
     spring_constant: Option<f64>,
@@ -32,13 +32,14 @@ pub(crate) struct Curve<'py> {
     material: String,
     branches: Option<usize>,
     poisson_ratio: f64,
-    /// A number, or "fit".
+    /// Thickness \[m], or "fit"; `None` for a half space.
     thickness: Option<ThicknessOf>,
     tilt: bool,
     before_retraction: bool,
     profile: bool,
 }
 
+/// A thickness argument.
 #[derive(FromPyObject)]
 enum ThicknessOf {
     Known(f64),
@@ -46,6 +47,7 @@ enum ThicknessOf {
 }
 
 impl Curve<'_> {
+    /// The thickness of the sample.
     fn thickness(&self) -> PyResult<Thickness> {
         match &self.thickness {
             None => Ok(Thickness::Infinite),
@@ -57,6 +59,7 @@ impl Curve<'_> {
         }
     }
 
+    /// The curve from the columns or the file.
     fn measured(&self) -> PyResult<CurveFile> {
         if let Some([time, depth, force]) = &self.columns {
             let [time, depth, force] = [time, depth, force].map(|one| one.as_array().to_vec());
@@ -76,7 +79,7 @@ impl Curve<'_> {
         indentation_curve(&file, &contents, &options).map_err(wrong)
     }
 
-    /// As the program says it: with the file, if there is one, of which something is wrong.
+    /// The message of the command-line program, with the file if its contents are wrong.
     fn refused(&self, error: &MeasurementError) -> PyErr {
         match (&self.file, error) {
             (Some(file), other) if !matches!(other, MeasurementError::InvalidParameter(_)) => {
@@ -86,6 +89,7 @@ impl Curve<'_> {
         }
     }
 
+    /// The options of the fit; an error names an unknown word.
     fn options(&self) -> PyResult<FitOptions> {
         let rheology = match &self.material[..] {
             "elastic" => Rheology::Elastic,
@@ -116,7 +120,7 @@ impl Curve<'_> {
     }
 }
 
-/// What a curve says, as a dictionary.
+/// Fits a material to a curve; returns a dictionary.
 #[pyfunction]
 pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bound<'py, PyDict>> {
     let files = Files {
@@ -139,6 +143,7 @@ pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bou
     to_python(py, fit)
 }
 
+/// The result as a dictionary.
 fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>> {
     let finding = |one: &Finding| {
         let estimate = one.estimate.map(|one| (one.value, one.error));

@@ -1,8 +1,8 @@
-//! What the Python package `viscofriction` asks of the library: scenes solved for arrays of loads, sweeps, properties of
-//! materials, and fits.
+//! Native module of the Python package `viscofriction`: scenes solved for arrays of loads, sweeps, properties of materials, and
+//! fits.
 //!
-//! Python holds bodies, materials and results; here nothing is kept. Wrong input is a `ValueError` that names it; what could
-//! not be reached comes back as data, from which Python makes its own exception.
+//! The module keeps no state; Python holds bodies, materials and results. Invalid input raises a `ValueError` that names it.
+//! A missed request is returned as data, from which Python makes its own exception.
 
 mod background;
 mod friction;

@@ -1,4 +1,4 @@
-//! Properties of materials, and materials from measurements.
+//! Material functions, and materials fitted to measurements.
 
 use std::cell::OnceCell;
 use std::path::PathBuf;
@@ -20,7 +20,7 @@ use crate::reading::read_file;
 use crate::solving::mapped;
 use crate::tables::{table, wrong};
 
-/// One of the functions of a material, for each angular frequency or time.
+/// Values of one function of a material at angular frequencies or times.
 #[pyfunction]
 pub(crate) fn material_curve<'py>(
     scene: &Bound<'py, PyDict>,
@@ -65,28 +65,29 @@ pub(crate) fn material_curve<'py>(
     })
 }
 
-/// s(p) of a power profile, and its error.
+/// Scaling factor s(p) of a power profile, and its error.
 #[pyfunction]
 pub(crate) fn scaling_factor(exponent: f64) -> PyResult<(f64, f64)> {
     let factor = friction_analytic::scaling_factor(exponent).map_err(wrong)?;
     Ok((factor.value, factor.error))
 }
 
-/// How a fit is asked for.
+/// Options of a fit.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Options {
-    /// It flows in the end.
+    /// True for a material without an equilibrium modulus.
     liquid: bool,
-    /// At most so many.
+    /// Largest number of branches.
     branches: Option<usize>,
-    /// Excess error allowed for few branches.
+    /// Excess error allowed for fewer branches.
     tolerance: Option<f64>,
-    /// Weight that makes the moduli of equally spaced branches smooth.
+    /// Weight of Tikhonov smoothing of the moduli of equally spaced branches.
     smoothing: Option<f64>,
 }
 
 impl Options {
+    /// The validated options.
     fn checked(&self) -> PyResult<IdentifyOptions> {
         let control = match (self.branches, self.tolerance, self.smoothing) {
             (None, None, None) => IdentifyOptions::default().control,
@@ -105,7 +106,7 @@ impl Options {
     }
 }
 
-/// The Prony series of moduli over angular frequency: spring, branches as pairs, and the relative errors rms and at most.
+/// Fits a Prony series to moduli over angular frequency: equilibrium modulus, branches, and rms and largest relative errors.
 #[pyfunction]
 pub(crate) fn fit_oscillation<'py>(
     py: Python<'py>,
@@ -118,7 +119,7 @@ pub(crate) fn fit_oscillation<'py>(
     fitted(py, MeasuredCurve::oscillation(points), &options)
 }
 
-/// The Prony series of relaxation moduli over time, as [`fit_oscillation`].
+/// Fits a Prony series to relaxation moduli over time; the result is that of [`fit_oscillation`].
 #[pyfunction]
 pub(crate) fn fit_relaxation<'py>(
     py: Python<'py>,
@@ -132,7 +133,7 @@ pub(crate) fn fit_relaxation<'py>(
     fitted(py, MeasuredCurve::relaxation(points), &options)
 }
 
-/// The Prony series of a function G(t), and its largest relative error; raises what the function raises.
+/// Expands a function G(t) in a Prony series with its largest relative error; exceptions of the function are passed on.
 #[pyfunction]
 pub(crate) fn expand_relaxation<'py>(
     relaxation_modulus: &Bound<'py, PyAny>,
@@ -144,7 +145,7 @@ pub(crate) fn expand_relaxation<'py>(
     let modulus = |time: f64| {
         let value = relaxation_modulus.call1((time,));
         let value = value.and_then(|value| value.extract::<f64>());
-        // Refused as no modulus, and then raised.
+        // NaN makes the expansion fail; the exception is then raised.
         value.unwrap_or_else(|error| {
             raised.get_or_init(|| error);
             f64::NAN
@@ -160,7 +161,7 @@ pub(crate) fn expand_relaxation<'py>(
     Ok(dictionary)
 }
 
-/// Spring and branches as pairs.
+/// Equilibrium modulus, and branches as pairs of modulus and relaxation time.
 fn series<'py>(py: Python<'py>, spectrum: &RelaxationSpectrum) -> PyResult<Bound<'py, PyDict>> {
     let branches = spectrum.branches().iter();
     let branches: Vec<[f64; 2]> = branches
@@ -172,6 +173,7 @@ fn series<'py>(py: Python<'py>, spectrum: &RelaxationSpectrum) -> PyResult<Bound
     Ok(dictionary)
 }
 
+/// Fits a series to a curve; returns a dictionary.
 pub(crate) fn fitted<'py>(
     py: Python<'py>,
     curve: Result<MeasuredCurve, RheologyError>,

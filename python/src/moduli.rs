@@ -16,11 +16,13 @@ use crate::materials::{Options, fitted};
 use crate::reading::read_table;
 use crate::tables::wrong;
 
+/// An array of numbers.
 type Column<'py> = Bound<'py, PyArray1<f64>>;
-/// Temperature, and angular frequencies, storage and loss moduli; of relaxation times and moduli.
+/// Each isotherm: temperature, and columns of angular frequency, storage and loss modulus; for relaxation `None`, times and
+/// moduli.
 type Measured<'py> = Vec<(Option<f64>, Vec<Column<'py>>)>;
 
-/// The isotherms of a table, or its one relaxation curve, in SI and in shear, and whether their temperatures are in °C.
+/// Reads the isotherms or the relaxation curve of a table, in SI units and in shear, and whether temperatures are in °C.
 #[pyfunction]
 pub(crate) fn read_moduli<'py>(
     py: Python<'py>,
@@ -61,10 +63,12 @@ pub(crate) fn read_moduli<'py>(
     Ok((measured, celsius))
 }
 
+/// Columns as arrays.
 fn columns<const N: usize>(py: Python<'_>, columns: [Vec<f64>; N]) -> Vec<Column<'_>> {
     columns.map(|column| column.into_pyarray(py)).into()
 }
 
+/// The columns of an isotherm.
 fn columns_of<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>> {
     let numbers: [fn(&ModulusPoint) -> f64; 3] =
         [|p| p.angular_frequency, |p| p.storage, |p| p.loss];
@@ -74,7 +78,7 @@ fn columns_of<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>>
     )
 }
 
-/// Points of angular frequencies, storage and loss moduli, as many as of the shortest column.
+/// Points from columns of angular frequency, storage and loss modulus, up to the shortest column.
 pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoint> {
     let [omega, storage, loss] = columns.each_ref().map(PyReadonlyArray1::as_array);
     let moduli = storage.iter().zip(loss.iter());
@@ -86,12 +90,13 @@ pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoi
     omega.iter().zip(moduli).map(point).collect()
 }
 
-/// One isotherm as [`read_moduli`] returns it.
+/// One isotherm, as [`read_moduli`] returns it.
 type Given<'py> = (f64, [PyReadonlyArray1<'py, f64>; 3]);
 
-/// The series of the master curve of isotherms at a temperature, or at that of the one in the middle, as `fit_oscillation`, and
-/// with it for every isotherm temperature, log₁₀ a_T, b_T and whether the law of others placed it, the standard errors of ln a_T and
-/// ln b_T, how the moduli change and why, the temperature of the curve, and as JSON the shift law.
+/// Fits a Prony series to the master curve of isotherms at a temperature, by default at that of the middle isotherm. The
+/// dictionary is that of `fit_oscillation` with, for each isotherm, temperature, log₁₀ a_T, b_T, whether the law of the others
+/// placed it, and the standard errors of ln a_T and ln b_T. It also has the kind of vertical shift and whether the data show it,
+/// the temperature of the curve, and the shift law as JSON.
 #[pyfunction]
 pub(crate) fn fit_isotherms<'py>(
     py: Python<'py>,
@@ -129,6 +134,7 @@ pub(crate) fn fit_isotherms<'py>(
     Ok(dictionary)
 }
 
+/// The vertical shift of a name.
 fn vertical_shift(name: &str) -> PyResult<VerticalShift> {
     let named = VerticalShift::NAMED.into_iter();
     let mut kinds = named.filter_map(|(own, kind)| (own == name).then_some(kind));
@@ -140,12 +146,13 @@ fn vertical_shift(name: &str) -> PyResult<VerticalShift> {
         .ok_or_else(|| wrong(format!("vertical must be one of {names}, but is {name:?}")))
 }
 
+/// The name of a vertical shift.
 fn name_of(vertical: VerticalShift) -> Option<&'static str> {
     let mut named = VerticalShift::NAMED.into_iter();
     named.find_map(|(name, kind)| (kind == vertical).then_some(name))
 }
 
-/// The factors of all times and of all moduli to a temperature \[°C], by a shift law as JSON.
+/// Factors a_T and b_T on all times and moduli at a temperature \[°C], by a shift law as JSON.
 #[pyfunction]
 pub(crate) fn shift_factors(shift: &str, temperature: f64) -> PyResult<(f64, f64)> {
     let shift: Shift = serde_json::from_str(shift).map_err(wrong)?;

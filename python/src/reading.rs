@@ -1,4 +1,4 @@
-//! Files, none of them without end.
+//! Input files of limited size.
 
 use std::fs;
 use std::io::Error;
@@ -6,10 +6,10 @@ use std::path::Path;
 
 use viscofriction::WrongInput;
 
-/// A table is as long as an instrument makes it, \[bytes].
+/// Largest table of measurements, \[bytes] (chosen).
 const LARGEST_TABLE: u64 = 1 << 27;
 
-/// Reads a regular file of at most so many bytes.
+/// Reads a regular file of at most `most` bytes.
 pub(crate) fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     let read = || {
         let file = path.metadata()?;
@@ -22,6 +22,7 @@ pub(crate) fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     read().map_err(|error| WrongInput(format!("{}: {error}", path.display())))
 }
 
+/// Reads a table of measurements.
 pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, WrongInput> {
     read_file(path, LARGEST_TABLE)
 }

@@ -1,4 +1,4 @@
-//! What a surface from an array is like.
+//! Roughness parameters and spectra of a surface from an array.
 
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -10,7 +10,7 @@ use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
 use crate::tables::{table, wrong};
 
-/// The parameters and spectra of a surface by their names.
+/// Roughness parameters and spectra of a surface by name.
 #[pyfunction]
 pub(crate) fn surface_numbers<'py>(
     py: Python<'py>,
@@ -56,7 +56,7 @@ pub(crate) fn surface_numbers<'py>(
     Ok(numbers)
 }
 
-/// Refuses heights that no surface can be made of, and keys that do not fit to them.
+/// Raises an error for heights that form no surface, and for keys that do not match them.
 #[pyfunction]
 pub(crate) fn check_height_map(
     heights: PyReadonlyArray2<'_, f64>,
@@ -65,11 +65,12 @@ pub(crate) fn check_height_map(
     prepared(&heights, keys).map(drop)
 }
 
+/// The table of the keys, and the surface prepared by it.
 fn prepared(
     heights: &PyReadonlyArray2<'_, f64>,
     keys: &Bound<'_, PyDict>,
 ) -> PyResult<(HeightMapTable, Topography)> {
-    // The keys are arguments here.
+    // In Python the keys are arguments without a path.
     let named = |error: SceneError| wrong(error.to_string().replace("indenter.height-map.", ""));
     let table = HeightMapTable::try_from(table(keys, "")?).map_err(named)?;
     let surface = topography(heights, &table).and_then(|surface| {
@@ -87,7 +88,7 @@ pub(crate) fn topography(
     let spacing = table.spacing.ok_or_else(|| wrong("spacing is missing"))?;
     let heights = heights.as_array();
     let shape = [heights.nrows(), heights.ncols()];
-    // Row by row, whatever the strides.
+    // The iterator yields rows independent of the strides.
     let heights = heights.iter().copied().collect();
     Ok(Topography::of_rows(shape, spacing, heights))
 }

@@ -22,17 +22,17 @@ use crate::tables::{table, wrong};
 /// Sets a number of the load that may differ from scene to scene.
 type Column = fn(&mut Scene, f64);
 
-/// A scene, and what differs between the scenes that are solved.
+/// A scene with the columns that differ between the solved scenes.
 struct Scenes {
     scene: Scene,
     folder: PathBuf,
-    /// Of a body of many numbers, which is read once.
+    /// Body read once for all scenes; `None` for bodies that are quickly built.
     surface: Option<BodyOfScene>,
     columns: Vec<(Column, Vec<f64>)>,
 }
 
 impl Scenes {
-    /// With one of so many parts of the memory.
+    /// Scene number `index`, with one of `parts` equal parts of the memory.
     fn scene(&self, index: usize, parts: u64) -> Result<Scene, SceneError> {
         let mut scene = self.scene.clone();
         for (column, values) in &self.columns {
@@ -42,6 +42,7 @@ impl Scenes {
         Ok(scene)
     }
 
+    /// Problem number `index`, with one of `parts` equal parts of the memory.
     fn problem(&self, index: usize, parts: u64) -> PyResult<Problem> {
         let scene = self.scene(index, parts).map_err(wrong)?;
         let problem = match self.surface.as_ref().and_then(copy) {
@@ -54,6 +55,7 @@ impl Scenes {
     }
 }
 
+/// A copy of a height map or periodic surface; `None` for other bodies.
 fn copy(of: &BodyOfScene) -> Option<BodyOfScene> {
     let body = match &of.body {
         Body::HeightMap(map) => Body::HeightMap(map.clone()),
@@ -64,6 +66,7 @@ fn copy(of: &BodyOfScene) -> Option<BodyOfScene> {
     Some(BodyOfScene { body, warnings })
 }
 
+/// The setter of a column by its name.
 fn column(name: &str) -> PyResult<Column> {
     let set: Column = match name {
         "normal_force" => |scene, force| scene.load.normal_force = Some(force),
@@ -81,31 +84,32 @@ fn column(name: &str) -> PyResult<Column> {
     Ok(set)
 }
 
-/// What [`solve_loads`] is asked.
+/// Arguments of [`solve_loads`].
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Loads<'py> {
     scene: Bound<'py, PyDict>,
-    /// Where the files are that the scene names.
+    /// Folder of the files that the scene names.
     folder: PathBuf,
-    /// Of the body, in the place of the file that the scene names.
+    /// Heights of the body, in place of the file that the scene names.
     heights: Option<PyReadonlyArray2<'py, f64>>,
-    /// Arrays of one length by their names.
+    /// Arrays of equal length by name.
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
-    /// A history in the place of that of the scene: the control, times, and its values.
+    /// A history that replaces that of the scene: name of the control, times, and values.
     history: Option<(
         String,
         PyReadonlyArray1<'py, f64>,
         PyReadonlyArray1<'py, f64>,
     )>,
-    /// Whether fields are wanted that take longer than the answer itself.
+    /// True to compute fields that may take longer than the answer.
     fields: bool,
-    /// Whether derivatives by the numbers of the scene are wanted.
+    /// True to compute the derivatives by the numbers of the scene.
     sensitivity: bool,
     spectral_sensitivity: bool,
 }
 
 impl Loads<'_> {
+    /// The scenes of the arguments.
     fn scenes(&self) -> PyResult<Scenes> {
         let columns = self.columns.iter().map(|(name, values)| {
             let values = values.as_array().to_vec();
@@ -144,8 +148,8 @@ impl Loads<'_> {
 
 /// Solves one scene for each row of the columns.
 ///
-/// Returns a dictionary: `columns`, arrays of all numbers by their names, NaN where not known; `answers`, what else is
-/// known of each as dictionaries or None, with the text of the program of a single one; `failures`, sentences or None.
+/// Returns a dictionary: `columns`, arrays of all numbers by name, NaN if not known; `answers`, other results as dictionaries
+/// or None, with the JSON of a single answer; `failures`, messages or None; `wrong_inputs`, whether the input was invalid.
 #[pyfunction]
 pub(crate) fn solve_loads<'py>(
     py: Python<'py>,
@@ -159,11 +163,11 @@ pub(crate) fn solve_loads<'py>(
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| {
         let problem = scenes.problem(index, 1)?;
-        // A body of many numbers is not kept for each.
+        // Height maps and periodic surfaces would take memory for each scene.
         Ok(matches!(problem.body(), Body::Revolution(_)).then_some(problem))
     });
     let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
-    // A history in closed form may take seconds.
+    // A history in closed form may take seconds, so it runs in the background.
     let is_quick = |problem: &Problem| {
         let is_closed = plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);
         is_closed && problem.history().is_empty()
@@ -190,7 +194,7 @@ pub(crate) fn solve_loads<'py>(
         };
         match &problems[index] {
             Some(problem) if parts == 1 || !has_limit => Some(solve(problem)),
-            // With all of the memory it was built before.
+            // With all of the memory the problem was already built without an error.
             _ => {
                 let problem = scenes.problem(index, parts).ok()?;
                 let answer = solve(&problem);
@@ -199,16 +203,17 @@ pub(crate) fn solve_loads<'py>(
         }
     };
     let answers = if is_quick {
-        // Sooner done than a thread is begun.
+        // Faster than starting a thread.
         py.detach(|| work(0, 1)).into_iter().collect()
     } else {
         background::all(py, count, threads, progress, work)?
     };
-    // The curve of a history that came as arrays is asked for as arrays.
+    // A history given as arrays is returned as arrays only.
     let has_text = count == 1 && loads.history.is_none();
     to_python(py, answers, has_text)
 }
 
+/// The answers as the dictionary of [`solve_loads`].
 fn to_python(
     py: Python<'_>,
     answers: Vec<Result<Answer, SolveError>>,
@@ -247,7 +252,7 @@ fn to_python(
     Ok(result)
 }
 
-/// What is no single number.
+/// Results other than single numbers.
 fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     let dictionary = PyDict::new(py);
     dictionary.set_item("method", answer.method.name())?;
@@ -293,7 +298,7 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     Ok(dictionary)
 }
 
-/// What was asked for of them.
+/// Adds derivatives and budget, if requested.
 fn add_derivatives<'py>(
     py: Python<'py>,
     answer: &Answer,
@@ -319,7 +324,7 @@ fn add_derivatives<'py>(
     Ok(())
 }
 
-/// The derivatives and their errors by quantity, by the number of the scene.
+/// Derivatives with their errors, by number of the scene and quantity.
 fn derivatives<'py>(
     py: Python<'py>,
     sensitivities: &[Sensitivity],
@@ -338,7 +343,7 @@ fn derivatives<'py>(
     Ok(by_number)
 }
 
-/// Uncertainties by source and quantity, with their total.
+/// Uncertainties by source and quantity, with the total.
 fn budget<'py>(py: Python<'py>, budget: &Budget) -> PyResult<Bound<'py, PyDict>> {
     let entries = budget.entries.iter();
     let entries = entries.map(|(source, known)| (source.name(), *known));
@@ -355,7 +360,7 @@ fn budget<'py>(py: Python<'py>, budget: &Budget) -> PyResult<Bound<'py, PyDict>>
     Ok(sources)
 }
 
-/// The warnings of many answers, each once, with how many answers have it.
+/// Each warning of many answers once, with the number of answers that share it.
 #[pyfunction]
 pub(crate) fn shared_warnings(answers: Vec<Vec<String>>) -> Vec<String> {
     let answers = answers
@@ -365,18 +370,18 @@ pub(crate) fn shared_warnings(answers: Vec<Vec<String>>) -> Vec<String> {
     shared.map(|warning| warning.to_string()).collect()
 }
 
-/// A sweep, as [`sweep_points`] is asked.
+/// Arguments of a sweep.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Sweep<'py> {
     scene: Bound<'py, PyDict>,
-    /// Where the files are that the scene names.
+    /// Folder of the files that the scene names.
     folder: PathBuf,
-    /// Keys and their values.
+    /// Varied keys with their values.
     vary: Vec<(String, Values<'py>)>,
 }
 
-/// The values of a key.
+/// Values of a varied key.
 #[derive(FromPyObject)]
 enum Values<'py> {
     Numbers(PyReadonlyArray1<'py, f64>),
@@ -384,6 +389,7 @@ enum Values<'py> {
 }
 
 impl Values<'_> {
+    /// The values for the plan.
     fn varied(&self) -> Vec<Varied> {
         match self {
             Self::Numbers(values) => values
@@ -398,6 +404,7 @@ impl Values<'_> {
 }
 
 impl Sweep<'_> {
+    /// The plan of the sweep.
     fn plan(&self) -> PyResult<Plan> {
         let text = table(&self.scene, "")?.to_string();
         let source = Source::new(&self.folder.join("scene"), text.into_bytes()).map_err(wrong)?;
@@ -409,7 +416,7 @@ impl Sweep<'_> {
     }
 }
 
-/// The names of the columns of a sweep and the number of its points, after all of them were checked.
+/// Names of the columns and number of points of a sweep, after validation of all points.
 #[pyfunction]
 pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, usize)> {
     let plan = sweep.plan()?;
@@ -417,7 +424,7 @@ pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, usize)> {
     Ok((header(&plan), plan.n_points()))
 }
 
-/// The first of rows of points that is not what was computed, by its place, and why; None where all are of the sweep.
+/// Index of the first row that was changed or belongs to another sweep, with the reason; None if all rows are valid.
 #[pyfunction]
 pub(crate) fn sweep_problem(
     sweep: Sweep<'_>,
@@ -437,8 +444,8 @@ pub(crate) fn sweep_problem(
     Ok(problems.next())
 }
 
-/// Calls `take` with lists of points and their rows, as the texts that the program writes, soon after they are computed and
-/// in any order.
+/// Computes points of a sweep. `take` receives lists of points and their rows, as the program writes them, soon after they are
+/// computed and in any order.
 #[pyfunction]
 pub(crate) fn sweep_points<'py>(
     py: Python<'py>,
@@ -462,7 +469,7 @@ pub(crate) fn sweep_points<'py>(
     })
 }
 
-/// A number for each value, in a new array.
+/// A new array of function values.
 pub(crate) fn mapped<'py>(
     values: &PyReadonlyArray1<'py, f64>,
     function: impl Fn(f64) -> PyResult<f64>,

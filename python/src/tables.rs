@@ -1,16 +1,16 @@
-//! Scenes as Python writes them: dictionaries.
+//! Conversion of Python dictionaries to tables of a scene.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 use toml::{Table, Value};
 
-/// A `ValueError` with this sentence.
+/// A `ValueError` with a message.
 pub(crate) fn wrong(problem: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(problem.to_string())
 }
 
-/// The table that a dictionary describes.
+/// Converts a dictionary to a table; `path` names it in errors.
 pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Table> {
     let mut table = Table::new();
     for (key, value) in dictionary {
@@ -22,7 +22,7 @@ pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Tabl
         } else {
             format!("{path}.{key}")
         };
-        // What is None is not given.
+        // None stands for an absent key.
         if !value.is_none() {
             table.insert(key, self::value(&value, &inner)?);
         }
@@ -30,6 +30,7 @@ pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Tabl
     Ok(table)
 }
 
+/// Converts an object to a value of a scene.
 fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     if let Ok(dictionary) = object.cast::<PyDict>() {
         return Ok(Value::Table(table(dictionary, path)?));
@@ -51,11 +52,11 @@ fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     if let Ok(integer) = object.extract::<i64>() {
         return Ok(Value::Integer(integer));
     }
-    // Numbers of NumPy are numbers too.
+    // Includes NumPy scalars.
     if let Ok(number) = object.extract::<f64>() {
         return Ok(Value::Float(number));
     }
-    // Paths of files.
+    // Includes file paths.
     if let Ok(file) = object.extract::<std::path::PathBuf>() {
         let file = file.to_string_lossy().into_owned();
         return Ok(Value::String(file));
