@@ -96,6 +96,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
     let problem = problem_of(&source, options.method, read_input)?;
     let problem = problem.or_max_memory(half_of_free_memory());
+    // Choose the method and validate the request before anything is computed.
     let plan = plan_of(&source, &problem)?;
     let offered = options.check_derivatives(&problem, plan.method());
     offered.map_err(|error| source.locate(&error))?;
@@ -103,6 +104,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();
     let task = format!("{path} by {}", plan.method().name());
+    // Solve; a missed request may still have an answer.
     let started = Instant::now();
     let answer = progress::during(task, |watch| in_pool(plan, problem.threads(), watch));
     let seconds = started.elapsed().as_secs_f64();
@@ -116,6 +118,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
             None => return Err(error.context(path.to_string())),
         },
     };
+    // Add derivatives and fields.
     if missed.is_none() {
         (answer, missed) = with_derivatives(options, (&source, &problem), answer)?;
     }

@@ -83,6 +83,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
+    // Plan and validate all points.
     let vary = options.vary.iter().chain(&options.samples);
     let vary: Vec<Vary> = vary.cloned().collect();
     let mut plan = Plan::new(read_scene(scene)?, &vary, read_input)?;
@@ -91,6 +92,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let threads = plan.validate()?.unwrap_or(0);
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
+    // Compute the points of this shard.
     let Computed {
         rows,
         n_failed_before,
@@ -98,6 +100,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         Some(out) => into_file(&plan, points, threads, (out, options))?,
         None => printed(&plan, &points, threads)?,
     };
+    // Report warnings, the distribution of samples, and failures.
     say_warnings(&rows);
     say_samples(&header(&plan), &rows);
     let n_failed = rows.iter().filter(|row| row.failed()).count();
@@ -198,11 +201,13 @@ fn into_file(
             (open()?, pictures)
         }
     };
+    // Claim rows and pictures for this sweep.
     pictures.remove_parts();
     if existing == Existing::Replace {
         pictures.claim(&plan.fingerprint)?;
     }
     file.begin(plan)?;
+    // Compute the missing points, then sort and draw all rows.
     let stays = |(_, has_answer): &(usize, bool)| *has_answer || !options.retry_failed;
     let there: BTreeMap<usize, bool> = file.points().filter(stays).collect();
     points.retain(|point| !there.contains_key(point));
