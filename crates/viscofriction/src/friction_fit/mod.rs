@@ -92,6 +92,7 @@ pub fn fit_friction(
     options: &FrictionFitOptions,
     watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<FittedFriction, FrictionFitError> {
+    // Validate options, points and scene.
     if let FrictionPrior::Relative(prior) = options.prior {
         positive("prior", prior).map_err(MeasurementError::from)?;
     }
@@ -101,12 +102,15 @@ pub fn fit_friction(
     family.check_temperatures(points)?;
     let problem = Problem::new(&family.scene, folder, read)?;
     let mut model = Model::new(&family, &problem, points)?;
+    // Set up the least squares with its prior.
     let (parameters, start) = family.parameters(points);
     let known = family.known(options.prior);
     let prior = family.prior(known, &start);
     let fitting = FrictionFitting::new(points, &parameters, prior.as_ref(), options.noise)?;
+    // Fit some points on coarse grids, then all on corrected grids.
     let start = first_search(&model, &family, (&fitting, &parameters), &start, watch)?;
     let (found, solver_error) = corrected(&mut model, &fitting, start, watch)?;
+    // Evaluate the minimum: reduced velocities, statistics and intervals.
     let logs = &found.minimum.parameters;
     let shifted = points.iter().map(|point| {
         let (log, _) = family.shift_of(point, logs)?;
@@ -238,11 +242,13 @@ fn corrected(
     loop {
         let stage = FitStage::LeastSquares { done: corrected };
         watch(&FitProgress { stage, residual });
+        // Correct the grids at the current parameters, then minimise.
         let solver_error = model.correct(&start)?;
         corrected += 1;
         let found = fitting.minimum(model, &start);
         let found = found.ok_or_else(|| not_converged(model))?;
         residual = fitting.mean_residual(&found);
+        // Stop if the minimum is close to the parameters of the correction.
         let moved = found.minimum.parameters.iter().zip(&start);
         let moved = moved
             .map(|(new, old)| (new - old).abs())

@@ -82,6 +82,7 @@ impl Covariance {
     /// semidefinite.
     pub(crate) fn factor(&self) -> Result<Vec<Vec<f64>>, usize> {
         let n = self.relative.len();
+        // Scale to the correlation matrix.
         let deviations: Vec<f64> = (0..n).map(|k| self.relative[k][k].sqrt()).collect();
         let scale = |k: usize| {
             if deviations[k] > 0.0 {
@@ -91,6 +92,7 @@ impl Covariance {
             }
         };
         let mut factor = vec![vec![0.0; n]; n];
+        // Factorise column by column; pivots within rounding count as 0.
         for column in 0..n {
             for row in column..n {
                 let known = (0..column).map(|k| factor[row][k] * factor[column][k]);
@@ -112,6 +114,7 @@ impl Covariance {
                 }
             }
         }
+        // Scale back to the covariance.
         for (row, deviation) in factor.iter_mut().zip(deviations) {
             row.iter_mut().for_each(|entry| *entry *= deviation);
         }

@@ -149,11 +149,13 @@ impl HeightMapTable {
         let quarters = self.direction / 90.0;
         let is_known = [0.0, 1.0, 2.0, 3.0].contains(&quarters);
         in_range(key, self.direction, is_known, "0, 90, 180 or 270")?;
+        // Convert to metres, and reject implausible sizes.
         let mut surface = self.in_metres(surface)?;
         positive("indenter.height-map.spacing[0]", surface.spacing[0])?;
         positive("indenter.height-map.spacing[1]", surface.spacing[1])?;
         self.check_sizes(&surface)?;
         surface.notes.extend(marker(&surface.heights));
+        // Fill holes, remove the tilt, and rotate x into the direction of motion.
         let mut surface = self.without_holes(surface)?;
         let sizes = surface.heights.iter().map(|height| height.abs());
         let largest = sizes.fold(0.0, f64::max);

@@ -116,6 +116,7 @@ impl Problem {
         read: ReadFile,
     ) -> Result<Self, SceneError> {
         let files = Files::of(scene, folder, read)?;
+        // Validate load and motion.
         let history = scene.load.checked_history(&files)?;
         let history = history.unwrap_or_default();
         let moving = scene.load.checked_motion(body.period_area(), &files)?;
@@ -124,6 +125,7 @@ impl Problem {
             (_, Some(moving)) => ended(scene, Motion::Moving(moving.largest_control()))?,
             _ => motion(scene, &body)?,
         };
+        // Build the material and its reduction to one with closed forms.
         let elastomer = half_space(&scene.material, &files)?;
         let thickness = match scene.layer {
             Some(layer) => positive("layer.thickness", layer.thickness)?,
@@ -159,6 +161,7 @@ impl Problem {
             realisations,
             shortest_wavelength: None,
         };
+        // Reject combinations that no method answers.
         problem.check_control()?;
         problem.check_track()?;
         problem.check_layer()?;

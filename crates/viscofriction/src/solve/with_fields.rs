@@ -25,8 +25,9 @@ const N_TIMES: usize = 60;
 /// Adds pressure and history to a closed form of indentation, and the work to an indentation history of the one-dimensional
 /// model. They may take longer than the answer; other answers have their fields already.
 ///
-/// Left out are the pressure under a constant force on a material that creeps, which depends on how the contact has grown, the
-/// pressure of a body whose slope jumps inside the contact, such as a flat cone, and the history on an elastic material.
+/// Some fields are left out. The pressure under a constant force on a material that creeps depends on how the contact has
+/// grown. The pressure of a body whose slope jumps inside the contact, such as a flat cone, is infinite there. An elastic
+/// material has no history.
 #[must_use]
 pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     let pressure = match (problem.body(), answer.method) {

@@ -140,6 +140,7 @@ impl<'a> Drawn<'a> {
         let part = self.part(&found);
         self.coarse = found;
         while self.relative_standard_error() > asked {
+            // Choose the numbers of answers and coarse solutions of this round.
             let now = Counts {
                 fine: self.answers.len(),
                 coarse: self.coarse.len(),
@@ -156,6 +157,7 @@ impl<'a> Drawn<'a> {
             ];
             self.progress
                 .set_remaining_work(fine_left as f64 + part * coarse_left as f64);
+            // Solve the additional surfaces of both kinds.
             self.solve(fine)?;
             // If a contact is not found on the coarse grid, continue with answers only.
             let Some(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
@@ -174,6 +176,7 @@ impl<'a> Drawn<'a> {
         if !has_coarse_grids(self.problem) {
             return None;
         }
+        // Start from the work without a coarse grid.
         let alone = self.counts(&[], asked, usize::MAX, 1.0).coarse as f64;
         let (mut best, mut least) = (None, alone);
         for finer in FINER {
@@ -184,6 +187,7 @@ impl<'a> Drawn<'a> {
             if work < least {
                 (best, least) = (Some(Trial { finer, found }), work);
             }
+            // Halving the spacing takes four times the work: stop if that cannot pay.
             let next = 4.0 * part;
             if next > LARGEST_PART || FEWEST as f64 + next * alone > least {
                 break;

@@ -114,6 +114,7 @@ pub(super) fn mean(
     if problem.realisations() == 1 {
         return first(watch);
     }
+    // Sample and solve the surfaces.
     let mut drawn = Drawn::new(problem, watch, first)?;
     if let Some(asked) = problem.standard_error() {
         drawn.until_known(asked)?;
@@ -124,6 +125,7 @@ pub(super) fn mean(
         missed,
         ..
     } = drawn;
+    // Average the answers, and correct the means by the coarse solutions.
     let mut answer = mean_of(&answers, &problem.seeds());
     answer.count((&answers, &coarse));
     let Some(why) = missed else {

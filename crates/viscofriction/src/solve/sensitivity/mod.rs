@@ -67,6 +67,7 @@ pub fn with_sensitivity(
     answer: Answer,
     watch: &dyn Progress,
 ) -> Result<Answer> {
+    // Differentiate by all numbers; if the method cannot, solve again by boundary elements.
     let numbers = Numbers::new(scene, folder, read)?;
     let all = numbers.all().into_iter();
     let all: Vec<Number> = all.chain(numbers.uncertain_temperature()).collect();
