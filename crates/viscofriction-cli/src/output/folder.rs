@@ -378,7 +378,7 @@ mod tests {
         fs::read_to_string(folder.join(name)).ok()
     }
 
-    /// As on a file system without an exchange, where a kill may come between both steps.
+    /// A file system without atomic exchange, on which a run may be killed between both renames.
     #[test]
     fn a_folder_that_was_moved_away_comes_back() {
         let scratch = TempDir::new().expect("a folder");

@@ -172,7 +172,7 @@ mod tests {
         }
     }
 
-    /// Two moduli of which only the sum is known, and one that is exact.
+    /// Two moduli with a known sum and unknown difference, and a third that is exact.
     #[test]
     fn a_covariance_without_full_rank_has_its_factor() {
         let known = covariance(&[&[0.04, -0.02, 0.0], &[-0.02, 0.01, 0.0], &[0.0, 0.0, 0.0]]);

@@ -334,7 +334,7 @@ fn line_of_error(error: &IndenterError, rows: &[(usize, ProfileRow)]) -> usize {
 mod tests {
     use super::*;
 
-    /// A path as programs of several countries write it is the same path.
+    /// The notations of different locales and programs give the same motion.
     #[test]
     fn a_path_is_read_from_every_plain_table() {
         let plain = "time_s,position_m\n0,0\n0.5,1.5e-3\n";

@@ -438,7 +438,7 @@ mod tests {
         Problem::try_from(&scene).expect("a problem")
     }
 
-    /// The area is the square of a radius that is a number, and the tangential force the product of two.
+    /// The area is the square of a finite radius, and the tangential force a product of two finite numbers; both may overflow.
     #[test]
     fn what_underflows_is_no_answer() {
         let pressed = "normal_force = 1e-300\nvelocity = 0.0\n[solve]\nduration = 1.0";

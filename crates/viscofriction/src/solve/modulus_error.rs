@@ -195,7 +195,7 @@ mod tests {
         "indentation_depth = 1e-5\nvelocity = 0.0\n[solve]\nduration = 100.0",
     ];
 
-    /// A series of a springpot as a material of its own, and the error that `PER_MODULUS` is multiplied with.
+    /// The Prony series of a springpot as a material of its own, and the error that [`PER_MODULUS`] multiplies.
     fn coarse(exponent: f64) -> (String, f64) {
         let element = Springpot::new(1e6, exponent).expect("a springpot");
         let series = element.expand([1e-3, 1e3], 1e-3).expect("a series");
@@ -212,7 +212,7 @@ mod tests {
         (table, 2.0 * series.relative_error / (1.0 - exponent))
     }
 
-    /// Friction, which may be 0, and the others; the depth in sliding on the half space is left out, see above.
+    /// Friction, which may be 0, and all other quantities except the depth in sliding on the half space.
     fn quantities(answer: &Answer) -> (f64, Vec<Estimate>) {
         let slides = answer.friction_coefficient.is_some() && answer.model == Model::HalfSpace;
         let depth = answer.indentation_depth.filter(|_| !slides);
@@ -226,7 +226,7 @@ mod tests {
         (friction, found.into_iter().flatten().collect())
     }
 
-    /// Long waves creep without end under a line contact.
+    /// The creep of long waves under a line contact never ends, so its friction depends on times beyond every range.
     #[test]
     fn the_friction_of_a_line_contact_knows_what_is_beyond_the_range() {
         let answer = |longest: f64, exponent: f64| {
@@ -256,7 +256,7 @@ mod tests {
         assert!(refused.contains("time_range"), "{refused}");
     }
 
-    /// A series with an error that is seen changes no answer by more than the bars would have.
+    /// The error of a coarse series changes no answer by more than the modulus error in its error estimate.
     #[test]
     fn bars_hold_the_error_of_a_series() {
         let cases = [0.05, 0.4, 0.9].map(|exponent| LOADS.map(|load| (exponent, load)));

@@ -118,7 +118,7 @@ mod tests {
         let most = 8;
         let in_use = AtomicUsize::new(0);
         let found = Mutex::new(Vec::new());
-        // The task i needs i of 8 units.
+        // Task i needs i of 8 units of memory.
         let work = |task: usize, parts: u64| {
             let part = most / usize::try_from(parts).expect("a count");
             let taken = in_use.fetch_add(part, Ordering::SeqCst) + part;

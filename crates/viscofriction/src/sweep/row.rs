@@ -195,7 +195,7 @@ mod tests {
         names.map(str::to_owned).to_vec()
     }
 
-    /// A row of a program, with its check.
+    /// A row of a version of the program, with its checksum.
     fn row(program: &str) -> SweepRow {
         let cells = [
             "x12",

@@ -175,7 +175,7 @@ mod tests {
         assert!(error.abs() < tolerance, "{found} for {expected}");
     }
 
-    /// Numbers that look random, of variance 1 and mean 0.
+    /// Pseudo-random numbers of mean 0 and variance 1.
     fn noise(seed: u64) -> impl Iterator<Item = f64> {
         let mut state = seed;
         std::iter::repeat_with(move || {
@@ -222,7 +222,8 @@ mod tests {
         assert_eq!(first_enough(&values[..9], 1, 0.9), None, "too few to tell");
     }
 
-    /// Over many samples the standard error is the deviation of the means from the true one, whatever the coarse grid errs by.
+    /// Over many samples the standard error is the rms deviation of the means from the true mean, whatever the error of the coarse
+    /// grid.
     #[test]
     fn the_standard_error_is_the_deviation_of_means() {
         let mut numbers = noise(2);
@@ -246,7 +247,7 @@ mod tests {
         assert_close(ratio, 1.0, 0.05);
     }
 
-    /// No other pair of counts leaves that error with less work.
+    /// No other pair of counts reaches the requested error with less work.
     #[test]
     fn the_wanted_counts_take_the_least_work() {
         let coarse: Vec<f64> = noise(3).take(10).map(|one| 4.0 + one).collect();

@@ -139,7 +139,7 @@ impl Normal {
 mod tests {
     use super::Normal;
 
-    /// Of four thousand samples mean, variance and correlations are those of independent normal numbers, to four standard errors.
+    /// Mean, variance and correlations of 4000 samples are those of independent normal numbers, within four standard errors.
     #[test]
     fn coordinates_are_normal_and_independent() {
         const COUNT: usize = 4000;
