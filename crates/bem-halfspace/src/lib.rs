@@ -2,8 +2,9 @@
 //! [`Substrate`] of one's own.
 //!
 //! Rectangular elements have a constant pressure each. The displacement at their centres follows from Love's influence
-//! coefficients by fast convolution, and the contact conditions are solved to a stated tolerance. The following functions take a
-//! surface, a material, a load and a relative error. Every quantity that they return is exact or has an error bar:
+//! coefficients by fast convolution; periodic surfaces are solved by trigonometric collocation. The contact conditions are solved
+//! to a stated tolerance. The following functions take a surface, a material, a load and a relative error. Every quantity that
+//! they return is exact or has an error bar:
 //!
 //! * [`press()`]: static contact, with the equilibrium modulus;
 //! * [`indent()`]: a constant force or depth for a time;

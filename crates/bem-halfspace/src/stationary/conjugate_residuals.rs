@@ -47,7 +47,7 @@ pub(crate) fn gcr<T: Real>(
     limits: GcrLimits,
     mut find_direction: impl FnMut(GcrState<'_, T>, &mut [T], &mut [T]) -> bool,
 ) {
-    let [solution_bands, residual_bands] = [bands(solution), bands(residual)];
+    let [solution_bands, residual_bands] = [blocks_of(solution), blocks_of(residual)];
     let mut basis: VecDeque<BasisVector<T>> = VecDeque::new();
     let mut recycled: Option<BasisVector<T>> = None;
     let mut stagnant_image: Option<Vec<T>> = None;
@@ -154,7 +154,7 @@ fn orthogonalise<T: Real>(
 ) -> (Vec<T>, ImageProducts) {
     let mut factors = Vec::with_capacity(basis.len());
     let mut removed_square = 0.0;
-    let bands = bands(image);
+    let bands = blocks_of(image);
     // One pass over memory per vector: remove the component along the vector before, and project onto this one.
     for (index, vector) in basis.iter().enumerate() {
         let before = index
@@ -205,7 +205,7 @@ pub(crate) fn norm<T: Real>(vector: &[T]) -> f64 {
 
 /// Inner product of two vectors, weighted if there are weights.
 fn inner_product<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
-    let bands = bands(left);
+    let bands = blocks_of(left);
     bands.sum(|band| {
         let elements = bands.elements(band);
         let weights = weights.map(|weights| &weights[elements.clone()]);
@@ -224,8 +224,8 @@ fn product_of_parts<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> 
     }
 }
 
-/// Row blocks of a vector, seen as a column of elements.
-const fn bands<T>(vector: &[T]) -> RowBlocks {
+/// Row blocks of a vector, seen as a column of elements, for the threads.
+const fn blocks_of<T>(vector: &[T]) -> RowBlocks {
     RowBlocks::new([vector.len(), 1])
 }
 

@@ -1,8 +1,8 @@
 //! Exchange rule of the active-set search: which elements that violate the KKT conditions change sides.
 //!
 //! Elements in tension leave the active set, penetrating elements enter it (block principal pivoting, Júdice & Pires 1994). An update
-//! is *non-improving* if there are at least as many violations as in an earlier one, or if it left a larger residual than the update
-//! before. The rule gets more cautious with the number of non-improving updates in a row:
+//! is *non-improving* if there are at least as many violations as in an earlier one, or if the initial residual on the active set
+//! exceeds that on the set before. The rule gets more cautious with the number of non-improving updates in a row:
 //!
 //! 1. At first all violating elements are exchanged.
 //! 2. Then only violations that are the largest within a radius are exchanged, so that neighbours do not change sides back and forth
@@ -60,7 +60,7 @@ impl ExchangeRule {
     }
 
     /// Selects the elements to exchange among the violations, which are sorted by element, and counts non-improving updates.
-    /// `residual_grows` is true if the update before left a larger residual than the one before it.
+    /// `residual_grows` is true if the initial residual on this active set exceeds that on the set before.
     pub(crate) fn select(&mut self, violations: &[Violation], residual_grows: bool) -> Vec<usize> {
         let mut elements = violations.iter().map(|violation| violation.element);
         let selected = match self.non_improving {

@@ -1,7 +1,7 @@
 //! Coarse-space correction of the preconditioner on blocks of elements, for contacts of many patches.
 //!
 //! The inverse S of the influence, restricted to the active set, finds the pressure for the gaps of a patch as if no other patch
-//! were loaded (as in the contact of one instant, `contact/multilevel_correction.rs`). Let w = S 1 be the response to the unit
+//! were loaded (as for static contacts, `contact/multilevel_correction.rs`). Let w = S 1 be the response to the unit
 //! gap, and W its mean over a block. For a gap r with the mean pressures s of S r over the blocks, the displacement d of the
 //! blocks by other patches is
 //!
@@ -9,8 +9,8 @@
 //! d + K W d = K s,        M r = S r − w d.
 //! ```
 //!
-//! and S is replaced by M. The blocks are eight elements long along x and one across. Waves with crests along x relax at every
-//! speed, so that they are the softest by far, and short ones among them matter.
+//! and S is replaced by M. The blocks are eight elements long along x and one across. Modes with q_x = 0 are
+//! relaxed at every speed, so that they are the most compliant by far, and short ones among them matter.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces", and docs/theory/contact.md, "Other patches".
 

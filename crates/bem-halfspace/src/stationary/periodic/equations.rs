@@ -48,10 +48,12 @@ pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
 /// Ratio of two successive residuals above which the coarse-space correction is solved more accurately; chosen.
 const STAGNATION_RATIO: f64 = 0.9;
-/// Cost of a direct solve with n unknowns on a grid of N elements, in steps, over n³/N; measured on one thread. With faer it is 2e-4 to
+/// Break-even of direct solve and iteration: cost of a direct solve with n unknowns on a grid of N elements, in GCR steps, divided by
+/// n³/N; measured on one thread. With faer it is 2e-4 to
 /// 7e-4 from 300 to 4000 unknowns.
 const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 };
-/// Operator applications on one grid, in direct solves of the present cost, beyond which active sets are solved directly.
+/// Ratio of the operator applications on one grid so far to the cost of a direct solve, in the same unit, beyond which active sets are
+/// solved directly.
 ///
 /// Of 5000 contacts and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000
 /// operator applications without it.

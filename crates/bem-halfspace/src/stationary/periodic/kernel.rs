@@ -4,9 +4,10 @@
 //! û(q) = 2 p̂(q) M / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) M / |q|,        q_x ≥ 0
 //! ```
 //!
-//! In the frame that moves with the surface a wave has the angular frequency −q_x v. The gap of an element is evaluated at the
-//! distance θ Δx from its centre, θ = −δ/π, with the loss angle δ of the shortest wave along x. There displacement and pressure of
-//! this wave are in phase, and those of all other waves differ by less than a quarter period.
+//! with the creep compliance in shear J* = J' − i J''. In the frame that moves with the surface a wave has the angular frequency
+//! −q_x v. The gap of an element is evaluated at the distance θ Δx from its centre (shifted collocation), θ = −δ/π, with the loss angle
+//! δ of the shortest wave along x. There displacement and pressure of this wave are in phase, and those of all other waves differ by
+//! less than a quarter period, so that the symmetric part of the operator is positive definite: the exchange rule then ends.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces" and "Where the gap is evaluated".
 

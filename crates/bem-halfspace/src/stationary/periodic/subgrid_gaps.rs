@@ -32,7 +32,7 @@ pub(super) struct SubgridGapBound {
 impl SubgridGapBound {
     /// The bounds for a pressure field under a sum of waves.
     ///
-    /// The minimum of a row block-limited pressure lies below its value at the nearest of N points along either edge by at most
+    /// The minimum of a band-limited pressure lies below its value at the nearest of N points along either edge by at most
     ///
     /// ```text
     /// ½ (π n_x/N_x + π n_y/N_y)² max |p − p̄|
