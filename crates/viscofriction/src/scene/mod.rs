@@ -36,7 +36,7 @@ pub use numerics::Accuracy;
 pub use rheology::{Shift, ShiftLaw, VerticalLaw};
 pub use solve::{Method, Model, Solve};
 pub use source::Source;
-pub(crate) use source::{quoted, scene_file, split_index};
+pub(crate) use source::{PATH_KEYS, quoted, scene_file, split_index};
 
 use crate::text::WrongInput;
 

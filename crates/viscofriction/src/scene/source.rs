@@ -175,14 +175,14 @@ const NO_UNITS: &str = "; numbers of a scene are in SI units, and stand there wi
 const VALUES: &str =
     "; a number is in SI units, with a point and without a unit, and a text stands between quotes";
 
-/// Keys whose values are file names.
-const PATHS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
+/// Keys of a scene whose values are file names.
+pub(crate) const PATH_KEYS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
 
 /// First file name with an escape other than `\\` or `\"`, which is probably an unescaped Windows path.
 fn escaped_path(table: &DeTable<'_>, text: &str) -> Option<Range<usize>> {
     table.iter().find_map(|(key, value)| match value.get_ref() {
         DeValue::Table(table) => escaped_path(table, text),
-        DeValue::String(_) if PATHS.contains(&&**key.get_ref()) => {
+        DeValue::String(_) if PATH_KEYS.contains(&&**key.get_ref()) => {
             let raw = text.get(value.span())?.strip_prefix('"')?;
             // Remove escaped backslashes and quotes; any backslash left begins another escape.
             let plain = raw.replace(r"\\", "").replace(r#"\""#, "");

@@ -8,15 +8,12 @@ use toml::{Table, Value};
 use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
 use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
-use crate::scene::{Scene, SceneError, Source, scene_file, split_index};
+use crate::scene::{PATH_KEYS, Scene, SceneError, Source, scene_file, split_index};
 use crate::solve::{
     Answer, Problem, Uncertainties, check_uncertainties, plan_of, sampled, share_memory, solve,
     with_sensitivity,
 };
 use crate::text::WrongInput;
-
-/// Keys of a scene whose values are file names.
-const FILE_KEYS: [&str; 3] = ["file", "path", "history_file"];
 
 /// A scene with its varied keys.
 #[derive(Debug)]
@@ -389,7 +386,7 @@ fn named_files(table: &Table) -> Vec<&str> {
     for (key, value) in table {
         match value {
             Value::Table(inner) => files.extend(named_files(inner)),
-            Value::String(file) if FILE_KEYS.contains(&key.as_str()) => files.push(file.as_str()),
+            Value::String(file) if PATH_KEYS.contains(&key.as_str()) => files.push(file.as_str()),
             _ => {}
         }
     }
@@ -402,7 +399,7 @@ fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
         vary.key
             .rsplit('.')
             .next()
-            .is_some_and(|last| FILE_KEYS.contains(&last))
+            .is_some_and(|last| PATH_KEYS.contains(&last))
     };
     let values = vary
         .iter()
