@@ -54,6 +54,11 @@ impl ExchangeRule {
         }
     }
 
+    /// Non-improving updates since the last improvement.
+    pub(crate) const fn non_improving(&self) -> i32 {
+        self.non_improving
+    }
+
     /// True if single elements are exchanged, which requires accurate solutions.
     pub(crate) const fn exchanges_single_elements(&self) -> bool {
         self.non_improving > self.local_maximum_updates
@@ -149,7 +154,7 @@ mod tests {
         single.pop();
         rule.select(&single, false);
         assert_eq!(
-            (rule.non_improving, rule.select(&single, false).len()),
+            (rule.non_improving(), rule.select(&single, false).len()),
             (0, 14)
         );
     }

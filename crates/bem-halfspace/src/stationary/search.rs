@@ -6,7 +6,7 @@
 //!
 //! Each update of the active set
 //!
-//! 1. solves g = 0 on the active set, to a fraction of the residual that the last exchange left (inexact Newton);
+//! 1. solves g = 0 on the active set, to a tolerance that follows the residual left by the last exchange (inexact Newton);
 //! 2. collects the KKT violations, p < 0 on the set and g < 0 outside it;
 //! 3. exchanges all violating elements, or fewer while the search does not improve (`exchange_rule.rs`);
 //! 4. projects the pressure onto p ≥ 0, and tests for convergence.
@@ -23,9 +23,10 @@ use crate::BemError;
 use crate::parallel::reductions::larger;
 use crate::stationary::exchange_rule::{ExchangeRule, Violation};
 
-/// Largest forcing term, and the first one. Between 0.02 and 0.2 hardly anything changes for bodies, between 0.1 and 0.2 for periodic
-/// surfaces. With 0.5 one of nine periodic contacts, with moduli that differ by 1e5, takes five times as long.
-const MAX_FORCING_TERM: f64 = 0.1;
+/// Factor on the inner tolerance per non-improving update of the active set; chosen.
+const INNER_TOLERANCE_REDUCTION: f64 = 0.3;
+/// Largest number of factors [`INNER_TOLERANCE_REDUCTION`] that are applied; chosen.
+const MAX_TOLERANCE_REDUCTIONS: i32 = 4;
 /// Penetration next to the active set, in RMS residuals on the set, below which it counts as solver error. With 2 or 5 there are as many
 /// operator applications.
 const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
@@ -45,6 +46,14 @@ const DEPTH_ROUNDING_ULPS: f64 = 16.0;
 /// error; chosen.
 const MAX_STAGNATIONS: usize = 5;
 
+/// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
+pub(crate) struct ForcingTerms {
+    pub(crate) usual: f64,
+    /// Value after an exchange that left a larger residual than the one before: inexact solutions then move elements back and forth
+    /// together.
+    pub(crate) after_growth: f64,
+}
+
 /// A contact problem on one grid whose linear equations can be solved on a given active set.
 ///
 /// ```text
@@ -53,6 +62,7 @@ const MAX_STAGNATIONS: usize = 5;
 pub(crate) trait FixedSetSolver {
     /// True if the first row follows the last one.
     const PERIODIC_ALONG_X: bool;
+    const FORCING: ForcingTerms;
     /// Rows and columns of the grid.
     fn shape(&self) -> [usize; 2];
     /// Row and column of an element.
@@ -89,6 +99,8 @@ pub(crate) struct Search<'a, P> {
     problem: &'a mut P,
     /// Heights h at the points where the gaps are evaluated.
     heights: Vec<f64>,
+    /// Loosest inner tolerance: RMS residual of the solution on any active set, in the unit of the heights.
+    inner_tolerance: f64,
     /// Largest residual and penetration, relative to [`scale`](Self::scale).
     tolerance: f64,
     /// True for each element of the active set.
@@ -108,6 +120,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
     pub(crate) fn new(
         problem: &'a mut P,
         heights: Vec<f64>,
+        inner_tolerance: f64,
         tolerance: f64,
         mut pressure: Vec<f64>,
     ) -> Self {
@@ -117,6 +130,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             gap: vec![0.0; pressure.len()],
             problem,
             heights,
+            inner_tolerance,
             tolerance,
             pressure,
             depth: 0.0,
@@ -133,30 +147,29 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         self.problem.scale_to_force(&mut self.pressure);
         self.update_gaps();
         let mut rule = ExchangeRule::new(self.problem.shape());
-        let mut previous: Option<InnerSolution> = None;
+        let mut previous_residual = f64::INFINITY;
         let (mut set_is_unchanged, mut stagnations) = (false, 0);
         loop {
             // Solve on the active set.
             self.problem
                 .set_active_set(&self.active, &self.pressure, &self.gap);
             let residual = self.problem.residual_rms();
-            let residual_grows = previous.is_some_and(|previous| residual > previous.initial);
+            let residual_grows = residual > previous_residual;
             stagnations += usize::from(residual_grows && set_is_unchanged);
-            let forcing = if rule.exchanges_single_elements() {
+            previous_residual = residual;
+            let forcing = match residual_grows {
                 // A cycle of inexact solutions may end with accurate ones.
-                0.0
-            } else {
-                previous.map_or(MAX_FORCING_TERM, |previous| previous.forcing_term(residual))
+                _ if rule.exchanges_single_elements() => 0.0,
+                true => P::FORCING.after_growth,
+                false => P::FORCING.usual,
             };
+            let reductions = rule.non_improving().min(MAX_TOLERANCE_REDUCTIONS);
+            let inner_tolerance = INNER_TOLERANCE_REDUCTION.powi(reductions) * self.inner_tolerance;
             self.problem.solve(
-                forcing * residual,
+                inner_tolerance.min(forcing * residual),
                 INNER_SHARE_OF_TOLERANCE * self.allowed_gap(),
             )?;
             let solver_residual = self.problem.residual_rms();
-            previous = Some(InnerSolution {
-                initial: residual,
-                reached: solver_residual,
-            });
             self.problem.copy_pressure_to(&mut self.pressure);
 
             // Collect the KKT violations, under the pressure with its tension.
@@ -285,24 +298,6 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         self.gap.iter_mut().for_each(|gap| *gap -= self.depth);
         let gaps = self.gap.iter().zip(&self.active).filter_map(on_set);
         self.residual = gaps.fold(0.0, |max, gap| larger(max, gap.abs())) / self.scale;
-    }
-}
-
-/// RMS residuals on one active set, before and after its equations were solved.
-#[derive(Clone, Copy)]
-struct InnerSolution {
-    initial: f64,
-    reached: f64,
-}
-
-impl InnerSolution {
-    /// Forcing term of the inexact Newton method for the next active set, whose initial residual is given: the largest ratio of the reached
-    /// residual to the initial one.
-    ///
-    /// It is the error of the linear model over the residual before (Eisenstat & Walker 1996, SIAM J. Sci. Comput. 17, 16, choice 1). Their
-    /// safeguard against a fast decrease acts above 0.1 only, and hence never.
-    fn forcing_term(self, residual: f64) -> f64 {
-        MAX_FORCING_TERM.min((residual - self.reached).abs() / self.initial)
     }
 }
 

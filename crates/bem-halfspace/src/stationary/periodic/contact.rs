@@ -5,8 +5,14 @@
 use crate::parallel::reductions::larger;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
-use crate::stationary::search::{FixedSetSolver, Search};
+use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};
+
+/// Loosest tolerance on every active set: root mean square of the residual as a fraction of that of the heights.
+///
+/// Without it the contact of a solid whose moduli differ by 1000 takes up to twice as many operator applications on 1024²
+/// elements.
+const INEXACT_TOLERANCE: f64 = 0.01;
 
 /// A contact problem on one grid.
 #[derive(Debug, Clone, Copy)]
@@ -42,16 +48,25 @@ pub(super) fn solve(
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Result<PeriodicSolution, BemError> {
+    let n = problem.grid.n_elements() as f64;
     let mut heights = vec![0.0; problem.grid.n_elements()];
     equations.kernel.shifted(problem.heights, &mut heights);
+    let mean = heights.iter().sum::<f64>() / n;
+    let variance = heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / n;
     let mut guess = std::mem::take(pressure);
     if guess.iter().all(|pressure| *pressure <= 0.0) {
-        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
         guess = heights.iter().map(|h| f64::from(*h <= mean)).collect();
     }
     let own = equations.self_influence;
     let mut contact = PeriodicFixedSetSolver { problem, equations };
-    let mut search = Search::new(&mut contact, heights, problem.tolerance, guess);
+    let inner_tolerance = INEXACT_TOLERANCE * variance.sqrt();
+    let mut search = Search::new(
+        &mut contact,
+        heights,
+        inner_tolerance,
+        problem.tolerance,
+        guess,
+    );
     let found = search.run();
     let [residual, depth] = [search.residual, search.depth];
     *pressure = search.pressure;
@@ -77,6 +92,15 @@ struct PeriodicFixedSetSolver<'a> {
 
 impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     const PERIODIC_ALONG_X: bool = true;
+    /// With `usual` = 0.1 there are up to a quarter more operator applications in light contact.
+    ///
+    /// With a tenth of the area of 4096² elements in contact and moduli that differ by 1000 there are 156 operator applications if
+    /// both terms are equal, and 115 as they are. If `after_growth` holds for residuals that fall by less than a half too, contacts
+    /// of dashpots take a fifth more.
+    const FORCING: ForcingTerms = ForcingTerms {
+        usual: 0.2,
+        after_growth: 0.06,
+    };
 
     fn shape(&self) -> [usize; 2] {
         self.problem.grid.shape()

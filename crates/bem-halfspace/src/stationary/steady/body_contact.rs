@@ -9,6 +9,11 @@ use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 
+/// Loosest RMS residual on an active set, over the increase of the gap over one element at the front; chosen.
+const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
+/// Upper limit of the loosest RMS residual on an active set, in units of the depth scale; chosen.
+const MAX_INNER_TOLERANCE: f64 = 1e-5;
+
 /// A solved contact, in the units of the mesh.
 pub(super) struct Solution {
     /// Elements in contact with their loads, all greater than zero.
@@ -37,6 +42,7 @@ pub(super) fn solve(
     }
     let elements = 0..mesh.n_elements();
     let heights = elements.map(|element| mesh.height(element)).collect();
+    let inner_tolerance = inner_tolerance(guess.len());
     let mut loads = vec![0.0; mesh.n_elements()];
     for (element, load) in guess {
         loads[element] = load;
@@ -45,7 +51,7 @@ pub(super) fn solve(
     // Search the active set, then keep the loaded elements.
     let mut contact = ContactEquations::new(mesh, plans);
     let tolerance = mesh.options.tolerance;
-    let mut search = Search::new(&mut contact, heights, tolerance, loads);
+    let mut search = Search::new(&mut contact, heights, inner_tolerance, tolerance, loads);
     search.run()?;
     let [residual, depth] = [search.residual, search.depth];
     let gap_difference = mesh.mean_gap_difference(&search.pressure, &search.gap);
@@ -58,4 +64,11 @@ pub(super) fn solve(
         residual,
         gap_difference,
     })
+}
+
+/// Loosest RMS residual on active sets of about `n_elements` elements, in units of the depth scale. Over one element at the front the gap
+/// opens like the power 3/2 of the ratio of its length to the contact length.
+fn inner_tolerance(n_elements: usize) -> f64 {
+    let along = (n_elements as f64).sqrt().max(1.0);
+    MAX_INNER_TOLERANCE.min(INNER_TOLERANCE_OVER_OPENING * along.powf(-1.5))
 }

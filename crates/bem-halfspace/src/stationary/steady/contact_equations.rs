@@ -12,7 +12,7 @@ use crate::BemError;
 use crate::dense;
 use crate::parallel::reductions::{add_scaled, dot, larger};
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
-use crate::stationary::search::FixedSetSolver;
+use crate::stationary::search::{FixedSetSolver, ForcingTerms};
 use crate::stationary::steady::filter::KernelOperator;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
@@ -52,6 +52,12 @@ pub(super) struct ContactEquations<'mesh> {
 
 impl FixedSetSolver for ContactEquations<'_> {
     const PERIODIC_ALONG_X: bool = false;
+    /// With ten times these values there are 1.4 times as many active sets, which take a tenth longer in total. A third of them hardly
+    /// changes anything.
+    const FORCING: ForcingTerms = ForcingTerms {
+        usual: 0.02,
+        after_growth: 0.006,
+    };
 
     fn shape(&self) -> [usize; 2] {
         self.mesh.shape()
