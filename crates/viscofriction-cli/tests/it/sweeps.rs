@@ -203,6 +203,26 @@ fn the_file_of_another_sweep_is_not_continued() {
     folder.ends(&line, 2, "rows.csv:2: the file is of another scene");
 }
 
+/// Rows of an earlier motion are not those of the present one.
+#[test]
+fn a_sweep_whose_motion_file_has_changed_is_not_continued() {
+    let folder = Folder::new("other-motion");
+    folder.write(
+        "scene.toml",
+        "indenter.sphere.radius = 5e-3
+material.kelvin-voigt = { shear_modulus = 1e6, viscosity = 1e3 }
+load = { normal_force = 2.0, motion_file = \"path.csv\" }
+solve = { model = \"line\", elements = 16 }\n",
+    );
+    let path = |end: &str| format!("time_s,position_m\n0,0\n1,{end}\n");
+    folder.write("path.csv", path("1e-3"));
+    let line = "sweep scene.toml --vary load.normal_force=1,2 --out rows.csv";
+    folder.done(line);
+    folder.write("path.csv", path("2e-3"));
+    let resumed = format!("{line} --resume");
+    folder.ends(&resumed, 2, "rows.csv:2: the file is of another scene");
+}
+
 #[test]
 fn a_point_that_cannot_be_computed_is_a_row_and_status_1() {
     let method = ("mdr-transient", "analytic");
