@@ -7,7 +7,7 @@
 /// With 4000 unknowns no periodic contact of docs/dependencies.md, "Factorisation or iteration", is solved faster.
 pub(crate) const MAX_UNKNOWNS: usize = 2048;
 
-/// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular.
+/// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular or not finite.
 #[cfg(feature = "dense")]
 pub(crate) fn solve(
     entry: impl FnMut(usize, usize) -> f64,
@@ -34,7 +34,11 @@ pub(crate) fn solve(
         stack,
         Default::default(),
     );
-    if (0..n).any(|pivot| matrix[(pivot, pivot)] == 0.0) {
+    let is_regular = |pivot: usize| {
+        let pivot = matrix[(pivot, pivot)];
+        pivot.is_finite() && pivot != 0.0
+    };
+    if !(0..n).all(is_regular) {
         return None;
     }
     for right_side in &mut right_sides {
@@ -50,7 +54,7 @@ pub(crate) fn solve(
     Some(right_sides)
 }
 
-/// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular.
+/// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular or not finite.
 #[cfg(not(feature = "dense"))]
 pub(crate) fn solve(
     entry: impl FnMut(usize, usize) -> f64,
@@ -60,9 +64,15 @@ pub(crate) fn solve(
 
     let n = right_sides.first().map_or(0, Vec::len);
     let factors = DMatrix::from_fn(n, n, entry).lu();
-    let is_regular = right_sides
-        .iter_mut()
-        .all(|right_side| factors.solve_mut(&mut DVectorViewMut::from_slice(right_side, n)));
+    let pivots_are_finite = factors
+        .lu_internal()
+        .diagonal()
+        .iter()
+        .all(|pivot| pivot.is_finite());
+    let is_regular = pivots_are_finite
+        && right_sides
+            .iter_mut()
+            .all(|right_side| factors.solve_mut(&mut DVectorViewMut::from_slice(right_side, n)));
     is_regular.then_some(right_sides)
 }
 
@@ -78,6 +88,8 @@ mod tests {
         };
         assert_eq!(of_rank(3), Some(vec![vec![1.0, 2.0, 3.0]]));
         assert_eq!(of_rank(2), None, "of rank 2");
+        let undefined = solve(|_, _| f64::NAN, vec![vec![1.0, 2.0, 3.0]]);
+        assert_eq!(undefined, None, "not a number");
     }
 
     /// A circulant matrix whose largest elements are off the diagonal, larger than the blocks of a factorisation.

@@ -1,6 +1,7 @@
 //! Refinement of any motion, and search for the limit cycle of a reciprocating one.
 //!
-//! A motion is followed on finer and finer grids. On each of them a reciprocating one is repeated until its limit cycle is found, by a fixed-point iteration on the history variables.
+//! A motion is followed on finer and finer grids. On each of them a reciprocating one is repeated until its limit cycle is found, by a
+//! fixed-point iteration on the history variables.
 //!
 //! Theory: docs/theory/transient-half-space.md, "Motions".
 
