@@ -89,13 +89,16 @@ pub struct Base(Option<LayeredBase>);
 struct LayeredBase {
     /// Thickness of the layer, \[m] or in the unit of [`Base::in_units_of`].
     thickness: f64,
+    /// The substrate and its potential, for all clones.
     shared: Arc<TabulatedSubstrate>,
 }
 
 /// A substrate with the table of its potential for one Poisson ratio.
 #[derive(Debug)]
 struct TabulatedSubstrate {
+    /// Compliance ratio of the surface.
     substrate: Box<dyn Substrate>,
+    /// Poisson ratio ν of the material at the surface.
     poisson_ratio: f64,
     /// c(ρ), tabulated at first use.
     correction: OnceLock<Correction>,
@@ -103,20 +106,20 @@ struct TabulatedSubstrate {
 
 impl PartialEq for LayeredBase {
     fn eq(&self, other: &Self) -> bool {
-        let is_as_thick = self.thickness.total_cmp(&other.thickness).is_eq();
-        is_as_thick && Arc::ptr_eq(&self.shared, &other.shared)
+        let has_equal_thickness = self.thickness.total_cmp(&other.thickness).is_eq();
+        has_equal_thickness && Arc::ptr_eq(&self.shared, &other.shared)
     }
 }
 
 impl LayeredBase {
-    /// M(s).
+    /// Compliance ratio M(s) to a wave of the wave number s/t.
     fn compliance_ratio(&self, s: f64) -> f64 {
         self.shared
             .substrate
             .compliance_ratio(s, self.shared.poisson_ratio)
     }
 
-    /// lim t M(s)/s for s → 0, in the unit of the thickness; infinite without a rigid base.
+    /// Compliance to uniform pressure, lim t M(s)/s for s → 0, in the unit of the thickness; infinite without a rigid base.
     fn uniform_compliance(&self) -> f64 {
         let TabulatedSubstrate {
             substrate,
@@ -179,11 +182,12 @@ impl Base {
 
     /// Refuses a material that flows on a substrate that is neither rigid nor the half space itself: its flow is not known.
     pub(crate) fn check_flow(&self, fluidity: f64) -> Result<(), InvalidParameter> {
-        let is_known = fluidity <= 0.0 || self.is_half_space() || self.is_rigid();
+        let is_flow_known = fluidity <= 0.0 || self.is_half_space() || self.is_rigid();
         let allowed = "0 on a substrate that is neither rigid nor the half space itself";
-        in_range("fluidity", fluidity, is_known, allowed).map(drop)
+        in_range("fluidity", fluidity, is_flow_known, allowed).map(drop)
     }
 
+    /// True without a substrate of another material.
     pub(crate) const fn is_half_space(&self) -> bool {
         self.0.is_none()
     }
@@ -266,19 +270,19 @@ impl Base {
             return influence(offset, edges);
         };
         // Cut the rectangle at the influence radius.
-        let reach = self.influence_radius();
-        let [mut centre, mut seen] = [offset, edges];
+        let radius = self.influence_radius();
+        let [mut centre, mut cut_edges] = [offset, edges];
         for axis in 0..2 {
             let half = 0.5 * edges[axis];
             let [first, last] = [
-                (offset[axis] - half).max(-reach),
-                (offset[axis] + half).min(reach),
+                (offset[axis] - half).max(-radius),
+                (offset[axis] + half).min(radius),
             ];
             if first >= last {
                 return 0.0;
             }
             if last - first < edges[axis] {
-                (centre[axis], seen[axis]) = (0.5 * (first + last), last - first);
+                (centre[axis], cut_edges[axis]) = (0.5 * (first + last), last - first);
             }
         }
 
@@ -290,11 +294,12 @@ impl Base {
             correction,
         } = &*layered.shared;
         let table = correction.get_or_init(|| Correction::new(&**substrate, *poisson_ratio));
-        let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
+        let [offset, edges] =
+            [centre, cut_edges].map(|lengths| lengths.map(|length| length / unit));
         let smooth = integrate_smooth(SINGULARITY_DISTANCE, offset, edges, &|x, y| {
             table.value((x * x + y * y).sqrt())
         });
-        influence(centre, seen) + unit * smooth
+        influence(centre, cut_edges) + unit * smooth
     }
 }
 

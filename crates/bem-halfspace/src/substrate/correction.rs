@@ -56,11 +56,11 @@ const FAR_MAX_WAVE_NUMBER: f64 = 220.0;
 /// with ρ, and the limit [M(0) − 1]/ρ beyond.
 #[derive(Debug)]
 pub(super) struct Correction {
-    /// c(ρ) itself.
+    /// Panels of c(ρ) up to the influence radius of a rigid base.
     near: Vec<Panel<SHORT_PANEL_TERMS>>,
-    /// c(ρ) − [M(0) − 1]/ρ; empty if the substrate has no influence beyond `near`.
+    /// Panels of c(ρ) − [M(0) − 1]/ρ beyond; empty if the substrate has no influence there.
     far: Vec<Panel<LONG_PANEL_TERMS>>,
-    /// M(0) − 1.
+    /// M(0) − 1: excess of the compliance ratio for long waves.
     limit: f64,
 }
 
@@ -95,17 +95,17 @@ impl Correction {
         }
     }
 
-    /// c(ρ).
+    /// The correction c at ρ, a distance in thicknesses.
     pub(super) fn value(&self, rho: f64) -> f64 {
         if let Some(panel) = self.near.get(whole_part(rho / SHORT_PANEL_LENGTH)) {
             return panel.value(rho);
         }
         let panel = self.far.partition_point(|panel| panel.start <= rho);
-        let rest = match panel.checked_sub(1).map(|index| &self.far[index]) {
+        let far_correction = match panel.checked_sub(1).map(|index| &self.far[index]) {
             Some(panel) if rho < TABLE_END => panel.value(rho),
             _ => 0.0,
         };
-        rho.recip() * self.limit + rest
+        rho.recip() * self.limit + far_correction
     }
 }
 
@@ -157,6 +157,7 @@ fn growing_panels(
 /// A polynomial on an interval of ρ.
 #[derive(Debug)]
 struct Panel<const N: usize> {
+    /// Start of the interval, in thicknesses.
     start: f64,
     /// 2 over the length of the interval.
     scale: f64,
@@ -181,10 +182,10 @@ impl<const N: usize> Panel<N> {
         // Clenshaw's recurrence b_k = c_k + 2 x b_(k+1) − b_(k+2) on polynomials instead of numbers.
         let [mut last, mut coefficients] = [[0.0; N]; 2];
         for order in (0..N).rev() {
-            let twice = if order == 0 { 1.0 } else { 2.0 };
+            let factor = if order == 0 { 1.0 } else { 2.0 };
             let next = std::array::from_fn(|power| match power {
-                0 => twice * coefficient(order) - last[0],
-                _ => twice * coefficients[power - 1] - last[power],
+                0 => factor * coefficient(order) - last[0],
+                _ => factor * coefficients[power - 1] - last[power],
             });
             (last, coefficients) = (coefficients, next);
         }

@@ -37,11 +37,11 @@ fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     let [p, q] = [x * x / square, y * y / square];
     let [x2, y2] = [a * a / 12.0, b * b / 12.0];
     let [x4, x2y2, y4] = [1.8 * x2 * x2, x2 * y2, 1.8 * y2 * y2];
-    let second = 3.0 * (p * x2 + q * y2) - (x2 + y2);
-    let fourth = 35.0 * (p * p * x4 + 6.0 * p * q * x2y2 + q * q * y4)
+    let quadrupole = 3.0 * (p * x2 + q * y2) - (x2 + y2);
+    let hexadecapole = 35.0 * (p * p * x4 + 6.0 * p * q * x2y2 + q * q * y4)
         - 30.0 * (p * (x4 + x2y2) + q * (x2y2 + y4))
         + 3.0 * (x4 + 2.0 * x2y2 + y4);
-    let correction = (second / 2.0 + fourth / 8.0 / square) / square;
+    let correction = (quadrupole / 2.0 + hexadecapole / 8.0 / square) / square;
     a * b / square.sqrt() * (1.0 + correction)
 }
 

@@ -14,7 +14,9 @@ use crate::{Base, Elastomer, Substrate};
 /// A layer of a material on a rigid base, or on a [`Substrate`] of one's own.
 #[derive(Debug)]
 pub struct Layer<'a, M: ?Sized> {
+    /// Material of the layer.
     material: &'a M,
+    /// Substrate under the layer.
     base: Base,
 }
 

@@ -76,7 +76,7 @@ const SMOOTH_KERNEL_RULES: [(f64, Rule); 4] = [
 
 /// A kernel k on the plane that is singular on the axis y = 0 only, with its antiderivatives.
 pub(crate) trait PlaneKernel {
-    /// k(x, y).
+    /// The kernel k at (x, y).
     fn value(x: f64, y: f64) -> f64;
 
     /// ∫ k dx' over the edge `a` around x.
@@ -92,13 +92,13 @@ pub(crate) trait PlaneKernel {
 /// ∬ k(x − x', y − y') dA' over the rectangle with edges [a, b] around the origin, for y ≥ 0.
 pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     // Distance from the rectangle to the singularities of the integrand along x, and along y.
-    let clearance = [
+    let distances = [
         distance(x, (y - 0.5 * b).max(0.0)),
         distance(y, (x - 0.5 * a).max(0.0)),
     ];
     match (
-        rule(&SINGULAR_KERNEL_RULES, clearance[0], a),
-        rule(&SINGULAR_KERNEL_RULES, clearance[1], b),
+        rule(&SINGULAR_KERNEL_RULES, distances[0], a),
+        rule(&SINGULAR_KERNEL_RULES, distances[1], b),
     ) {
         (Some(along_x), Some(along_y)) => {
             gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| K::value(x, y)))
@@ -124,11 +124,11 @@ pub(crate) fn integrate_smooth(
 ) -> f64 {
     // Distance from the rectangle to the singularities.
     let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
-    let clearance = (beside * beside + above * above + singular * singular).sqrt();
-    let part = |centre, edges| integrate_smooth(singular, centre, edges, function);
+    let to_singularity = (beside * beside + above * above + singular * singular).sqrt();
+    let integrate_half = |centre, edges| integrate_smooth(singular, centre, edges, function);
     match (
-        rule(&SMOOTH_KERNEL_RULES, clearance, a),
-        rule(&SMOOTH_KERNEL_RULES, clearance, b),
+        rule(&SMOOTH_KERNEL_RULES, to_singularity, a),
+        rule(&SMOOTH_KERNEL_RULES, to_singularity, b),
     ) {
         (Some(along_x), Some(along_y)) => {
             gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| function(x, y)))
@@ -136,18 +136,24 @@ pub(crate) fn integrate_smooth(
         // Too long for all rules: halve along x, and then along y.
         (None, _) => {
             let halves = [x - 0.25 * a, x + 0.25 * a];
-            halves.into_iter().map(|x| part([x, y], [0.5 * a, b])).sum()
+            halves
+                .into_iter()
+                .map(|x| integrate_half([x, y], [0.5 * a, b]))
+                .sum()
         }
         (_, None) => {
             let halves = [y - 0.25 * b, y + 0.25 * b];
-            halves.into_iter().map(|y| part([x, y], [a, 0.5 * b])).sum()
+            halves
+                .into_iter()
+                .map(|y| integrate_half([x, y], [a, 0.5 * b]))
+                .sum()
         }
     }
 }
 
-/// Rule of fewest points for an edge at a distance `clearance` from the singularities; `None` if they are too near for all rules.
-fn rule(rules: &[(f64, Rule)], clearance: f64, edge: f64) -> Option<Rule> {
-    let suits = |(distance, _): &&(f64, Rule)| clearance >= distance * edge;
+/// Rule of fewest points for an edge at a `distance` from the singularities; `None` if they are too near for all rules.
+fn rule(rules: &[(f64, Rule)], distance: f64, edge: f64) -> Option<Rule> {
+    let suits = |(min_distance, _): &&(f64, Rule)| distance >= min_distance * edge;
     rules.iter().find(suits).map(|(_, rule)| *rule)
 }
 
@@ -165,12 +171,12 @@ fn gauss((middle, nodes): Rule, centre: f64, edge: f64, function: impl Fn(f64) -
     }
 }
 
-/// √(x² + y²) of lengths in edges of an element, whose squares neither overflow nor underflow.
+/// Distance √(x² + y²) of lengths in edges of an element, whose squares neither overflow nor underflow.
 pub(crate) fn distance(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// x asinh(y / |x|), continued by 0 to x = 0.
+/// x asinh(y / |x|), with the limit 0 at x = 0.
 pub(crate) fn product_asinh(x: f64, y: f64) -> f64 {
     if x == 0.0 {
         0.0

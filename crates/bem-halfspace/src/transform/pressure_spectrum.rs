@@ -1,6 +1,7 @@
 //! Distribution of a stationary, sliding pressure over the frequencies at which it strains the material.
 //!
-//! The pressure wave q oscillates in the material at ω = |q_x| v, so that the dissipated power is
+//! At a velocity v along x, the pressure wave of the wave vector q and the amplitude p̂ oscillates in the material at ω = |q_x| v.
+//! With J'' the loss compliance and M(|q|t) the stiffness of a layer of thickness t relative to a half space, the dissipated power is
 //!
 //! ```text
 //! F_h v = Σ_q |p̂(q)|² M(|q|t)/|q| · ω J''(ω),        M = 1 on a half space.
@@ -40,15 +41,15 @@ impl PressureField {
     pub fn spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let shape = self.grid.shape();
         let period = [0, 1].map(|axis| fast_length(PERIOD_OVER_CONTACT[axis] * shape[axis]));
-        let step = self.wave_steps(period)[0];
+        let wave_step = self.wave_steps(period)[0];
         // Each wave of the period stands for the band of half a step on both sides; the band at zero has one side only.
-        let band = |nth: f64| [(nth - 0.5).max(0.0), nth + 0.5];
-        let lines = self.dissipation_weights(period, elastomer);
-        lines
+        let band = |index: f64| [(index - 0.5).max(0.0), index + 0.5];
+        let weights = self.dissipation_weights(period, elastomer);
+        weights
             .into_iter()
             .enumerate()
-            .map(|(nth, weight)| StressBand {
-                band: band(nth as f64).map(|wave| wave * step * velocity),
+            .map(|(index, weight)| StressBand {
+                band: band(index as f64).map(|wave| wave * wave_step * velocity),
                 weight,
             })
             .collect()
@@ -57,12 +58,12 @@ impl PressureField {
     /// Frequencies of the pressure on one period of a surface that slides along x at a `velocity` \[m/s]; bands of zero width.
     pub fn periodic_spectrum(&self, elastomer: &dyn Elastomer, velocity: f64) -> Vec<StressBand> {
         let period = self.grid.shape();
-        let step = self.wave_steps(period)[0];
-        let lines = self.dissipation_weights(period, elastomer);
+        let wave_step = self.wave_steps(period)[0];
+        let weights = self.dissipation_weights(period, elastomer);
         // Waves with crests along x do not oscillate.
-        let moving = lines.into_iter().enumerate().skip(1);
-        let line = |(nth, weight)| StressBand {
-            band: [nth as f64 * step * velocity; 2],
+        let moving = weights.into_iter().enumerate().skip(1);
+        let line = |(index, weight)| StressBand {
+            band: [index as f64 * wave_step * velocity; 2],
             weight,
         };
         moving.map(line).collect()
@@ -102,11 +103,11 @@ impl PressureField {
                 .for_each(|(to, from)| *to = *from);
             plan.column_forward(&mut column);
             // The wave (q_x, −q_y) is not stored: it is the conjugate of (−q_x, q_y), which counts twice.
-            let is_alone = wave == 0 || 2 * wave == period[1];
-            let twice = if is_alone { 1.0 } else { 2.0 };
-            for (place, value) in column.iter().map(Complex::norm_sqr).enumerate() {
-                let along = place.min(period[0] - place);
-                squares[along] += twice * value * compliance([along, wave]);
+            let is_own_conjugate = wave == 0 || 2 * wave == period[1];
+            let multiplicity = if is_own_conjugate { 1.0 } else { 2.0 };
+            for (index, value) in column.iter().map(Complex::norm_sqr).enumerate() {
+                let along = index.min(period[0] - index);
+                squares[along] += multiplicity * value * compliance([along, wave]);
             }
         }
         squares

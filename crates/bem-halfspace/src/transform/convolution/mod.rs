@@ -35,9 +35,11 @@ pub struct Convolution {
     grid: Grid,
     /// Mirrors along x and y, at the first row and column of the grid: pressure and displacement are their own images.
     pub(crate) mirrors: [Mirror; 2],
+    /// Boundary conditions of the grid.
     pub(crate) surroundings: Surroundings,
     /// Base under the elements, with lengths in the unit of the grid.
     pub(crate) base: Base,
+    /// Plans of the Fourier transforms over the padded period.
     transform: PlaneTransform,
     /// Real spectrum of the kernel over the whole period, [column][0..=padded_x / 2], times the normalisation of the transforms.
     /// A `Vec`, because an `Arc` of a slice would have to be copied into.

@@ -9,7 +9,8 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::ZERO;
 
 impl Convolution {
-    /// Samples a symbol of the wave vector \[rad/m] on the waves of the period; layout as [`Convolution`]'s spectrum.
+    /// Samples a symbol, a function of the wave vector \[rad/m], at the discrete wave vectors of the period. The layout is that of the
+    /// spectrum of a [`Convolution`].
     fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.transform.normalisation();
@@ -30,7 +31,7 @@ impl Convolution {
             .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
 
-    /// Spectrum 2π M(|q|t)/|q| of a periodic load; zero for the mean on a base that is not rigid.
+    /// Spectrum 2π M(|q|t)/|q| of a periodic load on a layer of thickness t; zero for the mean on a base that is not rigid.
     pub(super) fn periodic_spectrum(&self) -> Vec<f64> {
         self.spectrum_of(|[q_x, q_y]| {
             let q = q_x.hypot(q_y);
@@ -43,7 +44,7 @@ impl Convolution {
         })
     }
 
-    /// Spectrum of a symbol, with negative values replaced by zero and the mean by the longest wave.
+    /// Spectrum of a symbol, with negative values replaced by zero and the mean by the value for the longest wave.
     pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let longest = if unit_x < unit_y {
@@ -87,7 +88,7 @@ impl Convolution {
         for_each_row(&mut spectrum, 2 * length, |pair, spectrum| {
             let mut values = self.kernel_columns(&rows, 2 * pair);
             self.transform.column_forward(&mut values);
-            self.separate(&values, spectrum);
+            self.separate_columns(&values, spectrum);
         });
         spectrum
     }
@@ -106,7 +107,7 @@ impl Convolution {
     }
 
     /// Splits a transformed pair of columns into the `spectrum` of both, with the normalisation.
-    fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
+    fn separate_columns(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
         let normalisation = self.transform.normalisation();
         let (first, second) = spectrum.split_at_mut(self.transform.padded[0] / 2 + 1);
         for (spectrum, value) in first.iter_mut().zip(values) {
@@ -134,6 +135,7 @@ impl Convolution {
 
     /// Influence coefficients at the offset of `row` elements along x, over the period along y.
     fn kernel_row(&self, row: usize) -> Vec<f64> {
+        // Even along y: each offset stands for its negative too, at the end of the period.
         let [dx, dy] = self.grid.spacing();
         let period = self.transform.padded[1];
         let mut values = vec![0.0; period];

@@ -35,6 +35,7 @@ const MAX_FOLDED_LENGTH: usize = 512;
 /// Plan of the sums F_k of real numbers f_n.
 #[derive(Clone)]
 pub(super) struct CosineTransform<T> {
+    /// Real Fourier transform of L numbers, or of the period of 2 L.
     plan: Arc<dyn RealToComplex<T>>,
     /// sin(πn/L) for n = 0 … L/2; `None` if the whole period is transformed.
     sines: Option<Vec<T>>,

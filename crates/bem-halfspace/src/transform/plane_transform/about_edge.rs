@@ -64,11 +64,11 @@ pub(super) fn to_cosine_sums<T: Real>(
 ) {
     let length = numbers.len();
     for (k, (value, twiddle)) in half.iter().zip(twiddles).enumerate() {
-        let turned = value * twiddle * T::rounded(2.0);
+        let rotated = value * twiddle * T::rounded(2.0);
         if k > 0 {
-            numbers[length - k] = -turned.im;
+            numbers[length - k] = -rotated.im;
         }
-        numbers[k] = turned.re;
+        numbers[k] = rotated.re;
     }
 }
 

@@ -12,8 +12,11 @@ use crate::transform::plane_transform::{about_centre, about_edge};
 /// Plans of the transforms of a column, or of the part of a column in front of a mirror.
 #[derive(Clone)]
 pub(super) struct ColumnTransform<T> {
+    /// Forward transform, of the period or of half of it.
     forward: Arc<dyn Fft<T>>,
+    /// Inverse transform of the same length, without normalisation.
     inverse: Arc<dyn Fft<T>>,
+    /// Mirror at the first element of the column.
     pub(super) mirror: Mirror,
     /// Twiddle factors of [`about_edge`]; empty for other mirrors.
     pub(super) twiddles: Vec<Complex<T>>,
@@ -46,11 +49,11 @@ impl<T: Real> ColumnTransform<T> {
     pub(super) fn scratch_len(&self) -> usize {
         let plans = [&self.forward, &self.inverse];
         let [forward, inverse] = plans.map(|plan| plan.get_inplace_scratch_len());
-        let of_period = match self.mirror {
+        let period_len = match self.mirror {
             Mirror::Centre => self.forward.len(),
             Mirror::None | Mirror::Edge => 0,
         };
-        of_period + forward.max(inverse)
+        period_len + forward.max(inverse)
     }
 
     /// Index within a column of the element of a row.

@@ -16,19 +16,19 @@ impl PlaneTransform {
     ) {
         let length = self.padded[0] / 2 + 1;
         let factors = |column: usize| &spectrum[column * length..][..length];
-        let of_pair = || {
+        let factors_of_pair = || {
             // An odd number of real coefficients leaves the last pair with one of them.
             let last = self.padded[1] / 2;
             [2 * column, 2 * column + 1].map(|column| factors(column.min(last)))
         };
-        let pairs = self.rows.has_mirror();
-        let both = if pairs {
-            of_pair()
+        let has_real_pairs = self.rows.has_mirror();
+        let both = if has_real_pairs {
+            factors_of_pair()
         } else {
             [factors(column); 2]
         };
         match self.columns.mirror {
-            Mirror::None if pairs => multiply_pair(both, values),
+            Mirror::None if has_real_pairs => multiply_pair(both, values),
             Mirror::None => multiply_whole(both[0], values),
             Mirror::Centre => multiply_about_centre(both, values),
             Mirror::Edge => multiply_about_edge(both, &self.columns.twiddles, values),
@@ -47,7 +47,9 @@ fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
     }
 }
 
-/// Multiplies a column that holds the transforms of two real columns, as real and imaginary part, each by its own factors.
+/// Multiplies the transform of a column whose real and imaginary parts are two real columns, each by its own real, even factors.
+///
+/// With the values V_k and V_(−k), the transforms of both columns are (V_k ± V̄_(−k))/2, the second times i.
 fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     let length = values.len();
     for (k, (first, second)) in first.iter().zip(second).enumerate() {
@@ -59,7 +61,7 @@ fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     }
 }
 
-/// Multiplies real and imaginary parts, which are two columns with real transforms, each by their own factors.
+/// Multiplies the real and imaginary parts of values, which are the real transforms of two columns, each by its own factors.
 fn multiply_about_centre([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     for (value, (real, imaginary)) in values.iter_mut().zip(real.iter().zip(imaginary)) {
         *value = Complex::new(value.re * real, value.im * imaginary);
@@ -89,13 +91,16 @@ fn multiply_about_edge(
             twiddle * (sum + times_i(difference)),
         ]
     };
+    // U_0 has no opposite.
     values[0] = product(2.0 * values[0], (&real[0], &imaginary[0]));
     let (lower, upper) = values[1..].split_at_mut(length / 2);
     // Factors of U_(L−k) for k = 1, 2, …
     let opposite = factors.clone().rev().skip(real.len() - length);
-    let places = lower.iter_mut().zip(upper.iter_mut().rev());
+    let opposite_values = lower.iter_mut().zip(upper.iter_mut().rev());
     let both = factors.skip(1).zip(opposite);
-    for ((twiddle, (here, there)), (one, other)) in twiddles[1..].iter().zip(places).zip(both) {
+    for ((twiddle, (here, there)), (one, other)) in
+        twiddles[1..].iter().zip(opposite_values).zip(both)
+    {
         [*here, *there] = pair(*twiddle, [*here, *there], [one, other]);
     }
     if length.is_multiple_of(2) {
@@ -106,6 +111,7 @@ fn multiply_about_edge(
     }
 }
 
+/// Product of a complex number and the imaginary unit.
 fn times_i(value: Complex<f64>) -> Complex<f64> {
     Complex::new(-value.im, value.re)
 }

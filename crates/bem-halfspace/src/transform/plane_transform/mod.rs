@@ -41,7 +41,9 @@ pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 pub(crate) struct PlaneTransform<T = f64> {
     /// Elements of the period along x and y.
     pub(crate) padded: [usize; 2],
+    /// Plans of the real transforms along y.
     rows: RowTransform<T>,
+    /// Plans of the complex transforms along x.
     columns: ColumnTransform<T>,
 }
 
@@ -139,8 +141,8 @@ impl<T: Real> PlaneTransform<T> {
                     for (values, piece) in whole.iter().zip(&mut pieces) {
                         *piece = *values;
                     }
-                    for (value, place) in rest.iter().zip(pieces.flatten()) {
-                        *place = *value;
+                    for (value, stored) in rest.iter().zip(pieces.flatten()) {
+                        *stored = *value;
                     }
                 }
             }
@@ -166,10 +168,10 @@ impl<T: Real> PlaneTransform<T> {
                 self.multiply_columns(buffers, &columns, &multiply);
                 // Keep the wanted rows of the tile.
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
-                    let place = self.columns.index_of_row(row);
+                    let index = self.columns.index_of_row(row);
                     let columns = buffers.columns.chunks_exact(self.column_stride());
                     for (value, column) in piece.iter_mut().zip(columns) {
-                        *value = column[place];
+                        *value = column[index];
                     }
                 }
             }
@@ -190,10 +192,10 @@ impl<T: Real> PlaneTransform<T> {
             let pieces =
                 &strips[(strip * self.n_tiles() + tile) * ROWS_PER_STRIP..][..ROWS_PER_STRIP];
             for row in rows_of_strip(strip, loaded) {
-                let place = self.columns.index_of_row(row);
+                let index = self.columns.index_of_row(row);
                 let columns = buffers.columns.chunks_exact_mut(stride);
                 for (column, value) in columns.zip(&pieces[row % ROWS_PER_STRIP]) {
-                    column[place] = *value;
+                    column[index] = *value;
                 }
             }
         }
@@ -234,8 +236,8 @@ impl<T: Real> PlaneTransform<T> {
                 for (values, piece) in whole.iter_mut().zip(&mut pieces) {
                     *values = *piece;
                 }
-                for (value, found) in rest.iter_mut().zip(pieces.flatten()) {
-                    *value = *found;
+                for (value, stored) in rest.iter_mut().zip(pieces.flatten()) {
+                    *value = *stored;
                 }
                 self.rows.inverse(buffers, values);
             }

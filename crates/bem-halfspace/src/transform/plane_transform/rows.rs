@@ -20,7 +20,9 @@ use crate::transform::plane_transform::workspace::Buffers;
 pub(super) enum RowTransform<T> {
     /// A whole row, or half a row with a mirror at the edge of its first element.
     Fourier {
+        /// Real forward transform, of the period or of half of it.
         forward: Arc<dyn RealToComplex<T>>,
+        /// Inverse transform of the same length, without normalisation.
         inverse: Arc<dyn ComplexToReal<T>>,
         /// Twiddle factors of [`about_edge`]; `None` without a mirror.
         twiddles: Option<Vec<Complex<T>>>,
@@ -133,6 +135,7 @@ impl<T: Real> RowTransform<T> {
                 inverse, twiddles, ..
             } => {
                 if let Some(twiddles) = twiddles {
+                    // From real cosine sums in pairs to complex coefficients.
                     unpair(&buffers.half_row, &mut buffers.row);
                     about_edge::from_cosine_sums(twiddles, &buffers.row, &mut buffers.half_row);
                 }
@@ -147,6 +150,7 @@ impl<T: Real> RowTransform<T> {
                 }
             }
             Self::AboutCentre(cosines) => {
+                // The cosine transform is its own inverse, but for the normalisation.
                 unpair(&buffers.half_row, &mut buffers.row);
                 cosines.apply(buffers);
             }
@@ -175,7 +179,7 @@ fn pair<T: Real>(reals: &[T], pairs: &mut [Complex<T>]) {
     }
 }
 
-/// The inverse of [`pair`].
+/// Splits complex numbers into neighbouring real numbers: the inverse of [`pair`].
 fn unpair<T: Real>(pairs: &[Complex<T>], reals: &mut [T]) {
     for (reals, pair) in reals.chunks_mut(2).zip(pairs) {
         for (real, value) in reals.iter_mut().zip([pair.re, pair.im]) {

@@ -16,6 +16,7 @@ pub(crate) struct Workspace<T = f64> {
     pub(super) strips: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
     /// Columns after the product in Fourier space, `[tile][row]`.
     pub(super) tiles: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
+    /// Buffers of each thread.
     pub(super) buffers: PerThread<Buffers<T>>,
 }
 
@@ -24,10 +25,11 @@ pub(crate) struct Workspace<T = f64> {
 pub(super) struct Buffers<T> {
     /// A row of real values.
     pub(super) row: Vec<T>,
-    /// Coefficients of a row.
+    /// Fourier coefficients of a row; for a row with a mirror, real coefficients in pairs.
     pub(super) half_row: Vec<Complex<T>>,
     /// Columns of a tile, at the distance of the column stride.
     pub(super) columns: Vec<Complex<T>>,
+    /// Scratch of the one-dimensional transforms.
     pub(super) scratch: Vec<Complex<T>>,
     /// Input of the transform of a row with a mirror through the centre of an element.
     pub(super) folded: Vec<T>,
