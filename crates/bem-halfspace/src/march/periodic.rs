@@ -88,6 +88,7 @@ pub fn slide_on_grid(
 pub(crate) struct Steps<'a> {
     /// Number of steps per element of the distance, an integer.
     pub(crate) per_element: f64,
+    /// Stopping criteria of the contact of each step.
     pub(crate) options: ContactOptions,
     /// Reports the finished fraction of the march.
     pub(crate) report: &'a dyn Fn(f64),
@@ -103,22 +104,23 @@ pub(crate) fn slide_with(
 ) -> Result<PeriodicTransient, BemError> {
     check_surface(grid, heights)?;
     let ((mean_pressure, distance), velocity) = (load.require_march()?, load.velocity());
-    let (in_element, edge) = (steps.per_element, grid.spacing()[0]);
-    let whole_step = edge / in_element;
+    let (steps_per_element, edge) = (steps.per_element, grid.spacing()[0]);
+    let whole_step = edge / steps_per_element;
     let n_steps = elements_along(distance, whole_step)?;
     let sliding = Sliding::new(elastomer, velocity)?;
     let mut march = PeriodicMarch::new(grid, heights, elastomer, edge / velocity)?;
+    // Steps end at whole numbers of steps before the end of the distance, so that the first one is the shorter one.
     let rows = (0..n_steps).rev().map(|left| {
-        let (to_go, is_first) = (left as f64, left + 1 == n_steps);
-        let slid = distance - to_go * whole_step;
-        let behind = to_go % in_element;
+        let (steps_after, is_first) = (left as f64, left + 1 == n_steps);
+        let slid = distance - steps_after * whole_step;
+        let steps_to_boundary = steps_after % steps_per_element;
         if is_first {
-            march.set_sliding_step(&sliding, slid, behind * whole_step)?;
-        } else if left + 2 == n_steps || in_element > 1.0 {
-            march.set_sliding_step(&sliding, whole_step, behind * whole_step)?;
+            march.set_sliding_step(&sliding, slid, steps_to_boundary * whole_step)?;
+        } else if left + 2 == n_steps || steps_per_element > 1.0 {
+            march.set_sliding_step(&sliding, whole_step, steps_to_boundary * whole_step)?;
         }
         // The material passes an element in the last step of each.
-        if behind + 1.0 >= in_element {
+        if steps_to_boundary + 1.0 >= steps_per_element {
             march.shift_history();
         }
         let state = march.step(mean_pressure, &steps.options)?;
@@ -143,16 +145,23 @@ pub(crate) fn slide_with(
 pub(crate) struct PeriodicMarch<'a> {
     /// Heights of the surface at the centres of the elements, as given, \[m].
     given: &'a [f64],
+    /// Creep spectrum of the material.
     creep: CreepSpectrum,
+    /// Transforms that multiply the waves of heights and slopes.
     waves: FourierMultiplier,
     /// Heights with the symbols of [`set_step`](Self::set_step), \[m].
     heights: Vec<f64>,
+    /// Mean of the given heights, \[m].
     mean_height: f64,
     /// Slopes ∂h/∂x at the end of the step.
     slopes: Vec<f64>,
+    /// Operator K on the period.
     convolution: Convolution,
+    /// Buffers for applying K.
     workspace: ConvolutionWorkspace,
+    /// Pressure of the last step.
     pub(crate) state: ContactState,
+    /// Coefficients of the creep law over the present step.
     step: ExponentialStep,
     /// 2 (1 − ν), the factor from α w to the displacement.
     half_space_factor: f64,
@@ -160,7 +169,7 @@ pub(crate) struct PeriodicMarch<'a> {
     pub(crate) history: Vec<f64>,
     /// h + H, the gap at zero depth and without load, \[m].
     initial_gap: Vec<f64>,
-    /// 2 (1 − ν) w, the input of the history variables.
+    /// Input 2 (1 − ν) w of the history variables, \[Pa m].
     input: Vec<f64>,
 }
 
@@ -230,14 +239,15 @@ impl<'a> PeriodicMarch<'a> {
         let compliances = sliding.compliances(along_x)?.into_iter();
         let symbol = |(row, compliance): (usize, Complex<f64>)| {
             let q_x = along_x[row];
-            let held = step.turning_response(q_x * length);
-            let held = Complex::new(held.storage, held.loss) * factor / compliance;
+            let held_ratio = step.turning_response(q_x * length);
+            let held_ratio =
+                Complex::new(held_ratio.storage, held_ratio.loss) * factor / compliance;
             // The shortest wave stands for both directions, so that its symbols are real; its slope vanishes at the elements.
             if 2 * row == rows {
-                [held.norm().into(), ZERO]
+                [held_ratio.norm().into(), ZERO]
             } else {
-                let turn = Complex::from_polar(1.0, q_x * lag);
-                [held * turn, Complex::i() * q_x * turn]
+                let phase_factor = Complex::from_polar(1.0, q_x * lag);
+                [held_ratio * phase_factor, Complex::i() * q_x * phase_factor]
             }
         };
         let symbols: Vec<_> = compliances.enumerate().map(symbol).collect();
@@ -378,8 +388,8 @@ mod tests {
                 .collect();
             let duration = parts.iter().map(|part| part.0).sum();
             let after = in_contact(&heights, &material, &parts);
-            let held = in_contact(&heights, &material, &[(duration, last)]);
-            prop_assert!(after >= held, "{} after {}", after, held);
+            let held_ratio = in_contact(&heights, &material, &[(duration, last)]);
+            prop_assert!(after >= held_ratio, "{} after {}", after, held_ratio);
         }
     }
 }

@@ -3,6 +3,8 @@
 //! ```text
 //! u = H + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
 //! ```
+//! H is the displacement that the end of the step would have without load, and α the compliance of the step.
+//!
 //! Every element has one history variable per retardation element of the material, one for free flow, and the last load
 //! if loads are linear over a step. An elastic material has none, and needs no more elements than the footprint.
 //!
@@ -18,11 +20,14 @@ use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid, Rows};
 /// Fields over all elements of a path in front of the mirrors, row-major; displacements in units of the height scale, lengths
 /// in Δx.
 pub(super) struct MaterialHistory {
+    /// Operator K on the path.
     pub(super) convolution: Convolution,
+    /// Buffers for applying K.
     workspace: ConvolutionWorkspace,
     /// Scaled load of the present step; valid only in the rows that were last loaded.
     load: Vec<f64>,
-    /// 2 (1 − ν) α w of the present step; [`advance`](Self::advance) with history variables leaves 2 (1 − ν) w.
+    /// Displacement 2 (1 − ν) α w by the load of the present step; [`advance`](Self::advance) with history variables leaves
+    /// 2 (1 − ν) w.
     increment: Vec<f64>,
     /// History variables, `[row][field][column]`: rows that a step needs are contiguous.
     pub(super) variables: Vec<f64>,
@@ -53,6 +58,7 @@ impl MaterialHistory {
         })
     }
 
+    /// Number of columns of the path.
     fn columns(&self) -> usize {
         self.convolution.grid().shape()[1]
     }

@@ -33,17 +33,23 @@ use slopes::MeanSlopes;
 
 /// A simulation in time of an indenter that moves over a half space or layer.
 pub struct March<'a> {
+    /// Surface of the indenter.
     surface: &'a dyn Surface,
+    /// Spacing, footprint and tolerance.
     options: GridOptions,
+    /// Elements of the footprint, and the mirrors.
     layout: Layout,
+    /// Creep spectrum of the material.
     creep: CreepSpectrum,
     /// True on a half space that flows: the depth grows without limit. On a layer that flows it does not.
     pub(crate) sinks_without_limit: bool,
     /// 2 (1 − ν), the factor from α w to the displacement.
     half_space_factor: f64,
+    /// All steps, done and to come.
     schedule: Schedule,
+    /// Number of steps that are solved.
     steps_done: usize,
-    /// Coefficients of a step of the length `time_step`.
+    /// Coefficients of the creep law over a step of the duration `time_step`.
     creep_step: ExponentialStep,
     /// Δt of the present step, \[s].
     time_step: f64,
@@ -53,13 +59,14 @@ pub struct March<'a> {
     sampled_offset: f64,
     /// h + H, the gap at zero depth and without load, in units of `height_scale`; shape of `heights`.
     initial_gap: Vec<f64>,
+    /// Displacement and history variables of the material along the path.
     history: MaterialHistory,
     /// Part of the footprint on which the contact is solved, with the pressure of the last step.
     contact_box: ContactBox,
     /// Unit of heights, \[m].
     height_scale: f64,
     /// Slopes under the pressure of the last step.
-    means: MeanSlopes,
+    slopes: MeanSlopes,
 }
 
 impl fmt::Debug for March<'_> {
@@ -84,7 +91,7 @@ impl<'a> March<'a> {
         motions: &[Motion],
         options: &GridOptions,
     ) -> Result<Self, BemError> {
-        let schedule = Schedule::through(motions, options.spacing[0])?;
+        let schedule = Schedule::from_motions(motions, options.spacing[0])?;
         Self::from_schedule(surface, elastomer, schedule, options)
     }
 
@@ -123,17 +130,19 @@ impl<'a> March<'a> {
     ) -> Result<Self, BemError> {
         // An indenter that moves along x has no symmetry about x = 0.
         let [along_x, along_y] = surface.mirrors();
-        let layout = options.layout([along_x && schedule.rests(), along_y])?;
+        let layout = options.layout([along_x && schedule.is_at_rest(), along_y])?;
         let [dx, dy] = options.spacing;
+        // Material, and its coefficients for the first step.
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let time_step = schedule.steps[0].time_step;
         let creep_step = (schedule.step_rule)(&creep, time_step)?;
         // Without history variables the elements may move with the indenter.
         let schedule = match creep_step.n_fields() {
-            0 => schedule.without_memory(),
+            0 => schedule.without_history(),
             _ => schedule,
         };
+        // Elements along the path, with lengths in Δx.
         let base = elastomer.base().in_units_of(dx)?;
         base.check_flow(creep.fluidity())?;
         let sinks_without_limit = creep.fluidity() > 0.0 && base.is_half_space();
@@ -154,9 +163,9 @@ impl<'a> March<'a> {
             heights: Vec::new(),
             sampled_offset: f64::NAN,
             initial_gap: vec![0.0; layout.folded_shape().iter().product()],
-            contact_box: ContactBox::of(&history.convolution, Bounds::single([0; 2]))?,
+            contact_box: ContactBox::cut_from(&history.convolution, Bounds::single([0; 2]))?,
             history,
-            means: MeanSlopes::default(),
+            slopes: MeanSlopes::default(),
         };
         // Heights are sampled in the scale; the first box surrounds the lowest point.
         march.height_scale = march.find_height_scale()?;
@@ -241,7 +250,7 @@ impl<'a> March<'a> {
 
     /// Largest rise of the body over one element in contact in the last step, \[m].
     pub(crate) fn largest_rise(&self) -> f64 {
-        self.means.largest * self.options.spacing[0]
+        self.slopes.largest * self.options.spacing[0]
     }
 
     /// Relative tolerance of the contact of each step.
@@ -251,10 +260,11 @@ impl<'a> March<'a> {
 
     /// Pressure-weighted mean of |∂h/∂x| in the last step: the friction coefficient if all slopes were uphill, as a scale for rounding.
     pub(crate) const fn mean_slope_modulus(&self) -> f64 {
-        self.means.mean_slope_modulus
+        self.slopes.mean_slope_modulus
     }
 
-    /// How singular the pressure is along the outline, between 0 and 1 under a flat punch.
+    /// Singularity of the pressure at the contact boundary: of the order 1/a² if it vanishes there, for a radius of a elements; 1 under a
+    /// flat punch.
     pub(crate) fn edge_singularity(&self) -> f64 {
         self.contact_box.edge_singularity(self.layout.mirrors)
     }
@@ -274,11 +284,11 @@ impl<'a> March<'a> {
         let Some(row) = self.advance()? else {
             return Ok(None);
         };
-        self.means = MeanSlopes::over(self, &self.schedule.steps[self.steps_done - 1])?;
+        self.slopes = MeanSlopes::over(self, &self.schedule.steps[self.steps_done - 1])?;
         Ok(Some(MotionRow {
-            time_level: self.means.time_level,
-            tangential_force: row.normal_force * self.means.met,
-            tangential_force_end_of_step: row.normal_force * self.means.end,
+            time_level: self.slopes.time_level,
+            tangential_force: row.normal_force * self.slopes.at_time_level,
+            tangential_force_end_of_step: row.normal_force * self.slopes.end_of_step,
             ..row
         }))
     }
@@ -428,7 +438,7 @@ impl<'a> March<'a> {
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let index = lowest.unwrap_or(0);
         let element = Bounds::single([index / columns, index % columns]);
-        ContactBox::of(&self.history.convolution, self.with_margin(&element))
+        ContactBox::cut_from(&self.history.convolution, self.with_margin(&element))
     }
 
     /// `bounds` with a margin into which the contact may grow, within the followed elements.

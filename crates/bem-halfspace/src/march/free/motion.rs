@@ -33,7 +33,7 @@ pub struct MotionRow {
     pub tangential_force_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
-    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    /// Discretization error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
     pub contact_area_uncertainty: f64,
     /// Rear and front of the contact relative to the lowest point, \[m]; `None` without contact.
     pub contact_x: Option<[f64; 2]>,

@@ -48,7 +48,9 @@ pub(super) struct ScheduledStep {
 
 /// All steps of a march.
 pub(crate) struct Schedule {
+    /// Steps in the order of time.
     pub(super) steps: Vec<ScheduledStep>,
+    /// Course of the load within a step, as the coefficients of the creep law.
     pub(super) step_rule: StepRule,
     /// Lowest and highest row under the lowest point, over each step and all later ones.
     spans: Vec<[usize; 2]>,
@@ -56,12 +58,12 @@ pub(crate) struct Schedule {
 
 impl Schedule {
     /// The steps through `motions`, with loads that are held over each.
-    pub(super) fn through(motions: &[Motion], spacing: f64) -> Result<Self, BemError> {
+    pub(super) fn from_motions(motions: &[Motion], spacing: f64) -> Result<Self, BemError> {
         // Durations are differences of the times.
-        let mut before = 0.0;
+        let mut previous_time = 0.0;
         let timed = motions.iter().map(|&end| {
-            let duration = end.time - before;
-            before = end.time;
+            let duration = end.time - previous_time;
+            previous_time = end.time;
             TimedMotion { end, duration }
         });
         Self::new(timed, ExponentialStep::creep, spacing)
@@ -125,7 +127,7 @@ impl Schedule {
         for TimedMotion { end, duration } in motions {
             let time_step = positive("time step", duration)?;
             // Position on the grid, as an element and the offset from its centre.
-            let [cell, offset] = place(end.position, spacing)?;
+            let [cell, offset] = nearest_element(end.position, spacing)?;
             check_control(end.control)?;
             steps.push(ScheduledStep {
                 end,
@@ -143,7 +145,7 @@ impl Schedule {
         for (step, cell) in steps.iter_mut().zip(cells) {
             step.row = whole_elements(cell - lowest)?;
         }
-        let spans = spans(&steps);
+        let spans = later_spans(&steps);
         Ok(Self {
             steps,
             step_rule,
@@ -151,14 +153,14 @@ impl Schedule {
         })
     }
 
-    /// Whether the indenter never moves.
-    pub(super) fn rests(&self) -> bool {
+    /// True if the indenter never moves.
+    pub(super) fn is_at_rest(&self) -> bool {
         let mut steps = self.steps.iter();
         steps.all(|step| step.advance == 0.0 && step.offset == 0.0)
     }
 
     /// The schedule on a material without history variables: the elements move with the indenter, which stays over row 0.
-    pub(super) fn without_memory(mut self) -> Self {
+    pub(super) fn without_history(mut self) -> Self {
         for step in &mut self.steps {
             step.row = 0;
         }
@@ -184,15 +186,19 @@ fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemErro
     }
     // The last step takes up the remainder of half an element to one and a half.
     let before = (steps - 0.5).ceil().max(1.0) - 1.0;
-    let rest = steps - before;
+    let last_in_lengths = steps - before;
     // A whole step must not become another one by rounding, or results would depend on the unit of length.
-    let is_whole = (rest - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
-    let last = if is_whole { length } else { rest * length };
+    let is_whole = (last_in_lengths - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
+    let last = if is_whole {
+        length
+    } else {
+        last_in_lengths * length
+    };
     Ok((whole_elements(before)? + 1, last))
 }
 
 /// Lowest and highest row under the lowest point over each step and all later ones: running extrema from the end.
-fn spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
+fn later_spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
     let mut spans: Vec<[usize; 2]> = steps.iter().map(|step| [step.row; 2]).collect();
     for step in (1..spans.len()).rev() {
         let [low, high] = spans[step];
@@ -203,7 +209,7 @@ fn spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
 }
 
 /// Index of the element nearest to a position \[m], and the position relative to its centre, both in elements.
-fn place(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
+fn nearest_element(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
     let elements = finite("position", position)? / spacing;
     let cell = elements.round();
     let offset = elements - cell;

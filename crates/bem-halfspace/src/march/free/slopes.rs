@@ -25,9 +25,9 @@ pub(super) struct MeanSlopes {
     /// θ: pressure and forces belong to the time θ Δt before the end of the step, from 0 to ½.
     pub(super) time_level: f64,
     /// Mean slope at the time level θ: F_h / F_N.
-    pub(super) met: f64,
+    pub(super) at_time_level: f64,
     /// Mean of ∂h/∂x at the end of the step.
-    pub(super) end: f64,
+    pub(super) end_of_step: f64,
     /// Mean modulus of the slope at the time level θ.
     pub(super) mean_slope_modulus: f64,
     /// Largest slope at the time level θ; of its modulus if the body is its own mirror image about x = 0.
@@ -43,32 +43,36 @@ impl MeanSlopes {
             ..Self::default()
         };
         // Sums over the loaded elements, weighted with their loads.
-        let mut normal = 0.0;
+        let mut total_load = 0.0;
         // Images fore and aft have the opposite slope.
         let has_image = !march.layout.mirrors[0].is_none();
         for (element, load) in march.loaded_elements() {
-            let [met, end] = slopes_at(march, time_level, step, element)?;
+            let [at_time_level, end] = slopes_at(march, time_level, step, element)?;
             if !has_image {
-                sum.met += load * met;
-                sum.end += load * end;
+                sum.at_time_level += load * at_time_level;
+                sum.end_of_step += load * end;
             }
-            sum.mean_slope_modulus += load * met.abs();
-            sum.largest = sum.largest.max(if has_image { met.abs() } else { met });
-            normal += load;
+            sum.mean_slope_modulus += load * at_time_level.abs();
+            sum.largest = sum.largest.max(if has_image {
+                at_time_level.abs()
+            } else {
+                at_time_level
+            });
+            total_load += load;
         }
-        if normal == 0.0 {
+        if total_load == 0.0 {
             return Ok(sum);
         }
         Ok(Self {
-            met: sum.met / normal,
-            end: sum.end / normal,
-            mean_slope_modulus: sum.mean_slope_modulus / normal,
+            at_time_level: sum.at_time_level / total_load,
+            end_of_step: sum.end_of_step / total_load,
+            mean_slope_modulus: sum.mean_slope_modulus / total_load,
             ..sum
         })
     }
 }
 
-/// Slopes over an element: at the time level θ, and at the end of the step.
+/// Slopes of the body over an element: at the time level θ, and at the end of the step.
 fn slopes_at(
     march: &March<'_>,
     time_level: f64,
@@ -76,30 +80,30 @@ fn slopes_at(
     [row, column]: [usize; 2],
 ) -> Result<[f64; 2], BemError> {
     let spacing = march.options.spacing[0];
-    let here = march.x_in_elements(row, march.sampled_offset);
+    let centre_of_element = march.x_in_elements(row, march.sampled_offset);
     let y = march.y_of_column(column);
     let height = |x: f64| march.surface.height([x * spacing, y]);
     // The chord at the time level is as long as an element, or on a dashpot (θ = ½) as the distance of the step.
-    let centre = here + time_level * step.advance;
+    let centre = centre_of_element + time_level * step.advance;
     let length = (2.0 * time_level * step.advance.abs()).max(1.0);
     let half = 0.5 * length;
-    let met = (height(centre + half) - height(centre - half)) / length / spacing;
-    let x = here * spacing;
-    if !met.is_finite() {
+    let at_time_level = (height(centre + half) - height(centre - half)) / length / spacing;
+    let x = centre_of_element * spacing;
+    if !at_time_level.is_finite() {
         return Err(BemError::VerticalWall { x, y });
     }
     let end = march.surface.gradient([x, y])[0];
     in_range("slope of the surface", end, !end.is_nan(), "a number")?;
-    Ok([met, end])
+    Ok([at_time_level, end])
 }
 
-/// θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step in which the load is held.
+/// θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step in which the load is held_share.
 fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
-    let held = 1.0 - march.creep_step.linear_share();
-    if held == 0.0 {
+    let held_share = 1.0 - march.creep_step.linear_share();
+    if held_share == 0.0 {
         return Ok(0.0);
     }
-    Ok(0.5 * held * (1.0 - elastic_share(march, step)?))
+    Ok(0.5 * held_share * (1.0 - elastic_share(march, step)?))
 }
 
 /// E G' at the frequency ω = 2πv/L with which the contact passes: 1 on an elastic half space, 0 on a dashpot.

@@ -107,7 +107,7 @@ impl March<'_> {
         Bounds::enclosing(outside)
     }
 
-    /// Refuses a contact that touches the boundary of the footprint.
+    /// Fails if the contact touches the boundary of the footprint; `position` \[m] is for the error.
     fn check_footprint(&self, bounds: &Bounds, position: f64) -> Result<(), BemError> {
         let shape = self.layout.shape;
         let inside = (0..2).all(|axis| bounds.lower[axis] > 0 && bounds.upper[axis] < shape[axis]);
