@@ -11,14 +11,16 @@ use crate::parallel::row_blocks::RowBlocks;
 /// A maximal run of active elements in one row.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Run {
-    /// The first element.
+    /// Index of the first element in the field.
     element: usize,
     /// Index of its first value in the part of a packed vector that belongs to the row block.
     packed_start: usize,
+    /// Number of elements.
     length: usize,
 }
 
 impl Run {
+    /// Indices of its elements in the field.
     pub(crate) fn elements(&self) -> Range<usize> {
         self.element..self.element + self.length
     }
@@ -34,18 +36,22 @@ impl Run {
     }
 }
 
-/// Elements with some property.
+/// Number of elements with some property, and the last of them.
 pub(crate) struct Matches {
+    /// Number of these elements.
     pub(crate) count: usize,
-    /// The last of them; 0 without any.
+    /// Index of the last of these elements; 0 if there are none.
     pub(crate) last: usize,
 }
 
 /// The elements in contact, as flags and as runs.
 #[derive(Debug, Clone)]
 pub(crate) struct ActiveSet {
+    /// Flag of each element of the grid, row-major: true in contact.
     is_active: Vec<bool>,
+    /// Number of columns of the grid.
     pub(crate) columns: usize,
+    /// Division of the rows of the grid among threads.
     pub(crate) row_blocks: RowBlocks,
     /// Runs of each row block, with capacity for as many as are possible, so that a change does not allocate.
     runs: Vec<Vec<Run>>,
@@ -69,27 +75,28 @@ impl ActiveSet {
         }
     }
 
-    /// Replaces the active set by the elements for which `in_contact` is true.
+    /// Replaces the active set by the elements for which `is_active` is true.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
     pub(crate) fn assign(&mut self, is_active: impl Fn(usize) -> bool + Sync) {
-        self.toggle(|element, is| is_active(element) != is);
+        self.toggle(|element, was_active| is_active(element) != was_active);
     }
 
-    /// Exchanges the elements for which `changes` is true; it gets the element and whether that is active.
+    /// Exchanges the elements for which `changes(element, is_active)` is true between the set and its complement.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
     pub(crate) fn toggle(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
         let row_blocks = self.row_blocks;
-        row_blocks.for_each([&mut self.is_active], |row_block, [is_active]| {
-            for (element, is) in row_blocks.elements(row_block).zip(is_active) {
-                *is ^= changes(element, *is);
+        row_blocks.for_each([&mut self.is_active], |row_block, [flags]| {
+            for (element, is_active) in row_blocks.elements(row_block).zip(flags) {
+                *is_active ^= changes(element, *is_active);
             }
         });
     }
 
     /// Updates the runs after changes of the flags.
     pub(crate) fn find_runs(&mut self) {
+        // Find the runs of each row block in parallel.
         let (row_blocks, columns, is_active) = (self.row_blocks, self.columns, &self.is_active);
         let in_row_block = |row_block, [runs]: [&mut [Vec<Run>]; 1]| {
             let elements = row_blocks.elements(row_block);
@@ -98,6 +105,7 @@ impl ActiveSet {
         };
         let runs = [(&mut self.runs[..], Starts::Every(1))];
         row_blocks.for_each_part(runs, in_row_block);
+        // Accumulate the numbers of active elements of the row blocks.
         let mut before = 0;
         for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
             before += runs.last().map_or(0, |run| run.packed_range().end);
@@ -105,6 +113,7 @@ impl ActiveSet {
         }
     }
 
+    /// Number of active elements.
     pub(crate) fn len(&self) -> usize {
         self.starts[self.row_blocks.n_blocks()]
     }
@@ -161,6 +170,7 @@ impl ActiveSet {
             });
     }
 
+    /// Gathers the values of a field into the part of a packed vector that belongs to a row block.
     pub(crate) fn gather_in<T: Copy>(&self, row_block: usize, field: &[T], vector: &mut [T]) {
         for run in self.runs(row_block) {
             vector[run.packed_range()].copy_from_slice(&field[run.elements()]);
@@ -183,17 +193,17 @@ impl ActiveSet {
         }
     }
 
-    /// Finds the elements for which `is` is true; it gets the element and whether that is active.
-    pub(crate) fn find_matches(&self, is: impl Fn(usize, bool) -> bool + Sync) -> Matches {
+    /// Finds the elements for which `matches(element, is_active)` is true.
+    pub(crate) fn find_matches(&self, matches: impl Fn(usize, bool) -> bool + Sync) -> Matches {
         let in_row_block = |row_block| {
-            let mut matches = Matches { count: 0, last: 0 };
+            let mut found = Matches { count: 0, last: 0 };
             for element in self.row_blocks.elements(row_block) {
-                if is(element, self.is_active[element]) {
-                    matches.count += 1;
-                    matches.last = element;
+                if matches(element, self.is_active[element]) {
+                    found.count += 1;
+                    found.last = element;
                 }
             }
-            matches
+            found
         };
         self.row_blocks
             .gather(in_row_block, |left: Matches, right| Matches {
@@ -202,25 +212,26 @@ impl ActiveSet {
             })
     }
 
+    /// True if the element is active.
     pub(crate) fn contains(&self, element: usize) -> bool {
         self.is_active[element]
     }
 }
 
-/// Finds the runs in consecutive rows of flags, whose first element has the index `end`.
-fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs: &mut Vec<Run>) {
+/// Replaces `runs` by those of consecutive rows of flags, whose first element has the index `first`.
+fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, first: usize, runs: &mut Vec<Run>) {
     runs.clear();
-    let mut place = 0;
+    let (mut end, mut packed_index) = (first, 0);
     for equal in rows.flat_map(|row| row.chunk_by(|left, right| left == right)) {
         let (element, length) = (end, equal.len());
         end += length;
         if equal[0] {
             runs.push(Run {
                 element,
-                packed_start: place,
+                packed_start: packed_index,
                 length,
             });
-            place += length;
+            packed_index += length;
         }
     }
 }
@@ -243,12 +254,15 @@ pub(crate) fn sum_blocks<const EDGE: usize>(
         let row = start / columns;
         let sums = &mut sums[(row - first_row) / EDGE * columns.div_ceil(EDGE)..];
         let (mut column, end) = (start - row * columns, end - row * columns);
-        let mut place = run.packed_range().start;
+        let mut packed_index = run.packed_range().start;
         while column < end {
             let block = column / EDGE;
+            // Part of the run in one block of elements.
             let length = ((block + 1) * EDGE).min(end) - column;
-            sums[block] += (place..place + length).map(&term).sum::<f64>();
-            (column, place) = (column + length, place + length);
+            sums[block] += (packed_index..packed_index + length)
+                .map(&term)
+                .sum::<f64>();
+            (column, packed_index) = (column + length, packed_index + length);
         }
     }
 }

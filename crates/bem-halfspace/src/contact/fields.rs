@@ -4,15 +4,18 @@ use std::ops::Range;
 
 use crate::Convolution;
 use crate::contact::active_set::ActiveSet;
-use crate::contact::preconditioner::{Preconditioner, Weights};
+use crate::contact::preconditioner::{Preconditioner, PreconditionerParameters};
 use crate::parallel::reductions::sum;
 use crate::parallel::row_blocks::resize;
 
 /// Buffers of the iteration, besides load and displacement.
 #[derive(Debug, Clone)]
 pub(super) struct Fields {
+    /// Approximate inverse of K on the active set.
     pub(super) preconditioner: Preconditioner,
+    /// Elements in contact.
     pub(super) active: ActiveSet,
+    /// Gap, displacement, load, residual and direction on the active set.
     pub(super) vectors: ActiveVectors,
     /// The vector that was last scattered over the grid, residual or direction; zero outside the active set.
     pub(super) scattered: Vec<f64>,
@@ -21,11 +24,12 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    pub(super) fn new(convolution: &Convolution, weights: Weights) -> Self {
+    /// Buffers for the grid of a convolution, with an empty active set.
+    pub(super) fn new(convolution: &Convolution, parameters: PreconditionerParameters) -> Self {
         let grid = convolution.grid();
         let n = grid.n_elements();
         Self {
-            preconditioner: Preconditioner::new(convolution, weights),
+            preconditioner: Preconditioner::new(convolution, parameters),
             active: ActiveSet::new(grid.shape()),
             vectors: ActiveVectors::new(n),
             scattered: vec![0.0; n],
@@ -45,6 +49,7 @@ pub(super) struct ActiveVectors {
     pub(super) load: Vec<f64>,
     /// Residual r of the linear equations, minus the gap.
     pub(super) residual: Vec<f64>,
+    /// Search direction p of the conjugate gradients.
     pub(super) direction: Vec<f64>,
     /// Output of the last operator of an iteration: the preconditioned residual, then K times the direction.
     pub(super) operator_output: Vec<f64>,
@@ -60,6 +65,7 @@ impl ActiveVectors {
         vectors
     }
 
+    /// All vectors, for work that concerns each of them.
     const fn all(&mut self) -> [&mut Vec<f64>; 6] {
         [
             &mut self.separation,

@@ -16,7 +16,8 @@ use crate::parallel::chunks::in_pool;
 use crate::parallel::row_blocks::RowBlocks;
 use crate::transform::convolution::{Convolution, Surroundings};
 
-/// Solves the contact on the domain that is left by the mirror symmetries of separation and first guess.
+/// Solves the contact on the symmetry-reduced domain, if separation and first guess have mirror symmetries; else on the whole
+/// grid.
 pub(super) fn solve_symmetry_reduced(
     problem: LoadProblem,
     largest_load: f64,
@@ -28,13 +29,14 @@ pub(super) fn solve_symmetry_reduced(
     if mirrors == NO_MIRRORS {
         return solve_with_largest_load(largest_load, problem, state, criterion);
     }
+    // Restrict separation, first guess and force to the domain in front of the mirrors.
     let mut front = match state.front.take() {
         Some(front) if front.convolution.mirrors == mirrors => front,
         _ => Box::new(ContactBox::in_front_of(mirrors, convolution)),
     };
     let whole = convolution.grid().shape();
     front.extract_from(problem.separation, &state.load, whole[1]);
-    MirrorWeights::of(&front.convolution).apply(&mut front.state.load);
+    MirrorWeights::new(&front.convolution).apply(&mut front.state.load);
     let images = n_images(mirrors);
     let control = map_force(problem.control, |total| total / images);
     let ContactBox {
@@ -48,6 +50,7 @@ pub(super) fn solve_symmetry_reduced(
         separation,
         control,
     };
+    // Solve there, and extend the solution to the whole grid by symmetry.
     let solved = in_pool(bounds.n_elements(), || {
         solve_with_largest_load(largest_load, problem, part, criterion)
     });
@@ -66,10 +69,10 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
     let row_blocks = RowBlocks::new(shape);
     let in_row_block = |row_block| {
-        let mut rows_of_band = row_blocks.rows(row_block);
-        let mut behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
-        let along_x = behind.all(|row| lines(row) == lines(rows - 1 - row));
-        let along_y = rows_of_band.all(|row| lines(row).into_iter().all(is_palindrome));
+        let mut rows_of_block = row_blocks.rows(row_block);
+        let mut rows_behind = rows_of_block.start..rows_of_block.end.min(rows / 2);
+        let along_x = rows_behind.all(|row| lines(row) == lines(rows - 1 - row));
+        let along_y = rows_of_block.all(|row| lines(row).into_iter().all(is_palindrome));
         [along_x, along_y]
     };
     let both = |left: [bool; 2], right: [bool; 2]| [0, 1].map(|axis| left[axis] && right[axis]);
@@ -84,6 +87,7 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     })
 }
 
+/// True if a line of values equals its reverse to the last bit.
 fn is_palindrome(line: &[f64]) -> bool {
     let half = line.len() / 2;
     line[..half].iter().eq(line.iter().rev().take(half))
@@ -93,7 +97,7 @@ impl ContactBox {
     /// Writes load and displacement of the whole grid from those of this symmetry-reduced domain.
     fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
         let (mirrors, columns) = (self.convolution.mirrors, self.bounds.shape()[1]);
-        let weights = MirrorWeights::of(&self.convolution);
+        let weights = MirrorWeights::new(&self.convolution);
         let row_blocks = RowBlocks::new(whole);
         row_blocks.for_each(fields, |row_block, [loads, displacements]| {
             let rows = loads
@@ -105,7 +109,7 @@ impl ContactBox {
                 let front = whole[1] - columns;
                 displacements[front..].copy_from_slice(&self.state.displacement[part.clone()]);
                 loads[front..].copy_from_slice(&self.state.load[part.clone()]);
-                for (column, weight) in weights.in_line(part) {
+                for (column, weight) in weights.weights_in_row(part) {
                     loads[front + column] /= weight;
                 }
                 mirror_behind(displacements, columns);
@@ -115,7 +119,7 @@ impl ContactBox {
     }
 }
 
-/// The row in front of the mirror that is a row of the whole grid, or its image.
+/// Index in the symmetry-reduced domain of the row, or of its image, for a row of the whole grid with `rows` rows.
 const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     let half = rows / 2;
     match mirror {

@@ -34,19 +34,23 @@ pub(super) fn solve_with_largest_load(
     SaturatedSet::new(largest_load, problem, state).run(state, criterion)
 }
 
-/// The saturated elements, with their loads and what these do to the other elements.
+/// The saturated elements with their loads, and the elastic contact problem that remains for the other elements.
 struct SaturatedSet<'a> {
+    /// The problem with all elements.
     problem: LoadProblem<'a>,
-    /// X, \[m].
+    /// Largest load X of an element, \[m].
     largest_load: f64,
+    /// Fraction of each element in the symmetry-reduced domain.
     weights: MirrorWeights,
+    /// Flag of each element: true if its load is X.
     is_saturated: Vec<bool>,
     /// Loads of the saturated elements, zero elsewhere, \[m].
     load: Vec<f64>,
-    /// Sum of `load`.
+    /// Sum of the loads of the saturated elements, \[m].
     total: f64,
-    /// K times `load`, \[m].
+    /// Displacement K x under the saturated loads on the whole grid, \[m].
     displacement: Vec<f64>,
+    /// Buffers for applying K.
     workspace: ConvolutionWorkspace,
     /// Initial gap of the elastic contact of the other elements, \[m]; infinite on the saturated ones.
     separation: Vec<f64>,
@@ -54,24 +58,27 @@ struct SaturatedSet<'a> {
 
 /// Elements that violate the conditions of the saturated set.
 struct SaturationViolations {
+    /// Number of violating elements.
     count: usize,
-    /// The last of them; 0 without any.
+    /// Index of the last violating element; 0 if there are none.
     last: usize,
     /// Largest violation, as a displacement, \[m].
     largest: f64,
 }
 
-/// Depth and tolerance against which the gaps of saturated elements are judged, \[m].
+/// Bounds for the test of the gaps of saturated elements.
 #[derive(Clone, Copy)]
 struct GapTest {
+    /// Indentation depth d, \[m].
     depth: f64,
+    /// Largest positive gap that counts as closed, \[m].
     allowed: f64,
 }
 
 impl<'a> SaturatedSet<'a> {
     /// The elements of the first guess that are at the limit, or none if they bear the whole force or more.
     fn new(largest_load: f64, problem: LoadProblem<'a>, state: &ContactState) -> Self {
-        let weights = MirrorWeights::of(problem.convolution);
+        let weights = MirrorWeights::new(problem.convolution);
         let elements = state.load.iter().zip(problem.separation).enumerate();
         let is_saturated = elements.map(|(element, (load, height))| {
             *load >= largest_load * weights.of_element(element) && height.is_finite()
@@ -96,13 +103,14 @@ impl<'a> SaturatedSet<'a> {
         saturated
     }
 
+    /// Exchanges elements between the saturated set and its complement until both satisfy their conditions.
     fn run(
         mut self,
         state: &mut ContactState,
         criterion: &StoppingCriterion,
     ) -> Result<LoadSolution, BemError> {
         let (mut tolerance, mut iterations) = (criterion.tolerance.max(INEXACT_TOLERANCE), 0);
-        let (mut fewest, mut block_updates_left) = (usize::MAX, MAX_NON_IMPROVING_UPDATES);
+        let (mut fewest, mut full_updates_left) = (usize::MAX, MAX_NON_IMPROVING_UPDATES);
         loop {
             // Solve the elastic contact of the elements below the limit.
             let problem = LoadProblem {
@@ -141,11 +149,11 @@ impl<'a> SaturatedSet<'a> {
 
             // Exchange all violating elements, or as in the contact only the last one when their number stagnates.
             if violations.count < fewest {
-                (fewest, block_updates_left) = (violations.count, MAX_NON_IMPROVING_UPDATES);
+                (fewest, full_updates_left) = (violations.count, MAX_NON_IMPROVING_UPDATES);
             } else {
-                block_updates_left = block_updates_left.saturating_sub(1);
+                full_updates_left = full_updates_left.saturating_sub(1);
             }
-            let first = if block_updates_left == 0 {
+            let first = if full_updates_left == 0 {
                 violations.last
             } else {
                 0
@@ -190,6 +198,7 @@ impl<'a> SaturatedSet<'a> {
         }
     }
 
+    /// Counts the elements that violate the conditions of the saturated set.
     fn find_violations(&self, state: &ContactState, test: GapTest) -> SaturationViolations {
         let mut violations = SaturationViolations {
             count: 0,

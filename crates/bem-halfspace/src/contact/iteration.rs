@@ -18,7 +18,7 @@ mod heights;
 use crate::contact::active_set::Run;
 use crate::contact::fields::Fields;
 use crate::contact::mirror_weights::MirrorWeights;
-use crate::contact::preconditioner::Weights;
+use crate::contact::preconditioner::PreconditionerParameters;
 use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::{ContactState, Control};
 use crate::parallel::reductions::sum;
@@ -36,34 +36,42 @@ const SET_UPDATE_RATIO: f64 = 2.0;
 
 /// State of the solver on one grid.
 pub(super) struct Iteration<'a> {
+    /// Operator K.
     convolution: &'a Convolution,
     /// Initial gap s, \[m]; `+∞` where no contact is possible.
     separation: &'a [f64],
+    /// Prescribed depth, or force as the sum of the loads, \[m].
     control: Control,
+    /// Relative residual at which the iteration stops; set after the first residual.
     tolerance: f64,
-    /// See [`StoppingCriterion`].
+    /// Largest displacement under given loads, \[m]; see [`StoppingCriterion`].
     given_deflection: f64,
     /// Scaled pressure x on the grid when it was last [scattered](Self::scatter_load); zero outside the active set.
     load: &'a mut [f64],
     /// Displacement K x on the grid, \[m].
     displacement: &'a mut [f64],
+    /// Buffers for applying K.
     workspace: &'a mut ConvolutionWorkspace,
+    /// Active set, preconditioner and vectors.
     fields: &'a mut Fields,
+    /// Depth d of the present iterate, \[m].
     indentation_depth: f64,
+    /// Extremes and sums of the present heights s + K x.
     heights: Heights,
     /// Inner product of residual and preconditioned residual in the previous iteration; 0 restarts the directions.
     previous_product: f64,
     /// True if the displacement was computed from the load, false if it was updated along a direction.
     displacement_is_exact: bool,
     /// True after the first conjugate-gradient step on the present active set.
-    improved: bool,
+    has_stepped: bool,
     /// Fewest violations at any update so far.
     fewest_violations: usize,
     /// Updates left in which all violating elements are exchanged.
-    block_updates_left: usize,
+    full_updates_left: usize,
 }
 
 impl<'a> Iteration<'a> {
+    /// An iteration that starts from the load in `state`; [`run`](Self::run) sets the tolerance.
     pub(super) fn new(problem: LoadProblem<'a>, state: &'a mut ContactState) -> Self {
         let convolution = problem.convolution;
         Self {
@@ -77,16 +85,16 @@ impl<'a> Iteration<'a> {
             workspace: state
                 .workspace
                 .get_or_insert_with(|| convolution.workspace()),
-            fields: state
-                .fields
-                .get_or_insert_with(|| Box::new(Fields::new(convolution, Weights::DEFAULT))),
+            fields: state.fields.get_or_insert_with(|| {
+                Box::new(Fields::new(convolution, PreconditionerParameters::DEFAULT))
+            }),
             indentation_depth: 0.0,
             heights: Heights::default(),
             previous_product: 0.0,
             displacement_is_exact: false,
-            improved: false,
+            has_stepped: false,
             fewest_violations: usize::MAX,
-            block_updates_left: MAX_NON_IMPROVING_UPDATES,
+            full_updates_left: MAX_NON_IMPROVING_UPDATES,
         }
     }
 
@@ -135,7 +143,7 @@ impl<'a> Iteration<'a> {
             let set_is_right = violations.tension <= 0.0 && violations.penetration <= allowed;
             let worst = violations.tension.max(violations.penetration);
             let outweighs = worst >= SET_UPDATE_RATIO * violations.gap;
-            let may_be_inexact = self.block_updates_left > 0 && self.improved;
+            let may_be_inexact = self.full_updates_left > 0 && self.has_stepped;
             if !set_is_right && (violations.gap <= allowed || (may_be_inexact && outweighs)) {
                 self.update_active_set(&violations);
             } else {
@@ -148,6 +156,7 @@ impl<'a> Iteration<'a> {
     /// Sets the active set to the loaded elements of the first guess. Without a guess these are the elements below a given
     /// depth, or all of them under a given force.
     fn initialise(&mut self) {
+        // Active set: the guess if there is one, else all candidates.
         let mut elements = self.load.iter().zip(self.separation);
         let loaded = elements.any(|(load, separation)| *load > 0.0 && separation.is_finite());
         let (below, uniform) = match self.control {
@@ -162,7 +171,8 @@ impl<'a> Iteration<'a> {
             let guessed = load[element] > 0.0 && separation[element].is_finite();
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
-        let weights = MirrorWeights::of(self.convolution);
+        // Loads: those of the guess, or uniform; zero outside the set.
+        let weights = MirrorWeights::new(self.convolution);
         let row_blocks = active.row_blocks;
         row_blocks.for_each(
             [&mut *self.load, scattered],
@@ -201,11 +211,11 @@ impl<'a> Iteration<'a> {
         let violating = active.find_matches(is_violating);
         if violating.count < self.fewest_violations {
             self.fewest_violations = violating.count;
-            self.block_updates_left = MAX_NON_IMPROVING_UPDATES;
+            self.full_updates_left = MAX_NON_IMPROVING_UPDATES;
         } else {
-            self.block_updates_left = self.block_updates_left.saturating_sub(1);
+            self.full_updates_left = self.full_updates_left.saturating_sub(1);
         }
-        let first = if self.block_updates_left == 0 {
+        let first = if self.full_updates_left == 0 {
             violating.last
         } else {
             0
@@ -228,7 +238,7 @@ impl<'a> Iteration<'a> {
 
         // Restart from the remaining load.
         self.gather_active();
-        self.improved = false;
+        self.has_stepped = false;
         self.scale_to_force();
         self.recompute_displacement();
     }
@@ -244,14 +254,14 @@ impl<'a> Iteration<'a> {
         let residual = &vectors.residual;
 
         // Precondition the residual; direction and output are free on a new set, whose first direction has no predecessor.
-        if !self.improved {
+        if !self.has_stepped {
             preconditioner.prepare(active, scattered, direction, output);
         }
         preconditioner.apply(active, residual, scattered, output);
         let preconditioned = &*output;
 
         // (r, z) of the residual and of z without its mean.
-        let by_row_block = |row_block| {
+        let sums_in_row_block = |row_block| {
             let [r, z] =
                 [residual, preconditioned].map(|vector| &vector[active.packed_range(row_block)]);
             [
@@ -260,8 +270,8 @@ impl<'a> Iteration<'a> {
                 sum([r, z], |[r, z]| r * z),
             ]
         };
-        let both = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
-        let [sum_r, sum_z, sum_rz] = active.row_blocks.gather(by_row_block, both);
+        let add = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
+        let [sum_r, sum_z, sum_rz] = active.row_blocks.gather(sums_in_row_block, add);
         let mean = match self.control {
             Control::NormalForce(_) => sum_z / active.len() as f64,
             Control::IndentationDepth(_) => 0.0,
@@ -333,6 +343,7 @@ impl<'a> Iteration<'a> {
         });
     }
 
+    /// Sum of the loads on the active set, \[m].
     fn total_load(&self) -> f64 {
         let (active, vectors) = (&self.fields.active, &self.fields.vectors);
         active.sum(|range| sum([&vectors.load[range]], |[load]| load))
@@ -351,7 +362,7 @@ mod tests {
     use crate::{ContactOptions, Grid};
 
     /// Iterations from a uniform load on a Hertz contact and on many patches of many sizes under a periodic load.
-    fn iterations(weights: Weights) -> Result<[usize; 2], BemError> {
+    fn iterations(weights: PreconditionerParameters) -> Result<[usize; 2], BemError> {
         let n = 128;
         let grid = Grid::new([n; 2], [1.0; 2])?;
         let paraboloid = |[x, y]: [f64; 2]| 0.01 * ((x - 60.2).powi(2) + (y - 66.9).powi(2));
@@ -381,18 +392,28 @@ mod tests {
     }
 
     #[test]
-    fn any_positive_weights_converge_and_those_near_the_default_as_soon() -> Result<(), BemError> {
-        let default = iterations(Weights::DEFAULT)?;
-        let Weights { neighbours, blocks } = Weights::DEFAULT;
-        let others = [0.01, 0.5, 0.6, 0.8, 0.9, 10.0].map(|other| [other, blocks]);
-        let other_blocks = [0.001, 0.2, 0.4, 0.5, 3.0].map(|other| [neighbours, other]);
-        for [neighbours, blocks] in others.into_iter().chain(other_blocks) {
-            let weights = Weights { neighbours, blocks };
-            let is_near = (0.5..=0.9).contains(&neighbours) && (0.2..=0.5).contains(&blocks);
+    fn any_positive_parameters_converge_and_those_near_the_default_as_soon() -> Result<(), BemError>
+    {
+        let default = iterations(PreconditionerParameters::DEFAULT)?;
+        let usual = PreconditionerParameters::DEFAULT;
+        let weights =
+            [0.01, 0.5, 0.6, 0.8, 0.9, 10.0].map(|weight| [weight, usual.excess_fraction]);
+        let fractions =
+            [0.001, 0.2, 0.4, 0.5, 3.0].map(|fraction| [usual.neighbour_weight, fraction]);
+        for [neighbour_weight, excess_fraction] in weights.into_iter().chain(fractions) {
+            let parameters = PreconditionerParameters {
+                neighbour_weight,
+                excess_fraction,
+            };
+            let is_near =
+                (0.5..=0.9).contains(&neighbour_weight) && (0.2..=0.5).contains(&excess_fraction);
             let most = if is_near { 1.15 } else { 4.0 };
-            let actual = iterations(weights)?;
+            let actual = iterations(parameters)?;
             let holds = |index: usize| actual[index] as f64 <= most * default[index] as f64;
-            assert!(holds(0) && holds(1), "{weights:?}: {actual:?}, {default:?}");
+            assert!(
+                holds(0) && holds(1),
+                "{parameters:?}: {actual:?}, {default:?}"
+            );
         }
         Ok(())
     }

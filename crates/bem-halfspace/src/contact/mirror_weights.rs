@@ -7,15 +7,19 @@ use std::ops::Range;
 use crate::Convolution;
 use crate::elements::mirror::Mirror;
 
-/// One half in the first row, and in the first column, if a mirror passes through its centres; else one.
+/// Weight of each element: the product of one half for the first row, and of one half for the first column, where a mirror passes
+/// through their centres; one elsewhere.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MirrorWeights {
+    /// Mirrors along x and y, at the first row and column.
     mirrors: [Mirror; 2],
+    /// Number of columns of the grid.
     columns: usize,
 }
 
 impl MirrorWeights {
-    pub(super) const fn of(convolution: &Convolution) -> Self {
+    /// Weights of the elements of the grid of a convolution.
+    pub(super) const fn new(convolution: &Convolution) -> Self {
         Self {
             mirrors: convolution.mirrors,
             columns: convolution.grid().shape()[1],
@@ -23,7 +27,7 @@ impl MirrorWeights {
     }
 
     /// The weights that may differ from one, for a range of elements in one row, with their indices in the range.
-    pub(super) fn in_line(
+    pub(super) fn weights_in_row(
         &self,
         elements: Range<usize>,
     ) -> impl Iterator<Item = (usize, f64)> + use<> {
@@ -41,25 +45,31 @@ impl MirrorWeights {
     pub(super) fn apply(&self, loads: &mut [f64]) {
         let lines = loads.chunks_exact_mut(self.columns).enumerate();
         for (row, line) in lines {
-            for (column, weight) in self.in_line(row * self.columns..(row + 1) * self.columns) {
+            for (column, weight) in
+                self.weights_in_row(row * self.columns..(row + 1) * self.columns)
+            {
                 line[column] *= weight;
             }
         }
     }
 
+    /// Weight of an element: the product of those of its row and column.
     pub(super) fn of_element(&self, element: usize) -> f64 {
         self.of_row(element) * self.of_column(element)
     }
 
+    /// Weight of the row of an element.
     pub(super) fn of_row(&self, element: usize) -> f64 {
         weight(self.mirrors[0], element < self.columns)
     }
 
+    /// Weight of the column of an element.
     pub(super) fn of_column(&self, element: usize) -> f64 {
         weight(self.mirrors[1], element.is_multiple_of(self.columns))
     }
 }
 
+/// Weight of a row or column: one half if it is the first and the mirror passes through its centres.
 fn weight(mirror: Mirror, is_first: bool) -> f64 {
     let is_half = is_first && mirror == Mirror::Centre;
     if is_half { 0.5 } else { 1.0 }

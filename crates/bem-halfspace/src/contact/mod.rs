@@ -129,6 +129,7 @@ pub fn solve_contact(
         separation: problem.separation,
         control: map_force(problem.control, |force| force * load_per_pressure / area),
     };
+    // Solve for the loads, and convert the solution back to pressures, converged or not.
     let solved = in_pool(grid.n_elements(), || {
         state.prepare_for(problem.convolution);
         state.scale_guess(grid, load_per_pressure);
@@ -146,16 +147,16 @@ pub fn solve_contact(
         solved
     });
     state.list_contact();
-    let solved = solved?;
+    let solution = solved?;
     let at_limit = |&&element: &&usize| state.pressure()[element] >= problem.largest_pressure;
     Ok(Contact {
-        indentation_depth: solved.indentation_depth,
-        normal_force: solved.total_load * area / load_per_pressure,
+        indentation_depth: solution.indentation_depth,
+        normal_force: solution.total_load * area / load_per_pressure,
         n_contact: state.contact().len(),
         n_at_limit: state.contact().iter().filter(at_limit).count(),
         reaches_edge: problem.reaches_edge(state),
-        iterations: solved.iterations,
-        residual: solved.residual,
+        iterations: solution.iterations,
+        residual: solution.residual,
     })
 }
 
@@ -168,6 +169,7 @@ fn map_force(control: Control, map: impl Fn(f64) -> f64) -> Control {
 }
 
 impl ContactOptions {
+    /// Checks that the tolerance is in its range.
     pub(crate) fn validate(&self) -> Result<(), InvalidParameter> {
         let value = self.tolerance;
         let is_allowed = value > 0.0 && value <= MAX_TOLERANCE;
@@ -176,8 +178,10 @@ impl ContactOptions {
     }
 }
 
+/// Checks the parameters, fields and control of a problem, and the length of the first guess.
 fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
     let (grid, heights) = (problem.convolution.grid(), problem.separation);
+    // Scalars and fields.
     positive("compliance", problem.compliance)?;
     let limit = problem.largest_pressure;
     in_range("largest_pressure", limit, limit > 0.0, "greater than 0")?;
@@ -185,6 +189,7 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
     check_length("pressure", state.pressure().len(), grid.n_elements())?;
     check_heights("separation", heights, grid.shape()[1], [0; 2])?;
     check_control(problem.control)?;
+    // A force must be below that of all elements at the largest pressure.
     if let Control::NormalForce(normal_force) = problem.control {
         let n_elements = heights.iter().filter(|height| height.is_finite()).count();
         let limit = limit * grid.element_area() * n_elements as f64;
@@ -195,6 +200,7 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
             });
         }
     }
+    // A depth must leave a periodic contact open.
     if let Control::IndentationDepth(value) = problem.control
         && problem.convolution.surroundings == Surroundings::Periodic
     {

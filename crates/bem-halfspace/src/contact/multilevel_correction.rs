@@ -1,7 +1,7 @@
 //! Multilevel coarse-space correction of the preconditioner, for contacts of many patches.
 //!
-//! The inverse S of the influence, restricted to the active set, finds the load for the gaps of a patch as if no other patch
-//! were loaded. Where the contact is porous, a gap common to many patches therefore gets too much load, the more the more
+//! The inverse S of the influence K, restricted to the active set, gives the load that closes the gaps of a patch as if no other
+//! patch were loaded. Where the contact is porous, a gap common to many patches therefore gets too much load, the more the more
 //! patches there are. Let w = S 1 be the load per gap of an element, W its sum over a block (the conductance of the block), and
 //! g = Σ w r / W the mean gap of a block. If blocks move as a whole, their loads t satisfy
 //!
@@ -33,6 +33,7 @@ use crate::{Convolution, Grid};
 /// Edge of the smallest blocks, in elements; within smaller ones the inverse is right without their neighbours.
 pub(super) const FINEST_BLOCK_EDGE: usize = RowBlocks::MAX_COARSE_BLOCK;
 
+/// Conductances of the active elements, and the hierarchy of blocks over which they are summed.
 #[derive(Debug, Clone)]
 pub(super) struct MultilevelCorrection {
     /// w = S 1, packed over the active set.
@@ -44,19 +45,20 @@ pub(super) struct MultilevelCorrection {
 /// One level: blocks of one size.
 #[derive(Debug, Clone)]
 struct Level {
+    /// Numbers of blocks along x and y.
     shape: [usize; 2],
     /// k: excess of the self-influence of a block over the influence of its parent, per W.
     excess_influence: f64,
-    /// W k / (1 + W k): weight of the own gap in the displacement of a block.
+    /// W k / (1 + W k) of each block: weight of its own mean gap in its displacement.
     local_fraction: Vec<f64>,
-    /// W: sum of w over a block.
+    /// W of each block: sum of the conductances w of its elements, or of W / (1 + W k) of its children.
     conductance: Vec<f64>,
-    /// Σ w r, then the mean gap g, then the displacement v.
+    /// Work values of each block during a V-cycle: load Σ w r, then mean gap g, then displacement v.
     values: Vec<f64>,
 }
 
 impl MultilevelCorrection {
-    /// `excess_fraction` is k as a fraction of the self-influence of a block.
+    /// The levels for the grid of a convolution; `excess_fraction` is k as a fraction of the self-influence of a block.
     pub(super) fn new(convolution: &Convolution, excess_fraction: f64) -> Self {
         let mut levels = Vec::new();
         let grid = convolution.grid();
@@ -96,6 +98,7 @@ impl MultilevelCorrection {
         self.sum_conductances(active);
     }
 
+    /// Sums the conductances over the blocks of all levels, from small blocks to large ones.
     fn sum_conductances(&mut self, active: &ActiveSet) {
         let (conductances, levels) = (&self.conductances, &mut self.levels);
         let sums = [active.blocks(FINEST_BLOCK_EDGE, &mut levels[0].conductance)];
@@ -153,6 +156,7 @@ fn for_each_parent(levels: &mut [Level], work: impl Fn(&Level, &mut Level)) {
 }
 
 impl Level {
+    /// Level of the grid `blocks`, whose blocks have `edge` elements along each edge; without conductances yet.
     fn new(blocks: &Grid, edge: usize, convolution: &Convolution, excess_fraction: f64) -> Self {
         let (n, elements) = (blocks.n_elements(), convolution.grid());
         let edges = [0, 1].map(|axis| {
@@ -173,6 +177,7 @@ impl Level {
         }
     }
 
+    /// Computes W k / (1 + W k) from the conductances.
     fn update_local_fraction(&mut self) {
         for (fraction, conductance) in self.local_fraction.iter_mut().zip(&self.conductance) {
             let ratio = conductance * self.excess_influence;
@@ -180,6 +185,7 @@ impl Level {
         }
     }
 
+    /// Turns the loads Σ w r of the blocks into mean gaps; zero for blocks without active elements.
     fn divide_by_conductance(&mut self) {
         let (columns, conductance) = (self.shape[1], &self.conductance);
         for_each_row(&mut self.values, columns, |row, values| {

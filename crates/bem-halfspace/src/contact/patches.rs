@@ -80,16 +80,17 @@ impl ContactProblem<'_> {
     /// The elements that share an edge with one.
     fn neighbours(&self, element: usize) -> impl Iterator<Item = usize> {
         let shape = self.convolution.grid().shape();
-        let place = [element / shape[1], element % shape[1]];
+        let indices = [element / shape[1], element % shape[1]];
         let is_periodic = self.convolution.surroundings == Surroundings::Periodic;
-        let beside = move |axis: usize| {
-            let (index, n) = (place[axis], shape[axis]);
+        let neighbours_along = move |axis: usize| {
+            let (index, n) = (indices[axis], shape[axis]);
             let before = index.checked_sub(1).or(is_periodic.then_some(n - 1));
             let ahead = Some(index + 1).filter(|next| *next < n);
             [before, ahead.or(is_periodic.then_some(0))]
         };
-        let along_x = beside(0).map(|row| row.map(|row| row * shape[1] + place[1]));
-        let along_y = beside(1).map(|column| column.map(|column| place[0] * shape[1] + column));
+        let along_x = neighbours_along(0).map(|row| row.map(|row| row * shape[1] + indices[1]));
+        let along_y =
+            neighbours_along(1).map(|column| column.map(|column| indices[0] * shape[1] + column));
         along_x.into_iter().chain(along_y).flatten()
     }
 
@@ -104,6 +105,7 @@ impl ContactProblem<'_> {
             && state.contact().iter().any(is_at_edge)
     }
 
+    /// Checks that state and separation have one value per element of the grid.
     fn check_state(&self, state: &ContactState) -> Result<(), BemError> {
         let n_elements = self.convolution.grid().n_elements();
         check_length("pressure", state.pressure().len(), n_elements)?;

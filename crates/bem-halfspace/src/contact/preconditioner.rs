@@ -22,70 +22,80 @@ use crate::elements::mirror::Mirror;
 use crate::parallel::reductions::add_scaled;
 use crate::{Convolution, ConvolutionWorkspace};
 
-/// Weights of the two approximations in the preconditioner.
+/// Parameters of the two approximations in the preconditioner.
 ///
-/// With any positive weights it is positive definite, so that the iteration converges; a test of the iteration measures how
-/// many iterations they cost.
+/// The preconditioner is positive definite for any positive values, so that the iteration converges. A test of the iteration
+/// compares the numbers of iterations.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Weights {
-    /// Weight w of the differences between neighbours.
-    pub(super) neighbours: f64,
-    /// Fraction of the self-influence of a block that exceeds the influence of its parent block.
-    pub(super) blocks: f64,
+pub(super) struct PreconditionerParameters {
+    /// Weight w of the differences between neighbouring elements.
+    pub(super) neighbour_weight: f64,
+    /// Excess of the self-influence of a block over the influence of its parent block, as a fraction of the former.
+    pub(super) excess_fraction: f64,
 }
 
-impl Weights {
+impl PreconditionerParameters {
     /// Chosen between the limits: π/4 for neighbours would be exact for the shortest wave along an edge, and one half for
     /// blocks without neighbours, which share what the parent block leaves.
     ///
     /// For 0.5 to 0.9 and 0.2 to 0.5 the iterations are the same within 15 %; for 0.01 to 10 and 0.001 to 3 there are at most
     /// four times as many.
     pub(super) const DEFAULT: Self = Self {
-        neighbours: 0.7,
-        blocks: 0.3,
+        neighbour_weight: 0.7,
+        excess_fraction: 0.3,
     };
 }
 
 /// Edge of the blocks on which long waves are inverted, in elements.
 const BLOCK_EDGE: usize = 2;
 
+/// The operators of both approximations, and their buffers.
 #[derive(Debug, Clone)]
 pub(super) struct Preconditioner {
-    /// Weights of the differences along x and along y, \[1/m].
-    weights: [f64; 2],
+    /// Factors w/Δx and w/Δy of the differences along x and along y, \[1/m].
+    stencil_weights: [f64; 2],
+    /// Rows and columns of the grid.
     shape: [usize; 2],
+    /// Mirrors along x and y, at the first row and column of the grid.
     mirrors: [Mirror; 2],
+    /// Fraction of each element in the symmetry-reduced domain.
     mirror_weights: MirrorWeights,
     /// Convolution with the inverse of long waves on the grid of the blocks.
-    blocks: Convolution,
+    long_wave_inverse: Convolution,
+    /// Buffers for applying it.
     workspace: ConvolutionWorkspace,
     /// Mean residual of each block.
     block_means: Vec<f64>,
     /// Result of the convolution for each block.
     block_loads: Vec<f64>,
+    /// Displacements of blocks under the loads of other blocks.
     correction: MultilevelCorrection,
 }
 
 impl Preconditioner {
-    pub(super) fn new(convolution: &Convolution, of: Weights) -> Self {
+    /// Preconditioner for the operator of a convolution, on an empty active set.
+    pub(super) fn new(convolution: &Convolution, parameters: PreconditionerParameters) -> Self {
         let grid = convolution.grid();
-        let weights = grid.spacing().map(|edge| of.neighbours / edge);
-        let blocks = convolution.on_blocks(|q| {
-            let difference =
-                |axis: usize| weights[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos());
+        let stencil_weights = grid
+            .spacing()
+            .map(|edge| parameters.neighbour_weight / edge);
+        let long_wave_inverse = convolution.on_blocks(|q| {
+            let difference = |axis: usize| {
+                stencil_weights[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos())
+            };
             convolution.base.local_stiffness(q[0].hypot(q[1])) - difference(0) - difference(1)
         });
-        let n_blocks = blocks.grid().n_elements();
+        let n_blocks = long_wave_inverse.grid().n_elements();
         Self {
-            weights,
+            stencil_weights,
             shape: grid.shape(),
             mirrors: convolution.mirrors,
-            mirror_weights: MirrorWeights::of(convolution),
-            workspace: blocks.workspace(),
-            blocks,
+            mirror_weights: MirrorWeights::new(convolution),
+            workspace: long_wave_inverse.workspace(),
+            long_wave_inverse,
             block_means: vec![0.0; n_blocks],
             block_loads: vec![0.0; n_blocks],
-            correction: MultilevelCorrection::new(convolution, of.blocks),
+            correction: MultilevelCorrection::new(convolution, parameters.excess_fraction),
         }
     }
 
@@ -129,9 +139,10 @@ impl Preconditioner {
                 [residual, conductances].map(|vector| &vector[active.packed_range(row_block)]);
             active.scatter_in(row_block, residual, field);
             sum_blocks::<BLOCK_EDGE>(active, row_block, |index| 0.25 * residual[index], means);
+            // A mean counts an element on a mirror by its weight.
             let first = row_blocks.elements(row_block).start;
             for run in active.runs(row_block) {
-                for (index, weight) in mirror_weights.in_line(run.elements()) {
+                for (index, weight) in mirror_weights.weights_in_row(run.elements()) {
                     let element = run.elements_from(first).start + index;
                     let [row, column] = [element / columns, element % columns];
                     means[row / BLOCK_EDGE * columns.div_ceil(BLOCK_EDGE) + column / BLOCK_EDGE] -=
@@ -143,7 +154,7 @@ impl Preconditioner {
         });
 
         // Invert the long waves, and find the displacements that other blocks cause.
-        self.blocks.apply(
+        self.long_wave_inverse.apply(
             &mut self.workspace,
             &self.block_means,
             &mut self.block_loads,
@@ -169,7 +180,7 @@ impl Preconditioner {
                     *value = loads[column / BLOCK_EDGE]
                         - conductance * displacements[column / FINEST_BLOCK_EDGE];
                 }
-                for (index, weight) in mirror_weights.in_line(run.elements()) {
+                for (index, weight) in mirror_weights.weights_in_row(run.elements()) {
                     result[index] -= (1.0 - weight) * loads[(column + index) / BLOCK_EDGE];
                 }
                 this.add_differences(run, residual, field, result);
@@ -177,14 +188,17 @@ impl Preconditioner {
         });
     }
 
-    /// Adds the differences between the elements of a run, and between them and the rows before and behind.
+    /// Adds the short-wave operator on a run: differences between its elements, and between them and the neighbouring rows.
+    ///
+    /// `residual` and `result` are the parts of the packed vectors for the run, `field` is the residual on the whole grid.
     fn add_differences(&self, run: &Run, residual: &[f64], field: &[f64], result: &mut [f64]) {
         let [rows, columns] = self.shape;
         let mirrors = self.mirrors;
-        let along_x = self.weights[0];
-        let along_y = self.weights[1] * self.mirror_weights.of_row(run.elements().start);
+        let along_x = self.stencil_weights[0];
+        let along_y = self.stencil_weights[1] * self.mirror_weights.of_row(run.elements().start);
         let Range { start, end } = run.elements();
         let row = start / columns;
+        // Diagonal.
         add_scaled(result, 2.0 * (along_x + along_y), residual);
         // Next to a run the residual is zero. Behind a mirror stands the element itself, or the image of the next one, whose
         // share belongs to the other half of this one.
@@ -193,6 +207,7 @@ impl Preconditioner {
         if !mirrors[1].is_none() && start == row * columns {
             result[0] -= along_y * residual[0];
         }
+        // The rows before and behind the run.
         let behind = if row > 0 {
             Some(&field[start - columns..end - columns])
         } else {
@@ -261,7 +276,8 @@ mod tests {
             let mut active = ActiveSet::new(shape);
             active.assign(|element| pattern[element] && in_part(element / shape[1]));
             active.find_runs();
-            let mut preconditioner = Preconditioner::new(convolution, Weights::DEFAULT);
+            let mut preconditioner =
+                Preconditioner::new(convolution, PreconditionerParameters::DEFAULT);
             let matrix = matrix(&mut preconditioner, &active, pattern.len());
             let largest = matrix.amax();
             let asymmetry = (&matrix - matrix.transpose()).amax() / largest;

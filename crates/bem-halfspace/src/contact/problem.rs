@@ -6,6 +6,7 @@ use crate::contact::{ContactOptions, Control};
 /// A contact problem for the scaled pressure, or load, `x = α P / (4π)` \[m], whose displacement is `K x`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadProblem<'a> {
+    /// Operator K on the grid.
     pub(super) convolution: &'a Convolution,
     /// Initial gap s, one value per element, \[m].
     pub(super) separation: &'a [f64],
@@ -19,6 +20,7 @@ pub(crate) struct LoadSolution {
     pub(crate) indentation_depth: f64,
     /// Sum of the loads, \[m].
     pub(crate) total_load: f64,
+    /// Number of iterations, with one operator application each.
     pub(crate) iterations: usize,
     /// Largest displacement in the contact, \[m].
     pub(crate) deflection: f64,
@@ -28,10 +30,11 @@ pub(crate) struct LoadSolution {
 
 /// Stopping criterion of the iteration.
 pub(crate) struct StoppingCriterion {
-    /// See [`ContactOptions::tolerance`].
+    /// Upper bound of the residual, in the sense of [`ContactOptions::tolerance`].
     pub(super) tolerance: f64,
     /// Upper bound of the residual as a fraction of that of the first guess; infinity means no such bound.
     pub(super) residual_reduction: f64,
+    /// Maximum number of iterations.
     pub(super) max_iterations: usize,
     /// Largest displacement under loads that are given, not unknown, \[m]; the tolerance is relative to it as well.
     pub(super) given_deflection: f64,

@@ -30,6 +30,7 @@ pub(super) fn solve_loads(
     let loaded = |load: &[f64]| {
         Bounds::enclosing_where(shape, |[row, column]| load[row * shape[1] + column] > 0.0)
     };
+    // Without a first guess, prolong one from coarser grids.
     let mut bounds = loaded(&state.load);
     if bounds.is_none() {
         prolong_coarse_solution(problem, state);
@@ -47,6 +48,7 @@ fn solve_around(
 ) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
     let grid = convolution.grid();
+    // The whole grid, unless a box with a margin is much smaller.
     let saves_time = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
         convolution.surroundings == Surroundings::Free && part < MAX_BOX_FRACTION
@@ -55,9 +57,10 @@ fn solve_around(
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(saves_time)) else {
         return Iteration::new(problem, state).run(criterion);
     };
+    // Solve on the box, and check the rest of the grid with its solution.
     let mut inner = match state.inner.take() {
         Some(inner) if can_be_reused(&inner, &bounds, &outer) => inner,
-        _ => Box::new(ContactBox::of(convolution, outer)?),
+        _ => Box::new(ContactBox::cut_from(convolution, outer)?),
     };
     let columns = grid.shape()[1];
     inner.extract_from(problem.separation, &state.load, columns);
@@ -68,7 +71,7 @@ fn solve_around(
     grow_if_penetrating(&bounds, problem, state, solved?, criterion)
 }
 
-/// True if a box holds the bounds and has at most twice the elements of a new one.
+/// True if the box `inner` encloses `bounds` and has at most twice the elements of the new box `outer`.
 fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
     inner.bounds.union(bounds) == inner.bounds
         && inner.bounds.n_elements() <= 2 * outer.n_elements()
@@ -104,16 +107,16 @@ fn grow_if_penetrating(
     let Some(outside) = Bounds::enclosing_where([rows, columns], penetrates) else {
         return Ok(solved);
     };
-    let again = solve_around(Some(bounds.union(&outside)), problem, state, criterion)?;
-    let iterations = solved.iterations + again.iterations;
+    let larger = solve_around(Some(bounds.union(&outside)), problem, state, criterion)?;
+    let iterations = solved.iterations + larger.iterations;
     Ok(LoadSolution {
         iterations,
-        ..again
+        ..larger
     })
 }
 
 impl ContactBox {
-    /// Solves for the separation that was set before; the load is the scaled pressure, \[m].
+    /// Solves the contact of the box for its `separation`, starting from the load in its state (scaled pressures, \[m]).
     pub(crate) fn solve(
         &mut self,
         control: Control,
@@ -158,7 +161,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut ContactState) {
             *load = coarse[column / 2];
         }
     });
-    MirrorWeights::of(convolution).apply(&mut state.load);
+    MirrorWeights::new(convolution).apply(&mut state.load);
 }
 
 /// Restriction: mean of the finite heights of two by two elements, `+∞` if there are none.

@@ -21,7 +21,8 @@ pub struct ContactState {
     /// Elements in contact, increasing.
     contact: Vec<usize>,
     /// Grid and surroundings for which the buffers below were made; `None` before the first solve.
-    kind: Option<(Grid, Surroundings)>,
+    buffers_for: Option<(Grid, Surroundings)>,
+    /// Buffers for applying the operator on the whole grid.
     pub(super) workspace: Option<ConvolutionWorkspace>,
     /// Buffers of the iteration on the whole grid.
     pub(super) fields: Option<Box<Fields>>,
@@ -39,7 +40,7 @@ impl ContactState {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
-            kind: None,
+            buffers_for: None,
             workspace: None,
             fields: None,
             inner: None,
@@ -72,15 +73,15 @@ impl ContactState {
 
     /// Drops the buffers that were made for another convolution.
     pub(super) fn prepare_for(&mut self, convolution: &Convolution) {
-        let kind = Some((*convolution.grid(), convolution.surroundings));
-        if self.kind != kind {
-            self.kind = kind;
+        let needed = Some((*convolution.grid(), convolution.surroundings));
+        if self.buffers_for != needed {
+            self.buffers_for = needed;
             (self.workspace, self.fields) = (None, None);
             (self.inner, self.front) = (None, None);
         }
     }
 
-    /// Turns the first guess of the caller into loads by a factor, and all that is not positive and finite into zero.
+    /// Multiplies the first guess of the caller by a factor; loads that are not positive and finite become zero.
     pub(super) fn scale_guess(&mut self, grid: &Grid, factor: f64) {
         self.map_loads(grid, |load| {
             let guess = load * factor;
@@ -110,14 +111,18 @@ impl ContactState {
 /// A part of a grid, on which the contact is solved in place of the grid.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactBox {
+    /// Rows and columns of the part in the whole grid.
     pub(crate) bounds: Bounds,
+    /// Operator on the part.
     pub(super) convolution: Convolution,
+    /// Pressure and buffers of the part.
     pub(crate) state: ContactState,
     /// Initial gap of its elements, \[m].
     pub(crate) separation: Vec<f64>,
 }
 
 impl ContactBox {
+    /// A box without load for the operator on the part within `bounds`.
     fn new(convolution: Convolution, bounds: Bounds) -> Self {
         Self {
             bounds,
@@ -127,8 +132,8 @@ impl ContactBox {
         }
     }
 
-    /// A box of the grid of a convolution, with the same mirrors.
-    pub(crate) fn of(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
+    /// The part of the grid of a convolution within `bounds`, with the same mirrors.
+    pub(crate) fn cut_from(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
         let grid = Grid::new(bounds.shape(), convolution.grid().spacing())?;
         Ok(Self::new(convolution.on_grid(&grid), bounds))
     }
@@ -143,7 +148,7 @@ impl ContactBox {
 
     /// A box with other bounds and the load of this one, where both overlap.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
-        let mut moved = Self::of(&self.convolution, bounds)?;
+        let mut moved = Self::cut_from(&self.convolution, bounds)?;
         for (element, load) in self.loaded_elements() {
             if bounds.contains(element) {
                 moved.state.load[bounds.index_of(element)] = load;
@@ -169,17 +174,18 @@ impl ContactBox {
         });
     }
 
-    /// Contact area of the loaded elements and their images, in elements; the field begins at its mirrors.
+    /// Contact area of the loaded elements and their images, in elements.
     pub(crate) fn area(&self, mirrors: [Mirror; 2]) -> f64 {
         area::in_elements(&self.state.load, &self.bounds, mirrors)
     }
 
-    /// What the elements leave unknown of that area, in elements.
+    /// Discretization error of the contact area, in elements.
     pub(crate) fn area_uncertainty(&self, mirrors: [Mirror; 2]) -> f64 {
-        area::outline_uncertainty(&self.state.load, &self.bounds, mirrors)
+        area::boundary_uncertainty(&self.state.load, &self.bounds, mirrors)
     }
 
-    /// How singular the pressure is along the outline, between 0 and 1 under a flat punch.
+    /// Singularity of the pressure at the contact boundary: of the order 1/a² if it vanishes there, for a radius of a elements; 1 under a
+    /// flat punch.
     pub(crate) fn edge_singularity(&self, mirrors: [Mirror; 2]) -> f64 {
         area::edge_singularity(&self.state.load, &self.bounds, mirrors)
     }

@@ -25,13 +25,14 @@ pub(crate) struct AreaFraction {
         not(feature = "rough"),
         expect(dead_code, reason = "it is for the bars of rough surfaces")
     )]
-    pub(crate) excess: f64,
+    pub(crate) perimeter_correction: f64,
 }
 
 /// Contact area of a periodic pressure field with a number of columns.
 pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
     let n = pressure.len();
     let inside = |element: usize| pressure[element] > 0.0;
+    // Each edge is seen from the element behind it, so that it is counted once.
     let [mut count, mut edges] = [0; 2];
     for element in 0..n {
         let row = element / columns * columns;
@@ -43,11 +44,12 @@ pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
     let area = corrected_area(count, edges) / n as f64;
     AreaFraction {
         area,
-        excess: count as f64 / n as f64 - area,
+        perimeter_correction: count as f64 / n as f64 - area,
     }
 }
 
-/// Corrected area of the loaded elements in a box and of their images, in elements; the field begins at its mirrors.
+/// Corrected area of the loaded elements in a box and of their images, in elements; mirrors pass through the first row and column of
+/// the field.
 pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let has_load = |row: usize, column: usize| {
@@ -58,13 +60,14 @@ pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) 
         if !has_load(row, column) {
             continue;
         }
+        // Number of images of the element along each axis, itself included.
         let is_first = [bounds.lower[0] + row == 0, bounds.lower[1] + column == 0];
         let images = [0, 1].map(|axis| match mirrors[axis] {
             Mirror::Centre if is_first[axis] => 1,
-            other => pairs(other),
+            other => multiplicity(other),
         });
         count += images[0] * images[1];
-        // Behind the first element in front of a mirror lies its image or itself.
+        // Edges to elements outside. Behind the first element in front of a mirror lies its image or itself.
         let before = [
             has_load(row.wrapping_sub(1), column),
             has_load(row, column.wrapping_sub(1)),
@@ -73,22 +76,22 @@ pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) 
         for axis in 0..2 {
             let at_mirror = is_first[axis] && !mirrors[axis].is_none();
             let ends = usize::from(!before[axis] && !at_mirror) + usize::from(!after[axis]);
-            edges += ends * pairs(mirrors[axis]) * images[1 - axis];
+            edges += ends * multiplicity(mirrors[axis]) * images[1 - axis];
         }
     }
     corrected_area(count, edges)
 }
 
-/// Multiplicity of an edge between two elements in front of a mirror.
-const fn pairs(mirror: Mirror) -> usize {
+/// Number of images of an edge between two elements in front of a mirror, itself included.
+const fn multiplicity(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }
 
-/// How singular the pressure is along the outline of a contact: the mean square of the loads of the outermost elements, over that under
-/// a flat punch with this force and area; at most 1.
+/// Singularity of the pressure at the contact boundary: the mean square of the loads of the outermost elements over that under a flat
+/// punch with this force and area; at most 1.
 ///
-/// Elements at the edge of a punch with a radius of a elements have √(a/2) times the mean load, from p = F/(2π a √(a² − r²)); where the
-/// pressure ends like a root they have √(1/a) times it, so that this number is of the order 1/a².
+/// Elements at the edge of a punch with a radius of a elements have √(a/2) times the mean load, from p = F/(2π a √(a² − r²)). Where the
+/// pressure vanishes like a root they have √(1/a) times the mean load, so that the ratio is of the order 1/a².
 pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let load = |row: usize, column: usize| {
@@ -99,39 +102,41 @@ pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
         }
     };
     let at_mirror = [0, 1].map(|axis| bounds.lower[axis] == 0 && !mirrors[axis].is_none());
+    // Sums over all loaded elements, and over those with a neighbour without load.
     let [mut count, mut sum] = [0.0; 2];
     let [mut edge_count, mut edge_squares] = [0.0; 2];
     for (row, column) in (0..loads.len()).map(|index| (index / columns, index % columns)) {
-        let own = load(row, column);
-        if own <= 0.0 {
+        let own_load = load(row, column);
+        if own_load <= 0.0 {
             continue;
         }
         count += 1.0;
-        sum += own;
+        sum += own_load;
         let is_inside = (row == 0 && at_mirror[0] || load(row.wrapping_sub(1), column) > 0.0)
             && (column == 0 && at_mirror[1] || load(row, column.wrapping_sub(1)) > 0.0)
             && load(row + 1, column) > 0.0
             && load(row, column + 1) > 0.0;
         if !is_inside {
             edge_count += 1.0;
-            edge_squares += own * own;
+            edge_squares += own_load * own_load;
         }
     }
     if edge_count == 0.0 {
         return 0.0;
     }
+    // Mean square under a flat punch of the same force and area, whose radius is in elements.
     let images = mirrors.iter().filter(|mirror| !mirror.is_none()).count();
     let radius = (count * f64::from(1_u32 << images) / PI).sqrt();
     let square_under_punch = 0.5 * radius * (sum / count).powi(2);
     (edge_squares / edge_count / square_under_punch).min(1.0)
 }
 
-/// What the elements leave unknown of the area of a contact, in elements: √(Σ L²) over all straight runs of L edges of its outline.
+/// Discretization error of a counted contact area, in elements: √(Σ L²) over all straight runs of L edges of its boundary.
 ///
-/// Along a run the true outline lies within half an element of the counted one, so that the area is off by at most L/2. Runs err
-/// independently, except where they are images of each other: four sides of L edges that are displaced alike make 2 L, which is
-/// the root of 4 L².
-pub(crate) fn outline_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
+/// Along a run the true boundary lies within half an element of the counted one, so that the area is off by at most L/2. The errors
+/// of runs are independent, except where runs are images of each other: four sides of L edges that are displaced alike make 2 L,
+/// which is the root of 4 L².
+pub(crate) fn boundary_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let lower = bounds.lower.map(usize::cast_signed);
     let shape = bounds.shape();
     let upper = [0, 1].map(|axis| lower[axis] + shape[axis].cast_signed());
@@ -141,12 +146,12 @@ pub(crate) fn outline_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mirr
         Mirror::Centre => 1 - upper[axis]..upper[axis],
         Mirror::Edge => -upper[axis]..upper[axis],
     };
-    let has_load = |place: [isize; 2]| {
+    let has_load = |index: [isize; 2]| {
         let [row, column] = [0, 1].map(|axis| {
             let folded = match mirrors[axis] {
-                Mirror::Centre => place[axis].abs(),
-                Mirror::Edge if place[axis] < 0 => -1 - place[axis],
-                _ => place[axis],
+                Mirror::Centre => index[axis].abs(),
+                Mirror::Edge if index[axis] < 0 => -1 - index[axis],
+                _ => index[axis],
             };
             // Beyond either end of the box this is no index.
             (folded - lower[axis]).cast_unsigned()
@@ -162,14 +167,14 @@ pub(crate) fn outline_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mirr
                 [along, across]
             })
         };
-        // Each line of edges, with the elements before and behind it.
+        // Along each line of edges, a run ends where the side of the loaded element changes.
         for line in range(axis).start..=range(axis).end {
-            let (mut side, mut length) = (0, 0.0);
+            let (mut loaded_side, mut length) = (0, 0.0);
             for along in range(1 - axis) {
-                let step = i8::from(at(line, along)) - i8::from(at(line - 1, along));
-                if step != side {
+                let side = i8::from(at(line, along)) - i8::from(at(line - 1, along));
+                if side != loaded_side {
                     sum_of_squares += length * length;
-                    (side, length) = (step, 0.0);
+                    (loaded_side, length) = (side, 0.0);
                 }
                 length += f64::from(side.abs());
             }
@@ -207,7 +212,7 @@ mod tests {
             let area = in_elements(&loads, &bounds, mirrors);
             assert!((area - expected).abs() < 1e-12, "{mirrors:?}: {area}");
             // Two sides of 5 and of 7 edges, and four edges of the hole.
-            let uncertainty = outline_uncertainty(&loads, &bounds, mirrors);
+            let uncertainty = boundary_uncertainty(&loads, &bounds, mirrors);
             assert!(
                 (uncertainty - 152_f64.sqrt()).abs() < 1e-12,
                 "{mirrors:?}: {uncertainty}"
@@ -220,7 +225,7 @@ mod tests {
         };
         let area = in_elements(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
         assert!((area - corrected_area(32, 40)).abs() < 1e-12, "{area}");
-        let uncertainty = outline_uncertainty(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
+        let uncertainty = boundary_uncertainty(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
         let expected = (4.0_f64 * (64.0 + 4.0)).sqrt();
         assert!((uncertainty - expected).abs() < 1e-12, "{uncertainty}");
     }

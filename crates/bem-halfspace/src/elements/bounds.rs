@@ -9,7 +9,9 @@ use crate::transform::fast_length::fast_length;
 /// Half-open ranges of rows and columns of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Bounds {
+    /// First row and column.
     pub(crate) lower: [usize; 2],
+    /// One more than the last row and column.
     pub(crate) upper: [usize; 2],
 }
 
@@ -28,32 +30,32 @@ impl Bounds {
         }
     }
 
-    /// The smallest box that holds all elements, [row, column] each; `None` without any.
+    /// The smallest box that contains all elements, [row, column] each; `None` if there are none.
     pub(crate) fn enclosing(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
         let boxes = elements.map(Self::single);
         boxes.reduce(|bounds, element| bounds.union(&element))
     }
 
-    /// The smallest box that holds the elements [row, column] of a field for which `is` is true; `None` without any.
+    /// The smallest box that contains the elements [row, column] of a field for which `matches` is true; `None` if there are none.
     pub(crate) fn enclosing_where(
         shape: [usize; 2],
-        is: impl Fn([usize; 2]) -> bool + Sync,
+        matches: impl Fn([usize; 2]) -> bool + Sync,
     ) -> Option<Self> {
         let row_blocks = RowBlocks::new(shape);
         let in_row_block = |row_block| {
             let elements = row_blocks
                 .elements(row_block)
                 .map(|index| [index / shape[1], index % shape[1]]);
-            Self::enclosing(elements.filter(|element| is(*element)))
+            Self::enclosing(elements.filter(|element| matches(*element)))
         };
-        let both = |left: Option<Self>, right: Option<Self>| match (left, right) {
+        let union = |left: Option<Self>, right: Option<Self>| match (left, right) {
             (Some(left), Some(right)) => Some(left.union(&right)),
             (left, right) => left.or(right),
         };
-        row_blocks.gather(in_row_block, both)
+        row_blocks.gather(in_row_block, union)
     }
 
-    /// The smallest box that holds both.
+    /// The smallest box that contains both.
     pub(crate) fn union(&self, other: &Self) -> Self {
         Self {
             lower: [0, 1].map(|axis| self.lower[axis].min(other.lower[axis])),
@@ -61,22 +63,27 @@ impl Bounds {
         }
     }
 
+    /// True if the element [row, column] of the field lies in the box.
     pub(crate) fn contains(&self, [row, column]: [usize; 2]) -> bool {
         self.rows().contains(&row) && self.columns().contains(&column)
     }
 
+    /// Range of rows.
     pub(crate) const fn rows(&self) -> Range<usize> {
         self.lower[0]..self.upper[0]
     }
 
+    /// Range of columns.
     pub(crate) const fn columns(&self) -> Range<usize> {
         self.lower[1]..self.upper[1]
     }
 
+    /// Numbers of rows and columns.
     pub(crate) const fn shape(&self) -> [usize; 2] {
         [self.upper[0] - self.lower[0], self.upper[1] - self.lower[1]]
     }
 
+    /// Number of elements.
     pub(crate) const fn n_elements(&self) -> usize {
         self.shape()[0] * self.shape()[1]
     }
@@ -99,6 +106,7 @@ impl Bounds {
     /// The margin is an eighth of the length, at least four elements, in total. Along an axis with a mirror the box begins at
     /// the rear of the field, where the mirror is.
     pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
+        // Lengths of the box and of its margin in front; the other part of the margin is behind.
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {
             let is_free = mirrors[axis].is_none();

@@ -27,11 +27,13 @@ const LOAD_GAP_RATIO: f64 = 0.4;
 
 /// Loads of the elements in contact and gaps of their neighbours, on a box of elements.
 pub(crate) struct BoundaryField {
+    /// Rows and columns of the box.
     pub(crate) shape: [usize; 2],
     /// True if the box is a whole period, so that its opposite ends are neighbours.
     pub(crate) is_periodic: bool,
-    /// Δy/Δx.
+    /// Aspect ratio Δy/Δx of an element.
     pub(crate) aspect: f64,
+    /// Flag of each element: true in contact.
     pub(crate) inside: Vec<bool>,
     /// Load of an element in contact, gap of an element outside; not finite if unknown.
     pub(crate) values: Vec<f64>,
@@ -50,7 +52,7 @@ pub(crate) struct BoundaryDerivatives {
     pub(crate) by_second_difference: [f64; 2],
 }
 
-/// How the contact changes at its boundary.
+/// Derivatives of area and boundary weight of a contact by loads, gaps and kernel.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactBoundary {
     /// Derivatives of the area, in elements.
@@ -62,12 +64,16 @@ pub(crate) struct ContactBoundary {
 /// An element in contact and its neighbour outside along an axis.
 #[derive(Debug, Clone, Copy)]
 struct BoundaryPair {
+    /// Index of the element in contact.
     inside: usize,
+    /// Index of its neighbour without load.
     outside: usize,
+    /// Axis from one to the other: 0 along x, 1 along y.
     axis: usize,
 }
 
 impl BoundaryDerivatives {
+    /// Zero derivatives on a box of `n` elements.
     fn zero(n: usize) -> Self {
         Self {
             by_values: vec![0.0; n],
@@ -77,7 +83,7 @@ impl BoundaryDerivatives {
 
     /// Adds the derivatives of x/(x + κ g) at a pair, times (x + κ g)²/κ and a weight.
     fn add(&mut self, field: &BoundaryField, pair: BoundaryPair, weight: f64) {
-        let [load, gap] = [pair.inside, pair.outside].map(|place| field.values[place]);
+        let [load, gap] = [pair.inside, pair.outside].map(|element| field.values[element]);
         self.by_values[pair.inside] += weight * gap;
         self.by_values[pair.outside] -= weight * load;
         self.by_second_difference[pair.axis] +=
@@ -86,13 +92,14 @@ impl BoundaryDerivatives {
 }
 
 impl ContactBoundary {
+    /// Sums the contributions of all pairs at the boundary of a contact.
     pub(crate) fn new(field: &BoundaryField) -> Self {
         let mut boundary = Self {
             area: BoundaryDerivatives::zero(field.values.len()),
             boundary_weight: BoundaryDerivatives::zero(field.values.len()),
         };
         for pair in field.pairs() {
-            let ratio = field.ratio(pair);
+            let ratio = field.load_gap_ratio(pair);
             // Load with which the element inside leaves the boundary; negative gaps are errors of the solution.
             let leaving_load = field.values[pair.inside] + ratio * field.values[pair.outside];
             if leaving_load <= 0.0 {
@@ -110,10 +117,10 @@ impl ContactBoundary {
 impl BoundaryField {
     /// All pairs whose gap is known.
     fn pairs(&self) -> impl Iterator<Item = BoundaryPair> {
-        let inside = (0..self.values.len()).filter(|place| self.inside[*place]);
+        let inside = (0..self.values.len()).filter(|element| self.inside[*element]);
         inside.flat_map(move |inside| {
-            let ways = [(0, true), (0, false), (1, true), (1, false)];
-            ways.into_iter().filter_map(move |(axis, ahead)| {
+            let directions = [(0, true), (0, false), (1, true), (1, false)];
+            directions.into_iter().filter_map(move |(axis, ahead)| {
                 let outside = self.next(inside, axis, ahead)?;
                 let is_boundary = !self.inside[outside] && self.values[outside].is_finite();
                 is_boundary.then_some(BoundaryPair {
@@ -126,47 +133,49 @@ impl BoundaryField {
     }
 
     /// The ratio κ of load to gap at a pair.
-    fn ratio(&self, pair: BoundaryPair) -> f64 {
+    fn load_gap_ratio(&self, pair: BoundaryPair) -> f64 {
         let response = self.unit_depth_response.as_ref();
-        let measured = response.map(|response| response[pair.inside] / response[pair.outside]);
-        measured
+        let ratio_of_responses =
+            response.map(|response| response[pair.inside] / response[pair.outside]);
+        ratio_of_responses
             .filter(|ratio| *ratio > 0.0)
             .unwrap_or(LOAD_GAP_RATIO / self.second_difference[pair.axis])
     }
 
     /// The neighbour of an element along an axis, ahead or behind; `None` beyond the end of the box.
-    fn next(&self, place: usize, axis: usize, ahead: bool) -> Option<usize> {
+    fn next(&self, element: usize, axis: usize, ahead: bool) -> Option<usize> {
         let [rows, columns] = self.shape;
-        let mut at = [place / columns, place % columns];
+        let mut indices = [element / columns, element % columns];
         let length = [rows, columns][axis];
-        at[axis] = match (ahead, at[axis]) {
+        indices[axis] = match (ahead, indices[axis]) {
             (true, last) if last + 1 == length => self.is_periodic.then_some(0)?,
-            (true, here) => here + 1,
+            (true, index) => index + 1,
             (false, 0) => self.is_periodic.then_some(length - 1)?,
-            (false, here) => here - 1,
+            (false, index) => index - 1,
         };
-        Some(at[0] * columns + at[1])
+        Some(indices[0] * columns + indices[1])
     }
 
     /// Squared component of the boundary normal along the axis of a pair, from the field x inside and −κ g outside.
     fn squared_normal(&self, pair: BoundaryPair, ratio: f64, leaving_load: f64) -> f64 {
-        let along = |place: usize| {
-            let value = |place: usize| match self.values[place] {
-                value if self.inside[place] => value,
+        // Derivative along the boundary at an element: central, one-sided next to an unknown gap.
+        let derivative = |element: usize| {
+            let value = |element: usize| match self.values[element] {
+                value if self.inside[element] => value,
                 value => -ratio * value,
             };
             let neighbour = |ahead| {
-                let next = self.next(place, 1 - pair.axis, ahead).map(value);
+                let next = self.next(element, 1 - pair.axis, ahead).map(value);
                 next.filter(|value| value.is_finite())
             };
             match (neighbour(true), neighbour(false)) {
                 (Some(next), Some(before)) => 0.5 * (next - before),
-                (Some(next), None) => next - value(place),
-                (None, Some(before)) => value(place) - before,
+                (Some(next), None) => next - value(element),
+                (None, Some(before)) => value(element) - before,
                 (None, None) => 0.0,
             }
         };
-        let tangent = 0.5 * (along(pair.inside) + along(pair.outside));
+        let tangent = 0.5 * (derivative(pair.inside) + derivative(pair.outside));
         // Derivatives per length, in units of Δx.
         let spacing = [1.0, self.aspect];
         let squares = [
@@ -186,9 +195,9 @@ mod tests {
     /// A disc with its radius in elements, on elements of an aspect, whose loads fall by 1 from row to row at its boundary.
     fn disc(radius: f64, centre: f64, aspect: f64) -> BoundaryField {
         let shape = [40, 60];
-        let height = |place: usize| {
-            let x = (place / shape[1]) as f64 - 20.0 - centre;
-            let y = ((place % shape[1]) as f64 - 30.0 - centre) * aspect;
+        let height = |element: usize| {
+            let x = (element / shape[1]) as f64 - 20.0 - centre;
+            let y = ((element % shape[1]) as f64 - 30.0 - centre) * aspect;
             (radius * radius - x * x - y * y) / (2.0 * radius)
         };
         let heights: Vec<f64> = (0..shape[0] * shape[1]).map(height).collect();

@@ -44,7 +44,7 @@ impl Footprint {
     /// 2 (1 − ν) F_N J(a/v) / (4 a).
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for a surface that is low everywhere.
+    /// [`BemError::InvalidParameter`] for a surface that nowhere reaches the height needed.
     pub fn sliding(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -55,6 +55,7 @@ impl Footprint {
             Control::IndentationDepth(depth) => return reached(depth),
             Control::NormalForce(_) => depth_scale_of_surface(surface, elastomer, load)?,
         };
+        // Largest height in contact: less for bodies of revolution without a sharp cusp.
         let Some(body) = surface.as_axisymmetric() else {
             return reached(MAX_HEIGHT_IN_DEPTH_SCALES * depth);
         };
@@ -79,11 +80,12 @@ impl Footprint {
         elastomer: &dyn Elastomer,
         height: f64,
     ) -> Result<Self, BemError> {
-        Self::below(surface, Self::risen(surface, elastomer, height)?)
+        Self::below(surface, Self::with_pile_up(surface, elastomer, height)?)
     }
 
-    /// The height up to which an elastomer touches a surface, if a half space touches it up to a `height`, \[m].
-    pub(crate) fn risen(
+    /// The height \[m] up to which an elastomer touches a surface, if a half space touches it up to a `height` \[m]. The height on a
+    /// layer exceeds it by the pile-up.
+    pub(crate) fn with_pile_up(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
         height: f64,
@@ -92,6 +94,7 @@ impl Footprint {
         if base.is_half_space() {
             return Ok(height);
         }
+        // Half length of the contact, and the exponent p of a body h ∼ r^p from its doubling.
         let half_length = |height| -> Result<f64, BemError> {
             let sides = Self::below(surface, height)?.sides()?;
             Ok(sides.concat().into_iter().fold(0.0, f64::max))
@@ -135,6 +138,7 @@ impl Footprint {
         }
     }
 
+    /// The error for a contact that reaches the boundary after sliding over a distance \[m].
     pub(crate) const fn boundary_reached(self, sliding_distance: f64) -> BemError {
         BemError::ContactReachesBoundary {
             sliding_distance,
@@ -176,6 +180,7 @@ impl Footprint {
     }
 }
 
+/// The error for a height \[m] that the surface does not reach on all sides.
 fn nowhere_as_high(height: f64) -> InvalidParameter {
     InvalidParameter {
         parameter: "indentation depth",

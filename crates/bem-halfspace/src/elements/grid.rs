@@ -11,7 +11,9 @@ pub(crate) const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Grid {
+    /// Numbers of elements n_x and n_y.
     shape: [usize; 2],
+    /// Edges Δx and Δy of an element, \[m].
     spacing: [f64; 2],
 }
 

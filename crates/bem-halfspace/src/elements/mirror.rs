@@ -36,6 +36,7 @@ impl Mirror {
         }
     }
 
+    /// True without symmetry.
     pub(crate) const fn is_none(self) -> bool {
         matches!(self, Self::None)
     }
@@ -49,7 +50,7 @@ impl Mirror {
     }
 }
 
-/// Factor from the loads in front of the mirrors to those of the whole.
+/// Number of images of the symmetry-reduced domain that make up the whole: 1, 2 or 4.
 pub(crate) fn n_images(mirrors: [Mirror; 2]) -> f64 {
     let count = |mirror: Mirror| if mirror.is_none() { 1.0 } else { 2.0 };
     mirrors.into_iter().map(count).product()

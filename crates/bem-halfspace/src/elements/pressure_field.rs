@@ -21,7 +21,7 @@ pub struct PressureField {
 }
 
 impl PressureField {
-    /// The field on a box whose first element has its centre at `origin`, with the sum of the pressures given for each element.
+    /// The field on a box whose first element has its centre at `origin` \[m]; pressures \[Pa] that are given for one element add up.
     pub(crate) fn from_elements(
         bounds: &Bounds,
         spacing: [f64; 2],

@@ -17,7 +17,7 @@ pub struct GridOptions {
     pub contact: ContactOptions,
 }
 
-/// The elements under the indenter.
+/// Arrangement of the elements under the indenter: their number, the one under the lowest point, and the mirrors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Number of elements of the footprint.

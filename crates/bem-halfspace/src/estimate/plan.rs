@@ -52,7 +52,7 @@ impl GridPlan {
             Control::IndentationDepth(depth) => depth,
         };
         let footprint = Footprint::sliding(surface, elastomer, load)?;
-        let mut plan = Self::risen(surface, elastomer, depth, |depth| {
+        let mut plan = Self::with_pile_up(surface, elastomer, depth, |depth| {
             match surface.as_axisymmetric() {
                 Some(body) => Self::of_body(body, footprint, depth),
                 None => Ok(Self::of_surface(surface, footprint, depth)),
@@ -82,23 +82,24 @@ impl GridPlan {
             Control::IndentationDepth(depth) => [depth; 2],
         };
         let footprint = Footprint::reached(surface, elastomer, highest)?;
-        Self::risen(surface, elastomer, depth, |depth| {
+        Self::with_pile_up(surface, elastomer, depth, |depth| {
             Ok(Self::of_surface(surface, footprint, depth))
         })
     }
 
     /// The plan with elements for the longer contact on a layer, which piles up. They are not longer than
     /// [`MAX_SPACING_OVER_THICKNESS`] allows, unless those for a half space are.
-    fn risen(
+    fn with_pile_up(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
         depth: f64,
         plan: impl Fn(f64) -> Result<Self, BemError>,
     ) -> Result<Self, BemError> {
         let mut shortest = plan(depth)?;
-        let risen = plan(Footprint::risen(surface, elastomer, depth)?)?.coarsest_spacing;
+        let with_pile_up =
+            plan(Footprint::with_pile_up(surface, elastomer, depth)?)?.coarsest_spacing;
         let longest = MAX_SPACING_OVER_THICKNESS * elastomer.base().thickness();
-        shortest.coarsest_spacing = shortest.coarsest_spacing.max(risen.min(longest));
+        shortest.coarsest_spacing = shortest.coarsest_spacing.max(with_pile_up.min(longest));
         Ok(shortest)
     }
 

@@ -40,7 +40,8 @@ impl Heights {
         }
     }
 
-    fn both(self, other: Self) -> Self {
+    /// Extremes and sums over two parts of the grid together.
+    fn combine(self, other: Self) -> Self {
         Self {
             lowest_outside: smaller(self.lowest_outside, other.lowest_outside),
             sum_inside: self.sum_inside + other.sum_inside,
@@ -66,7 +67,7 @@ impl Iteration<'_> {
         let displacement = [active.packed(&mut vectors.displacement)];
         self.heights = active
             .row_blocks
-            .fold(displacement, in_row_block, Heights::both);
+            .fold(displacement, in_row_block, Heights::combine);
         self.displacement_is_exact = true;
         self.previous_product = 0.0;
     }
@@ -93,14 +94,17 @@ impl Iteration<'_> {
             let inside = [&separation[range], displacement];
             Heights::of_row_block(active, row_block, outside, inside, depth)
         };
+        // Update each row block and evaluate its heights in the same pass over memory.
         let moved = [
             active.field(self.displacement),
             active.packed(&mut vectors.displacement),
             active.packed(&mut vectors.load),
         ];
-        self.heights = active.row_blocks.fold(moved, in_row_block, Heights::both);
+        self.heights = active
+            .row_blocks
+            .fold(moved, in_row_block, Heights::combine);
         self.displacement_is_exact = false;
-        self.improved = true;
+        self.has_stepped = true;
     }
 
     /// Updates the depth. At a given force it is the mean height in the active set, so that the gaps there have the mean zero;
@@ -117,12 +121,12 @@ impl Iteration<'_> {
                 let mean = self.indentation_depth + self.heights.sum_inside / active.len() as f64;
                 // For an exact displacement corrected once, because the previous depth may have been far off, and no direction
                 // removes the rounding of the long sum.
-                let rest = if self.displacement_is_exact {
+                let rounding_correction = if self.displacement_is_exact {
                     vectors.mean_height_above(active, mean)
                 } else {
                     0.0
                 };
-                mean + rest
+                mean + rounding_correction
             }
         };
     }
@@ -135,8 +139,8 @@ impl Iteration<'_> {
         let self_influence = self.convolution.self_influence;
         let depth = self.indentation_depth;
         let in_row_block = |row_block, [residual]: [&mut [f64]; 1]| {
-            let [separation, displacement, load] =
-                [separation, displacement, load].map(|list| &list[active.packed_range(row_block)]);
+            let [separation, displacement, load] = [separation, displacement, load]
+                .map(|vector| &vector[active.packed_range(row_block)]);
             for (residual, (separation, displacement)) in
                 residual.iter_mut().zip(separation.iter().zip(displacement))
             {
@@ -196,22 +200,27 @@ impl Violations {
         }
     }
 
-    /// Violations inside a part of the active set. A unit load displaces its own element by `self_influence`.
+    /// Violations inside a part of the active set. A unit load displaces its self_displacement element by `self_influence`.
     pub(super) fn inside(
         residual: &[f64],
         load: &[f64],
         displacement: &[f64],
         self_influence: f64,
     ) -> Self {
-        // Zero if all numbers are finite, else NaN; the extremes do not matter then.
+        // Zero if all residuals are finite, else NaN: comparisons would skip a NaN, a sum does not.
         let zero_or_nan = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, smaller);
-        let own = self_influence * reduce([load], 0.0, |[load]| load, larger);
+        let self_displacement = self_influence * reduce([load], 0.0, |[load]| load, larger);
         Self {
             gap: zero_or_nan + reduce([residual], 0.0, |[residual]| residual.abs(), larger),
             tension: -self_influence * lowest_load,
             penetration: 0.0,
-            deflection: reduce([displacement], own, |[displaced]| displaced, larger),
+            deflection: reduce(
+                [displacement],
+                self_displacement,
+                |[displaced]| displaced,
+                larger,
+            ),
         }
     }
 }

@@ -29,7 +29,10 @@ pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) ->
         Some([along_x, along_y]) => 0.5 / (EXCESS_PER_EDGE * (along_x + along_y) as f64),
         None => 0.0,
     };
-    Estimate::new(found.area, REMAINING_FRACTION.max(part) * found.excess)
+    Estimate::new(
+        found.area,
+        REMAINING_FRACTION.max(part) * found.perimeter_correction,
+    )
 }
 
 /// Elements along x and y, without a common factor, that the lines of unidirectional roughness pass.

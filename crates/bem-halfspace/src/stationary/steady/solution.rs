@@ -3,7 +3,7 @@
 use numerics::ErrorParts;
 
 use crate::BemError;
-use crate::elements::area::outline_uncertainty;
+use crate::elements::area::boundary_uncertainty;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::NO_MIRRORS;
 use crate::elements::pressure_field::PressureField;
@@ -111,7 +111,7 @@ impl SteadySliding {
             lower: [0; 2],
             upper: grid.shape(),
         };
-        grid.element_area() * outline_uncertainty(pressure, &bounds, NO_MIRRORS)
+        grid.element_area() * boundary_uncertainty(pressure, &bounds, NO_MIRRORS)
     }
 
     /// Fraction of the friction that the elements may miss because the material relaxes within them.
