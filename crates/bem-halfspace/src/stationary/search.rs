@@ -66,7 +66,7 @@ pub(crate) trait FixedSetSolver {
     /// Rows and columns of the grid.
     fn shape(&self) -> [usize; 2];
     /// Row and column of an element.
-    fn place(&self, element: usize) -> [usize; 2];
+    fn row_and_column(&self, element: usize) -> [usize; 2];
     /// Diagonal of K, greater than 0. Where displacements are known up to a constant only, the part of the diagonal that does not
     /// depend on it.
     fn self_influence(&self) -> f64;
@@ -241,7 +241,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         // A periodic line needs a second pass for the tension that is left at its rear end.
         for _ in 0..=usize::from(P::PERIODIC_ALONG_X) {
             for element in (0..self.active.len()).rev() {
-                let tension = &mut tension_by_line[self.problem.place(element)[1]];
+                let tension = &mut tension_by_line[self.problem.row_and_column(element)[1]];
                 let sum = self.pressure[element] + *tension;
                 let kept = if self.active[element] {
                     sum.max(0.0)
@@ -277,7 +277,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             };
             (size >= threshold).then(|| Violation {
                 element,
-                place: self.problem.place(element),
+                place: self.problem.row_and_column(element),
                 size,
             })
         };

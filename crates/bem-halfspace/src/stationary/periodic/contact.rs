@@ -106,7 +106,7 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
         self.problem.grid.shape()
     }
 
-    fn place(&self, element: usize) -> [usize; 2] {
+    fn row_and_column(&self, element: usize) -> [usize; 2] {
         let columns = self.shape()[1];
         [element / columns, element % columns]
     }

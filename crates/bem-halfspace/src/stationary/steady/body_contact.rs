@@ -18,6 +18,7 @@ const MAX_INNER_TOLERANCE: f64 = 1e-5;
 pub(super) struct Solution {
     /// Elements in contact with their loads, all greater than zero.
     pub(super) loads: Vec<(usize, f64)>,
+    /// Indentation depth δ, in units of the depth scale.
     pub(super) depth: f64,
     /// Number of active sets.
     pub(super) iterations: usize,
@@ -36,6 +37,7 @@ pub(super) fn solve(
     plans: &mut Plans,
     guess: Vec<(usize, f64)>,
 ) -> Result<Solution, BemError> {
+    // Initial pressure on the mesh, and heights as initial gaps.
     if guess.is_empty() {
         // Refuse: no element is as low as the contact is deep.
         check_contact_elements(0)?;

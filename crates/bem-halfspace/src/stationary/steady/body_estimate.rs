@@ -46,7 +46,7 @@ pub fn steady_memory(
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let plan = plan(surface, elastomer, load)?;
+    let plan = plan_of_grids(surface, elastomer, load)?;
     let options = grid(&plan, elements);
     // A mirror symmetry halves the unknowns, and saves less of the kernel.
     let solved_fraction = if surface.mirrors()[1] { 0.5 } else { 0.7 };
@@ -69,7 +69,7 @@ fn in_growing_footprint<T>(
 }
 
 /// The plan of the grids of the stationary state, which does not depend on the sliding distance.
-fn plan(
+fn plan_of_grids(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
@@ -93,7 +93,7 @@ pub fn steady_grid(
     elements: usize,
 ) -> Result<SteadyOptions, BemError> {
     positive("elements", elements as f64)?;
-    Ok(grid(&plan(surface, elastomer, load)?, elements))
+    Ok(grid(&plan_of_grids(surface, elastomer, load)?, elements))
 }
 
 /// The grid with about `elements` elements along the contact in the footprint of a plan.
@@ -133,7 +133,7 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// [`BemError::NotReached`] with the result on the finest grid allowed;
 /// [`BemError::GridTooLarge`] where a body is so steep that the grids allowed give no error estimate;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
-/// friction is infinite, or a surface that is low everywhere; on a track [`BemError::NoCycle`] for a material that flows, and
+/// friction is infinite, or a surface that nowhere reaches the height needed; on a track [`BemError::NoCycle`] for a material that flows, and
 /// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`].
 pub fn steady<'w>(
     surface: &dyn Surface,
@@ -167,10 +167,11 @@ fn estimate(
     options: &RefinementOptions,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let finish = |estimate| without_meaningless(load, elastomer, estimate);
+    let finish = |estimate| remove_undefined_quantities(load, elastomer, estimate);
     let has_peak = peak_has_limit(surface, elastomer);
     let creep = SlidingCreep::for_load(elastomer, load)?;
-    in_growing_footprint(plan(surface, elastomer, load)?, |plan| {
+    in_growing_footprint(plan_of_grids(surface, elastomer, load)?, |plan| {
+        // To a relative error, by refinement.
         if let Some(relative_error) = request.accuracy.relative_error() {
             let problem = SteadyProblem {
                 surface,
@@ -229,7 +230,7 @@ fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> Be
     }
 }
 
-/// How a solution on a given number of elements is resolved, with the order of a smooth body.
+/// Goal and error model of a solution on a given number of elements, with the convergence order of a smooth body.
 pub(super) fn resolution(request: Request<'_>, control: Control, has_peak: bool) -> Resolution<'_> {
     Resolution {
         goal: contact_goal(request, usize::MAX, BODY_ORDER, GRID_WORK_EXPONENT),
@@ -240,12 +241,12 @@ pub(super) fn resolution(request: Request<'_>, control: Control, has_peak: bool)
     }
 }
 
-/// Removes from an estimate what has no meaning: the depth of a material that flows if there is no sliding distance, and the friction
-/// of an elastic material. That is exactly 0 under any body.
+/// Removes the quantities that are not defined: the depth on a material that flows if there is no sliding distance, and the friction
+/// of an elastic material, which is exactly 0 under any body.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a sliding distance on which the state is not yet stationary.
-fn without_meaningless(
+fn remove_undefined_quantities(
     load: &SlidingLoad,
     elastomer: &dyn Elastomer,
     mut estimate: SteadyEstimate,

@@ -34,7 +34,9 @@ pub(super) const GCR_LIMITS: GcrLimits = GcrLimits {
 
 /// The equations of a body on a mesh, with the current active set.
 pub(super) struct ContactEquations<'mesh> {
+    /// Elements, heights and kernel.
     mesh: &'mesh Mesh,
+    /// Spectra of the kernel and of its inverse factors.
     plans: &'mesh mut Plans,
     /// All elements that may touch.
     candidates: Region,
@@ -42,7 +44,9 @@ pub(super) struct ContactEquations<'mesh> {
     operator: KernelOperator,
     /// Elements of the active set; loads and gaps are in this order.
     active: Vec<usize>,
+    /// Loads x on the active set, of either sign.
     loads: Vec<f64>,
+    /// Gaps h + K x − δ on the active set.
     gaps: Vec<f64>,
     /// Number of active sets so far.
     pub(super) n_active_sets: usize,
@@ -63,8 +67,8 @@ impl FixedSetSolver for ContactEquations<'_> {
         self.mesh.shape()
     }
 
-    fn place(&self, element: usize) -> [usize; 2] {
-        self.mesh.places(element)[0]
+    fn row_and_column(&self, element: usize) -> [usize; 2] {
+        self.mesh.indices(element)[0]
     }
 
     fn self_influence(&self) -> f64 {
@@ -97,7 +101,7 @@ impl FixedSetSolver for ContactEquations<'_> {
 
     fn solve(&mut self, rms: f64, max: f64) -> Result<(), BemError> {
         let region = self.mesh.region(self.active.iter().copied());
-        self.solved_directly = prefers_direct_solve(self.active.len(), region.n_places());
+        self.solved_directly = prefers_direct_solve(self.active.len(), region.n_box_elements());
         if self.solved_directly {
             return self.solve_directly();
         }
@@ -131,6 +135,7 @@ impl FixedSetSolver for ContactEquations<'_> {
 }
 
 impl<'mesh> ContactEquations<'mesh> {
+    /// The equations with an empty active set.
     pub(super) fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans) -> Self {
         let candidates = mesh.region(0..mesh.n_elements());
         Self {
@@ -155,13 +160,13 @@ impl<'mesh> ContactEquations<'mesh> {
         let entry = |row, column| match (row < n, column < n) {
             (true, true) => mesh.influence(active[row], active[column]),
             (true, false) => -1.0,
-            (false, true) => control.load * mesh.weight(active[column]),
+            (false, true) => control.load * mesh.n_images(active[column]),
             (false, false) => control.depth,
         };
         let heights = active.iter().map(|&element| -mesh.height(element));
         let right_side = heights.chain([control.right]).collect();
-        let solutions = dense::solve(entry, vec![right_side]);
-        let mut solutions = solutions.ok_or(BemError::SingularContact { elements: n })?;
+        let mut solutions = dense::solve(entry, vec![right_side])
+            .ok_or(BemError::SingularContact { elements: n })?;
         self.loads = solutions.remove(0);
         self.loads.truncate(n);
         self.gaps.fill(0.0);
@@ -193,33 +198,40 @@ impl<'mesh> ContactEquations<'mesh> {
     }
 }
 
-/// True if a direct solve is cheaper than an iteration, for a number of unknowns in a box of `n_places` elements.
-pub(super) fn prefers_direct_solve(n_unknowns: usize, n_places: usize) -> bool {
+/// True if a direct solve is cheaper than an iteration, for a number of unknowns in a box of `n_box_elements` elements.
+pub(super) fn prefers_direct_solve(n_unknowns: usize, n_box_elements: usize) -> bool {
     let work = (n_unknowns as f64).powi(3);
-    n_unknowns <= dense::MAX_UNKNOWNS && work <= DIRECT_SOLVE_WORK_PER_ELEMENT * n_places as f64
+    n_unknowns <= dense::MAX_UNKNOWNS
+        && work <= DIRECT_SOLVE_WORK_PER_ELEMENT * n_box_elements as f64
 }
 
 /// GCR directions on one active set: the preconditioner with the control of force or depth.
 struct Directions<'a> {
+    /// Kernel and control.
     mesh: &'a Mesh,
+    /// Elements of the active set in their bounding box.
     region: &'a Region,
-    /// 1, or 2 for an element with a mirror image.
-    weights: Vec<f64>,
+    /// Number of images of each element, itself included: 1, or 2 with a mirror image.
+    n_images: Vec<f64>,
+    /// K on the active set.
     operator: KernelOperator,
+    /// Approximate inverse of K on the active set.
     preconditioner: WienerHopf,
     /// Preconditioned loads of a unit depth.
     unit_depth_response: Vec<f64>,
 }
 
 impl<'a> Directions<'a> {
+    /// Directions on the active set of some equations, which fills `region`.
     fn new<'mesh: 'a>(equations: &mut ContactEquations<'mesh>, region: &'a Region) -> Self {
         let (mesh, plans) = (equations.mesh, &mut *equations.plans);
         let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), region);
         let active = equations.active.iter();
         Self {
-            unit_depth_response: preconditioner.loads(&vec![1.0; equations.active.len()], region),
+            unit_depth_response: preconditioner
+                .approximate_loads(&vec![1.0; equations.active.len()], region),
             operator: KernelOperator::new(plans.kernel(region.shape), region),
-            weights: active.map(|element| mesh.weight(*element)).collect(),
+            n_images: active.map(|element| mesh.n_images(*element)).collect(),
             preconditioner,
             region,
             mesh,
@@ -231,7 +243,7 @@ impl<'a> Directions<'a> {
     fn write(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
         // Preconditioned loads, and the depth that restores the control.
-        let mut loads = self.preconditioner.loads(gaps, self.region);
+        let mut loads = self.preconditioner.approximate_loads(gaps, self.region);
         let stiffness = control.depth + control.load * self.total(&self.unit_depth_response);
         let depth = -control.load * self.total(&loads) / stiffness;
         add_scaled(&mut loads, depth, &self.unit_depth_response);
@@ -245,6 +257,6 @@ impl<'a> Directions<'a> {
 
     /// Sum of the loads, mirror images included.
     fn total(&self, loads: &[f64]) -> f64 {
-        dot(loads, &self.weights)
+        dot(loads, &self.n_images)
     }
 }

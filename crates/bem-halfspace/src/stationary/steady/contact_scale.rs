@@ -58,7 +58,7 @@ pub(super) fn depth_scale(
 
 /// Scales of a profile in plane strain.
 pub(super) struct ProfileScale {
-    /// D, \[m].
+    /// Depth scale D, \[m].
     pub(super) depth_scale: f64,
     /// Distance a from the lowest point at which the profile is D high, half the contact of a cylinder on an elastic half space, \[m].
     pub(super) half_length: f64,
@@ -98,7 +98,8 @@ fn contact_length(
     depth: impl Fn(f64) -> Result<f64, BemError>,
     max_length: f64,
 ) -> Result<f64, BemError> {
-    let too_long = |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
+    let is_too_long =
+        |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
     // Find an interval that contains the root.
     let mut upper = if max_length.is_finite() {
         max_length
@@ -106,14 +107,14 @@ fn contact_length(
         1.0
     };
     for _ in 0..MAX_DOUBLINGS {
-        if max_length.is_finite() || too_long(upper)? {
+        if max_length.is_finite() || is_too_long(upper)? {
             break;
         }
         upper *= 2.0;
     }
     let mut lower = upper;
     for _ in 0..MAX_DOUBLINGS {
-        if !too_long(lower)? {
+        if !is_too_long(lower)? {
             break;
         }
         (lower, upper) = (0.5 * lower, lower);
@@ -122,7 +123,7 @@ fn contact_length(
     for _ in 0..BISECTIONS {
         // The square root of a ratio, so that rounding does not depend on the unit of length.
         let middle = lower * (upper / lower).sqrt();
-        if too_long(middle)? {
+        if is_too_long(middle)? {
             upper = middle;
         } else {
             lower = middle;
@@ -151,9 +152,9 @@ pub(crate) fn depth_scale_of_surface(
 
 /// Mean height at a distance from the lowest point, \[m].
 pub(super) fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
-    let along = |direction: u8| {
+    let height_along = |direction: u8| {
         let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
         surface.height([distance * cosine, distance * sine])
     };
-    (0..HEIGHT_DIRECTIONS).map(along).sum::<f64>() / f64::from(HEIGHT_DIRECTIONS)
+    (0..HEIGHT_DIRECTIONS).map(height_along).sum::<f64>() / f64::from(HEIGHT_DIRECTIONS)
 }

@@ -22,8 +22,9 @@ const EXTRA_DEGREES: usize = 40;
 
 /// Points on [0, 1] or around it, and the projection of values at them onto Legendre polynomials.
 pub(super) struct ExponentialRule {
+    /// Points s_j of the rule.
     pub(super) nodes: Vec<f64>,
-    /// By degree, the coefficient of the Legendre polynomial per value at each point.
+    /// Matrix `[degree][point]` from values at the points to Legendre coefficients.
     projection: Vec<[f64; MAX_POINTS]>,
 }
 
@@ -82,10 +83,10 @@ impl ExponentialRule {
     }
 }
 
-/// Value at x of the Lagrange polynomial that is 1 at one of the nodes and 0 at the others.
+/// Value at x of the Lagrange polynomial that is 1 at one of the nodes and 0 at the other_nodes.
 fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
-    let others = nodes[..index].iter().chain(&nodes[index + 1..]);
-    let factors = others.map(|node| (x - node) / (nodes[index] - node));
+    let other_nodes = nodes[..index].iter().chain(&nodes[index + 1..]);
+    let factors = other_nodes.map(|node| (x - node) / (nodes[index] - node));
     factors.product()
 }
 

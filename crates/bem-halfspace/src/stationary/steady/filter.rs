@@ -13,14 +13,19 @@ pub(super) type Spectrum = Vec<Complex<f64>>;
 /// Spectra of several kernels with one period.
 #[derive(Debug)]
 pub(super) struct Filters<const N: usize> {
+    /// Plans of the transforms over the period.
     pub(super) transform: PlaneTransform,
+    /// Spectrum of each kernel.
     pub(super) spectra: [Spectrum; N],
 }
 
 /// Convolutions of fields on the bounding box of a region, with their workspace.
 pub(super) struct RegionFilter<const N: usize> {
+    /// Spectra of the kernels.
     filters: Arc<Filters<N>>,
+    /// Buffers of the transforms.
     workspace: Workspace,
+    /// Input, then output of a convolution on the bounding box.
     field: Vec<f64>,
 }
 
@@ -28,10 +33,11 @@ pub(super) struct RegionFilter<const N: usize> {
 pub(super) type KernelOperator = RegionFilter<1>;
 
 impl<const N: usize> RegionFilter<N> {
+    /// Convolutions on the bounding box of a region, which must fit into the period of the filters.
     pub(super) fn new(filters: Arc<Filters<N>>, region: &Region) -> Self {
         Self {
             workspace: Workspace::new(&filters.transform, region.shape),
-            field: vec![0.0; region.n_places()],
+            field: vec![0.0; region.n_box_elements()],
             filters,
         }
     }

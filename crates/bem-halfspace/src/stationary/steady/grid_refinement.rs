@@ -99,11 +99,15 @@ impl Default for RefinementOptions {
 
 /// A sliding surface, and the plan of its grids.
 pub(super) struct SteadyProblem<'a> {
+    /// Surface of the body, or of the strip in plane strain.
     pub(super) surface: &'a dyn Surface,
+    /// Material, force or depth, and their scales.
     pub(super) loading: Loading,
+    /// Footprint and spacings of the grids.
     pub(super) plan: &'a GridPlan,
     /// True if the peak pressure is known to be finite.
     pub(super) has_peak: bool,
+    /// Observer of the progress, which may stop the refinement.
     pub(super) watch: &'a dyn Progress,
 }
 
@@ -150,10 +154,13 @@ fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
 
 /// A problem on shifted grids, refined by √2 from level to level.
 struct ShiftedGrids<'a> {
+    /// Surface, loading and plan.
     problem: &'a SteadyProblem<'a>,
+    /// Requested error and limits of the work.
     options: &'a RefinementOptions,
     /// Convergence order of the averages.
     order: f64,
+    /// Last solution, and kernel tables.
     reuse: Reuse,
     /// Number of refinements by √2 of the next level.
     next: i32,
@@ -242,7 +249,7 @@ impl ShiftedGrids<'_> {
         }
     }
 
-    /// The quantity, unless it has the requested error.
+    /// The requested and the estimated error of a quantity; `None` if the estimate is within the request.
     fn unless_within(&self, name: Name, known: Estimate) -> Option<NotReached> {
         let elements = self.problem.plan.elements(self.next - 1);
         NotReached::unless_within(self.options.relative_error, name.index(), known, elements)
@@ -290,6 +297,7 @@ impl ShiftedGrids<'_> {
     /// error.
     fn friction(&self) -> Estimate {
         let loading = &self.problem.loading;
+        // Orders to try.
         let is_small = self.reuse.solution.as_ref().is_some_and(|last| {
             last.friction_coefficient.abs() < SMALL_FRICTION_RATIO * last.mean_slope
         });
@@ -297,6 +305,7 @@ impl ShiftedGrids<'_> {
         let may_be_faster =
             is_small && !only_flows && loading.strip.is_none() && !loading.has_edges;
         let faster_orders: &[f64] = if may_be_faster { &CREEPING_ORDERS } else { &[] };
+        // Limit from slopes, then from dissipation.
         let limit = |quantity: fn(&Refinement) -> Average, scatter_window: usize| {
             let averages = Vec::from_iter(self.refinements.iter().map(quantity));
             self.limit_of(&averages, self.order, faster_orders, scatter_window)
@@ -373,13 +382,13 @@ impl ShiftedGrids<'_> {
         Ok(())
     }
 
-    /// Number of elements of the footprint.
+    /// Number of elements of the footprint after a number of refinements.
     fn n_elements(&self, refinement: i32) -> f64 {
         let footprint = &self.problem.plan.footprint;
         footprint.n_elements(self.edges(refinement))
     }
 
-    /// Edges [Δx, Δy] of an element, \[m].
+    /// Edges [Δx, Δy] of an element after a number of refinements, \[m].
     fn edges(&self, refinement: i32) -> [f64; 2] {
         let dx = self.problem.plan.spacing(refinement);
         let strip = self.problem.loading.strip;
@@ -397,8 +406,8 @@ impl ShiftedGrids<'_> {
     /// Largest number of elements of a footprint.
     fn max_elements(&self) -> f64 {
         let n_unknowns = self.options.max_unknowns as f64;
-        let on_large = LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
-        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, on_large)
+        let large_limit = LARGE_GRID_ELEMENTS.max(LARGE_GRID_ELEMENTS_PER_UNKNOWN * n_unknowns);
+        (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, large_limit)
     }
 
     /// Solves all shifted grids of the next level, each from the active set of the one before, and averages. Returns the last solution with
@@ -430,8 +439,8 @@ impl ShiftedGrids<'_> {
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
         let averages = Refinement {
             spacing: spacings.sum::<f64>() / states.len() as f64,
-            friction_coefficient: over_pairs(&|one| one.friction_coefficient),
-            friction_from_dissipation: over_pairs(&|one| one.friction_from_dissipation),
+            friction_coefficient: over_pairs(&|state| state.friction_coefficient),
+            friction_from_dissipation: over_pairs(&|state| state.friction_from_dissipation),
             normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at_distance(loading.sliding_distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),

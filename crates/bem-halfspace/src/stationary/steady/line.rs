@@ -176,6 +176,7 @@ struct LineScale {
     footprint: [f64; 2],
 }
 
+/// Scale and footprint of the contact of a profile, before anything is solved.
 fn line_scale(
     profile: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -184,8 +185,8 @@ fn line_scale(
     let creep = SlidingCreep::for_load(elastomer, load)?;
     let scale = profile_scale(profile, &creep, load.require_normal_force()?)?;
     let half_length = scale.half_length;
-    let memory = (creep.memory_length() / half_length).ln_1p();
-    let front = FOOTPRINT_FRONT + FOOTPRINT_FRONT_PER_LOG_MEMORY * memory;
+    let log_memory = (creep.memory_length() / half_length).ln_1p();
+    let front = FOOTPRINT_FRONT + FOOTPRINT_FRONT_PER_LOG_MEMORY * log_memory;
     Ok(LineScale {
         half_length,
         footprint: [-FOOTPRINT_REAR * half_length, front * half_length],
@@ -295,12 +296,14 @@ impl LineSliding {
 
 /// A profile of the length of one element along y, in place of an infinite one.
 pub(super) struct Strip<'a> {
+    /// Profile along x; its heights at y = 0 count.
     profile: &'a dyn Surface,
     /// Length along y, \[m].
     length: f64,
 }
 
 impl<'a> Strip<'a> {
+    /// A strip of the length that a loading has for its profile.
     pub(super) fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,

@@ -21,13 +21,17 @@ const DISTANCE_ON_SOLID: f64 = 100.0;
 /// The equation `depth · δ + load · Σ x = right` that prescribes depth or force, in the units of the mesh.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ControlEquation {
+    /// Coefficient of the depth δ; 0 under a given force.
     pub(super) depth: f64,
+    /// Coefficient of the total load Σ x.
     pub(super) load: f64,
+    /// Right side.
     pub(super) right: f64,
 }
 
 /// Scale and control of a stationary problem on any grid.
 pub(super) struct Loading {
+    /// Creep of the material at the sliding speed.
     pub(super) creep: SlidingCreep,
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
@@ -178,18 +182,21 @@ fn distance_at_depth(
 
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).
 pub(super) struct GridLoading {
+    /// Creep over an element.
     pub(super) creep: ElementCreep,
     /// Equation of the given force or depth.
     pub(super) control: ControlEquation,
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
-    /// 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
+    /// Unit of forces 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
     force_scale: f64,
     /// Edges [Δx, Δy] of an element, \[m].
     spacing: [f64; 2],
     /// True if one element along y stands for an infinite strip.
     pub(super) is_strip: bool,
+    /// See [`Loading::has_edges`].
     pub(super) has_edges: bool,
+    /// See [`Loading::may_have_patches`].
     pub(super) may_have_patches: bool,
 }
 

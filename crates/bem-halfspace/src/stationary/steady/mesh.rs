@@ -30,7 +30,9 @@ const GUESSED_HEIGHT: f64 = 0.5;
 
 /// A candidate: an element that may touch.
 struct Element {
+    /// Row in the footprint.
     row: usize,
+    /// Column in the footprint.
     column: usize,
     /// Height at the collocation point, in units of the depth scale.
     height: f64,
@@ -43,7 +45,9 @@ struct Element {
 /// The problem on a grid. Heights are in units of the depth scale D and lengths in Δx. The load of an element is
 /// 2 (1 − ν) J(Δx/v) P Δx/(4πD), which is P Δx²/(4πηvD) for the dashpot.
 pub(super) struct Mesh {
+    /// Grid and tolerance.
     pub(super) options: SteadyOptions,
+    /// Creep, control and units on this grid.
     pub(super) loading: GridLoading,
     /// True if only elements over which the body rises are candidates.
     only_rising: bool,
@@ -53,11 +57,13 @@ pub(super) struct Mesh {
     origin: [f64; 2],
     /// Mirror symmetry of grid and body in y.
     mirror: Mirror,
+    /// Candidates, row by row.
     elements: Vec<Element>,
     /// True for each element of the footprint that ends in a vertical wall, row-major.
     walls: Vec<bool>,
     /// First and last row, and first and last column, between which the contact must lie.
     inner_limits: [[usize; 2]; 2],
+    /// Influence coefficients by the offset of two elements.
     table: Arc<WakeTable>,
 }
 
@@ -137,7 +143,7 @@ impl Mesh {
 
     /// The region of some candidates.
     pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
-        Region::around(elements.map(|element| self.places(element)))
+        Region::around(elements.map(|element| self.indices(element)))
     }
 
     /// Centre of a row (axis 0) or column (axis 1), relative to the lowest point, \[m].
@@ -263,26 +269,26 @@ impl Mesh {
     }
 
     /// Row and column of an element and of its mirror image; twice its own for an element without one.
-    pub(super) fn places(&self, element: usize) -> [[usize; 2]; 2] {
+    pub(super) fn indices(&self, element: usize) -> [[usize; 2]; 2] {
         let Element { row, column, .. } = self.elements[element];
         let has_image = self.has_image(&self.elements[element]);
         let image = has_image.then(|| self.image(column));
         [[row, column], [row, image.unwrap_or(column)]]
     }
 
-    /// Some candidates and those that have an edge or a corner in common with one of them.
+    /// The given candidates and those that have an edge or a corner in common with one of them, in increasing order.
     pub(super) fn with_neighbours(&self, elements: &[usize]) -> Vec<usize> {
         // Neighbours in three rows, without duplicates.
-        let around = elements.iter().flat_map(|element| {
+        let neighbours = elements.iter().flat_map(|element| {
             let Element { row, column, .. } = self.elements[*element];
             let columns = column.saturating_sub(1)..=column + 1;
             (row.saturating_sub(1)..=row + 1).flat_map(move |row| self.in_row(row, columns.clone()))
         });
-        let found: BTreeSet<usize> = around.collect();
+        let found: BTreeSet<usize> = neighbours.collect();
         found.into_iter().collect()
     }
 
-    /// The candidates of a row within a range of columns; candidates are numbered row by row.
+    /// Indices of the candidates of a row within a range of columns; candidates are numbered row by row.
     fn in_row(&self, row: usize, columns: RangeInclusive<usize>) -> Range<usize> {
         let [first, last] = [*columns.start(), columns.end() + 1].map(|column| {
             self.elements
@@ -296,8 +302,8 @@ impl Mesh {
         self.options.spacing[1] / self.options.spacing[0]
     }
 
-    /// Weight of an element in sums: 2 for an element that represents its mirror image, otherwise 1.
-    pub(super) fn weight(&self, element: usize) -> f64 {
+    /// Number of elements that an element represents in sums: 2 with a mirror image, otherwise 1.
+    pub(super) fn n_images(&self, element: usize) -> f64 {
         let has_image = self.has_image(&self.elements[element]);
         if has_image { 2.0 } else { 1.0 }
     }
@@ -336,13 +342,13 @@ impl Mesh {
 
     /// Sum of the loads, mirror images included.
     pub(super) fn total_load(&self, loads: impl IntoIterator<Item = (usize, f64)>) -> f64 {
-        let weighted = |(element, load)| self.weight(element) * load;
+        let weighted = |(element, load)| self.n_images(element) * load;
         loads.into_iter().map(weighted).sum()
     }
 
     /// Load-weighted means of the slopes.
     pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> LoadWeightedSlopes {
-        let (mut sums, mut normal) = ([0.0; 3], 0.0);
+        let (mut sums, mut total_load) = ([0.0; 3], 0.0);
         for &(element, load) in loads {
             let Element {
                 slope,
@@ -350,11 +356,11 @@ impl Mesh {
                 ..
             } = self.elements[element];
             for (sum, slope) in sums.iter_mut().zip([slope, slope.abs(), dissipating_slope]) {
-                *sum += self.weight(element) * load * slope;
+                *sum += self.n_images(element) * load * slope;
             }
-            normal += self.weight(element) * load;
+            total_load += self.n_images(element) * load;
         }
-        let [slope, absolute_slope, dissipating_slope] = sums.map(|sum| sum / normal);
+        let [slope, absolute_slope, dissipating_slope] = sums.map(|sum| sum / total_load);
         LoadWeightedSlopes {
             slope,
             absolute_slope,
@@ -384,22 +390,22 @@ impl Mesh {
             let open = neighbour.filter(|one| loads[*one] <= 0.0);
             open.map_or(0.0, |one| gaps[one])
         };
-        let (mut sum, mut normal) = (0.0, 0.0);
+        let (mut sum, mut total_load) = (0.0, 0.0);
         for (index, load) in loads.iter().enumerate().filter(|(_, load)| **load > 0.0) {
             let Element { row, column, .. } = self.elements[index];
-            let weighted = self.weight(index) * load;
+            let weighted = self.n_images(index) * load;
             sum += 0.5 * weighted * (gap(row + 1, column) - gap(row.wrapping_sub(1), column));
-            normal += weighted;
+            total_load += weighted;
         }
-        sum / normal
+        sum / total_load
     }
 
     /// Row, column and load of every loaded element, mirror images included.
-    pub(super) fn loaded_places(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
+    pub(super) fn loaded_indices(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
         let with_image = |&(element, load): &(usize, f64)| {
-            let [place, image] = self.places(element);
-            let places = std::iter::once(place).chain((image != place).then_some(image));
-            places.map(move |place| (place, load))
+            let [own, image] = self.indices(element);
+            let both = std::iter::once(own).chain((image != own).then_some(image));
+            both.map(move |indices| (indices, load))
         };
         loads.iter().flat_map(with_image).collect()
     }

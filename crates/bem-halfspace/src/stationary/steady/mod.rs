@@ -130,6 +130,7 @@ pub fn steady_on_grid(
 struct Reuse {
     /// The solution whose loads are the initial guess.
     solution: Option<SteadySliding>,
+    /// Kernel tables and spectra.
     plans: Plans,
 }
 

@@ -15,8 +15,11 @@ const MAX_CACHED_PERIODS: usize = 4;
 /// Kernel tables and spectra, which depend only on the creep over an element, the aspect ratio of the elements and the size of a box.
 #[derive(Debug, Default)]
 pub(super) struct Plans {
+    /// Influence coefficients up to the largest offsets so far.
     table: Arc<WakeTable>,
+    /// Spectra of the kernel, by period.
     kernels: Vec<Arc<Filters<1>>>,
+    /// Spectra of the inverse Wiener–Hopf factors, by period.
     factors: Vec<Arc<Filters<2>>>,
 }
 
@@ -29,12 +32,13 @@ impl Plans {
         shape: [usize; 2],
     ) -> Arc<WakeTable> {
         // Nothing of another creep or aspect ratio can be used again.
-        let is_other = self.table.aspect.total_cmp(&aspect).is_ne();
-        if is_other || self.table.creep != *creep {
+        let is_other_aspect = self.table.aspect.total_cmp(&aspect).is_ne();
+        if is_other_aspect || self.table.creep != *creep {
             *self = Self::default();
         }
-        let filtered = wiener_hopf::period(shape);
-        let max_offsets = [0, 1].map(|axis| padded_length(shape[axis]).max(filtered[axis]) / 2);
+        let factor_period = wiener_hopf::period(shape);
+        let max_offsets =
+            [0, 1].map(|axis| padded_length(shape[axis]).max(factor_period[axis]) / 2);
         WakeTable::cover(&mut self.table, creep, aspect, max_offsets);
         Arc::clone(&self.table)
     }

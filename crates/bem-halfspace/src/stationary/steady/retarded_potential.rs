@@ -4,8 +4,8 @@
 //! distance from the edges of the loaded element, where the potential is singular. With n points on a panel, the error is of the order
 //! ρ⁻ⁿ of the potential. ρ is the sum of the half axes of the ellipse around the panel that reaches the singularity (Bernstein): 6 for
 //! a panel next to it, 4 distance/length far away. Where the potential is smooth over several rows, the polynomial interpolates its
-//! values at the rows, each of which is computed once. The part that a layer adds is singular beside the edges, at a distance not
-//! shorter than that of the edges.
+//! values at the rows, each of which is computed once. A layer adds a part whose singularities are not closer than
+//! the edges.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material", and "A track" for the start on a track.
 
@@ -20,10 +20,13 @@ use crate::stationary::steady::sliding_creep::ElementCreep;
 /// A rule with a number of points, and the smallest distance from the edges of the loaded element from which it is accurate to eleven
 /// digits.
 struct DistanceRule {
+    /// Smallest distance, in the lengths of [`PANEL_RULES`] or [`ROW_RULES`].
     min_distance: f64,
+    /// Number of points.
     n_points: usize,
 }
 
+/// The rule of `n_points` points from a distance on.
 const fn from_distance(min_distance: f64, n_points: usize) -> DistanceRule {
     DistanceRule {
         min_distance,
@@ -61,7 +64,9 @@ const MAX_EXPONENT: f64 = 40.0;
 /// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
 struct PotentialPanel {
+    /// Rear end.
     start: f64,
+    /// Length.
     length: f64,
     /// Index of the rule of the panel in [`PANEL_RULES`].
     rule: usize,
@@ -69,10 +74,11 @@ struct PotentialPanel {
 
 /// A retardation element with the weights of all rules on one element of the grid.
 struct RetardationRule {
-    /// Δx/(v λ).
+    /// Rate Δx/(v λ) of the exponential over one element of the grid.
     rate: f64,
+    /// Fraction of J_k in J(Δx/v).
     compliance: f64,
-    /// e^(−rate).
+    /// Decay e^(−rate) over one element of the grid.
     decay: f64,
     /// Weights of each of [`PANEL_RULES`], times the compliance.
     weights: [[f64; MAX_POINTS]; PANEL_RULES.len()],
@@ -82,17 +88,21 @@ struct RetardationRule {
 
 /// Displacements by all retardation elements on one row of the table.
 pub(super) struct RetardedPotential {
+    /// Retardation elements of the material.
     retardations: Vec<RetardationRule>,
+    /// The rules of [`PANEL_RULES`].
     rules: [ExponentialRule; PANEL_RULES.len()],
+    /// Base, with lengths in Δx.
     base: Base,
-    /// Δy/Δx.
+    /// Aspect ratio Δy/Δx.
     aspect: f64,
+    /// Number of columns of the table.
     n_columns: usize,
     /// Position along x of the current row.
     position: f64,
     /// Displacements at the current row, by retardation element and column.
     values: Vec<f64>,
-    /// Parts of the values that the element ahead of the current row adds.
+    /// Parts of the values that come from the element between the current row and the row ahead.
     increments: Vec<f64>,
     /// Potential V by row and column, for the rows around the element ahead of the current row.
     rows: VecDeque<Vec<f64>>,
@@ -191,9 +201,9 @@ impl RetardedPotential {
         let half = 0.5 * track;
         // The edges of the loaded element lie on the line of the first column only, so that this one has panels of its own.
         for columns in [0..1, 1..self.n_columns] {
-            let clearance = self.clearance(columns.start);
+            let lateral_distance = self.lateral_distance(columns.start);
             for part in [[-half, self.position], [self.position, half]] {
-                for panel in panels(part, clearance).iter().rev() {
+                for panel in panels(part, lateral_distance).iter().rev() {
                     self.integrate_over_panel(panel, columns.clone());
                 }
             }
@@ -209,7 +219,9 @@ impl RetardedPotential {
     /// Integrates the values of some columns from the front to the rear of a panel.
     fn integrate_over_panel(&mut self, panel: &PotentialPanel, columns: Range<usize>) {
         let elements = self.retardations.iter();
-        let steps: Vec<_> = elements.map(|one| self.panel_step(one, panel)).collect();
+        let steps: Vec<_> = elements
+            .map(|element| self.panel_step(element, panel))
+            .collect();
         for column in columns {
             let potentials = self.potentials_at_nodes(panel, column);
             for (index, (decay, weights)) in steps.iter().enumerate() {
@@ -220,7 +232,7 @@ impl RetardedPotential {
     }
 
     /// Distance of a column from the loaded element along y, 0 for the column of the element.
-    fn clearance(&self, column: usize) -> f64 {
+    fn lateral_distance(&self, column: usize) -> f64 {
         (self.aspect * (column as f64 - 0.5)).max(0.0)
     }
 
@@ -246,13 +258,13 @@ impl RetardedPotential {
         potentials
     }
 
-    /// Goes back to the row at `x`, one element behind the last.
+    /// Goes back to the row at `x`, one element behind the current one.
     pub(super) fn step(&mut self, x: f64) {
         self.push_row(x + 1.0 - ROWS_PER_SIDE as f64);
         for column in 0..self.n_columns {
             // Integrate over the element between the two rows, by the cheapest rule for its distance from the singular edges.
-            let clearance = self.clearance(column);
-            let distance = distance_from_edges([x, x + 1.0], clearance);
+            let lateral_distance = self.lateral_distance(column);
+            let distance = distance_from_edges([x, x + 1.0], lateral_distance);
             let mut potentials = [0.0; MAX_POINTS];
             if let Some(rule) = fewest_points(&ROW_RULES, distance) {
                 // Far away: interpolate the values at the rows around the element.
@@ -280,7 +292,7 @@ impl RetardedPotential {
                 for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
                     *increment = 0.0;
                 }
-                for panel in panels([x, x + 1.0], clearance).iter().rev() {
+                for panel in panels([x, x + 1.0], lateral_distance).iter().rev() {
                     let potentials = self.potentials_at_nodes(panel, column);
                     for (index, retardation) in self.retardations.iter().enumerate() {
                         let (decay, weights) = self.panel_step(retardation, panel);
@@ -292,8 +304,8 @@ impl RetardedPotential {
 
             // One step of the recursion.
             for (index, element) in self.retardations.iter().enumerate() {
-                let place = index * self.n_columns + column;
-                self.values[place] = element.decay * self.values[place] + self.increments[place];
+                let entry = index * self.n_columns + column;
+                self.values[entry] = element.decay * self.values[entry] + self.increments[entry];
             }
         }
         self.position = x;
@@ -326,18 +338,18 @@ impl RetardedPotential {
         &self.values[index * self.n_columns..][..self.n_columns]
     }
 
-    /// Part of the [displacement](Self::displacement) that creeps between the row before and the current one.
+    /// Part of the [displacement](Self::displacement) that creeps between the row ahead and the current one.
     pub(super) fn creep_within_element(&self, column: usize) -> f64 {
         let increments = self.increments[column..].iter();
         increments.step_by(self.n_columns).sum()
     }
 }
 
-/// Distance of an interval along x from the edges of the loaded element at ±1/2; `clearance` is the distance along y.
-fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
+/// Distance of an interval along x from the edges of the loaded element at ±1/2; `lateral_distance` is the distance along y.
+fn distance_from_edges([start, end]: [f64; 2], lateral_distance: f64) -> f64 {
     let from_edge = |edge: f64| (start - edge).max(edge - end).max(0.0);
     let along = from_edge(-0.5).min(from_edge(0.5));
-    (along * along + clearance * clearance).sqrt()
+    (along * along + lateral_distance * lateral_distance).sqrt()
 }
 
 /// Index of the rule with the fewest points that is accurate at a distance. `None` if the distance is too short for all.
@@ -346,23 +358,23 @@ fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
 }
 
 /// Panels of an interval along x: divided where the potential is singular, then halved until one of the rules is accurate on each.
-/// `clearance` is the distance from the loaded element along y.
-fn panels([start, end]: [f64; 2], clearance: f64) -> Vec<PotentialPanel> {
+/// `lateral_distance` is the distance from the loaded element along y.
+fn panels([start, end]: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> {
     // Divide at the edges of the loaded element.
     let mut ends = vec![start, -0.5, 0.5, end];
-    ends.retain(|place| (start..=end).contains(place));
+    ends.retain(|position| (start..=end).contains(position));
     ends.dedup();
     let mut panels = Vec::new();
     for pair in ends.windows(2) {
-        subdivide([pair[0], pair[1]], clearance, &mut panels);
+        subdivide([pair[0], pair[1]], lateral_distance, &mut panels);
     }
     panels
 }
 
 /// Appends the panels of an interval without a singularity inside.
-fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<PotentialPanel>) {
+fn subdivide([start, end]: [f64; 2], lateral_distance: f64, panels: &mut Vec<PotentialPanel>) {
     let length = end - start;
-    let distance = distance_from_edges([start, end], clearance);
+    let distance = distance_from_edges([start, end], lateral_distance);
     let rule = fewest_points(&PANEL_RULES, distance / length)
         .or((length <= MIN_PANEL_LENGTH).then_some(PANEL_RULES.len() - 1));
     if let Some(rule) = rule {
@@ -375,8 +387,8 @@ fn subdivide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<PotentialP
     }
     // Halve it otherwise.
     let middle = 0.5 * (start + end);
-    subdivide([start, middle], clearance, panels);
-    subdivide([middle, end], clearance, panels);
+    subdivide([start, middle], lateral_distance, panels);
+    subdivide([middle, end], lateral_distance, panels);
 }
 
 #[cfg(test)]

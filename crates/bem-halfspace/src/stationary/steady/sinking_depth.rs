@@ -23,15 +23,16 @@ use numerics::{in_range, positive};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SinkingDepth {
-    /// d_ref, \[m].
+    /// Depth d_ref at the reference distance, \[m].
     pub reference_depth: f64,
-    /// s_ref, the length of the contact along x, \[m].
+    /// Reference distance s_ref: the length of the contact along x, \[m].
     pub reference_distance: f64,
-    /// 2 (1 − ν) F_N/(4πηv), by which the depth grows when the distance grows e-fold, \[m]; 0 on a solid.
+    /// Increase 2 (1 − ν) F_N/(4πηv) of the depth when the distance grows e-fold, \[m]; 0 on a solid.
     pub depth_per_e_fold: f64,
 }
 
 impl SinkingDepth {
+    /// The depth of a solution whose contact is `contact_length` \[m] long.
     pub(super) fn new(mesh: &Mesh, solution: &Solution, contact_length: f64) -> Self {
         let spacing = mesh.options.spacing;
         let scale = mesh.loading.depth_scale;

@@ -26,13 +26,15 @@ pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
 #[derive(Debug, Clone)]
 pub(super) struct SlidingCreep {
+    /// Creep spectrum of the material.
     spectrum: CreepSpectrum,
-    /// 2 (1 − ν).
+    /// Factor 2 (1 − ν) of the material.
     half_space_factor: f64,
-    /// \[m/s].
+    /// Sliding velocity v, \[m/s].
     velocity: f64,
     /// Length of the track, after which the load returns to the same place, \[m].
     track: Option<f64>,
+    /// Base under the material.
     base: Base,
 }
 
@@ -41,12 +43,13 @@ pub(super) struct SlidingCreep {
 pub(super) struct ElementCreep {
     /// Position of the collocation point, where the gap of an element is evaluated, in elements from its centre. −1/2 is the rear edge.
     pub(super) collocation_shift: f64,
-    /// Fraction of J₀.
+    /// Fraction of the instantaneous compliance J₀.
     pub(super) instantaneous: f64,
     /// Fraction of the free flow.
     pub(super) flow: f64,
+    /// Retardation elements, with their fractions.
     pub(super) retardations: Vec<RetardationElement>,
-    /// Length of the track in Δx.
+    /// Length of the track in Δx; `None` without a track.
     pub(super) track: Option<f64>,
     /// The base, with lengths in Δx.
     pub(super) base: Base,
@@ -55,7 +58,7 @@ pub(super) struct ElementCreep {
 /// A retardation element of the material, over the length of one element of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RetardationElement {
-    /// Δx/(v λ).
+    /// Rate Δx/(v λ) of the exponential over one element of the grid.
     pub(super) rate: f64,
     /// Fraction of J_k (1 − e^(−Δx/(vλ))) in J(Δx/v).
     pub(super) share: f64,
@@ -68,15 +71,16 @@ pub(super) struct CreepOverDistance {
     pub(super) instantaneous: f64,
     /// Compliance of the free flow per length, [1/(Pa m)].
     pub(super) flow_per_length: f64,
+    /// Retardation elements.
     pub(super) retardations: Vec<RetardationOverDistance>,
 }
 
 /// A retardation element as a function of distance.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RetardationOverDistance {
-    /// 2 (1 − ν) J_k, \[1/Pa].
+    /// Compliance 2 (1 − ν) J_k, \[1/Pa].
     pub(super) compliance: f64,
-    /// v λ, \[m].
+    /// Memory length v λ, \[m].
     pub(super) memory_length: f64,
 }
 
@@ -176,6 +180,7 @@ impl SlidingCreep {
         })
     }
 
+    /// Base under the material.
     pub(super) const fn base(&self) -> &Base {
         &self.base
     }
@@ -190,12 +195,12 @@ impl SlidingCreep {
     pub(super) fn memory_length(&self) -> f64 {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
-        let memory =
+        let retarded =
             (self.velocity * times.fold(0.0, f64::max)).min(self.track.unwrap_or(f64::INFINITY));
         if self.spectrum.fluidity() > 0.0 && self.base.is_rigid() {
-            memory.max(self.base.influence_radius())
+            retarded.max(self.base.influence_radius())
         } else {
-            memory
+            retarded
         }
     }
 
@@ -227,28 +232,27 @@ impl SlidingCreep {
         sliding_distance: f64,
     ) -> Result<f64, BemError> {
         let passed = length.min(sliding_distance);
-        let mut parts = self.parts(passed)?;
+        let mut parts = self.contributions(passed)?;
         if let Some(track) = self.track {
             for retardation in &mut parts.retardations {
                 retardation.share /= -(-retardation.rate * (track / passed)).exp_m1();
             }
         }
-        let compliance = self.half_space_factor * total_compliance(&parts);
-        let compliance = positive("compliance over a length", compliance)?;
+        let total = self.half_space_factor * total_compliance(&parts);
+        let compliance = positive("compliance over a length", total)?;
         Ok(compliance * self.base.compliance_ratio_under_punch(length))
     }
 
     /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
     pub(super) fn compliance(&self, length: f64) -> Result<f64, BemError> {
-        let parts = self.parts(length)?;
-        let compliance = self.half_space_factor * total_compliance(&parts);
-        Ok(positive("compliance over a length", compliance)?)
+        let total = self.half_space_factor * total_compliance(&self.contributions(length)?);
+        Ok(positive("compliance over a length", total)?)
     }
 
     /// The creep over elements of the length `spacing`.
     pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
         // Fractions of the total compliance over the element.
-        let mut parts = self.parts(spacing)?;
+        let mut parts = self.contributions(spacing)?;
         let total = positive("compliance over an element", total_compliance(&parts))?;
         parts.instantaneous /= total;
         parts.flow /= total;
@@ -273,7 +277,7 @@ impl SlidingCreep {
     }
 
     /// Contributions to the compliance J(length/v), not yet divided by it.
-    fn parts(&self, length: f64) -> Result<ElementCreep, BemError> {
+    fn contributions(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
         let retardations = self.spectrum.elements().iter().map(|element| {
             let rate = time / element.retardation_time;
@@ -313,11 +317,11 @@ impl SlidingCreep {
             let friction = element.compliance * ratio.min(ratio.recip());
             // Memory length over two elements.
             let x = 0.5 * memory_length / spacing;
-            let around_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
+            let missed_at_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
             // Rear and front of the contact, then kinks of the body.
             sum += friction;
             missed += friction * 2.0 * FRAC_2_PI * ratio * (-5.0 * x).exp();
-            missed += friction * kinks * around_kinks;
+            missed += friction * kinks * missed_at_kinks;
         }
         if missed > 0.0 { missed / sum } else { 0.0 }
     }

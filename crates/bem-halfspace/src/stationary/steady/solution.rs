@@ -104,7 +104,7 @@ impl SteadySliding {
         }
     }
 
-    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    /// Discretization error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
     fn area_uncertainty(&self) -> f64 {
         let PressureField { grid, pressure, .. } = &self.pressure;
         let bounds = Bounds {
@@ -123,9 +123,11 @@ impl SteadySliding {
 
     /// True if the front is closer to an edge of the body than [`EDGE_CLEARANCE`] elements; `radii` are those of the edges, \[m].
     pub(super) fn hides_edge(&self, radii: &[f64]) -> bool {
-        let close = EDGE_CLEARANCE * self.pressure.grid.spacing()[0];
+        let unresolved_distance = EDGE_CLEARANCE * self.pressure.grid.spacing()[0];
         let [_, front] = self.contact_x;
-        radii.iter().any(|radius| (front - radius).abs() < close)
+        radii
+            .iter()
+            .any(|radius| (front - radius).abs() < unresolved_distance)
     }
 
     /// Converts a solution in the units of the mesh to SI units.
@@ -134,7 +136,7 @@ impl SteadySliding {
     /// Those of a contact that the grid does not resolve, that reaches the boundary of the footprint, or that touches a vertical wall.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
         // Refuse what the grid does not resolve.
-        let loaded = mesh.loaded_places(&solution.loads);
+        let loaded = mesh.loaded_indices(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
         check_walls(mesh, &solution.loads)?;
         check_slopes(mesh, &solution.loads)?;
@@ -192,8 +194,8 @@ impl SteadySliding {
 /// not.
 fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     // Elements next to a wall.
-    let mut places = loads.iter().map(|(element, _)| mesh.places(*element)[0]);
-    match places.find(|place| mesh.faces_wall(*place)) {
+    let mut indices = loads.iter().map(|(element, _)| mesh.indices(*element)[0]);
+    match indices.find(|indices| mesh.faces_wall(*indices)) {
         Some([row, column]) => Err(BemError::VerticalWall {
             x: mesh.centre(0, row),
             y: mesh.centre(1, column),

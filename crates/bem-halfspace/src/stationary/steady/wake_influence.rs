@@ -42,11 +42,11 @@ impl PlaneKernel for Logarithm {
     }
 
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
-        along_x(x + 0.5 * a, y) - along_x(x - 0.5 * a, y)
+        antiderivative_along_x(x + 0.5 * a, y) - antiderivative_along_x(x - 0.5 * a, y)
     }
 
     fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
-        along_y(x, y + 0.5 * b) - along_y(x, y - 0.5 * b)
+        antiderivative_along_y(x, y + 0.5 * b) - antiderivative_along_y(x, y - 0.5 * b)
     }
 
     fn corner(x: f64, y: f64) -> f64 {
@@ -57,7 +57,7 @@ impl PlaneKernel for Logarithm {
     }
 }
 
-/// ln(x + r) without cancellation behind the load.
+/// The kernel ln(x + r), without cancellation behind the load.
 fn logarithm(x: f64, y: f64) -> f64 {
     let r = distance(x, y);
     if x >= 0.0 {
@@ -67,22 +67,22 @@ fn logarithm(x: f64, y: f64) -> f64 {
     }
 }
 
-/// ∫ ln|y| dy.
+/// Antiderivative y ln|y| − y of ln|y|.
 fn logarithm_integral(y: f64) -> f64 {
     if y == 0.0 { 0.0 } else { y * y.abs().ln() - y }
 }
 
-/// ∫ ln(x + r) dx.
-fn along_x(x: f64, y: f64) -> f64 {
+/// Antiderivative of ln(x + r) by x.
+fn antiderivative_along_x(x: f64, y: f64) -> f64 {
     x * logarithm(x, y) - distance(x, y)
 }
 
-/// ∫ ln(x + r) dy.
-fn along_y(x: f64, y: f64) -> f64 {
+/// Antiderivative of ln(x + r) by y.
+fn antiderivative_along_y(x: f64, y: f64) -> f64 {
     product_logarithm(x, y) - y + product_asinh(x, y)
 }
 
-/// y ln(x + r), continued by 0 to y = 0.
+/// Product y ln(x + r), with the limit 0 at y = 0.
 fn product_logarithm(x: f64, y: f64) -> f64 {
     if y == 0.0 { 0.0 } else { y * logarithm(x, y) }
 }

@@ -30,8 +30,9 @@ use crate::stationary::steady::wake_influence::wake_influence;
 /// so that one table serves every spacing with the same creep over an element.
 #[derive(Debug, Clone, Default)]
 pub(super) struct WakeTable {
+    /// Creep over an element.
     pub(super) creep: ElementCreep,
-    /// Δy/Δx.
+    /// Aspect ratio Δy/Δx of an element.
     pub(super) aspect: f64,
     /// Largest offsets: along x in either direction, and along y.
     max_offsets: [usize; 2],
@@ -86,6 +87,7 @@ impl WakeTable {
         table
     }
 
+    /// Number of columns: distances along y from 0 on.
     const fn n_columns(&self) -> usize {
         self.max_offsets[1] + 1
     }
@@ -175,10 +177,10 @@ impl WakeTable {
         for row in (0..=last).rev() {
             retarded.step(self.offset(row));
             self.add_to_row(row, |column| {
-                let now = instantaneous * retarded.load_potential(column);
+                let immediate = instantaneous * retarded.load_potential(column);
                 RowEntry {
-                    displacement: now + retarded.displacement(column),
-                    creep_within_element: now + retarded.creep_within_element(column),
+                    displacement: immediate + retarded.displacement(column),
+                    creep_within_element: immediate + retarded.creep_within_element(column),
                 }
             });
         }
@@ -197,6 +199,7 @@ impl WakeTable {
         self.creep_within_element[self.index(rows, columns)]
     }
 
+    /// Index of an offset in the table.
     fn index(&self, rows: isize, columns: usize) -> usize {
         let row = rows + self.max_offsets[0].cast_signed();
         assert!(
@@ -212,6 +215,8 @@ impl WakeTable {
 
 /// One value of the table.
 struct RowEntry {
+    /// Displacement at the collocation point by a unit load.
     displacement: f64,
+    /// Part of the displacement that creeps within the element.
     creep_within_element: f64,
 }

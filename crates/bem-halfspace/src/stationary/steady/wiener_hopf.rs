@@ -47,9 +47,10 @@ pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> 
 
 /// An approximate inverse of the stationary kernel on a region.
 pub(super) struct WienerHopf {
+    /// Convolutions with the inverse factors.
     inverses: RegionFilter<2>,
     /// Weight of the order that is exact at the front, for each element: 0 at the rear, 1 at the front.
-    front: Vec<f64>,
+    front_weights: Vec<f64>,
 }
 
 impl WienerHopf {
@@ -57,12 +58,12 @@ impl WienerHopf {
     pub(super) fn new(inverses: Arc<Filters<2>>, region: &Region) -> Self {
         Self {
             inverses: RegionFilter::new(inverses, region),
-            front: region.fractions_from_rear(),
+            front_weights: region.fractions_from_rear(),
         }
     }
 
     /// Approximate loads that cause the given displacements.
-    pub(super) fn loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
+    pub(super) fn approximate_loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
         // Apply the inverse factors in both orders.
         let [at_front, at_rear] =
             [[COUNTER_SWEEP, SWEEP], [SWEEP, COUNTER_SWEEP]].map(|[first, second]| {
@@ -70,7 +71,7 @@ impl WienerHopf {
                 self.inverses.apply(second, &between, region)
             });
         // Blend the two orders.
-        let both = at_front.iter().zip(at_rear).zip(&self.front);
+        let both = at_front.iter().zip(at_rear).zip(&self.front_weights);
         both.map(|((front, rear), weight)| weight * front + (1.0 - weight) * rear)
             .collect()
     }
@@ -111,18 +112,18 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
         let half_sine = (0.5 * angle).sin();
         let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
         let denominator = |element: &RetardationElement| {
-            let kept = element.decay();
-            difference * kept + -(-element.rate).exp_m1()
+            let decay = element.decay();
+            difference * decay + -(-element.rate).exp_m1()
         };
         let retardations = creep.retardations.iter();
         // `finv`, because the square of the modulus underflows for memory lengths above 1e154 elements.
         let shares =
             retardations.map(|retardation| denominator(retardation).finv() * retardation.share);
-        let recovered = shares.sum::<Complex<f64>>() + creep.instantaneous;
+        let filter = shares.sum::<Complex<f64>>() + creep.instantaneous;
         if creep.flow > 0.0 {
-            difference / (difference * recovered + creep.flow)
+            difference / (difference * filter + creep.flow)
         } else {
-            recovered.inv()
+            filter.inv()
         }
     };
     // The filter depends on the wave number along x only; the spectrum is stored by column.

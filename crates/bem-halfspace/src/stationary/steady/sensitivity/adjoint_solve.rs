@@ -41,7 +41,7 @@ pub(super) fn solve(
     // Small systems are solved directly.
     let mut region = mesh.region(contact.iter().copied());
     let n = contact.len();
-    if prefers_direct_solve(n, region.n_places()) {
+    if prefers_direct_solve(n, region.n_box_elements()) {
         return solve_directly(mesh, contact, motion, right_sides)
             .ok_or_else(|| not_converged(1.0));
     }
@@ -66,7 +66,7 @@ pub(super) fn solve(
                 if state.residual_square.sqrt() <= allowed {
                     return false;
                 }
-                direction.copy_from_slice(&preconditioner.loads(state.source, &region));
+                direction.copy_from_slice(&preconditioner.approximate_loads(state.source, &region));
                 image.copy_from_slice(&operator.apply(0, direction, &region));
                 true
             },
@@ -104,6 +104,7 @@ fn solve_directly(
     dense::solve(entry, right_sides.to_vec())
 }
 
+/// The error for adjoint equations that leave a relative `residual`.
 const fn not_converged(residual: f64) -> BemError {
     BemError::ContactNotConverged {
         iterations: MAX_GCR_STEPS,

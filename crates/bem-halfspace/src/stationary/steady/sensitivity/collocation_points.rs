@@ -16,8 +16,11 @@ pub(super) struct CollocationPoints {
     centres: Vec<[f64; 2]>,
     /// Position of the collocation points, in elements from the centres.
     collocation_shift: f64,
+    /// Length Δx of an element, \[m].
     spacing: f64,
+    /// Unit of heights D, \[m].
     depth_scale: f64,
+    /// The slope whose mean under the load is the friction.
     pub(super) slope: FrictionSlope,
 }
 
@@ -33,6 +36,7 @@ pub(super) enum FrictionSlope {
 }
 
 impl CollocationPoints {
+    /// The points of some elements of a mesh.
     pub(super) fn new(mesh: &Mesh, elements: &[usize], loading: &Loading) -> Self {
         let is_solid = mesh.loading.is_solid_for_elements();
         let centres = elements.iter().map(|&element| mesh.position(element));
@@ -79,22 +83,25 @@ impl CollocationPoints {
     /// ∂μ/∂h at fixed pressure: the part of the slope that depends on the body explicitly, in units of [`slope_unit`](Self::slope_unit).
     pub(super) fn explicit_slope_terms(&self, body: Height) -> Result<Vec<f64>, BemError> {
         let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
-            let behind = self.heights_at(body, from)?;
-            Ok(differences(behind, &self.heights_at(body, to)?))
+            let rear = self.heights_at(body, from)?;
+            Ok(differences(rear, &self.heights_at(body, to)?))
         };
         match self.slope {
             FrictionSlope::Body => rise(-0.5, 0.5),
             FrictionSlope::SurfaceAtCollocationPoints => Ok(vec![0.0; self.centres.len()]),
             FrictionSlope::Surface => {
-                let beside = rise(self.collocation_shift - 1.0, self.collocation_shift + 1.0)?;
-                let pairs = rise(-0.5, 0.5)?.into_iter().zip(beside);
-                Ok(pairs.map(|(over, beside)| over - 0.5 * beside).collect())
+                let between_neighbours =
+                    rise(self.collocation_shift - 1.0, self.collocation_shift + 1.0)?;
+                let pairs = rise(-0.5, 0.5)?.into_iter().zip(between_neighbours);
+                Ok(pairs
+                    .map(|(own, neighbours)| own - 0.5 * neighbours)
+                    .collect())
             }
         }
     }
 }
 
-/// `to` less `from`.
+/// Element-wise differences `to` − `from`.
 pub(super) fn differences(mut from: Vec<f64>, to: &[f64]) -> Vec<f64> {
     from.iter_mut()
         .zip(to)

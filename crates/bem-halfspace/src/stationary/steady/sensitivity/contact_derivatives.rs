@@ -27,20 +27,22 @@ const DILATION_STEP: f64 = 1e-5;
 pub(super) struct ContactDerivatives {
     /// The friction coefficient at which the derivatives are taken.
     pub(super) friction_coefficient: f64,
+    /// Points at which the body enters the equations.
     points: CollocationPoints,
-    /// On fixed elements, under a constant force; that of the area is not yet one of its logarithm.
+    /// Gradients of all quantities on fixed elements, under a constant force; that of the area is not yet one of its logarithm.
     gradients: Change<Gradient>,
-    /// `None` under a body with edges.
+    /// Gradient of the boundary weight; `None` under a body with edges.
     boundary_weight: Option<Gradient>,
+    /// The given force \[N] or depth \[m].
     control: Control,
-    /// Normal force, in plane strain per length.
+    /// Normal force, \[N]; in plane strain per length, \[N/m].
     normal_force: f64,
     /// Indentation depth, \[m].
     depth: f64,
     /// Number of unknown pressures.
     pub(super) n_unknowns: usize,
-    /// `None` under a body with edges, where the elements at the edges do not change sides, and where a larger scale does not enlarge
-    /// the contact.
+    /// Derivatives by the scale of all lengths. `None` under a body with edges, where the elements at the edges do not change sides, and
+    /// where a larger scale does not enlarge the contact.
     pub(super) dilation: Option<Dilation>,
 }
 
@@ -49,7 +51,7 @@ pub(super) struct ContactDerivatives {
 pub(super) struct Dilation {
     /// Defects R of the scaling identity of friction and depth: the derivative less the expected one.
     pub(super) defects: Change<f64>,
-    /// Derivative of the area.
+    /// Derivative of the area, in elements.
     area: f64,
     /// Derivative of the boundary weight.
     boundary_weight: f64,
@@ -60,18 +62,19 @@ pub(super) struct Dilation {
 /// The gradient of one quantity on fixed elements under a constant force, in SI units.
 #[derive(Debug)]
 pub(super) struct Gradient {
-    /// By the height of each element, its image included, in units of the depth scale.
+    /// Derivatives by the height of each element, its image included, in units of the depth scale.
     by_height: Vec<f64>,
-    /// By the explicit slope term of each element; empty for all quantities but the friction.
+    /// Derivatives by the explicit slope term of each element; empty for all quantities but the friction.
     by_slope_term: Vec<f64>,
-    /// By the normal force, in plane strain per length.
+    /// Derivative by the normal force, in plane strain per length.
     by_force: f64,
+    /// Derivatives by the kernel.
     pub(super) kernel: KernelGradient,
 }
 
 impl Gradient {
-    /// The change by heights and explicit slope terms.
-    fn change(&self, heights: &[f64], slope_terms: &[f64]) -> f64 {
+    /// The change of the quantity by changes of heights and explicit slope terms, to first order.
+    fn change_by_body(&self, heights: &[f64], slope_terms: &[f64]) -> f64 {
         dot(&self.by_height, heights) + dot(&self.by_slope_term, slope_terms)
     }
 }
@@ -97,8 +100,9 @@ impl ContactDerivatives {
         let boundary = (!loading.has_edges)
             .then(|| contact.boundary())
             .transpose()?;
-        let measures = boundary.as_ref();
-        let measures = measures.map(|boundary| [&boundary.area, &boundary.boundary_weight]);
+        let measures = boundary
+            .as_ref()
+            .map(|boundary| [&boundary.area, &boundary.boundary_weight]);
         let mut derivatives = vec![&friction.by_loads[..], &unit_depth];
         derivatives.extend(measures.iter().flatten().map(|one| &one.by_values[..]));
 
@@ -111,6 +115,7 @@ impl ContactDerivatives {
             compliance: loading.creep.compliance(options.spacing[0])?,
             contact: &contact,
         };
+        // Gradients, on fixed elements; the friction also depends on the body and the kernel explicitly.
         let has_depth = loading.creep.fluidity() <= 0.0 && loading.strip.is_none();
         let mut gradients = Change {
             friction_coefficient: system.gradient(&adjoint[0], points.slope_unit()),
@@ -118,7 +123,7 @@ impl ContactDerivatives {
             normal_force: None,
             contact_area: measures.map(|[area, _]| system.measure(&adjoint[2], area)),
         };
-        let by_slope_term = contact.weighted(&contact.loads).into_iter();
+        let by_slope_term = contact.with_images(&contact.loads).into_iter();
         let slope_factor = points.slope_unit() / contact.total;
         let friction_gradient = &mut gradients.friction_coefficient;
         friction_gradient.by_slope_term = by_slope_term.map(|load| slope_factor * load).collect();
@@ -199,7 +204,7 @@ impl ContactDerivatives {
             boundary_weight: derivative(boundary_weight),
             area_exponent: force_exponent,
         };
-        // A larger scale enlarges the contact, by both measures, or the measures do not know it.
+        // The correction divides by both derivatives, so that a larger scale must enlarge the contact.
         let is_growth = dilation.area > 0.0 && dilation.boundary_weight > 0.0;
         self.dilation = is_growth.then_some(dilation);
         Ok(())
@@ -216,7 +221,7 @@ impl ContactDerivatives {
             self.points.explicit_slope_terms(from)?,
             &self.points.explicit_slope_terms(to)?,
         );
-        Ok(move |gradient: &Gradient| gradient.change(&heights, &slope_terms))
+        Ok(move |gradient: &Gradient| gradient.change_by_body(&heights, &slope_terms))
     }
 
     /// The change from one body to another.
@@ -225,7 +230,7 @@ impl ContactDerivatives {
         [from, to]: [&dyn Surface; 2],
     ) -> Result<Change<f64>, BemError> {
         let change = self.between_heights(&|point| from.height(point), &|point| to.height(point));
-        Ok(self.change(change?))
+        Ok(self.total_change(change?))
     }
 
     /// The derivative by the given force or depth.
@@ -239,7 +244,7 @@ impl ContactDerivatives {
 
     /// The change of all quantities under the given force or at the given depth, from that of each on fixed elements under a constant
     /// force.
-    pub(super) fn change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
+    pub(super) fn total_change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
         let under_force = self.under_force(of);
         match self.control {
             Control::NormalForce(_) => under_force,
@@ -277,9 +282,11 @@ impl ContactDerivatives {
 
 /// The adjoint equations of a contact under a constant force: bordered by the depth, which is a further unknown.
 struct BorderedSystem<'a> {
+    /// Elements, loads and kernel of the contact.
     contact: &'a LoadedContact<'a>,
-    /// Adjoint loads of a unit depth, and their sum.
+    /// Adjoint loads of a unit depth.
     unit_depth: &'a [f64],
+    /// Sum of the adjoint loads of a unit depth.
     stiffness: f64,
     /// Normal force of a unit of the total load, in plane strain per length.
     force_per_load: f64,
@@ -319,7 +326,7 @@ impl BorderedSystem<'_> {
         let mut correlation = self.contact.correlation(&loads);
         correlation.scale(self.compliance.recip());
         Gradient {
-            by_height: self.contact.weighted(&loads),
+            by_height: self.contact.with_images(&loads),
             by_slope_term: Vec::new(),
             by_force: unit * eta / self.force_per_load,
             kernel: KernelGradient::new(correlation),

@@ -24,8 +24,8 @@ impl Correlation {
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
         let loaded = left.iter().enumerate();
-        for (place, &value) in loaded.filter(|(_, value)| **value != 0.0) {
-            let (row, column) = (place / columns, place % columns);
+        for (index, &value) in loaded.filter(|(_, value)| **value != 0.0) {
+            let (row, column) = (index / columns, index % columns);
             for (other, from) in right.chunks_exact(columns).enumerate() {
                 // By signed distance along y; the negative side is folded onto the positive one below.
                 let first = (row + rows - other) * width + columns - 1 - column;
@@ -39,11 +39,11 @@ impl Correlation {
         // Fold, because the kernel is even along y.
         let fold = |row: &[f64]| -> Vec<f64> {
             let middle = columns - 1;
-            let both = |apart: usize| match apart {
+            let both_sides = |distance: usize| match distance {
                 0 => row[middle],
-                _ => row[middle - apart] + row[middle + apart],
+                _ => row[middle - distance] + row[middle + distance],
             };
-            (0..columns).map(both).collect()
+            (0..columns).map(both_sides).collect()
         };
         Self {
             max_offsets: [rows, columns - 1],
@@ -54,14 +54,14 @@ impl Correlation {
     /// The weights of k in −½ Σ y_i [k(i + 1 − j) − k(i − 1 − j)] x_j, with steps along x.
     pub(super) fn slope(&self) -> Self {
         let columns = self.max_offsets[1] + 1;
-        let at = |index: usize, rows: isize| {
-            let moved = index.checked_add_signed(rows * columns.cast_signed());
-            moved
+        let shifted_weight = |index: usize, rows: isize| {
+            let shifted = index.checked_add_signed(rows * columns.cast_signed());
+            shifted
                 .and_then(|index| self.weights.get(index))
                 .copied()
                 .unwrap_or(0.0)
         };
-        let weight = |index| -0.5 * (at(index, -1) - at(index, 1));
+        let weight = |index| -0.5 * (shifted_weight(index, -1) - shifted_weight(index, 1));
         Self {
             max_offsets: self.max_offsets,
             weights: (0..self.weights.len()).map(weight).collect(),
@@ -72,14 +72,14 @@ impl Correlation {
     pub(super) fn add_second_difference(&mut self, [along_x, along_y]: [f64; 2]) {
         let columns = self.max_offsets[1] + 1;
         // Offset 0, and its neighbours along x and y.
-        let here = self.max_offsets[0] * columns;
+        let origin = self.max_offsets[0] * columns;
         let weights = &mut self.weights;
-        weights[here] += along_x + along_y;
-        weights[here - columns] -= 0.5 * along_x;
-        weights[here + columns] -= 0.5 * along_x;
+        weights[origin] += along_x + along_y;
+        weights[origin - columns] -= 0.5 * along_x;
+        weights[origin + columns] -= 0.5 * along_x;
         if columns > 1 {
             // The distance stands for both sides.
-            weights[here + 1] -= along_y;
+            weights[origin + 1] -= along_y;
         }
     }
 
@@ -107,7 +107,7 @@ impl Correlation {
             .sum()
     }
 
-    /// The part of the sum Σ c_m k_m at one offset along x, with the values of the kernel there by distance along y.
+    /// The part of the sum Σ c_m k_m at one offset along x, with the values of the kernel at it by distance along y.
     pub(super) fn contract_row(&self, offset: isize, kernel: &[f64]) -> f64 {
         dot(self.row(offset), kernel)
     }

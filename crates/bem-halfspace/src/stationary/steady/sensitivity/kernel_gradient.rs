@@ -33,12 +33,13 @@ const MIN_LOG_MEMORY_RATIO: f64 = 1e-3;
 /// The derivatives of a quantity by the kernel.
 #[derive(Debug)]
 pub(super) struct KernelGradient {
+    /// Weight of the kernel at each offset in the derivative.
     pub(super) correlation: Correlation,
-    /// By the parts of the creep compliance in the order of [`CreepChange`], \[Pa].
+    /// Derivatives by the parts of the creep compliance in the order of [`CreepChange`], \[Pa].
     by_creep: Vec<f64>,
-    /// By the logarithm of the thickness of the layer; 0 on a half space.
+    /// Derivative by the logarithm of the thickness of the layer; 0 on a half space.
     pub(super) by_log_thickness: f64,
-    /// By the logarithm of the length of the track; 0 without one.
+    /// Derivative by the logarithm of the length of the track; 0 without one.
     pub(super) by_log_track: f64,
 }
 
@@ -49,13 +50,15 @@ pub(super) struct CreepChange(Vec<f64>);
 /// The kernel of a grid: the creep over its elements, and the offsets between them.
 #[derive(Debug)]
 pub(super) struct GridKernel {
-    /// Δx, \[m].
+    /// Length Δx of an element, \[m].
     spacing: f64,
-    /// Δy/Δx.
+    /// Aspect ratio Δy/Δx of an element.
     aspect: f64,
     /// Largest offsets along x and y.
     max_offsets: [usize; 2],
+    /// Creep of the material on its base, at its velocity.
     material: SlidingCreep,
+    /// The same creep as compliances and memory lengths.
     creep: CreepOverDistance,
     /// The creep over an element without its compliances: collocation shift, track and base.
     bare: ElementCreep,
@@ -79,6 +82,7 @@ impl KernelGradient {
 }
 
 impl GridKernel {
+    /// The kernel of a material on elements with the edges [Δx, Δy] \[m].
     pub(super) fn new(
         creep: &SlidingCreep,
         [dx, dy]: [f64; 2],
@@ -102,6 +106,7 @@ impl GridKernel {
     /// Contracts several correlations with all parts of the kernel, each of which is computed once for all of them.
     pub(super) fn contract(&self, gradients: &mut [&mut KernelGradient]) -> Result<(), BemError> {
         self.contract_viscoelastic(gradients);
+        // The free flow of a unit compliance, on a rigid base as a slow retardation element.
         if self.creep.flow_per_length > 0.0 {
             let mut part = self.bare.clone();
             if part.base.is_rigid() {
@@ -146,7 +151,11 @@ impl GridKernel {
 
     /// Contracts the correlations with the kernels of the instantaneous compliance and of all retardation elements.
     fn contract_viscoelastic(&self, gradients: &mut [&mut KernelGradient]) {
-        let memory_lengths = self.creep.retardations.iter().map(|one| one.memory_length);
+        let memory_lengths = self
+            .creep
+            .retardations
+            .iter()
+            .map(|element| element.memory_length);
         let with_step = memory_lengths.flat_map(|length| [length, length * (1.0 + LENGTH_STEP)]);
         let unit_retardation = |length: f64| {
             let rate = self.spacing / length;
@@ -175,8 +184,9 @@ impl GridKernel {
         }
         for offset in (-rows..=rows).rev() {
             retarded.step(position(offset));
-            let potentials = (0..columns).map(|column| retarded.load_potential(column));
-            let potentials: Vec<f64> = potentials.collect();
+            let potentials: Vec<f64> = (0..columns)
+                .map(|column| retarded.load_potential(column))
+                .collect();
             for gradient in &mut *gradients {
                 let (correlation, by_creep) = (&gradient.correlation, &mut gradient.by_creep);
                 by_creep[0] += correlation.contract_row(offset, &potentials);
@@ -185,9 +195,10 @@ impl GridKernel {
                 }
             }
         }
+        // Differences by the memory lengths.
         for gradient in gradients {
-            for [here, longer] in gradient.by_creep[2..].as_chunks_mut().0 {
-                *longer = (*longer - *here) / LENGTH_STEP;
+            for [unchanged, longer] in gradient.by_creep[2..].as_chunks_mut().0 {
+                *longer = (*longer - *unchanged) / LENGTH_STEP;
             }
         }
     }
@@ -203,11 +214,11 @@ impl GridKernel {
         let ends = from.retardations.iter().zip(&to.retardations);
         let retarded = ends
             .zip(&self.creep.retardations)
-            .flat_map(|((from, to), own)| {
+            .flat_map(|((from, to), element)| {
                 let log_memory_ratio = (to.memory_length / from.memory_length).ln();
                 [
                     to.compliance - from.compliance,
-                    own.compliance * log_memory_ratio,
+                    element.compliance * log_memory_ratio,
                 ]
             });
         CreepChange([instantaneous, flow].into_iter().chain(retarded).collect())
@@ -256,6 +267,7 @@ impl GridKernel {
         self.of_creep(&creep.on_base(base, self.material.track()))
     }
 
+    /// The kernel of a creep on its own base and track.
     fn of_creep(&self, creep: &SlidingCreep) -> Result<KernelTable, BemError> {
         let compliance = creep.compliance(self.spacing)?;
         Ok(self.table(compliance, &creep.over_element(self.spacing)?))

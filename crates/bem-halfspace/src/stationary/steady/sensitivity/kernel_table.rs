@@ -12,6 +12,7 @@ pub(super) struct KernelTable {
 }
 
 impl KernelTable {
+    /// A zero kernel up to the largest offsets along x and y.
     pub(super) fn zero([rows, columns]: [usize; 2]) -> Self {
         Self {
             max_offsets: [rows, columns],
@@ -44,6 +45,7 @@ impl KernelTable {
         &self.values[row * columns..][..columns]
     }
 
+    /// The rows of the table with their offsets along x.
     fn rows_mut(&mut self) -> impl Iterator<Item = (isize, &mut [f64])> {
         let [rows, columns] = self.max_offsets;
         let lines = self.values.chunks_exact_mut(columns + 1);

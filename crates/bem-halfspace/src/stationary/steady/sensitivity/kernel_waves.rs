@@ -39,9 +39,9 @@ const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 
 /// The kernel of a unit compliance on a grid, as a sum of waves.
 pub(super) struct KernelWaves<'a> {
-    /// The base, with lengths in Δx.
+    /// Base under the elements, with lengths in Δx.
     pub(super) base: &'a Base,
-    /// Δy/Δx.
+    /// Aspect ratio Δy/Δx of an element.
     pub(super) aspect: f64,
     /// Position of the collocation points, in elements from their centres.
     pub(super) collocation_shift: f64,
@@ -67,7 +67,7 @@ impl KernelWaves<'_> {
         })
     }
 
-    /// Adds the waves of one wave number with given amplitudes, relative to those of a unit compliance, to one kernel each.
+    /// Adds the wave of a wave number to two kernels, with the factors `amplitudes` on the wave of a unit compliance.
     pub(super) fn add(
         &self,
         kernels: &mut [KernelTable; 2],
@@ -103,16 +103,16 @@ impl KernelWaves<'_> {
             }
         };
         let mut kernel: Vec<f64> = (0..=columns).map(half_space).collect();
-        // The difference of the base.
+        // Difference of the layer from the half space, where the wave is long enough to matter.
         let thickness = self.base.thickness();
         if q * thickness < MAX_LAYER_WAVE_NUMBER {
-            self.add_base(q, &mut kernel);
+            self.add_layer_correction(q, &mut kernel);
         }
         kernel
     }
 
-    /// Adds the difference of the base from a half space.
-    fn add_base(&self, q: f64, kernel: &mut [f64]) {
+    /// Adds the difference of the layer from a half space to the factor of k̂ at the distance of each column.
+    fn add_layer_correction(&self, q: f64, kernel: &mut [f64]) {
         let thickness = self.base.thickness();
         let half = 0.5 * self.aspect;
         let end = (MAX_LAYER_WAVE_NUMBER / (q * thickness)).acosh();
@@ -123,38 +123,40 @@ impl KernelWaves<'_> {
         // Trapezoidal rule from u = 0, where the weight is half, to the end.
         let nodes = iter::successors(Some(0.0), |u| Some(u + step));
         for u in nodes.take_while(|u| *u < end) {
-            let [across, whole] = [q * u.sinh(), q * u.cosh()];
-            let breadth = if across > 0.0 {
-                2.0 * (across * half).sin() / across
+            let [q_y, q_abs] = [q * u.sinh(), q * u.cosh()];
+            let integral_over_width = if q_y > 0.0 {
+                2.0 * (q_y * half).sin() / q_y
             } else {
                 2.0 * half
             };
-            let first = if u > 0.0 { 2.0 } else { 1.0 };
-            let weight =
-                first * step * breadth * (self.base.compliance_ratio(whole * thickness) - 1.0);
+            let sides = if u > 0.0 { 2.0 } else { 1.0 };
+            let weight = sides
+                * step
+                * integral_over_width
+                * (self.base.compliance_ratio(q_abs * thickness) - 1.0);
             // Cosines of the multiples of one angle, by recurrence.
-            let twice = 2.0 * (across * self.aspect).cos();
-            let [mut before, mut here] = [0.5 * twice, 1.0];
+            let twice_cosine = 2.0 * (q_y * self.aspect).cos();
+            let [mut previous, mut cosine] = [0.5 * twice_cosine, 1.0];
             for value in kernel.iter_mut() {
-                *value += weight * here;
-                [before, here] = [here, twice * here - before];
+                *value += weight * cosine;
+                [previous, cosine] = [cosine, twice_cosine * cosine - previous];
             }
         }
     }
 }
 
-/// 2 ∫ K₀(q y) dy between two distances.
+/// 2 ∫ K₀(q y) dy between two distances, by the trapezoidal rule in u.
 fn integral_of_bessel(q: f64, [from, to]: [f64; 2]) -> f64 {
-    let at = |u: f64| {
+    let integrand = |u: f64| {
         let rate = q * u.cosh();
-        let ended = (-rate * from).exp();
-        ended * -(-rate * (to - from)).exp_m1() / rate
+        let at_start = (-rate * from).exp();
+        at_start * -(-rate * (to - from)).exp_m1() / rate
     };
-    let mut sum = 0.5 * at(0.0);
+    let mut sum = 0.5 * integrand(0.0);
     for index in 1.. {
-        let part = at(QUADRATURE_STEP * f64::from(index));
-        sum += part;
-        if part <= 1e-15 * sum {
+        let term = integrand(QUADRATURE_STEP * f64::from(index));
+        sum += term;
+        if term <= 1e-15 * sum {
             break;
         }
     }

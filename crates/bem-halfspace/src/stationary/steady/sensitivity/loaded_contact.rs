@@ -15,7 +15,9 @@ use crate::stationary::steady::sensitivity::correlation::Correlation;
 
 /// A solved contact and the elements next to it, in the units of the mesh.
 pub(super) struct LoadedContact<'a> {
+    /// Heights and influence coefficients.
     mesh: &'a Mesh,
+    /// Spectra of the kernel and of its inverse factors.
     plans: &'a mut Plans,
     /// Elements in contact, then the elements next to it, whose gaps the measures of the contact depend on; none under a body with
     /// edges.
@@ -26,18 +28,22 @@ pub(super) struct LoadedContact<'a> {
     pub(super) loads: Vec<f64>,
     /// Sum of all loads, mirror images included.
     pub(super) total: f64,
+    /// Indentation depth, in units of the depth scale.
     depth: f64,
+    /// Bounding box of the elements.
     region: Region,
 }
 
 /// The mean slope under the load, which is the friction, in units of the depth scale over the length of an element.
 pub(super) struct MeanSlope {
+    /// The mean slope.
     pub(super) value: f64,
     /// Derivatives by the loads of all elements; 0 outside the contact.
     pub(super) by_loads: Vec<f64>,
 }
 
 impl<'a> LoadedContact<'a> {
+    /// The contact of a solution, with its neighbours unless the body has edges.
     pub(super) fn new(mesh: &'a Mesh, plans: &'a mut Plans, solution: &Solution) -> Self {
         let pairs = solution.loads.iter().copied();
         let (mut elements, mut loads): (Vec<usize>, Vec<f64>) = pairs.unzip();
@@ -67,21 +73,21 @@ impl<'a> LoadedContact<'a> {
         self.mesh.total_load(elements.zip(loads.iter().copied()))
     }
 
-    /// Weights of all elements in sums times some loads.
-    pub(super) fn weighted(&self, loads: &[f64]) -> Vec<f64> {
+    /// Loads of all elements, times the number of elements that each represents.
+    pub(super) fn with_images(&self, loads: &[f64]) -> Vec<f64> {
         let pairs = self.elements.iter().zip(loads);
         pairs
-            .map(|(&element, load)| self.mesh.weight(element) * load)
+            .map(|(&element, load)| self.mesh.n_images(element) * load)
             .collect()
     }
 
     /// The correlation of adjoint loads with the loads of the contact.
     pub(super) fn correlation(&self, adjoint: &[f64]) -> Correlation {
-        let [mut left, mut right] = [0; 2].map(|_| vec![0.0; self.region.n_places()]);
+        let [mut left, mut right] = [0; 2].map(|_| vec![0.0; self.region.n_box_elements()]);
         // An element represents its mirror image.
-        let places = self.region.places().iter();
-        for ([place, _], load) in places.zip(self.weighted(adjoint)) {
-            left[*place] = load;
+        let indices = self.region.indices().iter();
+        for ([index, _], load) in indices.zip(self.with_images(adjoint)) {
+            left[*index] = load;
         }
         self.region.scatter(&self.loads, &mut right);
         Correlation::between(&left, &right, self.region.shape)
@@ -102,7 +108,7 @@ impl<'a> LoadedContact<'a> {
             let through_gaps = displacements(self.plans, &reversed, &by_gaps);
             let pairs = by_values[..n].iter().zip(through_gaps);
             pairs
-                .map(|(explicit, through)| explicit + through)
+                .map(|(explicit, by_gap_changes)| explicit + by_gap_changes)
                 .collect()
         };
         let right_sides: Vec<_> = derivatives.iter().map(&mut right_side).collect();
@@ -123,13 +129,13 @@ impl<'a> LoadedContact<'a> {
         if slope != FrictionSlope::Body {
             // Slopes of the displacements; the reversed motion gives the derivatives.
             let region = self.with_neighbours_along_x();
-            for (slope, moved) in slopes.iter_mut().zip(self.differences_along_x(&region)) {
-                *slope -= moved;
+            for (slope, displacement) in slopes.iter_mut().zip(self.differences_along_x(&region)) {
+                *slope -= displacement;
             }
             by_others = self.differences_along_x(&region.reversed());
         }
 
-        let weighted = self.weighted(&self.loads).into_iter().zip(&slopes);
+        let weighted = self.with_images(&self.loads).into_iter().zip(&slopes);
         let value = weighted.map(|(load, slope)| load * slope).sum::<f64>() / self.total;
         let pairs = slopes.iter().zip(by_others);
         let by_loads = pairs.map(|(here, others)| (here + others - value) / self.total);
@@ -140,17 +146,17 @@ impl<'a> LoadedContact<'a> {
 
     /// A region of the neighbours ahead, the neighbours behind and the elements.
     fn with_neighbours_along_x(&self) -> Region {
-        let places = || {
+        let indices = || {
             let elements = self.elements.iter();
-            elements.map(|&element| self.mesh.places(element))
+            elements.map(|&element| self.mesh.indices(element))
         };
-        let moved = |step: fn(usize) -> usize| {
-            places().map(move |both| both.map(|[row, column]| [step(row), column]))
+        let shifted = |step: fn(usize) -> usize| {
+            indices().map(move |both| both.map(|[row, column]| [step(row), column]))
         };
-        // A field takes the last of several values at one place: that of the element.
-        let all = moved(|row| row + 1)
-            .chain(moved(|row| row - 1))
-            .chain(places());
+        // A field takes the last of several values at one index: that of the element.
+        let all = shifted(|row| row + 1)
+            .chain(shifted(|row| row - 1))
+            .chain(indices());
         Region::around(all.collect::<Vec<_>>().iter().copied())
     }
 
@@ -170,8 +176,8 @@ impl<'a> LoadedContact<'a> {
         let mut values = self.loads.clone();
         let moved = displacements(self.plans, &self.region, &self.loads);
         let outside = values.iter_mut().zip(&self.elements).zip(moved).skip(n);
-        for ((value, &element), moved) in outside {
-            *value = self.mesh.height(element) + moved - self.depth;
+        for ((value, &element), displacement) in outside {
+            *value = self.mesh.height(element) + displacement - self.depth;
         }
 
         // Each end of a strip has one pair of elements only, for which the mean ratio of loads to gaps would be wrong.
@@ -208,18 +214,18 @@ impl<'a> LoadedContact<'a> {
         let mut response = solve(self.mesh, self.plans, contact, direction, &unit_depth)?.remove(0);
         response.resize(self.elements.len(), 0.0);
         let moved = displacements(self.plans, &self.region, &response);
-        for (value, moved) in response.iter_mut().zip(moved).skip(n) {
-            *value = 1.0 - moved;
+        for (value, displacement) in response.iter_mut().zip(moved).skip(n) {
+            *value = 1.0 - displacement;
         }
         Ok(response)
     }
 
     /// Values of all elements, and of their mirror images, over the box of the region.
     fn over_box<T: Copy>(&self, values: impl Iterator<Item = T>, elsewhere: T) -> Vec<T> {
-        let mut field = vec![elsewhere; self.region.n_places()];
-        for (places, value) in self.region.places().iter().zip(values) {
-            for place in places {
-                field[*place] = value;
+        let mut field = vec![elsewhere; self.region.n_box_elements()];
+        for (indices, value) in self.region.indices().iter().zip(values) {
+            for index in indices {
+                field[*index] = value;
             }
         }
         field

@@ -19,7 +19,7 @@
 //! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dG/dθ)/(∂G/∂ln λ)
 //! ```
 //!
-//! with a measure G of the motion of the boundary, in which each place has the weight of its effect, `elements/contact_boundary.rs`. The
+//! with a measure G of the motion of the boundary, in which each pair of elements has the weight of its effect (`elements/contact_boundary.rs`). The
 //! area is a sum over the boundary, too; its derivative is divided by that of the dilation and multiplied by 2. With this correction all
 //! derivatives add up exactly under a change of the unit of length, as they do without it under changes of the units of stress and time.
 //!
@@ -81,7 +81,9 @@ const ALLOWED_FLUIDITY_AT_DEPTH: &str =
 #[derive(Debug)]
 #[must_use]
 pub struct SteadySensitivity {
+    /// On the grids of the smaller spacing.
     fine: SensitivityOnGrid,
+    /// On the grids of twice that spacing.
     coarse: SensitivityOnGrid,
 }
 
@@ -89,7 +91,9 @@ pub struct SteadySensitivity {
 #[derive(Debug)]
 #[must_use]
 pub struct SensitivityOnGrid {
+    /// Kernel of the grids, which is the same for all shifts.
     kernel: GridKernel,
+    /// Contact on each shifted grid.
     contacts: Vec<ContactDerivatives>,
 }
 
@@ -140,9 +144,9 @@ impl SteadySensitivity {
     ) -> Result<Self, BemError> {
         let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
         let strip = Strip::new(&profile, &loading);
-        let mut options = options.on_strip(&strip);
-        options.spacing[0] *= STRIP_SPACING_FACTOR;
-        Self::on_shifted_grids(&strip, &loading, &options, &STRIP_SENSITIVITY_PHASES)
+        let mut grid = options.on_strip(&strip);
+        grid.spacing[0] *= STRIP_SPACING_FACTOR;
+        Self::on_shifted_grids(&strip, &loading, &grid, &STRIP_SENSITIVITY_PHASES)
     }
 
     /// Solves on coarse and fine grids with some shifts, and on finer ones where that is needed.
@@ -308,11 +312,12 @@ impl SensitivityOnGrid {
     ) -> Result<Self, BemError> {
         let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
         let strip = Strip::new(&profile, &loading);
-        let options = options.on_strip(&strip);
-        let phases = [options.phase];
-        Self::on_shifted_grids(&strip, &loading, &options, &phases, &mut Reuse::default())
+        let grid = options.on_strip(&strip);
+        let phases = [grid.phase];
+        Self::on_shifted_grids(&strip, &loading, &grid, &phases, &mut Reuse::default())
     }
 
+    /// Solves on grids with the shifts `phases`, each from the solution on the one before.
     fn on_shifted_grids(
         surface: &dyn Surface,
         loading: &Loading,
@@ -339,10 +344,10 @@ impl SensitivityOnGrid {
             .collect();
         let max_offsets = gradients
             .iter()
-            .map(|gradient| gradient.correlation.max_offsets());
-        let max_offsets = max_offsets.fold([0; 2], |most, one| {
-            [0, 1].map(|axis| most[axis].max(one[axis]))
-        });
+            .map(|gradient| gradient.correlation.max_offsets())
+            .fold([0; 2], |largest, one| {
+                [0, 1].map(|axis| largest[axis].max(one[axis]))
+            });
         let kernel = GridKernel::new(&loading.creep, options.spacing, max_offsets)?;
         kernel.contract(&mut gradients)?;
         for contact in &mut contacts {
@@ -373,22 +378,26 @@ impl SensitivityOnGrid {
     /// The change on each grid, from that of each quantity on fixed elements under a constant force.
     fn changes(&self, of: impl Fn(&Gradient) -> f64) -> Vec<Change<f64>> {
         let contacts = self.contacts.iter();
-        contacts.map(|contact| contact.change(&of)).collect()
+        contacts.map(|contact| contact.total_change(&of)).collect()
     }
 
+    /// The derivative by the given force or depth on each grid.
     fn by_load(&self) -> Vec<Change<f64>> {
         let contacts = self.contacts.iter();
         contacts.map(ContactDerivatives::by_load).collect()
     }
 
+    /// The change by another creep on each grid.
     fn by_creep(&self, change: &CreepChange) -> Vec<Change<f64>> {
         self.changes(|gradient| gradient.kernel.by_creep(change))
     }
 
+    /// The derivative by the logarithm of the velocity on each grid.
     fn by_velocity(&self) -> Vec<Change<f64>> {
         self.by_creep(&self.kernel.by_velocity())
     }
 
+    /// The change from one body to another on each grid.
     fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Vec<Change<f64>>, BemError> {
         let contacts = self.contacts.iter();
         contacts
@@ -414,11 +423,12 @@ impl SensitivityOnGrid {
         }))
     }
 
+    /// The change from the elastomer of the state to that of another creep on each grid.
     fn to_elastomer(&self, creep: &SlidingCreep) -> Result<Vec<Change<f64>>, BemError> {
         let other = self.kernel.of_elastomer(creep.clone())?;
-        let own = self.kernel.whole_creep();
+        let present = self.kernel.whole_creep();
         Ok(self.changes(|Gradient { kernel, .. }| {
-            kernel.correlation.contract(&other) - kernel.by_creep(&own)
+            kernel.correlation.contract(&other) - kernel.by_creep(&present)
         }))
     }
 
@@ -454,12 +464,12 @@ fn loading(
     options: &SteadyOptions,
 ) -> Result<Loading, BemError> {
     let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
-    let given = matches!(loading.control, Control::IndentationDepth(_));
+    let is_at_depth = matches!(loading.control, Control::IndentationDepth(_));
     let fluidity = loading.creep.fluidity();
     in_range(
         "fluidity",
         fluidity,
-        !given || fluidity <= 0.0,
+        !is_at_depth || fluidity <= 0.0,
         ALLOWED_FLUIDITY_AT_DEPTH,
     )?;
     Ok(loading)

@@ -9,11 +9,14 @@ use crate::stationary::steady::sensitivity::Change;
 /// A mean over shifted grids, and the largest deviation of a grid from it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeanAndSpread {
+    /// Mean over the shifts.
     pub(super) mean: f64,
+    /// Largest deviation from the mean.
     pub(super) spread: f64,
 }
 
 impl MeanAndSpread {
+    /// Mean and spread of the values on all shifts.
     fn over(values: Vec<f64>) -> Self {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let deviations = values.iter().map(|value| (value - mean).abs());
@@ -51,7 +54,7 @@ pub(crate) struct TwoGridExtrapolation {
 }
 
 impl TwoGridExtrapolation {
-    /// The limit from one grid of either spacing.
+    /// The limit from one fine and one coarse grid, without shifts.
     #[cfg(any(feature = "rough", test))]
     pub(crate) fn limit_of_single(
         self,
@@ -77,15 +80,16 @@ impl TwoGridExtrapolation {
                 )
             }
         };
-        let both = |of: fn(&Change<MeanAndSpread>) -> Option<MeanAndSpread>, correction: f64| {
+        let limit_of = |of: fn(&Change<MeanAndSpread>) -> Option<MeanAndSpread>,
+                        correction: f64| {
             of(&fine).zip(of(&coarse)).map(estimate(correction))
         };
         let friction = (fine.friction_coefficient, coarse.friction_coefficient);
         Change {
             friction_coefficient: estimate(self.correction)(friction),
-            indentation_depth: both(|one| one.indentation_depth, self.correction),
-            normal_force: both(|one| one.normal_force, self.correction),
-            contact_area: both(|one| one.contact_area, self.area_correction),
+            indentation_depth: limit_of(|one| one.indentation_depth, self.correction),
+            normal_force: limit_of(|one| one.normal_force, self.correction),
+            contact_area: limit_of(|one| one.contact_area, self.area_correction),
         }
     }
 }
