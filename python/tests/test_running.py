@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -28,8 +27,14 @@ LONG = """
 import signal
 import viscofriction as vf
 signal.signal(signal.SIGINT, signal.default_int_handler)
-print("begun", flush=True)
-vf.slide(vf.Sphere(5e-3), vf.StandardSolid(1e6, 1e7, 1e4), normal_force=2.0, velocity=[1.0] * 10000)
+
+def progress(done, count):
+    if done == 1:
+        print("begun", flush=True)
+
+vf.slide(
+    vf.Sphere(5e-3), vf.StandardSolid(1e6, 1e7, 1e4), normal_force=2.0, velocity=[1.0] * 10000, progress=progress
+)
 """
 
 
@@ -69,7 +74,6 @@ def test_an_interruption_ends_the_work_at_once(tmp_path: Path) -> None:
     ) as child:
         assert child.stdout is not None
         assert child.stdout.readline() == "begun\n"
-        time.sleep(1.0)
         child.send_signal(signal.SIGINT)
         try:
             _, errors = child.communicate(timeout=20)
@@ -86,7 +90,7 @@ def test_other_threads_run_and_progress_is_told() -> None:
         nonlocal counted
         while not ended.is_set():
             counted += 1
-            time.sleep(1e-3)
+            ended.wait(1e-3)
 
     thread = threading.Thread(target=count)
     thread.start()

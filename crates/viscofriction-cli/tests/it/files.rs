@@ -4,11 +4,11 @@
 use std::fs::{self, File, Permissions, hard_link};
 use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use viscofriction_cli::{InputKind, check_input};
 
-use crate::support::{Folder, argument, example, measured, npy, said, scene, table};
+use crate::support::{Folder, argument, example, first_to_end, measured, npy, said, scene, table};
 
 /// A folder with rows of a sweep in it, and an empty one for the output.
 fn prepared(name: &str) -> Folder {
@@ -216,7 +216,7 @@ fn where_nothing_can_be_written_nothing_is_computed() {
 }
 
 #[test]
-fn of_two_that_write_the_same_the_second_is_refused() {
+fn of_two_that_write_the_same_one_is_refused() {
     let sweep = "sweep scene.toml --vary load.velocity=1,2 --out out";
     // Takes longer than the test.
     let march = ("bem-steady", "bem-transient");
@@ -227,16 +227,14 @@ fn of_two_that_write_the_same_the_second_is_refused() {
         ("run scene.toml --out out", "--overwrite"),
     ] {
         let folder = Folder::with("two", "cone-half-space.toml", &slow);
-        let begins = || folder.path("out").exists();
-        let is_refused = || {
-            // From the name of the file to the lock on it.
-            std::thread::sleep(Duration::from_millis(200));
-            let second = format!("{line} {again}");
-            folder.ends(&second, 2, "another viscofriction is writing it");
-            true
-        };
-        let runs = folder.kill_when(line, || begins() && is_refused());
-        assert!(runs, "{line} does not begin");
+        let mut first = folder.begun(line);
+        let mut runs = || first.try_wait().expect("a state").is_none();
+        while runs() && !folder.path("out").exists() {
+            std::thread::yield_now();
+        }
+        let said = first_to_end([first, folder.begun(&format!("{line} {again}"))]);
+        let is_refused = said.stderr.contains("another viscofriction is writing it");
+        assert!(said.status == Some(2) && is_refused, "{line}: {said:?}");
     }
 }
 
@@ -310,26 +308,23 @@ fn a_folder_is_of_one_answer_when_a_run_that_replaces_it_is_killed() {
     }
     let answers = ["old", "new"].map(|name| answer(&folder, name));
     let is_part = |name: &String| name.starts_with(".out.viscofriction-");
-    let is_begun = || folder.names(".").iter().any(is_part);
-    for delay in [0, 1, 2, 3, 5, 8] {
+    let part = || folder.names(".").into_iter().find(is_part);
+    for written in 0..=answers[1].len() {
         let line = format!("{new} --out out --overwrite");
-        let wait = || {
-            std::thread::sleep(Duration::from_millis(delay));
-            true
-        };
-        folder.kill_when(&line, || is_begun() && wait());
+        let is_written = |part: String| folder.names(&part).len() >= written;
+        folder.kill_when(&line, || part().is_some_and(is_written));
         let left = answer(&folder, "out");
         assert!(
             answers.contains(&left),
-            "{delay} ms: {:?}",
+            "{written} files: {:?}",
             folder.names("out")
         );
         let json = fs::read_to_string(folder.path("out/result.json")).expect("a result");
         let slides = json.contains("tangential_force");
-        assert_eq!(slides, left == answers[1], "{delay} ms: {json}");
+        assert_eq!(slides, left == answers[1], "{written} files: {json}");
         folder.done(format!("{old} --out out --overwrite"));
-        assert_eq!(answer(&folder, "out"), answers[0], "{delay} ms");
-        assert!(!is_begun(), "{delay} ms: {:?}", folder.names("."));
+        assert_eq!(answer(&folder, "out"), answers[0], "{written} files");
+        assert_eq!(part(), None, "{written} files: {:?}", folder.names("."));
     }
 }
 

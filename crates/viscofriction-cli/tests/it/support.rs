@@ -2,8 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::process::{Child, Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -30,7 +29,7 @@ pub(crate) fn measured(name: &str) -> PathBuf {
 }
 
 /// What a run of the program says.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Said {
     pub(crate) status: Option<i32>,
     pub(crate) stdout: String,
@@ -100,26 +99,51 @@ impl Folder {
 
     /// Begins to run the program, and kills it as soon as this holds; whether it had not ended before.
     pub(crate) fn kill_when(&self, line: &str, holds: impl Fn() -> bool) -> bool {
-        let child = self.command(line).stdout(Stdio::null()).spawn();
-        let mut child = child.expect("the command runs");
+        let mut child = self.begun(line);
         let mut runs = true;
         while runs && !holds() {
             runs = child.try_wait().expect("a state").is_none();
-            std::thread::sleep(Duration::from_millis(1));
+            std::thread::yield_now();
         }
         child.kill().ok();
         child.wait().expect("it ends");
         runs
     }
+
+    /// The program, which has begun to run.
+    pub(crate) fn begun(&self, line: &str) -> Child {
+        let mut command = self.command(line);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command.spawn().expect("the command runs")
+    }
+}
+
+/// What the first of two programs that ends says; the other one is killed.
+pub(crate) fn first_to_end(mut children: [Child; 2]) -> Said {
+    let ended = loop {
+        let has_ended = |child: &mut Child| child.try_wait().expect("a state").is_some();
+        if let Some(place) = children.iter_mut().position(has_ended) {
+            break place;
+        }
+        std::thread::yield_now();
+    };
+    children[1 - ended].kill().expect("the other one runs");
+    let mut said = children.map(|child| Said::of(&child.wait_with_output().expect("it ends")));
+    std::mem::take(&mut said[ended])
 }
 
 /// What a command says.
 pub(crate) fn said(command: &mut Command) -> Said {
-    let output = command.output().expect("the command runs");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    Said {
-        status: output.status.code(),
-        stdout: text(&output.stdout),
-        stderr: text(&output.stderr),
+    Said::of(&command.output().expect("the command runs"))
+}
+
+impl Said {
+    fn of(output: &Output) -> Self {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Self {
+            status: output.status.code(),
+            stdout: text(&output.stdout),
+            stderr: text(&output.stderr),
+        }
     }
 }
