@@ -40,7 +40,7 @@ struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Recompute every figure of the paper and the table of scaling factors: CSV, SVG, PNG and report.html.
+    /// Recompute every figure of the paper and the table of scaling factors: CSV, SVG and PNG.
     ReproduceFigures {
         /// Where the files are written.
         #[arg(long, default_value = "target/figures", conflicts_with = "check")]

@@ -37,14 +37,13 @@ pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
     write().with_context(|| format!("writing {}", path.display()))
 }
 
-/// Draws a figure and writes it beside other files, as `NAME.svg` and `NAME.png`; returns the SVG.
-pub(crate) fn write_figure(folder: &Path, name: &str, figure: &Figure) -> Result<String> {
+/// Draws a figure and writes it beside other files, as `NAME.svg` and `NAME.png`.
+pub(crate) fn write_figure(folder: &Path, name: &str, figure: &Figure) -> Result<()> {
     let drawing = draw(figure).with_context(|| format!("drawing {name}"))?;
     let png = render_png(&drawing, PNG_WIDTH).with_context(|| format!("drawing {name}"))?;
     let path = |extension: &str| folder.join(format!("{name}.{extension}"));
     write_atomically(&path("svg"), drawing.svg.as_bytes())?;
-    write_atomically(&path("png"), &png)?;
-    Ok(drawing.svg)
+    write_atomically(&path("png"), &png)
 }
 
 /// Points of a curve, one for each row of a table.

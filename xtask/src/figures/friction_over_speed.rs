@@ -30,22 +30,32 @@ const FRICTION: &str = "coefficient of friction μ";
 /// The indenter of a figure.
 pub(super) struct Indenter {
     title: &'static str,
-    /// Name of the table and of the first picture.
+    /// Name of the table.
     pub(super) name: &'static str,
+    /// Names of the pictures, and their axes of friction.
+    pictures: &'static [Picture],
     /// Exponent p of the profile.
     pub(super) exponent: f64,
     body: fn() -> Result<PowerProfile, IndenterError>,
 }
 
+/// Name of a picture, and its axis of friction.
+type Picture = (&'static str, fn() -> Axis);
+
 pub(super) const CONE: Indenter = Indenter {
     title: "Fig. 7, cone",
     name: "fig7_cone",
+    pictures: &[("fig7_cone", || Axis::linear(FRICTION, [0.0, 0.2]))],
     exponent: 1.0,
     body: || PowerProfile::cone(CONE_SLOPE),
 };
 pub(super) const PARABOLOID: Indenter = Indenter {
     title: "Fig. 8, paraboloid",
     name: "fig8_paraboloid",
+    pictures: &[
+        ("fig8_paraboloid", || Axis::linear(FRICTION, [0.0, 0.35])),
+        ("fig8_paraboloid_log", || Axis::log10(FRICTION, [0.01, 1.0])),
+    ],
     exponent: 2.0,
     body: || PowerProfile::paraboloid(CURVATURE),
 };
@@ -71,34 +81,15 @@ pub(super) struct Row {
     drift: f64,
 }
 
-/// Fig. 7.
-pub(super) fn cone(factor: &factors::Row) -> Result<Part> {
-    let rows = compute(&CONE, factor)?;
-    let figure = Figure::single(chart(
-        &rows,
-        factor.paper,
-        Axis::linear(FRICTION, [0.0, 0.2]),
-    ));
-    Part::new(CONE.name, &rows, [(CONE.name, figure)])
-}
-
-/// Fig. 8, and the same on logarithmic axes.
-pub(super) fn paraboloid(factor: &factors::Row) -> Result<Part> {
-    let rows = compute(&PARABOLOID, factor)?;
-    let axes = [
-        (PARABOLOID.name, Axis::linear(FRICTION, [0.0, 0.35])),
-        ("fig8_paraboloid_log", Axis::log10(FRICTION, [0.01, 1.0])),
-    ];
-    let figure = |(name, axis)| (name, Figure::single(chart(&rows, factor.paper, axis)));
-    Part::new(PARABOLOID.name, &rows, axes.map(figure))
-}
-
 /// Computes every speed anew; similarity is not used.
-fn compute(indenter: &Indenter, factor: &factors::Row) -> Result<Vec<Row>> {
+pub(super) fn part(indenter: &Indenter, factor: &factors::Row) -> Result<Part> {
     let speeds: Vec<u32> = (0..SPEEDS).collect();
-    in_parallel(indenter.title, &speeds, |&speed| {
+    let rows = in_parallel(indenter.title, &speeds, |&speed| {
         row(indenter, speed, factor.converged)
-    })
+    })?;
+    let figure = |(name, y): &Picture| (*name, Figure::single(chart(&rows, factor.paper, y())));
+    let pictures: Vec<_> = indenter.pictures.iter().map(figure).collect();
+    Part::new(indenter.name, &rows, pictures)
 }
 
 /// The row of one speed, counted from the slowest.

@@ -6,7 +6,6 @@ mod contact_maps;
 mod factors;
 mod friction_over_speed;
 mod loss_tangent;
-mod report;
 mod resolution;
 mod scaling_function;
 mod stationary;
@@ -17,12 +16,13 @@ use anyhow::Result;
 use serde::Serialize;
 use viscofriction_plot::Figure;
 
-use crate::output::{make_folder, write_atomically, write_figure};
+use crate::output::{make_folder, write_figure};
 use crate::table::Table;
 
 pub(crate) use check::check;
+use friction_over_speed::{CONE, PARABOLOID};
 
-/// A table of the report, and the pictures that are drawn from it, by their names.
+/// A table, and the pictures that are drawn from it, by their names.
 struct Part {
     table: Table,
     pictures: Vec<(&'static str, Figure)>,
@@ -41,32 +41,28 @@ impl Part {
     }
 }
 
-/// Computes all figures and writes data, pictures and report into `out`.
+/// Computes all figures and writes data and pictures into `out`.
 pub(crate) fn reproduce(out: &Path) -> Result<()> {
     make_folder(out)?;
     let start = std::time::Instant::now();
     let factors = factors::compute()?;
     let parts = [
         loss_tangent::part()?,
-        friction_over_speed::cone(&factors[0])?,
-        friction_over_speed::paraboloid(&factors[1])?,
+        friction_over_speed::part(&CONE, &factors[0])?,
+        friction_over_speed::part(&PARABOLOID, &factors[1])?,
         Part::new(factors::NAME, &factors, [])?,
         approach::part(&factors)?,
         scaling_function::part()?,
         stationary::part()?,
         resolution::part(&factors)?,
     ];
-    let (mut tables, mut pictures) = (Vec::new(), Vec::new());
-    for part in parts {
-        part.table.write(out)?;
-        tables.push(part.table);
-        for (name, figure) in part.pictures {
-            pictures.push((name, write_figure(out, name, &figure)?));
+    for Part { table, pictures } in parts {
+        table.write(out)?;
+        for (name, figure) in pictures {
+            write_figure(out, name, &figure)?;
         }
     }
-    let page = out.join("report.html");
-    write_atomically(&page, report::html(&tables, &pictures)?.as_bytes())?;
     let seconds = start.elapsed().as_secs_f64();
-    println!("{} written in {seconds:.1} s", page.display());
+    println!("{} written in {seconds:.1} s", out.display());
     Ok(())
 }
