@@ -1,4 +1,4 @@
-//! Calls of cargo, whose arguments are separated by blanks, and the count of the tests that they ran.
+//! Calls of cargo and other programs, and the count of the tests that cargo ran.
 
 use std::fmt;
 use std::io::{BufRead, BufReader};
@@ -12,21 +12,30 @@ pub(crate) fn workspace_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// Runs cargo and returns what it prints; its errors are those of the result.
-pub(super) fn cargo_output(arguments: &str) -> Result<String> {
-    let output = command(arguments).output().context("calling cargo")?;
-    let errors = String::from_utf8_lossy(&output.stderr);
-    ensure!(output.status.success(), "cargo {arguments}: {errors}");
-    Ok(String::from_utf8(output.stdout)?)
-}
-
-fn command(arguments: &str) -> Command {
+/// Cargo with arguments that are separated by blanks, in the folder of the workspace.
+pub(crate) fn cargo(arguments: &str) -> Command {
     // Under `cargo xtask` this is the cargo that runs it.
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
     command.args(arguments.split_whitespace());
     command.current_dir(workspace_root());
     command
+}
+
+/// Runs a program, which must succeed.
+pub(super) fn run(command: &mut Command) -> Result<()> {
+    println!("{command:?}");
+    let status = command.status().with_context(|| format!("{command:?}"))?;
+    ensure!(status.success(), "{command:?}: {status}");
+    Ok(())
+}
+
+/// Text that a program prints, which must succeed; its errors are those of the result.
+pub(crate) fn output(command: &mut Command) -> Result<String> {
+    let output = command.output().with_context(|| format!("{command:?}"))?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "{command:?}: {errors}");
+    Ok(String::from_utf8(output.stdout)?)
 }
 
 /// Cargo, with the number of tests that have passed and failed under it.
@@ -40,7 +49,7 @@ impl Cargo {
     /// Runs cargo, shows what it prints, and counts the tests that it reports.
     pub(super) fn run(&mut self, arguments: &str) -> Result<()> {
         let (output, input) = std::io::pipe()?;
-        let mut command = command(arguments);
+        let mut command = cargo(arguments);
         command.stdout(input.try_clone()?).stderr(input);
         let mut child = command.spawn().context("calling cargo")?;
         // With it go our ends of the pipe, which then closes when the child ends.
@@ -60,7 +69,7 @@ impl Cargo {
     /// by cargo itself.
     pub(super) fn test(&mut self, scope: &str) -> Result<()> {
         let scope = format!("--no-fail-fast {scope}");
-        if cargo_output("nextest --version").is_err() {
+        if output(&mut cargo("nextest --version")).is_err() {
             return self.run(&format!("test --profile ci {scope}"));
         }
         let nextest = self.run(&format!(

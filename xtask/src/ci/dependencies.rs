@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 
-use super::cargo::{cargo_output, workspace_root};
+use super::cargo::{cargo, output, workspace_root};
 use super::workspace::{Package, Workspace};
 use crate::output::{print_line, write_atomically};
 
@@ -98,10 +98,10 @@ fn rows(library: &str) -> Result<Vec<String>> {
 
 /// The depth of each crate in the tree of one, and the crate, as `libm v0.2.16`.
 fn tree(library: &str, edges: &str) -> Result<Vec<(usize, String)>> {
-    let text = cargo_output(&format!(
+    let text = output(&mut cargo(&format!(
         "tree --package {library} --no-default-features --edges {edges} --no-dedupe \
          --target x86_64-unknown-linux-gnu --prefix depth --format :{{p}}"
-    ))?;
+    )))?;
     let node = |line: &str| {
         let (depth, package) = line.split_once(':').context("no line of a tree")?;
         Ok((depth.parse()?, package.to_owned()))

@@ -10,11 +10,11 @@ mod workspace;
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
 use crate::figures;
-use cargo::Cargo;
-pub(crate) use cargo::workspace_root;
+use cargo::{Cargo, run as run_program};
+pub(crate) use cargo::{cargo, output, workspace_root};
 pub(crate) use dependencies::{Dependencies, write as write_dependencies};
 pub(crate) use release::release;
 use workspace::Workspace;
@@ -44,7 +44,8 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
     })?;
     step("examples", || {
         cargo.run(&format!("build {all} --examples"))?;
-        workspace.example_files().try_for_each(run_file)
+        let mut programs = workspace.example_files().map(Command::new);
+        programs.try_for_each(|mut program| run_program(&mut program))
     })?;
     step("crates alone, without features", || {
         // Crates that are built together unite their features.
@@ -73,12 +74,5 @@ fn step(name: &str, check: impl FnOnce() -> Result<()>) -> Result<()> {
     let start = Instant::now();
     check().with_context(|| format!("the step `{name}` failed"))?;
     println!("=== {name}: {:.1} s", start.elapsed().as_secs_f64());
-    Ok(())
-}
-
-fn run_file(file: std::path::PathBuf) -> Result<()> {
-    let status = Command::new(&file).status();
-    let status = status.with_context(|| file.display().to_string())?;
-    ensure!(status.success(), "{}: {status}", file.display());
     Ok(())
 }

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-use super::cargo::{Cargo, workspace_root};
+use super::cargo::{Cargo, cargo, run, workspace_root};
 use super::workspace::{Package, Workspace};
 use super::{PACKAGES, step};
 
@@ -47,11 +47,8 @@ impl Release {
             let made = self.workspace.target_directory.join("package").join(&file);
             fs::copy(made, packed.join(&file)).context(file.clone())?;
             let crate_file = packed.join(&file);
-            run(Command::new("tar")
-                .arg("xzf")
-                .arg(crate_file)
-                .arg("-C")
-                .arg(&trial))?;
+            let mut tar = Command::new("tar");
+            run(tar.arg("xzf").arg(crate_file).arg("-C").arg(&trial))?;
         }
         Ok(())
     }
@@ -84,12 +81,9 @@ impl Release {
             workspace_root().join("Cargo.lock"),
             project.join("Cargo.lock"),
         )?;
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let mut cargo = Command::new(cargo);
-        cargo
-            .args(["check", "--release", "--bins"])
-            .current_dir(project);
-        run(cargo.env("CARGO_TARGET_DIR", &self.workspace.target_directory))
+        let mut check = cargo("check --release --bins");
+        let target = &self.workspace.target_directory;
+        run(check.current_dir(project).env("CARGO_TARGET_DIR", target))
     }
 
     /// The source distribution, and the wheel that is built from it, which is installed into an environment of its own, where a
@@ -98,17 +92,9 @@ impl Release {
         let made = self.out.join("python");
         let builder = self.environment("builder", "maturin>=1.16,<2")?;
         let mut maturin = Command::new(builder.join("maturin"));
-        maturin.args([
-            "build",
-            "--release",
-            "--sdist",
-            "--manifest-path",
-            "python/Cargo.toml",
-        ]);
-        maturin
-            .arg("--out")
-            .arg(&made)
-            .current_dir(workspace_root());
+        let arguments = "build --release --sdist --manifest-path python/Cargo.toml --out";
+        maturin.args(arguments.split(' ')).arg(&made);
+        maturin.current_dir(workspace_root());
         run(maturin.env("CARGO_TARGET_DIR", &self.workspace.target_directory))?;
         let entries = fs::read_dir(made)?.collect::<Result<Vec<_>, _>>()?;
         let files = entries.iter().map(fs::DirEntry::path);
@@ -135,9 +121,8 @@ impl Release {
             return Ok(());
         }
         let mut mdbook = Command::new("mdbook");
-        mdbook
-            .args(["build", "docs", "--dest-dir"])
-            .arg(self.out.join("book"));
+        mdbook.args(["build", "docs", "--dest-dir"]);
+        mdbook.arg(self.out.join("book"));
         run(mdbook.current_dir(workspace_root()))
     }
 }
@@ -158,13 +143,6 @@ fn example(page: &str) -> Option<&str> {
     let (_, from) = page.split_once("```rust")?;
     let (_, from) = from.split_once('\n')?;
     from.split("```").next()
-}
-
-fn run(command: &mut Command) -> Result<()> {
-    println!("{command:?}");
-    let status = command.status().with_context(|| format!("{command:?}"))?;
-    ensure!(status.success(), "{command:?}: {status}");
-    Ok(())
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use serde::Deserialize;
 
-use super::cargo::cargo_output;
+use super::cargo::{cargo, output};
 
 /// The published crates of the workspace, as cargo knows them.
 #[derive(Debug, Deserialize)]
@@ -41,7 +41,7 @@ struct Target {
 
 impl Workspace {
     pub(super) fn read() -> Result<Self> {
-        let text = cargo_output("metadata --no-deps --format-version 1")?;
+        let text = output(&mut cargo("metadata --no-deps --format-version 1"))?;
         let mut workspace: Self = serde_json::from_str(&text)?;
         let packages = &mut workspace.packages;
         packages.retain(|package| package.publish.is_none());

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
 use super::cases::{BenchmarkScene, Case};
 use super::program::Program;
-use crate::ci::workspace_root;
+use crate::ci::{cargo, output, workspace_root};
 use crate::output::write_atomically;
 
 /// Build of the program; many units of code, which are kept, make it short after a change of one file.
@@ -53,14 +53,10 @@ impl Checkout {
 
     /// Builds the program from the copy and keeps it under a name.
     pub(super) fn build(&self, name: &str) -> Result<Program> {
-        // Under `cargo xtask` this is the cargo that runs it.
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let target = self.folder.join("target");
-        let mut command = Command::new(cargo);
-        command.args(BUILD.split_whitespace());
+        let mut command = cargo(BUILD);
         command.current_dir(self.copy(Path::new("")));
-        command.env("CARGO_TARGET_DIR", &target);
-        output(command)?;
+        output(command.env("CARGO_TARGET_DIR", &target))?;
         let program = Program::new(&self.folder, name);
         let built = target
             .join("ci/viscofriction")
@@ -91,19 +87,11 @@ pub(super) fn tracked_files() -> Result<Vec<PathBuf>> {
     let root = workspace_root();
     let mut git = Command::new("git");
     git.arg("-C").arg(&root).args(["ls-files", "-z"]);
-    let list = String::from_utf8(output(git)?)?;
+    let list = output(&mut git)?;
     let files = list.split_terminator('\0').map(PathBuf::from);
     Ok(files.filter(|file| root.join(file).exists()).collect())
 }
 
 fn read(file: &Path) -> Result<Vec<u8>> {
     fs::read(file).with_context(|| format!("reading {}", file.display()))
-}
-
-/// What a command prints, if it succeeds.
-fn output(mut command: Command) -> Result<Vec<u8>> {
-    let output = command.output().with_context(|| format!("{command:?}"))?;
-    let errors = String::from_utf8_lossy(&output.stderr);
-    ensure!(output.status.success(), "{command:?}: {errors}");
-    Ok(output.stdout)
 }
