@@ -38,10 +38,9 @@ pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T
     let (value, first) = measure(&work);
     let value = value?;
     let seconds = first.processor_seconds.max(f64::MIN_POSITIVE);
-    let most = if seconds < SHORT_RUN {
-        MAX_SHORT_RUNS
-    } else {
-        MAX_RUNS
+    let most = match seconds {
+        ..SHORT_RUN => MAX_SHORT_RUNS,
+        _ => MAX_RUNS,
     };
     let mut costs = vec![first];
     while costs.len() as f64 + 1.0 <= most.min(MAX_TOTAL / seconds) {

@@ -1,5 +1,6 @@
 //! Tables: files of comma-separated values, some of which grow, and what is printed of them in Markdown.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -129,6 +130,31 @@ pub(crate) fn markdown_table<R: Into<Row>>(
     table.set_header(header);
     table.add_rows(rows);
     table
+}
+
+/// Name of a column, and its cell in the line of an item.
+pub(crate) type Column<T> = (&'static str, fn(&T) -> String);
+
+/// A table in Markdown with a line for each item.
+pub(crate) fn table_of<T>(
+    columns: &[Column<T>],
+    items: impl IntoIterator<Item = T>,
+) -> comfy_table::Table {
+    let header = columns.iter().map(|(name, _)| *name);
+    let line = |item: T| -> Vec<String> { columns.iter().map(|(_, cell)| cell(&item)).collect() };
+    markdown_table(header, items.into_iter().map(line))
+}
+
+/// Rows of equal keys together, in the order of the keys.
+pub(crate) fn group_by<R, K: Ord>(
+    rows: impl IntoIterator<Item = R>,
+    key: impl Fn(&R) -> K,
+) -> BTreeMap<K, Vec<R>> {
+    let mut groups: BTreeMap<K, Vec<R>> = BTreeMap::new();
+    for row in rows {
+        groups.entry(key(&row)).or_default().push(row);
+    }
+    groups
 }
 
 /// Four digits, or fewer if the error is larger than a unit of the last one.

@@ -90,6 +90,11 @@ impl Request {
     }
 }
 
+/// The answer of a scene that names no file.
+pub(super) fn answer(scene: &Scene) -> Result<Answer> {
+    Ok(solve(&Problem::try_from(scene)?)?)
+}
+
 /// An answer with its derivatives by the numbers of its scene, which names no file.
 pub(super) fn differentiated(
     scene: &Scene,

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::output::WrongInput;
 use crate::scene::{Scene, as_far_as_reached};
-use crate::table::markdown_table;
+use crate::table::{Column, table_of, to_csv};
 use crate::tasks::in_parallel;
 pub(crate) use table::{Node, generate as generate_table};
 
@@ -49,6 +49,14 @@ pub(crate) enum Format {
     Json,
 }
 
+const COLUMNS: [Column<ScalingFactor>; 5] = [
+    ("p", |row| row.exponent.to_string()),
+    ("s_p", |row| format!("{:.6}", row.scaling_factor)),
+    ("error", |row| format!("{:.1e}", row.error)),
+    ("unknowns", |row| row.unknowns.to_string()),
+    ("seconds", |row| format!("{:.3}", row.seconds)),
+];
+
 /// Computes the factors and prints them.
 pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> Result<()> {
     validate(exponents, relative_error)?;
@@ -56,24 +64,8 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
         scaling_factor(exponent, relative_error, MAX_UNKNOWNS)
     })?;
     match format {
-        Format::Table => {
-            let lines = rows.iter().map(|row| {
-                [
-                    row.exponent.to_string(),
-                    format!("{:.6}", row.scaling_factor),
-                    format!("{:.1e}", row.error),
-                    row.unknowns.to_string(),
-                    format!("{:.3}", row.seconds),
-                ]
-            });
-            let header = ["p", "s_p", "error", "unknowns", "seconds"];
-            println!("{}", markdown_table(header, lines));
-        }
-        Format::Csv => {
-            let mut table = csv::Writer::from_writer(std::io::stdout());
-            rows.iter().try_for_each(|row| table.serialize(row))?;
-            table.flush()?;
-        }
+        Format::Table => println!("{}", table_of(&COLUMNS, rows)),
+        Format::Csv => print!("{}", to_csv(&rows)?),
         Format::Json => println!("{}", serde_json::to_string_pretty(&rows)?),
     }
     Ok(())
@@ -106,10 +98,9 @@ pub(crate) fn scaling_factor(
     let options = RefinementOptions {
         relative_error,
         // The contact of a steep profile is a thin crescent, as long across the sliding direction as along it.
-        aspect: if exponent < SQUARE_ELEMENTS_FROM {
-            0.5
-        } else {
-            1.0
+        aspect: match exponent {
+            ..SQUARE_ELEMENTS_FROM => 0.5,
+            _ => 1.0,
         },
         max_unknowns,
     };

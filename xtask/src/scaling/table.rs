@@ -67,10 +67,9 @@ fn exponent(index: usize) -> f64 {
 }
 
 fn node(exponent: f64) -> Result<Node> {
-    let relative_error = if exponent < CUSP_EXPONENT {
-        CUSP_ERROR
-    } else {
-        ERROR
+    let relative_error = match exponent {
+        ..CUSP_EXPONENT => CUSP_ERROR,
+        _ => ERROR,
     };
     let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
     Ok(Node::new(exponent, factor.value()))

@@ -23,7 +23,16 @@ pub struct Dissipation {
     pub shortest_octave: Option<f64>,
 }
 
+/// Fraction of the friction from outside the measured frequencies above which a warning is given (chosen).
+const MAX_EXTRAPOLATED_FRACTION: f64 = 0.1;
+
 impl Dissipation {
+    /// Whether so much of the friction comes from outside the measured frequencies that the answer has a warning.
+    pub fn is_extrapolated(&self) -> bool {
+        let outside = self.outside_window;
+        outside.is_some_and(|fraction| fraction > MAX_EXTRAPOLATED_FRACTION)
+    }
+
     /// The fractions by their names in JSON; the CSV prefixes them with `dissipation_`.
     pub(super) const fn shares(&self) -> [(&'static str, Option<f64>); 4] {
         [

@@ -14,8 +14,6 @@ use super::problem::{Motion, Problem};
 const STEEPEST: f64 = 0.5;
 /// Indentation depth relative to the radius of a sphere or the thickness of a layer above which a warning is given (chosen).
 const DEEPEST: f64 = 1.0 / 3.0;
-/// Fraction of the friction from outside the measured frequencies above which a warning is given (chosen).
-const MOST_EXTRAPOLATED: f64 = 0.1;
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
@@ -53,14 +51,13 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
 /// Warning about friction from frequencies at which the material was not measured.
 fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
     let [lowest, highest] = problem.window()?;
-    let outside = answer.dissipation.outside_window?;
     let percent = |share: Option<f64>| format!("{:.0} %", 100.0 * share.unwrap_or_default());
     let of_window = &answer.dissipation;
-    (outside > MOST_EXTRAPOLATED).then(|| {
+    of_window.is_extrapolated().then(|| {
         format!(
             "{} of the friction comes from frequencies at which the material was not measured: {} from below {lowest:.3e} rad/s \
              and {} from above {highest:.3e} rad/s; there its moduli are extrapolated",
-            percent(Some(outside)),
+            percent(of_window.outside_window),
             percent(of_window.below_window),
             percent(of_window.above_window)
         )

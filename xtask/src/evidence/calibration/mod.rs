@@ -6,7 +6,6 @@ mod reference;
 mod scene;
 
 use std::cell::LazyCell;
-use std::collections::BTreeMap;
 
 use anyhow::{Result, anyhow};
 use serde::Serialize;
@@ -20,7 +19,7 @@ use super::{Outcomes, Report, Share};
 use crate::meter::median;
 use crate::picture::{chart, guide, markers};
 use crate::random::Random;
-use crate::table::markdown_table;
+use crate::table::{group_by, markdown_table};
 use crate::tasks::in_parallel;
 use reference::{SHARP_REFERENCE_RATIO, closed_form, is_numerical, numerical};
 use scene::{Extent, FLAT, Label, Scene};
@@ -94,7 +93,7 @@ fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Result<Vec<Row>, Ref
         let solved: Vec<_> = offered.map(|request| (request, known(request))).collect();
         let bars = solved.iter().filter_map(|(request, known)| {
             let is_closed = request.method == Method::Analytic;
-            (!is_closed).then_some(relative(known.as_ref().ok()?))
+            (!is_closed).then_some(known.as_ref().ok()?.relative_error())
         });
         let least = bars.fold(f64::INFINITY, f64::min);
         let shared = LazyCell::new(|| numerical(scene, of_model[0].model, least));
@@ -116,10 +115,6 @@ fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Result<Vec<Row>, Ref
     Ok(judged)
 }
 
-fn relative(known: &Estimate) -> f64 {
-    known.error / known.value.abs()
-}
-
 /// One bar, if there is anything to compare it with.
 fn bar(
     scene: &Scene,
@@ -127,7 +122,7 @@ fn bar(
     got: Estimate,
     shared: &Result<Reference>,
 ) -> Result<Option<Bar>> {
-    let own = closed_form(scene, request, relative(&got))?;
+    let own = closed_form(scene, request, got.relative_error())?;
     let reference = match (&own, shared) {
         (Some(own), _) => own,
         (None, _) if !is_numerical(scene, request) => return Ok(None),
@@ -173,18 +168,15 @@ fn name(request: &Request, scene: &Scene) -> String {
 
 /// One line per method: how many bars hold, and how wide they are.
 fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
-    let mut methods: BTreeMap<&str, Vec<&Bar>> = BTreeMap::new();
-    for (_, bar) in rows {
-        methods.entry(&bar.method).or_default().push(bar);
-    }
+    let bars = rows.iter().map(|(_, bar)| bar);
+    let methods = group_by(bars.clone(), |bar| &*bar.method);
     let header = "method|results|bars that hold|with a sharp reference|of these within the bar alone|median of bar/deviation|worst deviation/bar|refused";
     let lines = methods.into_iter().map(|(method, bars)| {
         let refused = refusals.iter();
         let refused = refused.filter(|(_, reason)| reason.method == method);
         line(method, &bars, refused.count())
     });
-    let all: Vec<&Bar> = rows.iter().map(|(_, bar)| bar).collect();
-    let lines = lines.chain([line("all", &all, refusals.len())]);
+    let lines = lines.chain([line("all", &bars.collect::<Vec<_>>(), refusals.len())]);
     markdown_table(header.split('|'), lines)
 }
 

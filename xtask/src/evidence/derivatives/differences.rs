@@ -55,6 +55,8 @@ pub(super) struct Derivative {
     /// The largest derivative of this quantity by a number of the scene.
     pub(super) largest: f64,
     pub(super) deviation: f64,
+    #[serde(skip)]
+    pub(super) method: &'static str,
 }
 
 impl Derivative {
@@ -127,6 +129,7 @@ pub(super) fn compared(
                 reference_error: reference.error,
                 largest: largest(&known, quantity),
                 deviation: (known_as.value - reference.value).abs(),
+                method: asked.method.name(),
             });
         }
     }

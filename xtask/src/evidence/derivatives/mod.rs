@@ -2,15 +2,13 @@
 
 mod differences;
 
-use std::collections::BTreeMap;
-
 use anyhow::Result;
 use serde::Deserialize;
 
 use super::sample::{Options, Source};
 use super::{Outcomes, Report, Share, extent};
 use crate::meter::median;
-use crate::table::markdown_table;
+use crate::table::{Column, group_by, table_of};
 use crate::tasks::in_parallel;
 use differences::{Asked, Derivative, Refusal, compared};
 
@@ -41,7 +39,7 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
         })?);
     }
     let found: Outcomes<Derivative, Refusal> = found.into_iter().collect();
-    let table = table(&found.rows);
+    let table = table_of(&columns(), group_by(&found.rows, |row| &row.group));
     Ok(Report {
         name: "derivatives",
         summary: format!("{table}\n\nnot solved: {}", found.refusals.len()),
@@ -53,55 +51,54 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
 
 /// Each method for itself, so that none is outvoted by the others.
 fn failure(rows: &[Derivative]) -> Option<String> {
-    let mut methods: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
-    for row in rows {
-        let method = row.group.split(',').next().unwrap_or_default();
-        methods.entry(method).or_default().push(row.holds());
-    }
-    let shares = methods.into_iter();
-    let shares = shares.map(|(method, holds)| (method, holds.into_iter().collect::<Share>()));
-    let missed = shares.filter(|(_, share)| !share.may_be(MIN_COVERAGE, ALLOWED_SCATTER));
-    let missed: Vec<String> = missed
-        .map(|(method, Share { held, all })| {
-            format!("{method}: {held} of {all} are within their bars")
-        })
-        .collect();
+    let missed = group_by(rows, |row| row.method).into_iter();
+    let missed = missed.filter_map(|(method, rows)| {
+        let share = held(&rows);
+        let Share { held, all } = share;
+        (!share.may_be(MIN_COVERAGE, ALLOWED_SCATTER))
+            .then(|| format!("{method}: {held} of {all} are within their bars"))
+    });
+    let missed: Vec<String> = missed.collect();
     match rows.is_empty() {
         true => Some("derivatives: there are none".to_owned()),
         false => (!missed.is_empty()).then(|| format!("derivatives: {}", missed.join(", "))),
     }
 }
 
-/// One line per group of scenes.
-fn table(rows: &[Derivative]) -> comfy_table::Table {
-    let mut groups: BTreeMap<&str, Vec<&Derivative>> = BTreeMap::new();
-    for row in rows {
-        groups.entry(&row.group).or_default().push(row);
-    }
-    let header = "method|derivatives|within the bars|median of bar/largest|median of deviation/largest|95 %|worst|\
-                  median of the reference's error/largest";
-    let lines = groups.into_iter().map(|(group, rows)| line(group, &rows));
-    markdown_table(header.split('|'), lines)
+fn held(rows: &[&Derivative]) -> Share {
+    rows.iter().map(|row| row.holds()).collect()
 }
 
-fn line(group: &str, rows: &[&Derivative]) -> [String; 8] {
-    let of = |number: fn(&Derivative) -> f64| -> Vec<f64> {
-        let parts = rows.iter().map(|row| number(row) / row.largest);
-        parts.collect()
-    };
-    let mut deviations = of(|row| row.deviation);
-    deviations.sort_by(f64::total_cmp);
-    let held: Share = rows.iter().map(|row| row.holds()).collect();
-    let below = |percent: usize| deviations[((rows.len() - 1) * percent).div_ceil(100)];
-    let short = |value: f64| format!("{value:.1e}");
+/// Columns of the table with one line per group of scenes.
+fn columns<'a>() -> [Column<(&'a String, Vec<&'a Derivative>)>; 8] {
     [
-        group.to_owned(),
-        held.all.to_string(),
-        held.percentage(),
-        short(median(of(|row| row.error_bar))),
-        short(below(50)),
-        short(below(95)),
-        short(below(100)),
-        short(median(of(|row| row.reference_error))),
+        ("method", |(group, _)| (*group).clone()),
+        ("derivatives", |(_, rows)| rows.len().to_string()),
+        ("within the bars", |(_, rows)| held(rows).percentage()),
+        ("median of bar/largest", |(_, rows)| {
+            short(median(parts(rows, |row| row.error_bar)))
+        }),
+        ("median of deviation/largest", |(_, rows)| below(rows, 50)),
+        ("95 %", |(_, rows)| below(rows, 95)),
+        ("worst", |(_, rows)| below(rows, 100)),
+        ("median of the reference's error/largest", |(_, rows)| {
+            short(median(parts(rows, |row| row.reference_error)))
+        }),
     ]
+}
+
+fn short(value: f64) -> String {
+    format!("{value:.1e}")
+}
+
+/// A number of each derivative, over the largest derivative of the same quantity.
+fn parts(rows: &[&Derivative], number: fn(&Derivative) -> f64) -> Vec<f64> {
+    rows.iter().map(|row| number(row) / row.largest).collect()
+}
+
+/// The deviation that so many per cent of the derivatives do not exceed.
+fn below(rows: &[&Derivative], percent: usize) -> String {
+    let mut deviations = parts(rows, |row| row.deviation);
+    deviations.sort_by(f64::total_cmp);
+    short(deviations[((rows.len() - 1) * percent).div_ceil(100)])
 }

@@ -4,21 +4,22 @@ use std::f64::consts::{LN_10, TAU};
 
 use anyhow::{Context as _, Result};
 use measurements::moduli::{Shifting, master_curve};
+use numerics::whole_part;
 use rheology::fit::{Identification, IdentifyOptions, Isotherm, ModulusPoint, identify};
 use rheology::{KELVIN_AT_ZERO_CELSIUS, RelaxationBranch, RelaxationSpectrum, WlfShift};
 use serde::{Deserialize, Serialize};
 use viscofriction::scene::{Branch, Covariance, MaterialTable, Scene};
-use viscofriction::solve::{Answer, Problem, solve};
+use viscofriction::solve::{Problem, solve};
 
-use crate::evidence::request::differentiated;
+use crate::evidence::request::{answer, differentiated};
 use crate::random::Random;
 
 /// What `experiments.toml` holds.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Experiments {
-    pub(super) count: u32,
-    pub(super) quick_count: u32,
+    /// Of a full run and of a quick one.
+    pub(super) count: [u32; 2],
     noise: [f64; 2],
     temperature: [f64; 2],
     factor: [f64; 2],
@@ -96,10 +97,8 @@ const REFERENCE_TEMPERATURE: f64 = 20.0;
 impl TrueMaterial {
     fn spectrum(&self) -> Result<RelaxationSpectrum> {
         let n = ((DECADES[1] - DECADES[0]) * self.per_decade).round();
-        let decades = std::iter::successors(Some(0.0), |k| Some(k + 1.0));
-        let decades = decades.take_while(|k| *k <= n);
-        let branch = |k: f64| {
-            let decade = DECADES[0] + k / self.per_decade;
+        let branch = |k: usize| {
+            let decade = DECADES[0] + k as f64 / self.per_decade;
             let peaks = self.peaks.iter().map(|peak| {
                 let distance = (decade - peak.time.log10()) / peak.decades;
                 peak.modulus * (-distance * distance).exp()
@@ -110,12 +109,9 @@ impl TrueMaterial {
             });
             RelaxationBranch::new(peaks.sum::<f64>() + power, 10_f64.powf(decade))
         };
-        let branches = decades.map(branch).collect();
-        Ok(RelaxationSpectrum::new(
-            self.equilibrium_modulus,
-            0.0,
-            branches,
-        )?)
+        let branches = (0..=whole_part(n)).map(branch).collect();
+        let modulus = self.equilibrium_modulus;
+        Ok(RelaxationSpectrum::new(modulus, 0.0, branches)?)
     }
 }
 
@@ -133,16 +129,10 @@ impl Experiments {
     /// The experiment of a number.
     pub(super) fn run(&self, number: u32) -> Result<Found> {
         let mut random = Random::new(u64::from(number));
-        let n_isotherms = self.isotherms[0]
-            + (random.uniform() * (self.isotherms[1] - self.isotherms[0] + 1.0)).floor();
+        let [fewest, most] = self.isotherms;
         let n_materials = self.material.len();
         let drawn = Drawn {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a handful"
-            )]
-            isotherms: n_isotherms as usize,
+            isotherms: whole_part(fewest + (random.uniform() * (most - fewest + 1.0)).floor()),
             noise: [random.between(self.noise), random.between(self.noise)],
             temperature: random.between(self.temperature),
             factor: random.between(self.factor),
@@ -166,25 +156,18 @@ impl Experiments {
         let part = drawn.random.between(self.inside);
         let omega = (window[0].ln() + part * (window[1] / window[0]).ln()).exp();
         let velocity = self.velocity(&truth, omega)?;
-        let known = answered(&self.slid(&true_table, velocity), false)?;
-        let found = answered(&self.slid(&fitted_table, velocity), true)?;
+        let known = answer(&self.slid(&true_table, velocity))?;
+        let scene = self.slid(&fitted_table, velocity);
+        let problem = Problem::try_from(&scene)?;
+        let found = differentiated(&scene, &problem, solve(&problem)?)?;
         let factor = drawn.random.between(self.outside);
-        let omega = if drawn.random.uniform() < 0.5 {
-            window[0] / factor
-        } else {
-            window[1] * factor
+        let omega = match drawn.random.uniform() {
+            ..0.5 => window[0] / factor,
+            _ => window[1] * factor,
         };
-        let beyond = answered(
-            &self.slid(&fitted_table, self.velocity(&truth, omega)?),
-            false,
-        )?;
-        let friction = |answer: &Answer| {
-            answer
-                .friction_coefficient
-                .context("a friction")
-                .map(|mu| mu.value)
-        };
-        let [friction, true_friction] = [friction(&found)?, friction(&known)?];
+        let beyond = answer(&self.slid(&fitted_table, self.velocity(&truth, omega)?))?;
+        let [friction, true_friction] =
+            [&found, &known].map(|answer| answer.requested_quantity().value);
         let material_error = found.budget.material().friction_coefficient;
         let material_error = material_error.context("a covariance")?;
         Ok(Found {
@@ -201,10 +184,7 @@ impl Experiments {
             true_friction,
             material_error,
             deviation: (friction - true_friction) / material_error,
-            warns_outside: beyond
-                .warnings
-                .iter()
-                .any(|one| one.contains("was not measured")),
+            warns_outside: beyond.dissipation.is_extrapolated(),
         })
     }
 
@@ -219,17 +199,13 @@ impl Experiments {
             let temperature = REFERENCE_TEMPERATURE + step * (place as f64 - middle);
             let own = temperature + drawn.temperature * drawn.random.normal();
             let log_factor = LN_10 * law.log10_factor(own)?;
-            let factor = 1.0 + drawn.factor * drawn.random.normal();
-            let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
-            let stiffer = if drawn.is_entropic {
-                kelvin(own) / kelvin(REFERENCE_TEMPERATURE)
-            } else {
-                1.0
-            };
-            let factor = factor * stiffer;
-            let places = std::iter::successors(Some(0.0), |k| Some(k + 1.0));
-            let points = places.take_while(|k| *k < n_points).map(|k| {
-                let omega = TAU * self.frequency[0] * (ratio * k).exp();
+            let mut factor = 1.0 + drawn.factor * drawn.random.normal();
+            if drawn.is_entropic {
+                let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
+                factor *= kelvin(own) / kelvin(REFERENCE_TEMPERATURE);
+            }
+            let points = (0..whole_part(n_points)).map(|k| {
+                let omega = TAU * self.frequency[0] * (ratio * k as f64).exp();
                 let modulus = truth.complex_modulus(omega * log_factor.exp())?;
                 let [storage, loss] = drawn
                     .noise
@@ -304,13 +280,4 @@ fn series(
             method: Some(known.in_words()),
         }),
     }
-}
-
-fn answered(scene: &Scene, with_derivatives: bool) -> Result<Answer> {
-    let problem = Problem::try_from(scene)?;
-    let answer = solve(&problem)?;
-    if !with_derivatives {
-        return Ok(answer);
-    }
-    Ok(differentiated(scene, &problem, answer)?)
 }

@@ -5,8 +5,8 @@ mod experiment;
 use anyhow::Result;
 use serde::Serialize;
 
-use super::Report;
-use crate::table::Table;
+use super::{Report, Share};
+use crate::table::{Table, group_by};
 use crate::tasks::in_parallel;
 use experiment::{Experiments, Found};
 
@@ -31,12 +31,7 @@ struct Group {
 /// Measures, fits and slides all experiments; a quick run takes a few.
 pub(super) fn report(quick: bool) -> Result<Report> {
     let experiments: Experiments = toml::from_str(include_str!("experiments.toml"))?;
-    let count = if quick {
-        experiments.quick_count
-    } else {
-        experiments.count
-    };
-    let numbers: Vec<u32> = (0..count).collect();
+    let numbers: Vec<u32> = (0..experiments.count[usize::from(quick)]).collect();
     let found = in_parallel("fitted materials", &numbers, |number| {
         experiments.run(*number)
     })?;
@@ -73,45 +68,33 @@ pub(super) fn report(quick: bool) -> Result<Report> {
 /// All experiments, those of each material, those of each number of isotherms, and those with and without moduli that change with
 /// temperature.
 fn groups(found: &[Found]) -> Vec<Group> {
-    let mut groups = vec![Group::of("all", found.iter())];
-    let mut materials: Vec<&str> = found.iter().map(|one| &*one.material).collect();
-    materials.sort_unstable();
-    materials.dedup();
-    for material in materials {
-        groups.push(Group::of(
-            material,
-            found.iter().filter(|one| one.material == material),
-        ));
-    }
-    let mut isotherms: Vec<usize> = found.iter().map(|one| one.isotherms).collect();
-    isotherms.sort_unstable();
-    isotherms.dedup();
-    for number in isotherms {
-        let of_them = found.iter().filter(|one| one.isotherms == number);
-        groups.push(Group::of(&format!("{number} isotherms"), of_them));
-    }
-    for (is_entropic, name) in [(false, "b_T = 1"), (true, "b_T = T/T_r")] {
-        let of_them = found.iter().filter(|one| one.is_entropic == is_entropic);
-        groups.push(Group::of(name, of_them));
-    }
+    let kinds: [fn(&&Found) -> String; 4] = [
+        |_| "all".to_owned(),
+        |one| one.material.clone(),
+        |one| format!("{} isotherms", one.isotherms),
+        |one| ["b_T = 1", "b_T = T/T_r"][usize::from(one.is_entropic)].to_owned(),
+    ];
+    let groups = kinds.into_iter().flat_map(|kind| group_by(found, kind));
     groups
+        .map(|(name, found)| Group::of(name, &found))
+        .collect()
 }
 
 impl Group {
-    fn of<'a>(name: &str, found: impl Iterator<Item = &'a Found>) -> Self {
-        let found: Vec<&Found> = found.collect();
-        let share = |is: &dyn Fn(&Found) -> bool| {
-            found.iter().filter(|one| is(one)).count() as f64 / found.len() as f64
+    fn of(experiments: String, found: &[&Found]) -> Self {
+        let share = |is: fn(&Found) -> bool| {
+            let share: Share = found.iter().map(|one| is(one)).collect();
+            share.fraction()
         };
         let mut errors: Vec<f64> = found.iter().map(|one| one.relative_error()).collect();
         errors.sort_by(f64::total_cmp);
         Self {
-            experiments: name.to_owned(),
+            experiments,
             number: found.len(),
-            inside_95_percent_band: share(&|one| one.deviation.abs() <= OF_95_PERCENT),
-            inside_68_percent_band: share(&|one| one.deviation.abs() <= 1.0),
+            inside_95_percent_band: share(|one| one.deviation.abs() <= OF_95_PERCENT),
+            inside_68_percent_band: share(|one| one.deviation.abs() <= 1.0),
             median_relative_material_error: errors[errors.len() / 2],
-            warns_outside: share(&|one| one.warns_outside),
+            warns_outside: share(|one| one.warns_outside),
         }
     }
 }

@@ -4,7 +4,6 @@ mod line;
 mod pages;
 mod theories;
 
-use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -17,7 +16,7 @@ use viscofriction_plot::{Axis, Colour, Figure, Marker, Series, Shape};
 use super::Report;
 use crate::output::WrongInput;
 use crate::picture::chart;
-use crate::table::{GrowingTable, ROWS_AT_ONCE, Table};
+use crate::table::{GrowingTable, ROWS_AT_ONCE, Table, group_by};
 
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "rough.csv";
@@ -109,10 +108,10 @@ const SPECTRA: [[f64; 3]; 10] = [
     [0.6, 32.0, 128.0],
     [0.6, 4.0, 256.0],
 ];
-/// Surfaces of each spectrum.
-const SURFACES: usize = 10;
-/// Speeds under each pressure.
-const SPEEDS: usize = 5;
+/// Surfaces of each spectrum in a full run and in a quick one.
+const SURFACES: [usize; 2] = [10, 2];
+/// Speeds under each pressure, likewise.
+const SPEEDS: [usize; 2] = [5, 2];
 /// Relative deviation from the surfaces up to which a theory is right.
 const RIGHT_WITHIN: f64 = 0.1;
 /// Ratios that are drawn.
@@ -122,14 +121,11 @@ const AREAS: [f64; 7] = [1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 0.9];
 
 /// Compares the theories with all scenes, of which `out` may hold some; a quick run takes a few cheap ones.
 pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
-    let (surfaces, spectra) = if quick {
-        (2, 1)
-    } else {
-        (SURFACES, SPECTRA.len())
-    };
+    let surfaces = SURFACES[usize::from(quick)];
+    let spectra = if quick { &SPECTRA[..1] } else { &SPECTRA };
     let mut plans = Vec::new();
     for solid in &SOLIDS {
-        for spectrum in &SPECTRA[..spectra] {
+        for spectrum in spectra {
             plans.push((solid.name, plan(solid, *spectrum, surfaces, quick)?));
         }
     }
@@ -176,7 +172,7 @@ fn plan(
 ) -> Result<Plan> {
     let source = Source::new(Path::new("rough.toml"), solid.scene.into())?;
     let loads = [0.02, 0.1, 0.5].map(|load| (load * solid.stiffness).to_string());
-    let count = if quick { 2 } else { SPEEDS };
+    let count = SPEEDS[usize::from(quick)];
     let seeds: Vec<String> = (1..=surfaces).map(|seed| seed.to_string()).collect();
     let one = |key, value| format!("indenter.self-affine.{key}={value}:{value}:1");
     let vary = [
@@ -251,7 +247,6 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
     let place = |name: &str| rows[0].iter().position(|column| column == name);
     let number =
         |row: &[String], name: &str| -> Option<f64> { row.get(place(name)?)?.parse().ok() };
-    let mut groups: BTreeMap<Vec<&str>, Vec<&[String]>> = BTreeMap::new();
     let given = [
         "indenter.self-affine.hurst_exponent",
         "indenter.self-affine.longest_wavelength",
@@ -259,13 +254,12 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
         "load.mean_pressure",
         "load.velocity",
     ];
-    for row in &rows[1..] {
+    let groups = group_by(&rows[1..], |row| -> Vec<&str> {
         let of_point = given.iter().filter_map(|name| Some(&*row[place(name)?]));
-        let key = std::iter::once(&*row[0]).chain(of_point).collect();
-        groups.entry(key).or_default().push(row);
-    }
+        std::iter::once(&*row[0]).chain(of_point).collect()
+    });
     let known = groups.into_iter().filter_map(|(key, rows)| {
-        let answered = |row: &&&[String]| place("failure").is_some_and(|at| row[at].is_empty());
+        let answered = |row: &&&Vec<String>| place("failure").is_some_and(|at| row[at].is_empty());
         let all = |name: &str| -> Option<Vec<f64>> {
             let numbers = rows.iter().filter(answered).map(|row| number(row, name));
             let numbers: Option<Vec<f64>> = numbers.collect();

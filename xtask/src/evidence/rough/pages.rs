@@ -1,13 +1,12 @@
 //! The tables of the comparison.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use comfy_table::Table;
 
 use super::{AREAS, Point, RIGHT_WITHIN, Ratio, SOLIDS, THEORIES};
 use crate::meter::median;
-use crate::table::markdown_table;
+use crate::table::{group_by, markdown_table};
 
 /// Theories of the friction, and the others, which stand in two tables.
 const FRICTIONS: Range<usize> = 0..3;
@@ -20,27 +19,19 @@ const MIN_AREA: f64 = 0.03;
 /// Tables by area, by solid and area, and by spectrum and area, and what weight the theory would take.
 pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     let answered: usize = points.iter().map(|point| point.frictions.len()).sum();
-    let large = points
-        .iter()
-        .filter(|point| point.longest_waves_in_period >= MIN_WAVES);
-    let all: Vec<_> = large.map(|point| (Vec::new(), point)).collect();
-    let by_solid = all
-        .iter()
-        .map(|(_, point)| (vec![point.solid.to_owned()], *point));
-    let by_solid: Vec<_> = by_solid.collect();
-    let by_spectrum = points.iter().map(|point| {
-        let waves = [
+    let is_large = |point: &&Point| point.longest_waves_in_period >= MIN_WAVES;
+    let large: Vec<&Point> = points.iter().filter(is_large).collect();
+    let spectrum = |point: &Point| {
+        let [longest, shortest] = [
             point.longest_waves_in_period,
             point.shortest_waves_in_longest,
-        ];
-        let [longest, shortest] = waves.map(|count| format!("{count:2}"));
-        let label = vec![point.hurst_exponent.to_string(), longest, shortest];
-        (label, point)
-    });
-    let by_spectrum: Vec<_> = by_spectrum.collect();
-    let spectrum = ["Hurst exponent", "period/longest wave", "longest/shortest"];
-    let both = |labels: &[&str], points: &[_]| {
-        let tables = [FRICTIONS, OTHERS].map(|theories| table(labels, points, theories));
+        ]
+        .map(|count| format!("{count:2}"));
+        vec![point.hurst_exponent.to_string(), longest, shortest]
+    };
+    let of_spectrum = ["Hurst exponent", "period/longest wave", "longest/shortest"];
+    let both = |labels: &[&str], points: &[&Point], label: Label| {
+        let tables = [FRICTIONS, OTHERS].map(|theories| table(labels, points, label, theories));
         tables.map(|table| format!("{table}\n\n")).concat()
     };
     let weights = SOLIDS.iter().filter_map(|solid| weight(solid.name, points));
@@ -48,9 +39,9 @@ pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     format!(
         "Surfaces with at least {MIN_WAVES} longest waves along the period:\n\n{}{}All solids:\n\n{}{weights}\n\
          {answered} of {n_scenes} scenes are of points at which all surfaces have an answer.",
-        both(&[], &all),
-        both(&["solid"], &by_solid),
-        both(&spectrum, &by_spectrum),
+        both(&[], &large, |_| Vec::new()),
+        both(&["solid"], &large, |point| vec![point.solid.to_owned()]),
+        both(&of_spectrum, &points.iter().collect::<Vec<_>>(), spectrum),
     )
 }
 
@@ -63,14 +54,17 @@ pub(super) fn rows<'a>(points: &'a [Point<'a>]) -> Vec<(&'a Point<'a>, &'a Ratio
     points.iter().flat_map(rows).collect()
 }
 
+/// What tells a point in the first columns of a table.
+type Label = fn(&Point) -> Vec<String>;
+
 /// By label and class of area: points, their typical standard error and error bar of the area, and for each theory the median
 /// ratio, between what nine of ten are, and how many are within a tenth.
-fn table(labels: &[&str], points: &[(Vec<String>, &Point)], theories: Range<usize>) -> Table {
-    let mut classes: BTreeMap<(&[String], usize), Vec<&Point>> = BTreeMap::new();
-    for (label, point) in points {
+fn table(labels: &[&str], points: &[&Point], label: Label, theories: Range<usize>) -> Table {
+    let class = |point: &&Point| {
         let class = AREAS.partition_point(|end| point.area_fraction >= *end);
-        classes.entry((label, class)).or_default().push(point);
-    }
+        (label(point), class)
+    };
+    let classes = group_by(points.iter().copied(), class);
     let lines = classes.into_iter().map(|((label, class), points)| {
         let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
         let errors = points.iter().filter_map(|point| point.ratios[0]);
@@ -79,7 +73,7 @@ fn table(labels: &[&str], points: &[(Vec<String>, &Point)], theories: Range<usiz
             .iter()
             .map(|point| point.area_fraction_error / point.area_fraction);
         let percent = |parts: Vec<f64>| format!("{:.0} %", 100.0 * median(parts));
-        let mut line = label.to_vec();
+        let mut line = label;
         line.extend([from.to_string(), points.len().to_string()]);
         line.extend([percent(errors.collect()), percent(bars.collect())]);
         for theory in theories.clone() {
