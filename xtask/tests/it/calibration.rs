@@ -39,14 +39,3 @@ fn error_bars_hold_on_random_scenes() {
     assert!(may_be(0.99, total), "{held} of {all} hold: {methods:?}");
     assert!(all >= 85 && large.len() >= 4, "too few: {methods:?}");
 }
-
-#[test]
-fn scenes_follow_from_the_seed() {
-    let tables = [("3", "few"), ("3", "few-again"), ("6", "few-others")].map(|(seed, name)| {
-        let line = format!("calibration --scenes 1 --seed {seed}");
-        let folder = Evidence::quick(name, &line).folder;
-        std::fs::read_to_string(folder.join("calibration.csv")).expect("a table")
-    });
-    assert_eq!(tables[0], tables[1], "the same seed");
-    assert_ne!(tables[0], tables[2], "another seed");
-}

@@ -18,7 +18,7 @@ fn curve(evidence: &Evidence, exponent: f64) -> Vec<Row> {
     let rows: Vec<Row> = rows
         .filter(|row| number(row, "exponent").total_cmp(&exponent).is_eq())
         .collect();
-    assert_eq!(rows.len(), 11, "one stiffness ratio, ten decades of speed");
+    assert_eq!(rows.len(), 3, "one stiffness ratio, ten decades of speed");
     let rising = |one: &Row, other: &Row| number(one, "speed") < number(other, "speed");
     assert!(rows.is_sorted_by(rising), "speeds rise");
     rows
@@ -32,8 +32,8 @@ fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one(evidence: &Evide
         let plateau = scaling_factor(exponent).expect("a factor").value;
         for (row, expected, allowed) in [
             (&rows[0], 0.5, 2e-3),
-            (&rows[5], plateau, 3e-2),
-            (&rows[10], 1.0, 2e-3),
+            (&rows[1], plateau, 3e-2),
+            (&rows[2], 1.0, 2e-3),
         ] {
             let bar = number(row, "ratio_error");
             let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);

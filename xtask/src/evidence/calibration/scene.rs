@@ -36,13 +36,10 @@ pub(super) const FLAT: &str = "flat-cone truncated-paraboloid";
 impl Scene {
     /// The scene with this number, from the next numbers of the generator.
     pub(super) fn new(number: usize, random: &mut Random, memory: &str) -> Result<Self> {
-        let is_from_touch = number.is_multiple_of(SCENES_PER_FIRST_TOUCH);
-        let range = if is_from_touch {
-            "from-first-touch"
-        } else {
-            "calibration"
-        };
-        let mut source = Source::new(range)?;
+        let mut source = Source::new(match number % SCENES_PER_FIRST_TOUCH {
+            0 => "from-first-touch",
+            _ => "calibration",
+        })?;
         memory.clone_into(&mut source.range.memory);
         let mut file = sample(random, &source, Path::new(""))?.scene;
         // Both models and several errors are asked of it.
@@ -173,5 +170,20 @@ impl Asked {
             (None, None) => Accuracy::RelativeError(CLOSED_FORM_ERROR),
         };
         Request::new(model, self.method, accuracy)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_follow_from_the_seed() {
+        let scene = |seed| {
+            let scene = Scene::new(1, &mut Random::new(seed), "48 MiB").expect("a scene");
+            inline(&scene.file).expect("a scene as text")
+        };
+        assert_eq!(scene(3), scene(3), "the same seed");
+        assert_ne!(scene(3), scene(6), "another seed");
     }
 }

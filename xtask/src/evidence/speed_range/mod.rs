@@ -18,15 +18,20 @@ use sliding::Sliding;
 /// Exponents of the profiles: cone and paraboloid, in this order in every table.
 const EXPONENTS: [f64; 2] = [1.0, 2.0];
 
-/// From 10^first to 10^last, and so many values per decade, evenly spaced in the logarithm.
+/// From 10^first to 10^last, and so many values, evenly spaced in the logarithm.
 #[derive(Debug, Clone, Copy, Deserialize)]
 struct Decades(i32, i32, i32);
 
 impl Decades {
     fn values(self) -> impl Iterator<Item = f64> {
-        let Self(first, last, per_decade) = self;
-        let steps = first * per_decade..=last * per_decade;
-        steps.map(move |step| 10_f64.powf(f64::from(step) / f64::from(per_decade)))
+        let place = move |index: i32| f64::from(self.0) + f64::from(index) * self.step();
+        (0..self.2).map(move |index| 10_f64.powf(place(index)))
+    }
+
+    /// Decades between two values.
+    fn step(self) -> f64 {
+        let Self(first, last, count) = self;
+        f64::from(last - first) / f64::from(count - 1)
     }
 }
 
@@ -96,7 +101,7 @@ pub(super) fn report(quick: bool) -> Result<Report> {
             border,
         ],
         pictures: vec![
-            ("friction_over_speed", pictures::friction(&curves, &extent)),
+            ("friction_over_speed", pictures::friction(&curves, &extent)?),
             ("ratio_over_speed", pictures::ratio(&curves, &extent)?),
             ("validity", pictures::validity(&map, &borders, &extent)?),
         ],

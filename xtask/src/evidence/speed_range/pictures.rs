@@ -2,9 +2,11 @@
 
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
+use viscofriction::scene::Model;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
-use super::{Decades, EXPONENTS, Extent, Friction, MODELS, Point, Prediction, border, plateau};
+use super::sliding::Sliding;
+use super::{Decades, Extent, Friction, MODELS, Point, Prediction, border, plateau};
 use crate::output::points;
 use crate::picture::{chart as chart_of, guide};
 use crate::scene::solid;
@@ -27,6 +29,42 @@ fn same(one: f64, other: f64) -> bool {
     one.total_cmp(&other).is_eq()
 }
 
+/// A panel for each profile, whose rows follow each other.
+fn panels<R>(
+    rows: &[(Sliding, R)],
+    panel: impl Fn(f64, &[(Sliding, R)]) -> Result<Vec<Chart>>,
+) -> Result<Figure> {
+    let profiles = rows.chunk_by(|(one, _), (other, _)| same(one.exponent, other.exponent));
+    let panels = profiles.map(|rows| panel(rows[0].0.exponent, rows));
+    Ok(Figure::new(panels.collect::<Result<Vec<_>>>()?.concat(), 2))
+}
+
+/// The curves of one profile, one for each stiffness ratio, and their colours and names.
+fn curves(rows: &[Point]) -> impl Iterator<Item = (&[Point], Colour, String)> {
+    let is_same =
+        |(one, _): &Point, (other, _): &Point| same(one.stiffness_ratio, other.stiffness_ratio);
+    let named = rows.chunk_by(is_same).zip(COLOURS);
+    named.map(|(rows, colour)| (rows, colour, format!("γ = {:e}", rows[0].0.stiffness_ratio)))
+}
+
+fn values(rows: &[Point], value: fn(&Friction) -> f64) -> Vec<[f64; 2]> {
+    points(rows, |(at, _)| at.speed, |(_, friction)| value(friction))
+}
+
+/// Circles with error bars.
+fn circles(
+    rows: &[Point],
+    colour: Colour,
+    value: fn(&Friction) -> f64,
+    error: fn(&Friction) -> f64,
+) -> Series {
+    let errors = rows.iter().map(|(_, friction)| error(friction));
+    Series {
+        errors: errors.collect(),
+        ..Series::markers(values(rows, value), Marker::open(Shape::Circle), colour)
+    }
+}
+
 fn chart(exponent: f64, extent: &Extent, y: Axis, series: Vec<Series>) -> Chart {
     let x = Axis::log10("speed vτ/a", range(extent.curve_speeds));
     Chart {
@@ -35,86 +73,41 @@ fn chart(exponent: f64, extent: &Extent, y: Axis, series: Vec<Series>) -> Chart 
     }
 }
 
-/// Speeds and values of one profile and stiffness ratio.
-struct Curve<'a> {
-    points: Vec<&'a Point>,
-    colour: Colour,
-    label: String,
-}
-
-impl Curve<'_> {
-    fn values(&self, value: fn(&Friction) -> f64) -> Vec<[f64; 2]> {
-        let speed = |(at, _): &&Point| at.speed;
-        points(&self.points, speed, |(_, friction)| value(friction))
-    }
-
-    /// Circles with error bars.
-    fn circles(&self, value: fn(&Friction) -> f64, error: fn(&Friction) -> f64) -> Series {
-        let errors = self.points.iter().map(|(_, friction)| error(friction));
-        Series {
-            errors: errors.collect(),
-            ..Series::markers(self.values(value), Marker::open(Shape::Circle), self.colour)
-        }
-    }
-}
-
-/// The curves of one profile.
-fn curves<'a>(points: &'a [Point], exponent: f64, extent: &Extent) -> Vec<Curve<'a>> {
-    let ratios = extent.curve_ratios.iter().zip(COLOURS);
-    let curve = |(&ratio, colour): (&f64, Colour)| Curve {
-        points: points
-            .iter()
-            .filter(|(at, _)| same(at.exponent, exponent) && same(at.stiffness_ratio, ratio))
-            .collect(),
-        colour,
-        label: format!("γ = {ratio:e}"),
-    };
-    ratios.map(curve).collect()
-}
-
 /// Friction over speed, one panel per profile.
-pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
-    let panel = |exponent: f64| {
-        let of_profile = points.iter().filter(|(at, _)| same(at.exponent, exponent));
-        let lowest = of_profile.map(|(_, friction)| {
-            (friction.half_space - friction.half_space_error).min(friction.line)
-        });
+pub(super) fn friction(rows: &[Point], extent: &Extent) -> Result<Figure> {
+    panels(rows, |exponent, rows| {
+        let lowest = rows
+            .iter()
+            .map(|(_, at)| (at.half_space - at.half_space_error).min(at.line));
         let lowest = 10_f64.powf(lowest.fold(1.0, f64::min).log10().floor());
         let y = Axis::log10("friction μ / mean slope", [lowest, 10.0]);
         let mut series = Vec::new();
-        for curve in curves(points, exponent, extent) {
-            let values = curve.values(|at| at.line);
-            let line = Series::line(values, Line::thick(Dash::Solid), curve.colour);
-            let circles = curve.circles(|at| at.half_space, |at| at.half_space_error);
-            series.extend([
-                line.labelled(format!("{}, line", curve.label)),
-                circles.labelled(format!("{}, half space", curve.label)),
-            ]);
+        for (rows, colour, name) in curves(rows) {
+            let line = values(rows, |at| at.line);
+            let line = Series::line(line, Line::thick(Dash::Solid), colour);
+            let circles = circles(rows, colour, |at| at.half_space, |at| at.half_space_error);
+            series.push(line.labelled(format!("{name}, line")));
+            series.push(circles.labelled(format!("{name}, half space")));
         }
-        chart(exponent, extent, y, series)
-    };
-    Figure::new(EXPONENTS.map(panel), 2)
+        Ok(vec![chart(exponent, extent, y, series)])
+    })
 }
 
 /// The ratio of half space and line over speed, one panel per profile.
-pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
-    let panel = |exponent: f64| {
+pub(super) fn ratio(rows: &[Point], extent: &Extent) -> Result<Figure> {
+    panels(rows, |exponent, rows| {
         let y = Axis::linear("friction of half space / line", RATIOS);
         let ends = range(extent.curve_speeds);
         let level = |value: f64| guide(ends.map(|speed| [speed, value]), Dash::Dashed);
         let viscous = level(plateau(exponent)?).labelled("1/2, viscous s, 1");
         let mut series = vec![level(0.5), viscous, level(1.0)];
-        for curve in curves(points, exponent, extent) {
-            let circles = Series {
-                line: Some(Line::thin(Dash::Solid)),
-                ..curve.circles(|at| at.ratio, |at| at.ratio_error)
-            };
-            series.push(circles.labelled(curve.label));
-        }
-        Ok(chart(exponent, extent, y, series))
-    };
-    let panels: Result<Vec<_>> = EXPONENTS.into_iter().map(panel).collect();
-    Ok(Figure::new(panels?, 2))
+        series.extend(curves(rows).map(|(rows, colour, name)| {
+            let circles = circles(rows, colour, |at| at.ratio, |at| at.ratio_error);
+            let line = Some(Line::thin(Dash::Solid));
+            Series { line, ..circles }.labelled(name)
+        }));
+        Ok(vec![chart(exponent, extent, y, series)])
+    })
 }
 
 /// Friction over its prediction, the border of ten per cent, and the window in which tan δ > 1 at ω = v/a.
@@ -125,11 +118,9 @@ pub(super) fn validity(
 ) -> Result<Figure> {
     let window = window(extent)?;
     let shape = [extent.map_speeds, extent.map_ratios].map(|decades| decades.values().count());
-    let mut panels = Vec::new();
-    for exponent in EXPONENTS {
-        let of_profile = map.iter().filter(|(at, _)| same(at.exponent, exponent));
-        for model in MODELS {
-            let quotients = of_profile.clone().map(|(_, law)| {
+    panels(map, |exponent, map| {
+        let panel = |model: Model| {
+            let quotients = map.iter().map(|(_, law)| {
                 let [friction, predicted] = law.pair(model);
                 friction / predicted
             });
@@ -143,24 +134,21 @@ pub(super) fn validity(
             let x = map_axis("log₁₀ (vτ/a)", extent.map_speeds);
             let y = map_axis("log₁₀ γ", extent.map_ratios);
             let model = model.name().replace('-', " ");
-            panels.push(Chart {
+            let series = std::iter::once(window.clone()).chain(outline(borders));
+            Chart {
                 title: Some(format!("{}, {model}", name(exponent))),
-                series: [window.clone()]
-                    .into_iter()
-                    .chain(outline(borders))
-                    .collect(),
+                series: series.collect(),
                 ..Chart::map(x, y, field)
-            });
-        }
-    }
-    Ok(Figure::new(panels, 2))
+            }
+        };
+        Ok(MODELS.map(panel).to_vec())
+    })
 }
 
 /// Every value in the middle of its cell.
 fn map_axis(label: &str, decades: Decades) -> Axis {
-    let Decades(first, last, per_decade) = decades;
-    let half = 0.5 / f64::from(per_decade);
-    let [first, last] = [first, last].map(f64::from);
+    let half = 0.5 * decades.step();
+    let [first, last] = [decades.0, decades.1].map(f64::from);
     Axis::linear(label, [first - half, last + half])
 }
 

@@ -14,7 +14,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Shape};
 use super::Report;
 use crate::output::WrongInput;
 use crate::picture::{chart, guide, markers};
-use crate::table::{Table, markdown_table};
+use crate::table::{Column, Table, table_of};
 use case::{Case, Family, Row, Verdict};
 use families::Run;
 
@@ -29,10 +29,10 @@ pub(super) struct Options {
 /// Part of the tolerance at which smaller ones are drawn.
 const MIN_DRAWN_PART: f64 = 1e-9;
 
-/// Runs all cases, also in a quick run.
-pub(super) fn report(options: &Options) -> Result<Report> {
+/// Runs all cases, in a quick run all but the slowest.
+pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let families = families::all()?;
-    report_of(&case::judge(&chosen(&families, options)?)?)
+    report_of(&case::judge(&chosen(&families, options, quick)?)?)
 }
 
 fn report_of(rows: &[Row]) -> Result<Report> {
@@ -44,18 +44,22 @@ fn report_of(rows: &[Row]) -> Result<Report> {
         name: "stability",
         tables: vec![Table::new("stability", rows)?],
         pictures: vec![("stability", picture(rows))],
-        summary: summary(rows),
+        summary: table_of(&columns(), rows.chunk_by(|a, b| a.family == b.family)).to_string(),
         failure: (!wrong.is_empty()).then_some(failure),
     })
 }
 
 /// The cases that are asked for.
-fn chosen<'a>(families: &'a [(Family, Run)], options: &Options) -> Result<Vec<Case<'a, Run>>> {
+fn chosen<'a>(
+    families: &'a [(Family, Run)],
+    options: &Options,
+    quick: bool,
+) -> Result<Vec<Case<'a, Run>>> {
     let text = options.only.as_deref().unwrap_or_default();
     let mut cases = Vec::new();
     for (family, run) in families {
         let is_asked = |value: &f64| family.case(*value).contains(text);
-        let values = family.values().filter(is_asked);
+        let values = family.values(quick).filter(is_asked);
         let run = *run;
         cases.extend(values.map(|value| Case { family, run, value }));
     }
@@ -64,30 +68,30 @@ fn chosen<'a>(families: &'a [(Family, Run)], options: &Options) -> Result<Vec<Ca
     Ok(cases)
 }
 
-fn count(rows: &[Row], verdict: Verdict) -> usize {
-    rows.iter().filter(|row| row.verdict == verdict).count()
+fn count(rows: &[Row], verdict: Verdict) -> String {
+    let of_verdict = rows.iter().filter(|row| row.verdict == verdict);
+    of_verdict.count().to_string()
 }
 
-/// One line per family.
-fn summary(rows: &[Row]) -> String {
-    let header = "family|parameter|cases|accurate|refused|wrong|largest deviation/tolerance|s";
-    let families = rows.chunk_by(|one, other| one.family == other.family);
-    let lines = families.map(|rows| {
-        let parts = rows.iter().filter_map(Row::part_of_tolerance);
-        let seconds: f64 = rows.iter().map(|row| row.seconds).sum();
-        let largest = parts.reduce(f64::max).map(|part| format!("{part:.1e}"));
-        [
-            rows[0].family.clone(),
-            rows[0].parameter.clone(),
-            rows.len().to_string(),
-            count(rows, Verdict::Accurate).to_string(),
-            count(rows, Verdict::Refused).to_string(),
-            count(rows, Verdict::Wrong).to_string(),
-            largest.unwrap_or_default(),
-            format!("{seconds:.2}"),
-        ]
-    });
-    markdown_table(header.split('|'), lines).to_string()
+/// Columns of the table with one line per family.
+fn columns<'a>() -> [Column<&'a [Row]>; 8] {
+    [
+        ("family", |rows| rows[0].family.clone()),
+        ("parameter", |rows| rows[0].parameter.clone()),
+        ("cases", |rows| rows.len().to_string()),
+        ("accurate", |rows| count(rows, Verdict::Accurate)),
+        ("refused", |rows| count(rows, Verdict::Refused)),
+        ("wrong", |rows| count(rows, Verdict::Wrong)),
+        ("largest deviation/tolerance", |rows| {
+            let parts = rows.iter().filter_map(Row::part_of_tolerance);
+            let largest = parts.reduce(f64::max).map(|part| format!("{part:.1e}"));
+            largest.unwrap_or_default()
+        }),
+        ("s", |rows| {
+            let seconds: f64 = rows.iter().map(|row| row.seconds).sum();
+            format!("{seconds:.2}")
+        }),
+    ]
 }
 
 /// All cases over the decade of their parameter, those at the ends of floating-point numbers in a panel of their own.
