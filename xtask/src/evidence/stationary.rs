@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 use viscofriction::scene::{self, Indenter};
 use viscofriction::solve::Problem;
 
-use super::Report;
 use super::fit::exponent;
+use super::{Report, Share};
 use crate::meter::{measure, median};
 use crate::output::{WrongInput, points};
 use crate::scene::{Scene, as_far_as_reached, refined_to};
@@ -126,13 +126,9 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     })?;
     let elements = |row: &Grid| row.elements_in_contact;
     let mut points = points(&rows, elements, |row| row.processor_seconds);
-    if points
-        .iter()
-        .filter(|point| point[0] > MIN_FITTED_ELEMENTS)
-        .count()
-        > 1
-    {
-        points.retain(|point| point[0] > MIN_FITTED_ELEMENTS);
+    let is_large = |point: &[f64; 2]| point[0] > MIN_FITTED_ELEMENTS;
+    if points.iter().copied().filter(is_large).count() > 1 {
+        points.retain(is_large);
     }
     let table = Table::new("growth", &rows)?;
     let columns = "elements_in_contact unknowns contact_sets seconds processor_seconds \
@@ -146,18 +142,8 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     Ok((table, summary))
 }
 
-/// Exponent from which on the contact is a narrow crescent, for which narrow elements are no help.
-const CRESCENT_EXPONENT: f64 = 4.0;
-/// Exponents up to and from which a small error takes a minute or more.
-const COSTLY_EXPONENTS: [f64; 2] = [0.7, 12.0];
-/// Relative error requested of the solutions whose bars are judged.
-const REQUESTED_ERROR: f64 = 1e-3;
-/// The same at costly exponents and in a quick run.
-const COSTLY_REQUESTED_ERROR: f64 = 3e-3;
-/// Relative error requested of a reference over that of the judged solution.
-const REFERENCE_ERROR_RATIO: f64 = 0.1;
-/// The same at costly exponents.
-const COSTLY_REFERENCE_ERROR_RATIO: f64 = 0.2;
+/// Relative error requested of the solutions whose bars are judged in a quick run.
+const QUICK_REQUESTED_ERROR: f64 = 3e-3;
 /// Aspects Δy/Δx of the elements.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
 /// Fraction of the bars that must hold.
@@ -167,11 +153,14 @@ const MAX_MEDIAN_BAR: f64 = 30.0;
 /// Cases with the largest deviations that are listed even if their bars hold.
 const LISTED_CASES: usize = 8;
 
-/// What `stationary.toml` holds.
+/// What `stationary.toml` holds; errors are relative.
 #[derive(Deserialize)]
 struct Cases {
     /// Of which the cases have other bodies.
     scene: scene::Scene,
+    requested_error: f64,
+    reference_error_over_requested: f64,
+    reference_aspect: f64,
     case: Vec<Case>,
 }
 
@@ -183,6 +172,10 @@ struct Case {
     exponent: Option<f64>,
     #[serde(default)]
     is_quick: bool,
+    /// Instead of those of all cases.
+    requested_error: Option<f64>,
+    reference_error_over_requested: Option<f64>,
+    reference_aspect: Option<f64>,
     indenter: Indenter,
 }
 
@@ -205,31 +198,17 @@ struct Bar {
 }
 
 impl Case {
-    /// A bar for each shape of the elements; a quick run asks for less.
-    fn bars(&self, scene: &scene::Scene, quick: bool) -> Result<Vec<Bar>> {
-        let mut scene = scene.clone();
+    /// A bar for each shape of the elements.
+    fn bars(&self, all: &Cases) -> Result<Vec<Bar>> {
+        let mut scene = all.scene.clone();
         scene.indenter = self.indenter.clone();
         let problem = Problem::try_from(&scene)?;
         let body = problem.body().surface().context("a body that ends")?;
-        let is = |of: fn(f64) -> bool| self.exponent.is_some_and(of);
-        let is_costly = is(|p| p <= COSTLY_EXPONENTS[0] || p >= COSTLY_EXPONENTS[1]);
-        let is_coarse = quick || is_costly;
-        let asked = if is_coarse {
-            COSTLY_REQUESTED_ERROR
-        } else {
-            REQUESTED_ERROR
-        };
-        let finer = if is_costly {
-            COSTLY_REFERENCE_ERROR_RATIO
-        } else {
-            REFERENCE_ERROR_RATIO
-        };
-        let aspect = if is(|p| p >= CRESCENT_EXPONENT) {
-            1.0
-        } else {
-            0.5
-        };
-        let reference = self.solve(body, finer * asked, aspect)?;
+        let asked = self.requested_error.unwrap_or(all.requested_error);
+        let ratio = self.reference_error_over_requested;
+        let ratio = ratio.unwrap_or(all.reference_error_over_requested);
+        let aspect = self.reference_aspect.unwrap_or(all.reference_aspect);
+        let reference = self.solve(body, ratio * asked, aspect)?;
         let bar = |aspect| {
             let friction = self.solve(body, asked, aspect)?;
             let deviation = (friction.value - reference.value).abs();
@@ -260,14 +239,14 @@ impl Case {
 
 /// Judges the bars of all bodies, or of a few: how many hold, how wide they are, and the cases that fail or come closest to it.
 fn error_bars(quick: bool) -> Result<(Table, String)> {
-    let Cases {
-        scene,
-        case: mut cases,
-    } = toml::from_str(include_str!("stationary.toml"))?;
-    cases.retain(|case| case.is_quick || !quick);
-    let bars = in_turn("error bars", &cases, |case| case.bars(&scene, quick))?.concat();
-    let (all, held) = (bars.len(), bars.iter().filter(|bar| bar.holds).count());
-    let fraction = held as f64 / all as f64;
+    let mut cases: Cases = toml::from_str(include_str!("stationary.toml"))?;
+    if quick {
+        cases.case.retain(|case| case.is_quick);
+        cases.requested_error = QUICK_REQUESTED_ERROR;
+    }
+    let bars = in_turn("error bars", &cases.case, |case| case.bars(&cases))?.concat();
+    let share: Share = bars.iter().map(|bar| bar.holds).collect();
+    let Share { held, all } = share;
     let width = 1.0 / median(bars.iter().map(|bar| bar.deviation_over_bar).collect());
     let verdict = |good: bool| if good { "as asked" } else { "NOT as asked" };
     let mut worst: Vec<&Bar> = bars.iter().collect();
@@ -276,9 +255,9 @@ fn error_bars(quick: bool) -> Result<(Table, String)> {
     let columns = "case aspect relative_error_asked friction error_bar deviation \
                    deviation_over_bar holds";
     let summary = format!(
-        "{held} of {all} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{}",
-        100.0 * fraction,
-        verdict(fraction >= MIN_COVERAGE),
+        "{held} of {all} error bars hold, {}: {}\nmedian of bar/deviation {width:.1}: {}\n{}",
+        share.percentage(),
+        verdict(share.fraction() >= MIN_COVERAGE),
         verdict(width <= MAX_MEDIAN_BAR),
         Table::new("worst", &worst)?.markdown(columns)?
     );

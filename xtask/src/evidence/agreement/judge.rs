@@ -1,7 +1,5 @@
 //! One scene: whether its answer makes sense, and what the relations say of it.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -192,13 +190,9 @@ impl Row {
 
     /// On the half space or a layer.
     pub(super) fn slides(&self) -> bool {
-        let slides = [
-            "stationary",
-            "from first touch",
-            "to and fro",
-            "through points",
-        ];
-        slides.iter().any(|motion| self.motion.starts_with(motion)) && !self.motion.contains("line")
+        let motion = self.motion.split(", ").next().unwrap_or_default();
+        let slides = "stationary|from first touch|to and fro|through points";
+        slides.split('|').any(|slides| slides == motion) && !self.motion.contains("line")
     }
 }
 
@@ -320,19 +314,17 @@ fn answer(
             false => Failure::refusal(&error),
         })
     };
-    let said = |panic: Box<dyn Any + Send>| {
-        let text = panic.downcast_ref::<String>().map(String::as_str);
-        let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-        let message = format!("panicked: {}", text.unwrap_or_default());
-        Err(Failure::new(Verdict::Wrong, message))
-    };
-    let solved = || catch_unwind(AssertUnwindSafe(solved)).unwrap_or_else(said);
     // Of scenes that are solved at the same time none takes the threads of another; and a worker of the search that waited
     // for a pool would begin further scenes meanwhile, a thread that is not one of its workers does not.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Failure::new(Verdict::Refused, error.to_string()))?;
     let solved = std::thread::scope(|scope| scope.spawn(|| pool.install(solved)).join());
-    solved.unwrap_or_else(said)
+    solved.unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+        let message = format!("panicked: {}", text.unwrap_or_default());
+        Err(Failure::new(Verdict::Wrong, message))
+    })
 }
 
 /// What no answer may be.
@@ -342,29 +334,21 @@ fn problem_of(answer: &Answer) -> Option<String> {
         if !(value.is_finite() && error.is_finite()) {
             return Some(format!("{name} is {value} ± {error}"));
         }
-        let signed = "x_min x_max y_min y_max indentation_depth work dissipation_shortest_octave";
-        // Of a motion over a spring it is 0 within its bar.
-        let rubs = [
-            "dissipated_energy",
-            "friction_coefficient",
-            "tangential_force",
-        ]
-        .contains(&&name[..]);
-        let least = if rubs { -error } else { 0.0 };
-        if value < least && !signed.split(' ').any(|signed| signed == name) {
+        let is_of = |names: &str| names.split(' ').any(|one| one == name);
+        // Of a motion over a spring they are 0 within their bars.
+        let rubs = is_of("dissipated_energy friction_coefficient tangential_force");
+        let is_signed =
+            is_of("x_min x_max y_min y_max indentation_depth work dissipation_shortest_octave");
+        if value < if rubs { -error } else { 0.0 } && !is_signed {
             return Some(format!("{name} is negative: {value} ± {error}"));
         }
     }
     let (area, peak) = (answer.contact_area?, answer.peak_pressure?);
     let [value, error] = [peak.value, peak.error];
     let mean = answer.normal_force.value / area.value;
-    let spread = relative(&area) + relative(&answer.normal_force);
+    let spread = area.relative_error() + answer.normal_force.relative_error();
     let is_below = value + error < mean * (1.0 - 1e-9) - mean * spread;
     is_below.then(|| format!("the peak pressure {value} ± {error} is below the mean {mean}"))
-}
-
-fn relative(known: &Estimate) -> f64 {
-    known.error / known.value
 }
 
 /// All numbers with their errors; those of theories are exact, and those of the corners of a contact share one.
@@ -401,10 +385,9 @@ fn compared(relation: Relation, first: Answered, derived: &Derived) -> Result<Ro
     let mut row = Row::of(relation.into());
     row.method = first.answer.method.name().to_owned();
     let folder = first.folder.join("other");
-    let threads = if relation == Relation::OtherThreads {
-        3
-    } else {
-        1
+    let threads = match relation {
+        Relation::OtherThreads => 3,
+        _ => 1,
     };
     match answer(&derived.case, &folder, derived.method, threads) {
         Ok(other) => {
@@ -534,7 +517,11 @@ impl Pair<'_> {
         // A share of the friction is as exact as the friction, at best.
         let bars = if name.starts_with("dissipation") {
             let frictions = answers.map(|of| of.friction_coefficient.as_ref());
-            frictions.into_iter().flatten().map(relative).sum()
+            frictions
+                .into_iter()
+                .flatten()
+                .map(Estimate::relative_error)
+                .sum()
         } else {
             one.error + other.error
         };
@@ -542,26 +529,17 @@ impl Pair<'_> {
             Relation::OtherThreads => 0.0,
             relation if relation.is_exact() && self.one.method == self.other.method => {
                 let has_powers = has_powers(&self.derived.case.scene);
-                ROUNDING_TOLERANCE * size
-                    + if has_powers {
-                        bars
-                    } else {
-                        ITERATION_TOLERANCE * bars
-                    }
+                let part = if has_powers { 1.0 } else { ITERATION_TOLERANCE };
+                ROUNDING_TOLERANCE * size + part * bars
             }
             Relation::OtherControl => {
                 // What was found and is now given has an error, which the other quantities inherit.
                 let given = [Some(self.one.normal_force), self.one.indentation_depth];
-                let given = given.into_iter().flatten();
-                let given = given.map(|known| known.error / known.value.abs());
+                let given = given.iter().flatten().map(Estimate::relative_error);
                 let inherited = given.fold(0.0, f64::max);
                 let is_given = ["normal_force", "indentation_depth"].contains(&name);
-                let slope = if is_given {
-                    MAX_LOG_SLOPE
-                } else {
-                    2.0 * MAX_LOG_SLOPE
-                };
-                bars + (slope * inherited + ROUNDING_TOLERANCE) * size
+                let orders = if is_given { 1.0 } else { 2.0 };
+                bars + (orders * MAX_LOG_SLOPE * inherited + ROUNDING_TOLERANCE) * size
             }
             _ => bars + (self.derived.truth_difference + ROUNDING_TOLERANCE * 1e-3) * size,
         }

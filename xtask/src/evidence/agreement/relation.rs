@@ -199,14 +199,14 @@ impl Relation {
             }
             Self::SubdividedMotion => {
                 let points = scene.load.motion.as_mut()?;
-                *points = with_middles(points);
+                *points = with_middles(points, middle_of_motion);
                 let date = START_OVER_DURATION * points.last()?.time;
                 points.iter_mut().for_each(|point| point.time += date);
             }
             Self::LaterHistory => later(scene.load.history.as_mut()?)?,
             Self::SubdividedHistory => {
                 let points = scene.load.history.as_mut()?;
-                *points = subdivided(points);
+                *points = with_middles(points, middle_of_history);
             }
             _ => return None,
         }
@@ -435,12 +435,7 @@ fn other_series(material: &mut MaterialTable) -> Option<()> {
     let moduli = branches.iter_mut().map(|branch| &mut branch.modulus);
     let terms = moduli.chain([equilibrium_modulus, viscosity]);
     for (nth, term) in terms.enumerate() {
-        *term *= 1.0
-            + if nth % 2 == 0 {
-                SERIES_ERROR
-            } else {
-                -SERIES_ERROR
-            };
+        *term *= 1.0 + [SERIES_ERROR, -SERIES_ERROR][nth % 2];
     }
     *approximation = Some(Approximation {
         relative_error: SERIES_ERROR,
@@ -473,33 +468,28 @@ fn later(points: &mut Vec<LoadPoint>) -> Option<()> {
     is_free.then_some(())
 }
 
-/// With the middles of all straight parts.
-fn with_middles(points: &[MotionPoint]) -> Vec<MotionPoint> {
-    let middle = |pair: &[MotionPoint]| {
-        let middle = MotionPoint {
-            time: 0.5 * (pair[0].time + pair[1].time),
-            position: 0.5 * (pair[0].position + pair[1].position),
-            ..pair[0]
-        };
-        [pair[0], middle]
-    };
-    let all = points.windows(2).flat_map(middle);
-    all.chain(points.last().copied()).collect()
+/// With the middles of all straight parts; a part that takes no time has none.
+fn with_middles<P: Copy>(points: &[P], middle: impl Fn(P, P) -> Option<P>) -> Vec<P> {
+    let pairs = points.windows(2);
+    let all = pairs.flat_map(|pair| [Some(pair[0]), middle(pair[0], pair[1])]);
+    all.flatten().chain(points.last().copied()).collect()
 }
 
-/// With the middles of all straight parts that take time.
-fn subdivided(points: &[LoadPoint]) -> Vec<LoadPoint> {
-    let middle = |pair: &[LoadPoint]| {
-        let [one, other] = [pair[0], pair[1]];
-        let mean = |of: fn(&LoadPoint) -> Option<f64>| Some(0.5 * (of(&one)? + of(&other)?));
-        let middle = LoadPoint {
-            time: 0.5 * (one.time + other.time),
-            normal_force: mean(|point| point.normal_force),
-            indentation_depth: mean(|point| point.indentation_depth),
-        };
-        let is_part = other.time > one.time;
-        [Some(one), is_part.then_some(middle)].into_iter().flatten()
-    };
-    let all = points.windows(2).flat_map(middle);
-    all.chain(points.last().copied()).collect()
+fn middle_of_motion(one: MotionPoint, other: MotionPoint) -> Option<MotionPoint> {
+    let time = 0.5 * (one.time + other.time);
+    let position = 0.5 * (one.position + other.position);
+    Some(MotionPoint {
+        time,
+        position,
+        ..one
+    })
+}
+
+fn middle_of_history(one: LoadPoint, other: LoadPoint) -> Option<LoadPoint> {
+    let mean = |of: fn(&LoadPoint) -> Option<f64>| Some(0.5 * (of(&one)? + of(&other)?));
+    (other.time > one.time).then(|| LoadPoint {
+        time: 0.5 * (one.time + other.time),
+        normal_force: mean(|point| point.normal_force),
+        indentation_depth: mean(|point| point.indentation_depth),
+    })
 }

@@ -9,11 +9,11 @@ use anyhow::{Context, Result};
 use measurements::Finding;
 use measurements::friction::FrictionPoint;
 use serde::{Deserialize, Serialize};
+use toml::Value;
 use viscofriction::friction_fit::{FrictionFitOptions, fit_friction};
-use viscofriction::scene::{Accuracy, Method, Model, Scene};
-use viscofriction::solve::{Problem, solve};
+use viscofriction::scene::{Method, Model, Scene};
 
-use super::request::{no_file, number_at};
+use super::request::{Request, no_file, number_at};
 use super::{Report, Share};
 use crate::random::Random;
 use crate::table::Table;
@@ -47,7 +47,8 @@ struct Case {
     /// Standard error over friction.
     noise: f64,
     is_known: bool,
-    scene: toml::Table,
+    /// With any speed.
+    scene: Scene,
 }
 
 /// How often the intervals of a quantity hold.
@@ -102,8 +103,8 @@ impl Row {
 
 impl Case {
     fn rows(&self) -> Result<Vec<Row>> {
-        let scene = self.scene.clone();
-        let truth = self.truth(&scene)?;
+        let truth = self.truth()?;
+        let mut scene = Value::try_from(&self.scene)?;
         let numbers: Vec<u64> = (0..self.experiments as u64).collect();
         let found = in_parallel(self.name.clone(), &numbers, |number| {
             Ok(self.findings(&truth, *number).ok())
@@ -113,25 +114,26 @@ impl Case {
         let quantities = first.iter().enumerate();
         let row = |(k, finding): (usize, &Finding)| -> Result<Row> {
             let path = format!("material.{}", finding.name);
-            let value = number_at(&mut self.scene.clone().into(), &path).copied();
+            let value = number_at(&mut scene, &path).copied();
             let value = value.with_context(|| format!("{path} is not in the scene"))?;
-            let intervals = || found.iter().flatten().map(|all| all[k].interval);
-            let holds = |[lower, upper]: &[Option<f64>; 2]| {
-                lower.is_none_or(|lower| lower <= value) && upper.is_none_or(|upper| value <= upper)
+            let share = |is: &dyn Fn([Option<f64>; 2]) -> bool| -> Share {
+                let is = |found: &Option<Vec<Finding>>| {
+                    found.as_ref().is_some_and(|all| is(all[k].interval))
+                };
+                found.iter().map(is).collect()
             };
-            let n = self.experiments as f64;
-            let part = intervals().filter(holds).count() as f64 / n;
-            let open = intervals()
-                .filter(|ends| ends.iter().any(Option::is_none))
-                .count();
+            let holds = share(&|[lower, upper]| {
+                lower.is_none_or(|lower| lower <= value) && upper.is_none_or(|upper| value <= upper)
+            });
+            let open = share(&|ends| ends.contains(&None));
             Ok(Row {
                 case: self.name.clone(),
                 experiments: self.experiments,
                 quantity: finding.name.clone(),
                 truth: value,
-                holds_percent: 100.0 * part,
-                holds_percent_error: 100.0 * (part * (1.0 - part) / n).sqrt(),
-                open_percent: 100.0 * open as f64 / n,
+                holds_percent: 100.0 * holds.fraction(),
+                holds_percent_error: 100.0 * holds.scatter(holds.fraction()),
+                open_percent: 100.0 * open.fraction(),
                 failed: found.iter().filter(|found| found.is_none()).count(),
             })
         };
@@ -139,28 +141,24 @@ impl Case {
     }
 
     /// Friction without errors.
-    fn truth(&self, scene: &toml::Table) -> Result<Vec<FrictionPoint>> {
+    fn truth(&self) -> Result<Vec<FrictionPoint>> {
         let [slowest, fastest] = self.speeds;
-        let places: Vec<f64> = (0..self.points)
-            .map(|k| k as f64 / (self.points - 1) as f64)
-            .collect();
-        in_parallel("truth", &places, |place| {
-            let velocity = slowest * (fastest / slowest).powf(*place);
-            let mut scene = scene_of(scene)?;
+        let numbers: Vec<usize> = (0..self.points).collect();
+        in_parallel("truth", &numbers, |number| {
+            let place = *number as f64 / (self.points - 1) as f64;
+            let velocity = slowest * (fastest / slowest).powf(place);
+            let mut scene = self.scene.clone();
             scene.load.velocity = Some(velocity);
-            let error = if scene.solve.model == Some(Model::Line) {
-                scene.solve.method = Some(Method::MdrSteady);
-                TRUTH_ERROR_ON_LINE
-            } else {
-                scene.solve.method = Some(Method::BemSteady);
-                TRUTH_ERROR
+            let request = match scene.solve.model {
+                Some(Model::Line) => {
+                    Request::to_error(Model::Line, Method::MdrSteady, TRUTH_ERROR_ON_LINE)
+                }
+                _ => Request::to_error(Model::HalfSpace, Method::BemSteady, TRUTH_ERROR),
             };
-            let problem = Problem::try_from(&scene)?;
-            let answer = solve(&problem.with_accuracy(Accuracy::RelativeError(error)))?;
-            let friction = answer.friction_coefficient.context("nothing slides")?;
+            let answer = request.solve(&scene)?;
             Ok(FrictionPoint {
                 velocity,
-                friction_coefficient: friction.value,
+                friction_coefficient: answer.requested_quantity().value,
                 ..FrictionPoint::default()
             })
         })
@@ -181,43 +179,30 @@ impl Case {
             })
             .collect();
         let mut scene = self.scene.clone();
-        if let Some(material) = scene.get_mut("material") {
-            move_moduli(material, &mut random);
-        }
+        let mut material = Value::try_from(&scene.material)?;
+        move_moduli(&mut material, &mut random);
+        scene.material = material.try_into()?;
         let options = FrictionFitOptions::default();
-        let fit = fit_friction(
-            &scene_of(&scene)?,
-            (Path::new(""), no_file),
-            &points,
-            &options,
-            &|_| (),
-        )?;
+        let fit = fit_friction(&scene, (Path::new(""), no_file), &points, &options, &|_| ())?;
         Ok(fit.fit.findings)
     }
 }
 
-fn scene_of(table: &toml::Table) -> Result<Scene> {
-    let mut table = table.clone();
-    if let Some(toml::Value::Table(load)) = table.get_mut("load") {
-        load.entry("velocity").or_insert(toml::Value::Float(1.0));
-    }
-    Ok(Scene::try_from(table)?)
-}
-
-/// Multiplies all moduli and viscosities below a value by random factors.
-fn move_moduli(value: &mut toml::Value, random: &mut Random) {
+/// Multiplies all moduli and viscosities below a value that are not zero by random factors.
+fn move_moduli(value: &mut Value, random: &mut Random) {
     match value {
-        toml::Value::Table(table) => {
+        Value::Table(table) => {
             for (key, value) in table.iter_mut() {
+                let is_moved = key.contains("modulus") || key == "viscosity";
                 match value {
-                    toml::Value::Float(number) if key.contains("modulus") || key == "viscosity" => {
+                    Value::Float(number) if is_moved && *number > 0.0 => {
                         *number *= random.decades(START_DECADES);
                     }
                     other => move_moduli(other, random),
                 }
             }
         }
-        toml::Value::Array(list) => list.iter_mut().for_each(|one| move_moduli(one, random)),
+        Value::Array(list) => list.iter_mut().for_each(|one| move_moduli(one, random)),
         _ => {}
     }
 }

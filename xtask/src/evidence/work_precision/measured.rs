@@ -78,7 +78,7 @@ impl Row {
             resolution_kind: if is_closed { "closed form" } else { asked },
             resolution: (!is_closed).then_some(number),
             reference: reference.source.clone(),
-            reference_error: reference.known.error / reference.known.value.abs(),
+            reference_error: reference.known.relative_error(),
             solver: Some(request.method),
             ..Self::default()
         }
@@ -200,7 +200,7 @@ fn found(request: &Request, scene: &Scene, reference: &Reference) -> Result<Foun
     let known = answer.requested_quantity();
     Ok(Found {
         error: deviation(&[known.value], &[reference.known.value]),
-        error_bar: Some(known.error / known.value.abs()),
+        error_bar: Some(known.relative_error()),
         unknowns: answer.unknowns,
     })
 }

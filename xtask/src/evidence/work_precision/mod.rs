@@ -91,11 +91,10 @@ pub(super) fn report(quick: bool) -> Result<Report> {
 
 /// Runs of each method in a quick measurement, from the coarsest on.
 const QUICK_RUNS: usize = 3;
-/// Elements along the edges of the grids of the Hertz contact, and of the rough surface.
-const HERTZ_EDGES: [usize; 5] = [128, 256, 512, 1024, 2048];
-const QUICK_HERTZ_EDGES: [usize; 3] = [32, 64, 128];
-const ROUGH_EDGE: usize = 512;
-const QUICK_ROUGH_EDGE: usize = 64;
+/// Elements along the edges of the grids of the Hertz contact in a full measurement and in a quick one.
+const HERTZ_EDGES: [&[usize]; 2] = [&[128, 256, 512, 1024, 2048], &[32, 64, 128]];
+/// The same along the edge of the rough surface.
+const ROUGH_EDGE: [usize; 2] = [512, 64];
 
 fn measure(quick: bool) -> Result<Measured> {
     let Cases {
@@ -108,28 +107,15 @@ fn measure(quick: bool) -> Result<Measured> {
         is_once: quick,
         ..Measured::default()
     };
-    in_turn(
-        "work and precision",
-        &cases,
-        |Case { name, scene, .. }| {
-            let series = if presses(scene) { &pressed } else { &sliding };
-            let runs = if quick { QUICK_RUNS } else { usize::MAX };
-            let requests = series.iter().flat_map(|series| series.requests(runs));
-            measured.add_scene(name, scene, &requests.collect::<Vec<_>>())
-        },
-    )?;
-    hertz(
-        &mut measured,
-        if quick {
-            &QUICK_HERTZ_EDGES
-        } else {
-            &HERTZ_EDGES
-        },
-    );
-    rough(
-        &mut measured,
-        if quick { QUICK_ROUGH_EDGE } else { ROUGH_EDGE },
-    )?;
+    let runs = if quick { QUICK_RUNS } else { usize::MAX };
+    in_turn("work and precision", &cases, |case| {
+        let is_pressed = presses(&case.scene);
+        let series = if is_pressed { &pressed } else { &sliding };
+        let requests = series.iter().flat_map(|series| series.requests(runs));
+        measured.add_scene(&case.name, &case.scene, &requests.collect::<Vec<_>>())
+    })?;
+    hertz(&mut measured, HERTZ_EDGES[usize::from(quick)]);
+    rough(&mut measured, ROUGH_EDGE[usize::from(quick)])?;
     Ok(measured)
 }
 
@@ -238,19 +224,16 @@ fn table<'a>(series: impl Iterator<Item = (&'a Fit, &'a [Row])>) -> comfy_table:
     let header = ["scene", "model", "method", "over", "order", "cost exponent"];
     let header = header.into_iter().chain(PRINTED.map(|(_, name)| name));
     let rows = series.map(|(fit, rows)| {
-        let [model, kind] = [fit.model, fit.resolution_kind].map(str::to_owned);
-        let order = exponent(fit.order.zip(fit.order_error));
-        let cost = exponent(fit.cost_exponent.zip(fit.cost_exponent_error));
-        let cells = [
+        let mut cells = vec![
             fit.scene.clone(),
-            model,
+            fit.model.to_owned(),
             fit.method.clone(),
-            kind,
-            order,
-            cost,
+            fit.resolution_kind.to_owned(),
+            exponent(fit.order.zip(fit.order_error)),
+            exponent(fit.cost_exponent.zip(fit.cost_exponent_error)),
         ];
-        let times = PRINTED.map(|(error, _)| time_to(rows, error));
-        cells.into_iter().chain(times).collect::<Vec<_>>()
+        cells.extend(PRINTED.map(|(error, _)| time_to(rows, error)));
+        cells
     });
     markdown_table(header, rows)
 }
