@@ -26,7 +26,7 @@ pub(crate) struct GcrLimits {
 
 /// The state from which the next direction is built.
 pub(crate) struct GcrState<'a, T> {
-    /// Weighted sum of squares of the residual.
+    /// Sum of squares of the residual.
     pub(crate) residual_square: f64,
     pub(crate) residual: &'a [T],
     /// Vector to which the preconditioner is applied: the residual, or after stagnation the last A p, scaled to the norm of the
@@ -36,14 +36,13 @@ pub(crate) struct GcrState<'a, T> {
 
 /// Minimises the norm of `residual` = A `solution` − b over a Krylov space, and updates both.
 ///
-/// `find_direction` writes a direction p and its image A p, or returns `false` to end the iteration. Norms and inner products are
-/// weighted with `weights`, or with 1 if `None`. The iteration also ends on breakdown, when A p depends linearly on the basis.
+/// `find_direction` writes a direction p and its image A p, or returns `false` to end the iteration. The iteration
+/// also ends on breakdown, when A p depends linearly on the basis.
 ///
 /// The residual is updated, not recomputed: relative to the first residual, it drifts from that of the solution by rounding.
 pub(crate) fn gcr<T: Real>(
     solution: &mut [T],
     residual: &mut [T],
-    weights: Option<&[T]>,
     limits: GcrLimits,
     mut find_direction: impl FnMut(GcrState<'_, T>, &mut [T], &mut [T]) -> bool,
 ) {
@@ -51,7 +50,7 @@ pub(crate) fn gcr<T: Real>(
     let mut basis: VecDeque<BasisVector<T>> = VecDeque::new();
     let mut recycled: Option<BasisVector<T>> = None;
     let mut stagnant_image: Option<Vec<T>> = None;
-    let mut residual_square = inner_product(weights, residual, residual);
+    let mut residual_square = inner_product(residual, residual);
     for _ in 0..limits.max_steps {
         // Ask for a direction and its image.
         let mut new = recycled
@@ -67,7 +66,7 @@ pub(crate) fn gcr<T: Real>(
         }
 
         // Orthogonalise the image against the basis; test for breakdown.
-        let (factors, products) = orthogonalise(&mut new.image, residual, weights, &basis);
+        let (factors, products) = orthogonalise(&mut new.image, residual, &basis);
         new.image_square = products.square;
         let square_before = products.square + products.removed_square;
         if products.square <= BREAKDOWN_TOLERANCE * BREAKDOWN_TOLERANCE * square_before
@@ -103,7 +102,7 @@ pub(crate) fn gcr<T: Real>(
             |band, [part]| {
                 let elements = residual_bands.elements(band);
                 add_scaled(part, T::rounded(step), &new.image[elements.clone()]);
-                product_of_parts(weights.map(|weights| &weights[elements]), part, part)
+                product_of_parts(part, part)
             },
             |left, right| left + right,
         );
@@ -120,7 +119,7 @@ pub(crate) fn gcr<T: Real>(
 struct BasisVector<T> {
     direction: Vec<T>,
     image: Vec<T>,
-    /// ‖A p‖², weighted.
+    /// ‖A p‖².
     image_square: f64,
 }
 
@@ -149,7 +148,6 @@ struct ImageProducts {
 fn orthogonalise<T: Real>(
     image: &mut [T],
     residual: &[T],
-    weights: Option<&[T]>,
     basis: &VecDeque<BasisVector<T>>,
 ) -> (Vec<T>, ImageProducts) {
     let mut factors = Vec::with_capacity(basis.len());
@@ -167,8 +165,7 @@ fn orthogonalise<T: Real>(
                 if let Some((factor, image)) = before {
                     add_scaled(part, factor, &image[elements.clone()]);
                 }
-                let weights = weights.map(|weights| &weights[elements.clone()]);
-                product_of_parts(weights, part, &vector.image[elements])
+                product_of_parts(part, &vector.image[elements])
             },
             |left, right| left + right,
         );
@@ -185,8 +182,7 @@ fn orthogonalise<T: Real>(
             if let Some((factor, vector)) = last {
                 add_scaled(part, *factor, &vector.image[elements.clone()]);
             }
-            let weights = weights.map(|weights| &weights[elements.clone()]);
-            [&*part, &residual[elements]].map(|other| product_of_parts(weights, part, other))
+            [&*part, &residual[elements]].map(|other| product_of_parts(part, other))
         },
         |left, right| [left[0] + right[0], left[1] + right[1]],
     );
@@ -200,28 +196,21 @@ fn orthogonalise<T: Real>(
 
 /// Euclidean norm of a vector.
 pub(crate) fn norm<T: Real>(vector: &[T]) -> f64 {
-    inner_product(None, vector, vector).sqrt()
+    inner_product(vector, vector).sqrt()
 }
 
-/// Inner product of two vectors, weighted if there are weights.
-fn inner_product<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
+/// Inner product of two vectors.
+fn inner_product<T: Real>(left: &[T], right: &[T]) -> f64 {
     let bands = blocks_of(left);
     bands.sum(|band| {
         let elements = bands.elements(band);
-        let weights = weights.map(|weights| &weights[elements.clone()]);
-        product_of_parts(weights, &left[elements.clone()], &right[elements])
+        product_of_parts(&left[elements.clone()], &right[elements])
     })
 }
 
 /// The contribution of one band to an inner product.
-fn product_of_parts<T: Real>(weights: Option<&[T]>, left: &[T], right: &[T]) -> f64 {
-    match weights {
-        None => sum([left, right], |[left, right]| left * right).into(),
-        Some(weights) => {
-            let vectors = [weights, left, right];
-            sum(vectors, |[weight, left, right]| weight * left * right).into()
-        }
-    }
+fn product_of_parts<T: Real>(left: &[T], right: &[T]) -> f64 {
+    sum([left, right], |[left, right]| left * right).into()
 }
 
 /// Row blocks of a vector, seen as a column of elements, for the threads.
@@ -245,7 +234,6 @@ mod tests {
         gcr::<f64>(
             &mut solution,
             &mut residual,
-            None,
             TWO_STEPS,
             |state, direction, image| {
                 direction.copy_from_slice(state.source);
@@ -267,7 +255,6 @@ mod tests {
         gcr(
             &mut solution,
             &mut residual,
-            None,
             TWO_STEPS,
             |state, direction, image| {
                 let [x, y] = [1e15 * state.source[0], 1e15 * state.source[1]];

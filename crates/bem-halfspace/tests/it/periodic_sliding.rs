@@ -270,7 +270,8 @@ fn a_light_contact_goes_on_from_the_coarser_grid() {
     assert!(solved.products < 30, "{} products", solved.products);
 }
 
-/// Moduli whose ratio is 10² to 10⁶, grids of odd numbers of long elements, contacts from some elements to almost all.
+/// Moduli whose ratio is 10² to 10⁶, grids of odd numbers of long elements, contacts from some elements to almost all; under a pressure,
+/// and at the depth that it causes.
 #[cfg(feature = "rough")]
 #[test]
 fn every_contact_on_a_small_grid_is_found() {
@@ -299,8 +300,22 @@ fn every_contact_on_a_small_grid_is_found() {
         let modulus = material.relaxation().complex_modulus(frequency);
         let modulus = modulus.expect("a modulus").storage;
         let load = [modulus * 10.0_f64.powf(-0.5 - 3.0 * part(11.0)), velocity];
-        let solved = slide(&grid, &heights, &material, load);
-        assert!(solved.is_ok(), "{case}: {ratio}, {load:?}: {solved:?}");
+        let found = |solved: Result<PeriodicSliding, BemError>| {
+            solved.unwrap_or_else(|error| panic!("{case}: {ratio}, {load:?}: {error}"))
+        };
+        let pressed = found(slide(&grid, &heights, &material, load));
+        // At its depth the contact has the same pressure, unless it is full.
+        if pressed.mean_depth < 0.0 {
+            let at_depth = PeriodicLoad::at_depth(pressed.mean_depth, velocity).expect("a load");
+            let options = PeriodicOptions {
+                tolerance: 1e-8,
+                ..PeriodicOptions::default()
+            };
+            let held = steady_on_grid(&grid, &heights, &material, &at_depth, &options);
+            let pressures = found(held).pressure.pressure;
+            let mean_pressure = pressures.iter().sum::<f64>() / pressures.len() as f64;
+            assert_close(case, mean_pressure, load[0], 1e-4);
+        }
     }
 }
 

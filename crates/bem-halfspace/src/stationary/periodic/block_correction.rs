@@ -228,12 +228,6 @@ impl BlockCorrection {
             }
             goes_on
         };
-        gcr(
-            displacement,
-            &mut residual,
-            None,
-            GCR_LIMITS,
-            find_direction,
-        );
+        gcr(displacement, &mut residual, GCR_LIMITS, find_direction);
     }
 }

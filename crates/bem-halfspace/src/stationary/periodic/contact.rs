@@ -2,9 +2,12 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
 
+use numerics::{InvalidParameter, in_range};
+
 use crate::parallel::reductions::larger;
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::{Sliding, mean};
+use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};
 
@@ -21,17 +24,13 @@ pub(super) struct PeriodicContact<'a> {
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
-    /// \[Pa].
-    pub(super) mean_pressure: f64,
-    /// Largest residual, relative to the largest displacement.
-    pub(super) tolerance: f64,
-    /// Maximum number of operator applications.
-    pub(super) max_products: usize,
+    pub(super) control: PeriodicControl,
+    pub(super) options: PeriodicOptions,
 }
 
 /// A solved contact; the pressure is a field of its own.
 pub(super) struct PeriodicSolution {
-    /// Mean of h + u over the contact, \[m].
+    /// Value of h + u in the contact, \[m].
     pub(super) depth: f64,
     /// Operator applications on this grid.
     pub(super) products: usize,
@@ -42,29 +41,55 @@ pub(super) struct PeriodicSolution {
 /// Solves the problem from a first guess of the pressure, which is replaced by the solution.
 ///
 /// Outside the contact the solution is minus the gap over the self-influence, a negative pressure. Without a positive pressure the
-/// first active set is all elements not above the mean height.
+/// first active set is all elements not above the mean height, or those below a prescribed depth. Without any nothing touches.
 pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Result<PeriodicSolution, BemError> {
-    let n = problem.grid.n_elements() as f64;
     let mut heights = vec![0.0; problem.grid.n_elements()];
     equations.kernel.shifted(problem.heights, &mut heights);
-    let mean = heights.iter().sum::<f64>() / n;
-    let variance = heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / n;
-    let mut guess = std::mem::take(pressure);
-    if guess.iter().all(|pressure| *pressure <= 0.0) {
-        guess = heights.iter().map(|h| f64::from(*h <= mean)).collect();
-    }
+    let mean_height = mean(&heights);
+    let squares = heights.iter().map(|h| (h - mean_height).powi(2));
+    let variance = squares.sum::<f64>() / heights.len() as f64;
     let own = equations.self_influence;
-    let mut contact = PeriodicFixedSetSolver { problem, equations };
+    let depth = problem.prescribed_depth().map(|depth| mean_height + depth);
+
+    // Initial active set: that of the guess, or the elements below the mean height or a prescribed depth, if there are any.
+    let overlap = |height: &f64| match depth {
+        None => f64::from(*height <= mean_height),
+        Some(depth) => (depth - height) / own,
+    };
+    let overlaps = || heights.iter().map(overlap).collect();
+    if let Some(depth) = depth
+        && !heights.iter().any(|height| *height < depth)
+    {
+        *pressure = overlaps();
+        return Ok(PeriodicSolution {
+            depth,
+            products: 0,
+            residual: 0.0,
+        });
+    }
+    let has_guess = pressure.iter().any(|pressure| *pressure > 0.0);
+    let guess = if has_guess {
+        std::mem::take(pressure)
+    } else {
+        overlaps()
+    };
+
+    // Search, and write gaps as negative pressures.
+    let mut contact = PeriodicFixedSetSolver {
+        depth,
+        problem,
+        equations,
+    };
     let inner_tolerance = INEXACT_TOLERANCE * variance.sqrt();
     let mut search = Search::new(
         &mut contact,
         heights,
         inner_tolerance,
-        problem.tolerance,
+        problem.options.tolerance,
         guess,
     );
     let found = search.run();
@@ -84,8 +109,31 @@ pub(super) fn solve(
     })
 }
 
+impl PeriodicContact<'_> {
+    /// Prescribed depth of the mean plane, \[m]; `None` under a mean pressure.
+    pub(super) const fn prescribed_depth(&self) -> Option<f64> {
+        match self.control {
+            PeriodicControl::MeanPressure(_) => None,
+            PeriodicControl::MeanDepth(depth) => Some(depth),
+        }
+    }
+
+    /// Fails if a prescribed depth is not allowed.
+    pub(super) fn check_depth(
+        &self,
+        is_allowed: impl Fn(f64) -> bool,
+    ) -> Result<(), InvalidParameter> {
+        let allowed = "above minus the height of the mean plane over the lowest point, and on a half space below 0";
+        let check = |depth: f64| in_range("mean_depth", depth, is_allowed(depth), allowed);
+        self.prescribed_depth()
+            .map_or(Ok(()), |depth| check(depth).map(drop))
+    }
+}
+
 /// The equations of the problem, as the active-set search uses them.
 struct PeriodicFixedSetSolver<'a> {
+    /// Prescribed value of h + u in the contact, \[m]; `None` under a mean pressure.
+    depth: Option<f64>,
     problem: PeriodicContact<'a>,
     equations: &'a mut Equations,
 }
@@ -115,18 +163,17 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
         self.equations.self_influence
     }
 
-    /// Writes the displacements without their mean, and returns the largest absolute one.
-    fn displace(&mut self, pressure: &[f64], moved: &mut [f64]) -> f64 {
-        self.equations.displace(pressure, moved);
-        let mean = moved.iter().sum::<f64>() / moved.len() as f64;
-        moved.iter_mut().for_each(|moved| *moved -= mean);
-        moved
+    /// Returns the largest displacement from the mean.
+    fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
+        self.equations.displace(pressure, displacement);
+        let mean = mean(displacement);
+        displacement
             .iter()
-            .fold(0.0, |top, moved| larger(top, moved.abs()))
+            .fold(0.0, |top, moved| larger(top, (moved - mean).abs()))
     }
 
     fn depth(&self, _: &[f64]) -> Option<f64> {
-        None
+        self.depth
     }
 
     fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
@@ -147,13 +194,14 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     }
 
     fn is_next_to_active_set(&self, element: usize) -> bool {
-        self.equations.neighbourhood.contains(element)
+        self.equations.has_active_neighbour(element)
     }
 
     fn scale_to_force(&self, pressure: &mut [f64]) {
-        let total = self.problem.mean_pressure * pressure.len() as f64;
-        let factor = total / pressure.iter().sum::<f64>();
-        pressure.iter_mut().for_each(|p| *p *= factor);
+        if let PeriodicControl::MeanPressure(prescribed) = self.problem.control {
+            let factor = prescribed / mean(pressure);
+            pressure.iter_mut().for_each(|p| *p *= factor);
+        }
     }
 
     fn iterations(&self) -> usize {
@@ -161,6 +209,6 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     }
 
     fn budget_is_exhausted(&self) -> bool {
-        self.equations.products >= self.problem.max_products
+        self.equations.products >= self.problem.options.max_products
     }
 }

@@ -1,13 +1,15 @@
 //! The linear equations on a given active set, solved by generalised conjugate residuals or directly.
 //!
 //! ```text
-//! h + K p − d = 0  on the active set,   p = 0 outside,   mean of p given
+//! h + K p − d = 0  on the active set,   p = 0 outside,   mean of p or depth d given
 //! ```
+//!
+//! If the depth is free, it is eliminated: gaps count less their mean over the active set, and directions have no mean.
 //!
 //! GCR (Eisenstat, Elman & Schultz 1983) keeps pressure and gap known after every step. The preconditioner is the inverse S of K
 //! on the whole grid, restricted to the active set, less a coarse-space correction (`block_correction.rs`). Problems with few
 //! unknowns are solved directly (`elimination.rs`), once the steps have cost as much as that, or some times as much on all
-//! active sets together. Packed vectors cover the active set and its neighbours, whose gaps tell whether they penetrate.
+//! active sets together.
 //!
 //! All vectors of one active set are in single precision, in units of its gaps. The search computes the gaps anew in double
 //! precision between active sets, so that no digit of the result is lost.
@@ -16,8 +18,6 @@
 
 mod elimination;
 
-use std::sync::Arc;
-
 use numerics::transforms::Real as _;
 use rustfft::num_complex::Complex;
 
@@ -25,7 +25,8 @@ use crate::contact::active_set::ActiveSet;
 use crate::dense;
 use crate::parallel::reductions::{add_scaled, larger, sum};
 use crate::parallel::row_blocks::copies;
-use crate::stationary::conjugate_residuals::{GcrLimits, gcr};
+use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
+use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::block_correction::BlockCorrection;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
@@ -59,22 +60,19 @@ const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 }
 /// operator applications without it.
 const ITERATIONS_IN_DIRECT_SOLVES: f64 = 4.0;
 
-/// The equations on one active set, with packed vectors over the set and its neighbours.
+/// The equations on one active set, with packed vectors over it.
 pub(super) struct Equations {
     pub(super) kernel: PeriodicKernel,
     /// `None` if the grid cannot be divided into blocks.
     correction: Option<BlockCorrection>,
-    /// The active set and its neighbours.
-    pub(super) neighbourhood: ActiveSet,
-    /// 1 on the active set, 0 on its neighbours.
-    inside: Arc<[f32]>,
-    /// Number of active elements.
-    n_contact: f64,
+    active: ActiveSet,
+    /// True if the mean pressure is given, false if the depth is.
+    depth_is_free: bool,
     /// \[Pa].
     pressure: Vec<f64>,
     /// Unit of the gaps, \[m]. The unit of the pressures displaces its own element by this unit.
     unit: f64,
-    /// Gap less its mean over the active set, in `unit`.
+    /// Gap, less its mean if the depth is free, in `unit`.
     gap: Vec<f32>,
     /// S 1: response of S to the unit gap on the active set.
     weights: Vec<f32>,
@@ -85,7 +83,7 @@ pub(super) struct Equations {
     influence_symbols: Vec<Complex<f32>>,
     /// Symbols of the inverse of K on the whole grid.
     inverse_symbols: Vec<Complex<f32>>,
-    /// Field of the grid that carries packed vectors into transforms; zero outside the neighbourhood.
+    /// Field of the grid that carries packed vectors into transforms; zero outside the active set.
     scattered: Vec<f32>,
     /// Field of the grid with the result of a transform.
     image: Vec<f32>,
@@ -98,7 +96,11 @@ pub(super) struct Equations {
 }
 
 impl Equations {
-    pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
+    pub(super) fn new(
+        sliding: &Sliding,
+        grid: &Grid,
+        control: PeriodicControl,
+    ) -> Result<Self, BemError> {
         let mut kernel = PeriodicKernel::new(sliding, grid)?;
         let self_influence =
             unit_response(&mut kernel, PeriodicKernel::displace, grid.n_elements())[0];
@@ -109,9 +111,8 @@ impl Equations {
             inverse_symbols,
             correction: BlockCorrection::new(sliding, grid, self_influence)?,
             kernel,
-            neighbourhood: ActiveSet::new(grid.shape()),
-            inside: Arc::new([]),
-            n_contact: 0.0,
+            active: ActiveSet::new(grid.shape()),
+            depth_is_free: matches!(control, PeriodicControl::MeanPressure(_)),
             pressure: Vec::new(),
             unit: 1.0,
             gap: Vec::new(),
@@ -134,37 +135,27 @@ impl Equations {
 
     /// Sets the active set, with the fields of pressure \[Pa] and gap \[m], and updates the preconditioner.
     pub(super) fn set_active_set(&mut self, active: &[bool], pressure: &[f64], gap: &[f64]) {
-        let columns = self.neighbourhood.columns;
-        self.neighbourhood
-            .assign(|element| is_active_or_neighbour(active, columns, element));
-        self.neighbourhood.find_runs();
+        self.active.assign(|element| active[element]);
+        self.active.find_runs();
         self.scattered.fill(0.0);
-        let runs = (0..self.neighbourhood.row_blocks.n_blocks())
-            .flat_map(|row_block| self.neighbourhood.runs(row_block));
-        let inside = runs.flat_map(|run| &active[run.elements()]);
-        self.inside = inside.map(|inside| f32::from(*inside)).collect();
-        self.n_contact = self.total(&self.inside);
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
-        let mut weights = self.inside.to_vec();
+        let mut weights = copies(1.0, self.active.len());
         self.apply_inverse(&mut weights);
         self.weights = weights;
         self.unit_depth_response = self.weights.clone();
         if let Some(correction) = &mut self.correction {
-            correction.set_weights(
-                &self.neighbourhood,
-                &self.weights,
-                &mut self.unit_depth_response,
-            );
+            correction.set_weights(&self.active, &self.weights, &mut self.unit_depth_response);
         }
         self.total_unit_depth_response = self.total(&self.unit_depth_response);
     }
 
-    /// Sets the packed gap less its mean over the active set. In this unit single precision suffices, however small the residual is.
+    /// Sets the packed gap. In its own unit single precision suffices, however small the residual is.
     fn set_gap(&mut self, mut gap: Vec<f64>) {
-        let inside = gap.iter().zip(&*self.inside);
-        let sum: f64 = inside.map(|(gap, inside)| gap * f64::from(*inside)).sum();
-        gap.iter_mut().for_each(|gap| *gap -= sum / self.n_contact);
+        if self.depth_is_free {
+            let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+            gap.iter_mut().for_each(|gap| *gap -= mean);
+        }
         let unit = gap.iter().fold(0.0, |top, gap| larger(top, gap.abs()));
         self.unit = if unit > 0.0 { unit } else { 1.0 };
         self.gap = gap
@@ -173,21 +164,32 @@ impl Equations {
             .collect();
     }
 
-    /// Copies the pressure on the active set and its neighbours into a field of the grid.
+    /// Copies the pressure on the active set into a field of the grid.
     pub(super) fn copy_pressure_to(&self, pressure: &mut [f64]) {
-        self.neighbourhood.scatter(&self.pressure, pressure);
+        self.active.scatter(&self.pressure, pressure);
     }
 
     /// Root mean square of the gap on the active set, \[m].
     pub(super) fn residual_rms(&self) -> f64 {
-        self.residual(&self.gap) * self.unit
+        self.rms(norm(&self.gap)) * self.unit
     }
 
     /// Solves until the root mean square of the residual is below `rms`, or its maximum below `max`, \[m].
+    ///
+    /// At a depth on a half space no pressure closes the gaps of all elements. A tension on all of them then has them leave the set.
     pub(super) fn solve(&mut self, rms: f64, max: f64) {
+        let is_full = self.active.len() == self.scattered.len();
+        if is_full && !self.depth_is_free && self.kernel.mean_compliance == 0.0 {
+            self.pressure.fill(-self.unit / self.self_influence);
+            return;
+        }
         let [rms, max] = [rms, max].map(|length| length / self.unit);
-        let is_converged = |equations: &Self, residual: f64, gap: &[f32]| {
-            residual <= rms || residual <= max && equations.max_gap(gap) <= max
+        let is_converged = |residual: f64, gap: &[f32]| {
+            let largest = || {
+                gap.iter()
+                    .fold(0.0, |top, gap| larger(top, f64::from(gap.abs())))
+            };
+            residual <= rms || residual <= max && largest() <= max
         };
 
         // Iterate, unless a direct solve is known to be cheap; at most for the cost of a direct solve, if one is possible.
@@ -207,7 +209,8 @@ impl Equations {
             let small_grid_floats = MAX_BASIS_FLOATS_ON_SMALL_GRID
                 .min(BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID * n_elements);
             let basis_floats = small_grid_floats.max(BASIS_FLOATS_PER_ELEMENT * n_elements);
-            let max_directions = (basis_floats / (2 * self.inside.len())).clamp(1, MAX_STEPS);
+            let max_directions =
+                (basis_floats / (2 * self.active.len().max(1))).clamp(1, MAX_STEPS);
             let step_limit = max_directions.max(MAX_STEPS_IF_TRUNCATED) as f64;
             #[expect(clippy::cast_possible_truncation, reason = "at most all steps")]
             #[expect(clippy::cast_sign_loss, reason = "positive")]
@@ -219,28 +222,21 @@ impl Equations {
             // Run GCR; where it stagnates, solve the coarse-space correction more accurately.
             let mut gap = std::mem::take(&mut self.gap);
             let mut added = copies(0.0, gap.len());
-            let inside = Arc::clone(&self.inside);
             let mut previous = f64::INFINITY;
-            gcr(
-                &mut added,
-                &mut gap,
-                Some(&inside),
-                limits,
-                |state, direction, image| {
-                    let residual = (state.residual_square / self.n_contact).sqrt();
-                    let goes_on = !is_converged(self, residual, state.residual);
-                    if goes_on {
-                        if let Some(correction) = &mut self.correction
-                            && residual > STAGNATION_RATIO * previous
-                        {
-                            correction.tighten_tolerance();
-                        }
-                        previous = residual;
-                        self.find_direction(state.source, direction, image);
+            gcr(&mut added, &mut gap, limits, |state, direction, image| {
+                let residual = self.rms(state.residual_square.sqrt());
+                let goes_on = !is_converged(residual, state.residual);
+                if goes_on {
+                    if let Some(correction) = &mut self.correction
+                        && residual > STAGNATION_RATIO * previous
+                    {
+                        correction.tighten_tolerance();
                     }
-                    goes_on
-                },
-            );
+                    previous = residual;
+                    self.find_direction(state.source, direction, image);
+                }
+                goes_on
+            });
             self.gap = gap;
             let unit = self.unit / self.self_influence;
             for (pressure, added) in self.pressure.iter_mut().zip(added) {
@@ -249,112 +245,84 @@ impl Equations {
         }
 
         // Solve directly what the iteration has not reached.
-        if can_be_direct && !is_converged(self, self.residual(&self.gap), &self.gap) {
+        if can_be_direct && !is_converged(self.rms(norm(&self.gap)), &self.gap) {
             self.largest_direct_cost = self.largest_direct_cost.max(direct_cost);
             self.solve_directly();
         }
     }
 
-    /// The gaps, less their mean, that a packed vector of pressures causes.
+    /// The gaps, less their mean if the depth is free, that a packed vector of pressures causes.
     fn apply_influence(&mut self, pressures: &[f32], gaps: &mut [f32]) {
-        self.neighbourhood.scatter(pressures, &mut self.scattered);
+        self.active.scatter(pressures, &mut self.scattered);
         self.products += 1;
         self.kernel.apply_single_precision(
             &self.influence_symbols,
             &self.scattered,
             &mut self.image,
         );
-        self.neighbourhood.gather(&self.image, gaps);
-        self.subtract_mean(gaps);
+        self.active.gather(&self.image, gaps);
+        if self.depth_is_free {
+            let mean = f32::rounded(self.total(gaps) / self.active.len() as f64);
+            gaps.iter_mut().for_each(|gap| *gap -= mean);
+        }
     }
 
-    /// Root mean square of a packed gap on the active set, in its unit.
-    fn residual(&self, gap: &[f32]) -> f64 {
-        let square = self.neighbourhood.sum(|range| {
-            let lists = [&self.inside[range.clone()], &gap[range]];
-            sum(lists, |[inside, gap]| inside * gap * gap).into()
-        });
-        (square / self.n_contact).sqrt()
+    /// Root mean square of a packed vector from its Euclidean norm; 0 for the empty set.
+    fn rms(&self, norm: f64) -> f64 {
+        norm / (self.active.len().max(1) as f64).sqrt()
     }
 
-    /// Largest |gap| on the active set.
-    fn max_gap(&self, gap: &[f32]) -> f64 {
-        let largest = |row_block: usize| {
-            let range = self.neighbourhood.packed_range(row_block);
-            let pairs = self.inside[range.clone()].iter().zip(&gap[range]);
-            pairs.fold(0.0, |top, (inside, gap)| {
-                larger(top, f64::from(inside * gap.abs()))
-            })
-        };
-        self.neighbourhood.row_blocks.gather(largest, larger)
-    }
-
-    /// Preconditioned direction that closes the gaps approximately, without mean pressure, and the gaps `image` that it causes.
+    /// Preconditioned direction that closes the gaps approximately and keeps the prescribed quantity, and the gaps `image` that it
+    /// causes.
     fn find_direction(&mut self, gap: &[f32], direction: &mut [f32], image: &mut [f32]) {
-        // S and its correction, applied to minus the gap on the active set.
-        let closing = |row_block, [direction]: [&mut [f32]; 1]| {
-            let range = self.neighbourhood.packed_range(row_block);
-            let pairs = gap[range.clone()].iter().zip(&self.inside[range]);
-            for (value, (gap, inside)) in direction.iter_mut().zip(pairs) {
-                *value = -inside * gap;
-            }
-        };
-        let row_blocks = self.neighbourhood.row_blocks;
-        row_blocks.for_each_part([self.neighbourhood.packed(direction)], closing);
+        // S and its correction, applied to minus the gap.
+        for (value, gap) in direction.iter_mut().zip(gap) {
+            *value = -gap;
+        }
         self.apply_inverse(direction);
         if let Some(correction) = &mut self.correction {
-            correction.correct(&self.neighbourhood, &self.weights, direction);
+            correction.correct(&self.active, &self.weights, direction);
         }
         // Remove the mean by a change of the depth.
-        let total = self.total(direction);
-        add_scaled(
-            direction,
-            f32::rounded(-total / self.total_unit_depth_response),
-            &self.unit_depth_response,
-        );
+        if self.depth_is_free {
+            let depth = -self.total(direction) / self.total_unit_depth_response;
+            add_scaled(direction, f32::rounded(depth), &self.unit_depth_response);
+        }
         self.apply_influence(direction, image);
     }
 
     /// Applies S to a packed vector, restricted to the active set.
     fn apply_inverse(&mut self, vector: &mut [f32]) {
-        self.neighbourhood.scatter(vector, &mut self.scattered);
+        self.active.scatter(vector, &mut self.scattered);
         self.kernel
             .apply_single_precision(&self.inverse_symbols, &self.scattered, &mut self.image);
-        let (neighbourhood, image, inside) = (&self.neighbourhood, &self.image, &self.inside);
-        neighbourhood.row_blocks.for_each_part(
-            [neighbourhood.packed(vector)],
-            |row_block, [vector]| {
-                neighbourhood.gather_in(row_block, image, vector);
-                for (value, inside) in vector
-                    .iter_mut()
-                    .zip(&inside[neighbourhood.packed_range(row_block)])
-                {
-                    *value *= inside;
-                }
-            },
-        );
+        self.active.gather(&self.image, vector);
+    }
+
+    /// True if one of the eight periodic neighbours of an element is active.
+    pub(super) fn has_active_neighbour(&self, element: usize) -> bool {
+        let columns = self.active.columns;
+        let rows = self.scattered.len() / columns;
+        let (row, column) = (element / columns, element % columns);
+        let along_y = [column + columns - 1, column, column + 1].map(|column| column % columns);
+        [row + rows - 1, row, row + 1].iter().any(|row| {
+            let first = row % rows * columns;
+            along_y
+                .iter()
+                .any(|column| self.active.contains(first + column))
+        })
     }
 
     /// Gathers a field of the grid into a packed vector.
     fn gather(&self, field: &[f64]) -> Vec<f64> {
-        let mut vector = copies(0.0, self.neighbourhood.len());
-        self.neighbourhood.gather(field, &mut vector);
+        let mut vector = copies(0.0, self.active.len());
+        self.active.gather(field, &mut vector);
         vector
-    }
-
-    /// Subtracts the mean over the active set from all values.
-    fn subtract_mean(&self, vector: &mut [f32]) {
-        let sum = self.neighbourhood.sum(|range| {
-            let lists = [&vector[range.clone()], &self.inside[range]];
-            sum(lists, |[value, inside]| inside * value).into()
-        });
-        let mean = f32::rounded(sum / self.n_contact);
-        vector.iter_mut().for_each(|value| *value -= mean);
     }
 
     /// Sum of a packed vector.
     fn total(&self, vector: &[f32]) -> f64 {
-        self.neighbourhood
+        self.active
             .sum(|range| sum([&vector[range]], |[value]| value).into())
     }
 }
@@ -369,14 +337,4 @@ fn unit_response(
     first[0] = 1.0;
     map(kernel, &first, &mut image);
     image
-}
-
-/// True if an element, or one of its eight periodic neighbours, is active.
-fn is_active_or_neighbour(active: &[bool], columns: usize, element: usize) -> bool {
-    let rows = active.len() / columns;
-    let (row, column) = (element / columns, element % columns);
-    [row + rows - 1, row, row + 1].iter().any(|row| {
-        let row = &active[row % rows * columns..][..columns];
-        row[column] || row[(column + 1) % columns] || row[(column + columns - 1) % columns]
-    })
 }

@@ -1,14 +1,11 @@
 //! Periodic surfaces with error bars: stationary sliding, pressing, and sliding from rest, refined to a relative error.
 
-use std::cell::RefCell;
-
 use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, Request, positive};
 
 use crate::march::periodic::{PeriodicTransient, Steps, slide_with};
 use crate::stationary::periodic::contact::PeriodicContact;
-use crate::stationary::periodic::depth::{SlidingSurface, hold};
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::{Sliding, mean};
 use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::stationary::periodic::refinement::{
     AREA_RATE, FIRST_ORDER_RATE, FIRST_TOLERANCE, FRICTION_RATE, GridResult, RefinementGoal,
@@ -152,18 +149,17 @@ fn on_coarse_grid(
     let first = first_shape(surface, &Request::from(ANY_RELATIVE_ERROR))?;
     let shape = first.map(|edge| finer * edge);
     let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;
-    let on_grid = SlidingSurface {
+    let problem = PeriodicContact {
         sliding,
         grid: &grid,
         heights: &heights,
+        control,
         options: PeriodicOptions {
             tolerance: FIRST_TOLERANCE,
             ..PeriodicOptions::default()
         },
     };
-    let guess = RefCell::new(Vec::new());
-    let solve = |problem: PeriodicContact| solve_from(&mut guess.borrow_mut(), problem);
-    Ok(hold(control, &on_grid, None, solve)?.state)
+    solve_from(&mut Vec::new(), problem)
 }
 
 /// Slides a sum of waves from rest over the sliding distance of the load.
@@ -234,23 +230,19 @@ fn solve(
         area: AREA_RATE,
         steps_per_row: None,
     };
-    let guess = RefCell::new(Vec::new());
-    let mut pressure_before = None;
+    let mut guess = Vec::new();
     refine(surface, &goal, |sampled, tolerance, _| {
-        let on_grid = SlidingSurface {
+        let problem = PeriodicContact {
             sliding,
             grid: &sampled.grid,
             heights: &sampled.heights,
+            control,
             options: PeriodicOptions {
                 tolerance,
                 ..PeriodicOptions::default()
             },
         };
-        let held = hold(control, &on_grid, pressure_before, |problem| {
-            solve_from(&mut guess.borrow_mut(), problem)
-        })?;
-        pressure_before = Some(held.mean_pressure);
-        let state = held.state;
+        let state = solve_from(&mut guess, problem)?;
         let found = GridResult {
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
@@ -258,9 +250,9 @@ fn solve(
             in_contact: in_contact(&state.pressure),
             has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
-            mean_pressure: held.mean_pressure,
+            mean_pressure: mean(&state.pressure.pressure),
             mean_depth: state.mean_depth,
-            residual: state.residual.max(held.depth_error),
+            residual: state.residual,
         };
         Ok((found, state))
     })

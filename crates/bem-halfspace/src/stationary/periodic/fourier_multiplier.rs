@@ -89,9 +89,11 @@ impl FourierMultiplier {
         });
     }
 
-    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision).
+    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision). That of the mean is `mean`; `None` for that of
+    /// the longest wave.
     pub(crate) fn symbols(
         &self,
+        mean: Option<f64>,
         symbol: impl Fn(usize, f64) -> Complex<f64> + Sync,
     ) -> Vec<Complex<f32>> {
         let (rows, stiffness) = (self.along_x.len(), &self.stiffness);
@@ -103,6 +105,9 @@ impl FourierMultiplier {
                 *place = rounded(symbol(row, q) * normalisation);
             }
         });
+        if let Some(mean) = mean {
+            symbols[0] = rounded(Complex::from(mean * normalisation));
+        }
         symbols
     }
 

@@ -81,13 +81,7 @@ impl Sliding {
         (q_x * self.velocity).abs()
     }
 
-    /// Amplitude of the pressure wave along x of a `length` that displaces a half space by an `amplitude`, \[Pa].
-    pub(super) fn pressure_of(&self, length: f64, amplitude: f64) -> Result<f64, BemError> {
-        let wave_number = 2.0 * PI / length;
-        Ok(amplitude * wave_number / self.compliances(&[wave_number])?[0].norm())
-    }
-
-    /// Displacement of a layer at rest per mean pressure, \[m/Pa]; 0 for a half space.
+    /// Displacement of a layer at rest per mean pressure, \[m/Pa]; 0 for a half space, whose displacements are measured from their mean.
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
         Ok(self.compliances(&[0.0])?[0].re * self.base.uniform_compliance())
     }
@@ -105,8 +99,12 @@ impl Sliding {
 }
 
 /// The kernel K on one grid, with symbols by row of the transform.
+///
+/// A mean pressure compresses a layer, and leaves the mean of a half space where it is.
 pub(super) struct PeriodicKernel {
     waves: FourierMultiplier,
+    /// Displacement per mean pressure, \[m/Pa]; 0 for a half space.
+    pub(super) mean_compliance: f64,
     /// |q| û/(p̂ M) at the centre of an element, \[1/Pa].
     at_centre: Vec<Complex<f64>>,
     /// Phase shift from the centre to the point at which the gap is evaluated.
@@ -137,6 +135,7 @@ impl PeriodicKernel {
         }
         Ok(Self {
             waves,
+            mean_compliance: sliding.mean_compliance()?,
             at_centre,
             shift,
             at_gap,
@@ -147,6 +146,7 @@ impl PeriodicKernel {
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row] / q;
         self.waves.apply(pressure, result, symbol);
+        set_mean(result, self.mean_compliance * mean(pressure));
     }
 
     /// Displacements at the centres of the elements.
@@ -158,11 +158,14 @@ impl PeriodicKernel {
 
     /// Symbols of K over `self_influence`, and of the inverse of that, for
     /// [`apply_single_precision`](Self::apply_single_precision).
+    ///
+    /// The inverse has the mean of the longest wave, so that it exists on a half space too.
     pub(super) fn symbols(&self, self_influence: f64) -> [Vec<Complex<f32>>; 2] {
         let factor = |row: usize, q: f64| self.at_gap[row] / (q * self_influence);
+        let mean = self.mean_compliance / self_influence;
         [
-            self.waves.symbols(factor),
-            self.waves.symbols(|row, q| factor(row, q).inv()),
+            self.waves.symbols(Some(mean), factor),
+            self.waves.symbols(None, |row, q| factor(row, q).inv()),
         ]
     }
 
@@ -170,8 +173,7 @@ impl PeriodicKernel {
     pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row].inv() * q;
         self.waves.apply(field, result, symbol);
-        let mean = result.iter().sum::<f64>() / result.len() as f64;
-        result.iter_mut().for_each(|pressure| *pressure -= mean);
+        set_mean(result, 0.0);
     }
 
     /// The pressure that displaces the centres of all elements.
@@ -182,10 +184,12 @@ impl PeriodicKernel {
 
     /// Symbols of K (1 + w K)⁻¹ at the centres, with one weight w for all elements, for K over `self_influence`.
     pub(super) fn relaxation(&self, weight: f64, self_influence: f64) -> Vec<Complex<f32>> {
-        self.waves.symbols(|row, q| {
-            let kernel = self.at_centre[row] / self_influence;
-            kernel / (kernel * weight + q)
-        })
+        let mean = self.mean_compliance / self_influence;
+        self.waves
+            .symbols(Some(mean / (mean * weight + 1.0)), |row, q| {
+                let kernel = self.at_centre[row] / self_influence;
+                kernel / (kernel * weight + q)
+            })
     }
 
     /// Multiplies every wave by its symbol, in single precision.
@@ -218,4 +222,15 @@ impl PeriodicKernel {
             |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);
         self.waves.apply(pressure, result, symbol);
     }
+}
+
+/// Mean of a field.
+pub(super) fn mean(field: &[f64]) -> f64 {
+    field.iter().sum::<f64>() / field.len() as f64
+}
+
+/// Shifts a field to the given mean.
+fn set_mean(field: &mut [f64], prescribed: f64) {
+    let shift = prescribed - mean(field);
+    field.iter_mut().for_each(|value| *value += shift);
 }

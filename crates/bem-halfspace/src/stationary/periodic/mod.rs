@@ -22,7 +22,6 @@
 
 mod block_correction;
 mod contact;
-mod depth;
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
@@ -40,8 +39,6 @@ pub mod sensitivity;
 #[cfg(feature = "rough")]
 mod subgrid_gaps;
 
-use std::cell::RefCell;
-
 use numerics::{InvalidParameter, in_range, positive};
 
 use crate::contact::check_length;
@@ -49,13 +46,13 @@ use crate::elements::area;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
-use depth::{SlidingSurface, hold};
+use contact::PeriodicContact;
 use equations::Equations;
 #[cfg(feature = "rough")]
 pub use estimate::{
     PeriodicEstimate, indent, indent_on_coarse_grid, slide, steady, steady_on_coarse_grid,
 };
-use kernel::Sliding;
+use kernel::{Sliding, mean};
 pub use load::{PeriodicControl, PeriodicLoad};
 #[cfg(feature = "rough")]
 pub use refinement::{elements_for_bars, fewest_elements, largest_grid, memory};
@@ -126,31 +123,30 @@ pub fn steady_on_grid(
 ) -> Result<PeriodicSliding, BemError> {
     options.validate()?;
     check_surface(grid, heights)?;
-    let surface = SlidingSurface {
+    let problem = PeriodicContact {
         sliding: &Sliding::new(elastomer, load.velocity())?,
         grid,
         heights,
+        control: load.require_stationary()?,
         options: *options,
     };
-    let guess = RefCell::new(Vec::new());
-    let solve = |problem: contact::PeriodicContact| solve_from(&mut guess.borrow_mut(), problem);
-    Ok(hold(load.require_stationary()?, &surface, None, solve)?.state)
+    solve_from(&mut Vec::new(), problem)
 }
 
 /// Solves a problem from a guess of the pressure, see [`nested::solve`], which is replaced by the pressure on this grid.
-fn solve_from(
-    guess: &mut Vec<f64>,
-    problem: contact::PeriodicContact,
-) -> Result<PeriodicSliding, BemError> {
+fn solve_from(guess: &mut Vec<f64>, problem: PeriodicContact) -> Result<PeriodicSliding, BemError> {
     in_pool(problem.grid.n_elements(), || solve_in_pool(guess, problem))
 }
 
 fn solve_in_pool(
     guess: &mut Vec<f64>,
-    problem: contact::PeriodicContact,
+    problem: PeriodicContact,
 ) -> Result<PeriodicSliding, BemError> {
-    let mut equations = Equations::new(problem.sliding, problem.grid)?;
+    let is_closed = |depth: f64| depth >= 0.0 && !problem.sliding.is_on_rigid_base();
+    problem.check_depth(|depth| !is_closed(depth))?;
+    let mut equations = Equations::new(problem.sliding, problem.grid, problem.control)?;
     let solved = nested::solve(problem, &mut equations, guess)?;
+    problem.check_depth(|_| guess.iter().any(|pressure| *pressure > 0.0))?;
     let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();
     let mut field = vec![0.0; pressure.len()];
     let weighted_mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
@@ -158,14 +154,11 @@ fn solve_in_pool(
     let from_slopes = weighted_mean(&field);
     equations.kernel.dissipate(&pressure, &mut field);
     let from_dissipation = weighted_mean(&field);
-    // A layer is also compressed by the mean pressure.
-    let mean_displacement = problem.mean_pressure * problem.sliding.mean_compliance()?;
-    let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,
         friction_from_dissipation: from_dissipation,
         area_fraction: area::area_fraction(problem.grid.shape()[1], &pressure).area,
-        mean_depth: solved.depth - mean_height + mean_displacement,
+        mean_depth: solved.depth - mean(problem.heights),
         products: solved.products,
         residual: solved.residual,
         pressure: PressureField {

@@ -9,6 +9,8 @@ use rustfft::num_complex::Complex;
 use crate::stationary::periodic::contact::{self, PeriodicContact, PeriodicSolution};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
+use crate::stationary::periodic::kernel::mean;
+use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
@@ -61,13 +63,15 @@ fn solve_on_coarser_grids(
     let coarse = PeriodicContact {
         grid: &grid,
         heights: &heights,
-        tolerance: problem.tolerance.max(COARSE_TOLERANCE),
-        max_products: problem.max_products.min(COARSE_MAX_PRODUCTS),
+        options: PeriodicOptions {
+            tolerance: problem.options.tolerance.max(COARSE_TOLERANCE),
+            max_products: problem.options.max_products.min(COARSE_MAX_PRODUCTS),
+        },
         ..*problem
     };
     let mut guess = Vec::new();
     solve_on_coarser_grids(&coarse, &mut guess)?;
-    let mut equations = Equations::new(problem.sliding, &grid)?;
+    let mut equations = Equations::new(problem.sliding, &grid, problem.control)?;
     match contact::solve(coarse, &mut equations, &mut guess) {
         // An unconverged solution is a guess too.
         Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
@@ -156,19 +160,25 @@ fn full_contact(
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Option<PeriodicSolution> {
-    let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
-    let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
+    let mean_height = mean(problem.heights);
+    let heights = problem.heights.iter();
+    let displacement: Vec<f64> = heights.map(|height| mean_height - height).collect();
     let mut full = vec![0.0; displacement.len()];
     equations.kernel.invert_at_centre(&displacement, &mut full);
-    let total: f64 = full.iter().sum();
-    let missing = problem.mean_pressure - total / full.len() as f64;
+    let compliance = equations.kernel.mean_compliance;
+    let mean_pressure = match problem.control {
+        PeriodicControl::MeanPressure(mean_pressure) => mean_pressure,
+        // Minus infinity on a half space, whose depth is below 0.
+        PeriodicControl::MeanDepth(depth) => depth / compliance,
+    };
+    let missing = mean_pressure - mean(&full);
     full.iter_mut().for_each(|pressure| *pressure += missing);
     if full.iter().any(|pressure| *pressure <= 0.0) {
         return None;
     }
     *pressure = full;
     Some(PeriodicSolution {
-        depth: mean,
+        depth: mean_height + compliance * mean_pressure,
         products: 1,
         residual: 0.0,
     })

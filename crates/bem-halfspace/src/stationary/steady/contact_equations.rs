@@ -180,7 +180,6 @@ impl<'mesh> ContactEquations<'mesh> {
         gcr(
             &mut self.loads,
             &mut self.gaps,
-            None,
             GCR_LIMITS,
             |state, direction, image| {
                 let largest = || {

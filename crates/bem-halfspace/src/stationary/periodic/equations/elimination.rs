@@ -2,7 +2,7 @@
 //!
 //! On few active elements the dense matrix of their influence coefficients is factorised. Next to few open elements (complement
 //! solve) the pressure that closes all gaps follows from the inverse of K on the whole grid, once the gaps of the open elements
-//! are known. These are the gaps that leave no pressure there.
+//! are known. These are the gaps that leave no pressure there. The mean pressure, on which the gaps do not depend, is one more unknown.
 
 use numerics::transforms::Real as _;
 
@@ -11,22 +11,26 @@ use crate::contact::active_set::Run;
 use crate::dense;
 use crate::parallel::reductions::add_scaled;
 use crate::parallel::row_blocks::copies;
-use crate::stationary::periodic::kernel::PeriodicKernel;
+use crate::stationary::periodic::kernel::{PeriodicKernel, mean};
 
 impl Equations {
     /// Number of unknowns of a direct solve: elements in contact or open elements, whichever are fewer.
     pub(super) fn n_unknowns(&self) -> f64 {
-        self.n_contact.min(self.n_open())
+        self.n_contact().min(self.n_open())
+    }
+
+    fn n_contact(&self) -> f64 {
+        self.active.len() as f64
     }
 
     /// Number of elements outside the active set.
     fn n_open(&self) -> f64 {
-        self.scattered.len() as f64 - self.n_contact
+        self.scattered.len() as f64 - self.n_contact()
     }
 
-    /// Adds the pressures without mean that close the gaps; does nothing if the matrix is singular.
+    /// Adds the pressures that close the gaps and keep the prescribed quantity; does nothing if the matrix is singular.
     pub(super) fn solve_directly(&mut self) {
-        let found = if self.n_contact <= self.n_open() {
+        let found = if self.n_contact() <= self.n_open() {
             self.factorise_active_set()
         } else {
             self.solve_complement()
@@ -47,65 +51,67 @@ impl Equations {
     /// The pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
     /// singular.
     fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
-        let runs = (0..self.neighbourhood.row_blocks.n_blocks())
-            .flat_map(|row_block| self.neighbourhood.runs(row_block));
-        let indexed = runs.flat_map(Run::elements).enumerate();
-        let (packed, elements): (Vec<usize>, Vec<usize>) = indexed
-            .filter(|(index, _)| self.inside[*index] > 0.0)
-            .unzip();
+        let runs = (0..self.active.row_blocks.n_blocks())
+            .flat_map(|row_block| self.active.runs(row_block));
+        let elements: Vec<usize> = runs.flat_map(Run::elements).collect();
         let mut image = unit_response(
             &mut self.kernel,
             PeriodicKernel::displace,
             self.scattered.len(),
         );
         image.iter_mut().for_each(|gap| *gap /= self.self_influence);
-        // Responses to the gaps and to the unit gap, combined so that the mean pressure vanishes.
-        let right_sides = [&self.gap, &*self.inside].map(|vector| {
-            let values = packed.iter().map(|index| f64::from(vector[*index]));
-            values.collect()
-        });
-        let entry = translation_invariant(&image, self.neighbourhood.columns, &elements);
-        let solved = dense::solve(entry, right_sides.into())?;
-        let depth = solved[0].iter().sum::<f64>() / solved[1].iter().sum::<f64>();
-        let mut loads = vec![0.0; self.inside.len()];
-        for (index, (gap, unit)) in packed.into_iter().zip(solved[0].iter().zip(&solved[1])) {
-            loads[index] = depth * unit - gap;
-        }
-        Some(loads)
+        // Responses to the gaps and to the unit gap; a free depth changes so that the mean pressure stays.
+        let gaps = self.gap.iter().map(|gap| f64::from(*gap)).collect();
+        let entry = translation_invariant(&image, self.active.columns, &elements);
+        let solved = dense::solve(entry, vec![gaps, vec![1.0; elements.len()]])?;
+        let depth = if self.depth_is_free {
+            solved[0].iter().sum::<f64>() / solved[1].iter().sum::<f64>()
+        } else {
+            0.0
+        };
+        let responses = solved[0].iter().zip(&solved[1]);
+        Some(responses.map(|(gap, unit)| depth * unit - gap).collect())
     }
 
-    /// The pressures that close the gaps, in their unit, from the inverse of K and the gaps of the open elements; `None` if the
-    /// dense matrix of the inverse on the open elements is singular.
+    /// The pressures that close the gaps, in their unit, from the inverse of K, the gaps of the open elements and the mean pressure;
+    /// `None` if the dense matrix of the equations for these is singular.
     fn solve_complement(&mut self) -> Option<Vec<f64>> {
         let n = self.scattered.len();
-        let mut inside = copies(0.0, n);
-        self.neighbourhood.scatter(&self.inside, &mut inside);
-        let open: Vec<usize> = (0..n).filter(|element| inside[*element] == 0.0).collect();
-        let gaps = self.gap.iter().zip(&*self.inside);
-        let gaps: Vec<f64> = gaps.map(|(gap, inside)| f64::from(gap * inside)).collect();
+        let open: Vec<usize> = (0..n)
+            .filter(|element| !self.active.contains(*element))
+            .collect();
+        let gaps: Vec<f64> = self.gap.iter().map(|gap| f64::from(*gap)).collect();
         let [mut field, mut loads] = [(); 2].map(|()| vec![0.0; n]);
-        self.neighbourhood.scatter(&gaps, &mut field);
+        self.active.scatter(&gaps, &mut field);
         self.apply_exact_inverse(&field, &mut loads);
-        // Gaps of the open elements that leave no pressure there.
-        if !open.is_empty() {
-            let mut image = unit_response(&mut self.kernel, PeriodicKernel::invert, n);
-            image
-                .iter_mut()
-                .for_each(|load| *load *= self.self_influence);
-            let right_side = open.iter().map(|element| loads[*element]).collect();
-            let entry = translation_invariant(&image, self.neighbourhood.columns, &open);
-            let open_gaps = dense::solve(entry, vec![right_side])?;
-            for (element, gap) in open.iter().zip(&open_gaps[0]) {
-                field[*element] = -gap;
-            }
-            self.apply_exact_inverse(&field, &mut loads);
+
+        // Gaps of the open elements, and the mean pressure, that leave no pressure there. A prescribed mean pressure does not change;
+        // at a prescribed depth the mean of the gaps is the displacement by the mean pressure.
+        let mut image = unit_response(&mut self.kernel, PeriodicKernel::invert, n);
+        image
+            .iter_mut()
+            .for_each(|load| *load *= self.self_influence);
+        let (last, depth_is_free) = (open.len(), self.depth_is_free);
+        let compliance = self.kernel.mean_compliance / self.self_influence;
+        let of_open = translation_invariant(&image, self.active.columns, &open);
+        let entry = |row: usize, column: usize| match (row < last, column < last) {
+            (true, true) => of_open(row, column),
+            (true, false) => -1.0,
+            (false, true) if depth_is_free => 0.0,
+            (false, true) => 1.0 / n as f64,
+            (false, false) if depth_is_free => 1.0,
+            (false, false) => compliance,
+        };
+        let change = if depth_is_free { 0.0 } else { mean(&field) };
+        let right_side = open.iter().map(|element| loads[*element]);
+        let solved = dense::solve(entry, vec![right_side.chain([change]).collect()])?;
+        for (element, gap) in open.iter().zip(&solved[0]) {
+            field[*element] = -gap;
         }
-        let pairs = self.gather(&loads).into_iter().zip(&*self.inside);
-        Some(
-            pairs
-                .map(|(load, inside)| -load * f64::from(*inside))
-                .collect(),
-        )
+        self.apply_exact_inverse(&field, &mut loads);
+        let mean_pressure = solved[0][last];
+        let packed = self.gather(&loads).into_iter();
+        Some(packed.map(|load| -load - mean_pressure).collect())
     }
 
     /// The pressures without mean, in their unit, that displace the whole grid by a field less its mean; in double precision.
@@ -134,15 +140,16 @@ fn translation_invariant(
 
 #[cfg(test)]
 mod tests {
-    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+    use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum};
 
-    use crate::Grid;
+    use crate::stationary::periodic::PeriodicControl;
     use crate::stationary::periodic::equations::Equations;
-    use crate::stationary::periodic::kernel::Sliding;
+    use crate::stationary::periodic::kernel::{Sliding, mean};
+    use crate::{Grid, Layer};
 
     const SIDE: usize = 24;
 
-    /// Few elements in contact, then few open ones, with an arbitrary gap.
+    /// Few elements in contact, then few open ones, with an arbitrary gap, under a mean pressure and at a depth.
     #[test]
     fn a_direct_solve_closes_all_gaps_on_the_active_set() {
         let branches = vec![RelaxationBranch {
@@ -152,9 +159,21 @@ mod tests {
         let spectrum = RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum");
         let material = Prony::new(spectrum).expect("a material");
         let grid = Grid::new([SIDE; 2], [1.0 / SIDE as f64; 2]).expect("a grid");
-        let sliding = Sliding::new(&material, 0.3).expect("a solid");
-        for in_contact in [false, true] {
-            let mut equations = Equations::new(&sliding, &grid).expect("equations");
+        let solid = Compressible::new(&material, 0.3).expect("a ratio");
+        let layer = Layer::new(&solid, 0.1).expect("a thickness");
+        let slidings = [Sliding::new(&material, 0.3), Sliding::new(&layer, 0.3)];
+        let slidings = slidings.map(|sliding| sliding.expect("a solid"));
+        let controls = [
+            PeriodicControl::MeanPressure(1.0),
+            PeriodicControl::MeanDepth(-1.0),
+        ];
+        let cases = slidings.iter().flat_map(|sliding| {
+            let with =
+                move |control| [false, true].map(|in_contact| (sliding, control, in_contact));
+            controls.into_iter().flat_map(with)
+        });
+        for (sliding, control, in_contact) in cases {
+            let mut equations = Equations::new(sliding, &grid, control).expect("equations");
             let contact: Vec<bool> = (0..SIDE * SIDE)
                 .map(|element| (element % 17 == 3) != in_contact)
                 .collect();
@@ -169,15 +188,18 @@ mod tests {
             equations.displace(&pressure, &mut gap);
             let inside = || (0..SIDE * SIDE).filter(|element| contact[*element]);
             let gaps: Vec<f64> = inside().map(|one| gap[one] + before[one]).collect();
-            let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+            let case = format!("{control:?}, {in_contact}");
+            let is_pressed = matches!(control, PeriodicControl::MeanPressure(_));
+            let allowed = if is_pressed { mean(&gaps) } else { 0.0 };
             for gap in gaps {
-                assert!((gap - mean).abs() < 1e-6, "{in_contact}: {gap} {mean}");
+                assert!((gap - allowed).abs() < 1e-6, "{case}: {gap} {allowed}");
             }
             let outside = (0..SIDE * SIDE).filter(|element| !contact[*element]);
             assert!(outside.into_iter().all(|element| pressure[element] == 0.0));
             let largest = pressure.iter().fold(0.0_f64, |top, p| top.max(p.abs()));
             let sum: f64 = pressure.iter().sum();
-            assert!(sum.abs() < 1e-10 * largest, "{sum} {largest}");
+            let keeps_pressure = sum.abs() < 1e-10 * largest;
+            assert_eq!(keeps_pressure, is_pressed, "{case}: {sum} {largest}");
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::elements::area;
 use crate::elements::contact_boundary::{BoundaryField, ContactBoundary};
 use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::change::Change;
+use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
@@ -96,7 +97,8 @@ impl<'a> Adjoint<'a> {
         pressure: &'a [f64],
     ) -> Result<Self, BemError> {
         Ok(Self {
-            equations: Equations::new(sliding, grid)?,
+            // The adjoint loads have a prescribed sum.
+            equations: Equations::new(sliding, grid, PeriodicControl::MeanPressure(1.0))?,
             contact: reversed(pressure, grid).iter().map(|p| *p > 0.0).collect(),
             waves: FourierMultiplier::new(grid, sliding.base()),
             sliding,
@@ -135,7 +137,6 @@ impl<'a> Adjoint<'a> {
             .for_each(|value| *value -= n.recip());
         depth.by_uniform_displacement = 1.0;
         depth.by_row[0] += self.sliding.base().uniform_compliance() * (total / n);
-        depth.by_pressure += self.sliding.mean_compliance()?;
         Ok(Change {
             friction_coefficient: friction,
             indentation_depth: Some(depth),
@@ -273,10 +274,7 @@ impl<'a> Adjoint<'a> {
         for _ in 0..MAX_REFINEMENT_STEPS {
             // Residual in double precision.
             self.equations.displace(&loads, &mut gap);
-            let mean = gap.iter().sum::<f64>() / gap.len() as f64;
-            for (gap, right) in gap.iter_mut().zip(right) {
-                *gap += right - mean;
-            }
+            add_scaled(&mut gap, 1.0, right);
             let inside = || {
                 let pairs = gap.iter().zip(&self.contact);
                 pairs.filter_map(|(gap, inside)| inside.then_some(*gap))

@@ -18,8 +18,6 @@
 
 mod adjoint;
 
-use std::cell::RefCell;
-
 use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, in_range};
 use rheology::Material;
@@ -29,8 +27,8 @@ use crate::contact::check_length;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::change;
-use crate::stationary::periodic::depth::{SlidingSurface, hold};
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::contact::PeriodicContact;
+use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding, mean};
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
@@ -209,24 +207,20 @@ impl State {
         grid: &Grid,
         heights: &[f64],
         control: PeriodicControl,
-        guess: Vec<f64>,
+        mut guess: Vec<f64>,
     ) -> Result<Self, BemError> {
-        let surface = SlidingSurface {
+        let problem = PeriodicContact {
             sliding,
             grid,
             heights,
+            control,
             options: PeriodicOptions::default(),
         };
-        let mean = guess.iter().sum::<f64>() / guess.len() as f64;
-        let start = RefCell::new(guess);
-        let held = hold(control, &surface, Some(mean), |problem| {
-            solve_from(&mut start.borrow_mut(), problem)
-        })?;
-        let mut pressure = held.state.pressure.pressure;
+        let mut pressure = solve_from(&mut guess, problem)?.pressure.pressure;
         let mut adjoint = Adjoint::new(sliding, grid, heights, &pressure)?;
         let gradients = adjoint.gradients()?;
         let along_x = adjoint.waves.along_x;
-        let mean_pressure = held.mean_pressure;
+        let mean_pressure = mean(&pressure);
         pressure
             .iter_mut()
             .for_each(|value| *value -= mean_pressure);

@@ -60,7 +60,6 @@ pub(super) fn solve(
         gcr(
             &mut loads,
             &mut residual,
-            None,
             GCR_LIMITS,
             |state, direction, image| {
                 if state.residual_square.sqrt() <= allowed {
