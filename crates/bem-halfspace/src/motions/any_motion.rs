@@ -11,8 +11,9 @@ use indenters::{MotionRecord, MotionView, Moved, MovingLoad};
 use numerics::{Accuracy, ErrorParts, FixedPoint, Goal, anderson_fixed_point, refine};
 use rheology::CreepSpectrum;
 
+use crate::BemError;
+use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
-use crate::{BemError, Reached};
 
 /// Order of the error in the number of elements that the error bars assume, unless the apex of the body lowers it.
 pub(super) const MIN_ORDER_OF_MOTION: f64 = 1.0;
@@ -46,17 +47,7 @@ pub(super) fn refine_motion(
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(other_errors(record)),
     )?;
     let missed = refined.missed;
-    let found = view.moved(refined);
-    let Some(missed) = missed else {
-        return Ok(found);
-    };
-    Err(BemError::NotReached {
-        quantity: MotionView::in_words(missed.quantity),
-        value: missed.value,
-        error: missed.error,
-        relative_error: missed.relative_error,
-        reached: Box::new(Reached::Moved(found)),
-    })
+    reached_or_error(missed, MotionView::in_words, view.moved(refined))
 }
 
 /// Search for the limit cycle of a repeated motion, and its stopping criterion.

@@ -36,7 +36,7 @@ pub(super) struct ContactDerivatives {
     /// The given force \[N] or depth \[m].
     control: Control,
     /// Normal force, \[N]; in plane strain per length, \[N/m].
-    normal_force: f64,
+    pub(super) normal_force: f64,
     /// Indentation depth, \[m].
     depth: f64,
     /// Number of unknown pressures.

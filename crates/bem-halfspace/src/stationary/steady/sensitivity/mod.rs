@@ -182,7 +182,11 @@ impl SteadySensitivity {
 
     /// True if the derivatives of the friction by load and velocity are accurate to the tolerance.
     fn is_accurate(&self, control: Control) -> bool {
-        let (Control::NormalForce(given) | Control::IndentationDepth(given)) = control;
+        // In plane strain the control is the force on the strip, and derivatives are by the force per length.
+        let given = match control {
+            Control::NormalForce(_) => self.fine.contacts[0].normal_force,
+            Control::IndentationDepth(depth) => depth,
+        };
         let by_load = self.by_load().friction_coefficient.error * given;
         let by_velocity = limit(self.fine.by_velocity(), self.coarse.by_velocity());
         let allowed = LOG_DERIVATIVE_TOLERANCE * self.fine.friction_coefficient().abs();

@@ -325,6 +325,36 @@ fn frequencies_of_a_cylinder_add_up_to_the_unit_of_stress() {
     }
 }
 
+/// Whether finer grids are solved must not depend on the unit of length: the relative errors are the same.
+#[test]
+fn derivatives_of_a_cylinder_do_not_depend_on_the_unit_of_length() {
+    let branch = RelaxationBranch {
+        modulus: 3.0,
+        relaxation_time: 0.3,
+    };
+    let spectrum = RelaxationSpectrum::new(1.0, 0.0, vec![branch]).expect("a spectrum");
+    let material = Prony::new(spectrum).expect("a material");
+    let in_unit = |unit: f64| {
+        let cylinder = Cylinder::new(unit).expect("a body");
+        let load = SlidingLoad::new(0.5 * unit, 2.0 * unit).expect("a load");
+        let options = LineOptions {
+            spacing: 0.02 * unit,
+            phase: 0.0,
+            footprint: [-1.5 * unit, 1.5 * unit],
+            tolerance: 1e-10,
+            max_iterations: 100,
+        };
+        let near = SteadySensitivity::of_line(&cylinder, &material, &load, &options);
+        let by_load = near.expect("a sensitivity").by_load().friction_coefficient;
+        by_load.error / by_load.value
+    };
+    let [expected, actual] = [1.0, 1e-9].map(in_unit);
+    assert!(
+        (actual / expected - 1.0).abs() < 1e-3,
+        "{actual} instead of {expected}"
+    );
+}
+
 fn a_cylinder_adds_up(thickness: f64) {
     let cylinder = Cylinder::new(1.0).expect("a body");
     let materials = [1.0, 1.0 + STEP].map(|scale| {
