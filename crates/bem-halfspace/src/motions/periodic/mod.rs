@@ -26,19 +26,15 @@ use crate::motions::any_motion::{
 };
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
+use crate::stationary::periodic::refinement::{MIN_CONTACT_ELEMENTS, MIN_EDGE_ELEMENTS};
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 use full_contact::{Closed, value_of_row};
 use stresses::{Spectra, WaveMotion, WaveStates};
 
 /// Elements per shortest wave for the first error estimate, whose coarsest grid has three eighths of them; chosen.
 const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
-/// Fewest elements along an edge with waves; chosen.
-const MIN_EDGE_ELEMENTS: usize = 32;
 /// Maximum number of elements times steps of a cycle or path: a few minutes.
 const MAX_ELEMENT_STEPS: f64 = 6e7;
-/// Fewest elements in contact, on half the elements along both axes, for the error bars to be trusted; chosen. With fewer, the active
-/// set decides the friction.
-const FEWEST_IN_CONTACT: usize = 30;
 /// Tolerance of the contact of a step; chosen. Times the slope it is a part of the error of the friction of a cycle.
 const CONTACT_TOLERANCE: f64 = 1e-8;
 /// Memory per element without its history variables, \[bytes].
@@ -167,7 +163,8 @@ fn other_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         friction.iteration = Some(CONTACT_TOLERANCE * record.steepness);
         work.iteration = Some(CONTACT_TOLERANCE * record.steepness * record.normal_work);
     }
-    if fewest >= 4 * FEWEST_IN_CONTACT {
+    // The coarser grid of the error estimate has half the elements along both axes.
+    if fewest >= 4 * MIN_CONTACT_ELEMENTS {
         return rests;
     }
     let sizes = view.quantities(record).into_iter();

@@ -31,7 +31,7 @@ pub(crate) mod nested;
 #[cfg(feature = "rough")]
 mod perimeter_error;
 #[cfg(feature = "rough")]
-mod refinement;
+pub(crate) mod refinement;
 
 pub(crate) mod fourier_multiplier;
 #[cfg(feature = "rough")]

@@ -23,7 +23,7 @@ use crate::{BemError, Grid, Reached};
 /// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 /// Fewest elements along an edge with waves; chosen.
-const MIN_EDGE_ELEMENTS: usize = 32;
+pub(crate) const MIN_EDGE_ELEMENTS: usize = 32;
 /// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]; chosen.
 ///
 /// Above it the first grid has one element per shortest wave, and contains only the modes that it resolves.
@@ -56,7 +56,7 @@ pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
 /// Fewest elements in contact on the coarsest grid for the bars to be trusted; chosen. With fewer, the active set decides the friction,
 /// and two grids may agree by chance.
-const MIN_CONTACT_ELEMENTS: usize = 30;
+pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
 /// Tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for; chosen.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
 /// Relative error of a result per relative residual of the contact; chosen.
