@@ -1,8 +1,9 @@
-//! Exchange rule of the active-set search: which elements that violate the KKT conditions change sides.
+//! Exchange rule of active sets: which elements that violate the KKT conditions change sides.
 //!
-//! Elements in tension leave the active set, penetrating elements enter it (block principal pivoting, Júdice & Pires 1994). An update
-//! is *non-improving* if there are at least as many violations as in an earlier one, or if the initial residual on the active set
-//! exceeds that on the set before. The rule gets more cautious with the number of non-improving updates in a row:
+//! Elements in tension leave the active set, penetrating elements enter it (block principal pivoting, Júdice & Pires 1994). The set of
+//! saturated elements changes alike. An update is *non-improving* if there are at least as many violations as in an earlier one, or if
+//! the initial residual on the active set exceeds that on the set before. The rule gets more cautious with the number of non-improving
+//! updates in a row:
 //!
 //! 1. At first all violating elements are exchanged.
 //! 2. Then only violations that are the largest within a radius are exchanged, so that neighbours do not change sides back and forth
@@ -10,6 +11,8 @@
 //! 3. When the radius covers the grid, the single violating element of the highest index is exchanged. If the operator has a positive
 //!    definite symmetric part, no active set then occurs twice, so that the violations become fewer after finitely many updates (Murty
 //!    1974).
+//!
+//! The conjugate gradients of a static contact, whose operator is symmetric, go from the first to the last of these at once.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
@@ -20,14 +23,46 @@ const BLOCK_UPDATES: i32 = 10;
 /// the violations above a fraction of the largest one, four were not found.
 const RADIUS_DOUBLING_INTERVAL: i32 = 10;
 
-/// An element that violates the KKT conditions: in the active set under tension, or outside it with penetration.
+/// An element that violates the KKT conditions: in the active set under tension, or outside it with penetration; saturated with an open
+/// gap, or loaded beyond the limit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Violation {
     pub(crate) element: usize,
     /// Row and column of the element.
     pub(crate) place: [usize; 2],
-    /// Penetration, or the displacement that the tension of the element alone causes under it, \[m or depth scale].
+    /// Penetration or open gap, or the displacement that the wrong load of the element alone causes under it, \[m or depth scale].
     pub(crate) size: f64,
+}
+
+/// Count of updates of an active set that do not improve it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stagnation {
+    fewest_violations: usize,
+    /// Non-improving updates since the last improvement.
+    non_improving: i32,
+}
+
+impl Default for Stagnation {
+    fn default() -> Self {
+        Self {
+            fewest_violations: usize::MAX,
+            non_improving: 0,
+        }
+    }
+}
+
+impl Stagnation {
+    /// True while all violating elements are exchanged.
+    pub(super) const fn allows_block_updates(&self) -> bool {
+        self.non_improving <= BLOCK_UPDATES
+    }
+
+    /// Counts an update with a number of violations. It improves nothing if `residual_grows`.
+    pub(super) fn record(&mut self, violations: usize, residual_grows: bool) {
+        let improves = violations < self.fewest_violations && !residual_grows;
+        self.fewest_violations = self.fewest_violations.min(violations);
+        self.non_improving = if improves { 0 } else { self.non_improving + 1 };
+    }
 }
 
 /// The exchange rule with the history that it depends on.
@@ -36,9 +71,7 @@ pub(crate) struct ExchangeRule {
     shape: [usize; 2],
     /// Non-improving updates up to which local maxima are exchanged.
     local_maximum_updates: i32,
-    fewest_violations: usize,
-    /// Non-improving updates since the last improvement.
-    non_improving: i32,
+    stagnation: Stagnation,
 }
 
 impl ExchangeRule {
@@ -49,36 +82,33 @@ impl ExchangeRule {
             shape,
             local_maximum_updates: BLOCK_UPDATES
                 + RADIUS_DOUBLING_INTERVAL * doublings.unwrap_or(1),
-            fewest_violations: usize::MAX,
-            non_improving: 0,
+            stagnation: Stagnation::default(),
         }
     }
 
     /// Non-improving updates since the last improvement.
     pub(crate) const fn non_improving(&self) -> i32 {
-        self.non_improving
+        self.stagnation.non_improving
     }
 
     /// True if single elements are exchanged, which requires accurate solutions.
     pub(crate) const fn exchanges_single_elements(&self) -> bool {
-        self.non_improving > self.local_maximum_updates
+        self.non_improving() > self.local_maximum_updates
     }
 
     /// Selects the elements to exchange among the violations, which are sorted by element, and counts non-improving updates.
     /// `residual_grows` is true if the initial residual on this active set exceeds that on the set before.
     pub(crate) fn select(&mut self, violations: &[Violation], residual_grows: bool) -> Vec<usize> {
         let mut elements = violations.iter().map(|violation| violation.element);
-        let selected = match self.non_improving {
-            0..=BLOCK_UPDATES => elements.collect(),
-            updates if updates <= self.local_maximum_updates => {
-                let doublings = (updates - BLOCK_UPDATES - 1) / RADIUS_DOUBLING_INTERVAL;
-                self.local_maxima(violations, 2 << doublings)
-            }
-            _ => elements.next_back().into_iter().collect(),
+        let selected = if self.stagnation.allows_block_updates() {
+            elements.collect()
+        } else if self.exchanges_single_elements() {
+            elements.next_back().into_iter().collect()
+        } else {
+            let updates = self.non_improving() - BLOCK_UPDATES - 1;
+            self.local_maxima(violations, 2 << (updates / RADIUS_DOUBLING_INTERVAL))
         };
-        let improves = violations.len() < self.fewest_violations && !residual_grows;
-        self.fewest_violations = self.fewest_violations.min(violations.len());
-        self.non_improving = if improves { 0 } else { self.non_improving + 1 };
+        self.stagnation.record(violations.len(), residual_grows);
         selected
     }
 

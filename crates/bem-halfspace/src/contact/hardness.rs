@@ -6,11 +6,11 @@
 //!
 //! (Almqvist, Sahlin, Larsson & Glavatskih 2007). The saturated set, the elements at x = X, is found by an outer primal-dual
 //! active-set method. With the loads of the saturated set given, the other elements solve the elastic contact without them.
-//! Then elements with x > X join the set, and elements whose gap opens leave it.
+//! Then elements with x > X join the set, and elements whose gap opens leave it (`exchange_rule.rs`).
 //!
 //! Theory: docs/theory/contact.md, "A largest pressure".
 
-use crate::contact::iteration::MAX_NON_IMPROVING_UPDATES;
+use crate::contact::exchange_rule::{ExchangeRule, Violation};
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::solve::solve_loads;
@@ -54,16 +54,6 @@ struct SaturatedSet<'a> {
     workspace: ConvolutionWorkspace,
     /// Initial gap of the elastic contact of the other elements, \[m]; infinite on the saturated ones.
     separation: Vec<f64>,
-}
-
-/// Elements that violate the conditions of the saturated set.
-struct SaturationViolations {
-    /// Number of violating elements.
-    count: usize,
-    /// Index of the last violating element; 0 if there are none.
-    last: usize,
-    /// Largest violation, as a displacement, \[m].
-    largest: f64,
 }
 
 /// Bounds for the test of the gaps of saturated elements.
@@ -110,7 +100,7 @@ impl<'a> SaturatedSet<'a> {
         criterion: &StoppingCriterion,
     ) -> Result<LoadSolution, BemError> {
         let (mut tolerance, mut iterations) = (criterion.tolerance.max(INEXACT_TOLERANCE), 0);
-        let (mut fewest, mut full_updates_left) = (usize::MAX, MAX_NON_IMPROVING_UPDATES);
+        let mut rule = ExchangeRule::new(self.problem.convolution.grid().shape());
         loop {
             // Solve the elastic contact of the elements below the limit.
             let problem = LoadProblem {
@@ -131,8 +121,8 @@ impl<'a> SaturatedSet<'a> {
                 depth: solved.indentation_depth,
                 allowed: tolerance * solved.deflection,
             };
-            let violations = self.find_violations(state, test);
-            if violations.count == 0 {
+            let violations = self.violations(state, test);
+            if violations.is_empty() {
                 if tolerance <= criterion.tolerance {
                     return Ok(self.finish(state, solved, iterations));
                 }
@@ -140,25 +130,20 @@ impl<'a> SaturatedSet<'a> {
                 continue;
             }
             if iterations >= criterion.max_iterations {
+                let sizes = violations.iter().map(|violation| violation.size);
                 return Err(BemError::ContactNotConverged {
                     iterations,
-                    residual: violations.largest / solved.deflection,
+                    residual: sizes.fold(0.0, f64::max) / solved.deflection,
                     tolerance,
                 });
             }
 
-            // Exchange all violating elements, or as in the contact only the last one when their number stagnates.
-            if violations.count < fewest {
-                (fewest, full_updates_left) = (violations.count, MAX_NON_IMPROVING_UPDATES);
-            } else {
-                full_updates_left = full_updates_left.saturating_sub(1);
+            // Exchange. For an element that leaves the set its load is the first guess.
+            for element in rule.select(&violations, false) {
+                self.is_saturated[element] ^= true;
+                state.load[element] = self.load[element];
             }
-            let first = if full_updates_left == 0 {
-                violations.last
-            } else {
-                0
-            };
-            self.exchange(state, first, test);
+            self.update_loads();
         }
     }
 
@@ -187,45 +172,25 @@ impl<'a> SaturatedSet<'a> {
         }
     }
 
-    /// Violation of the conditions at an element, as a displacement, \[m]; positive if it has to be exchanged.
-    fn violation(&self, state: &ContactState, element: usize, test: GapTest) -> f64 {
-        if self.is_saturated[element] {
-            let displacement = state.displacement[element] + self.displacement[element];
-            self.problem.separation[element] + displacement - test.depth - test.allowed
-        } else {
-            let largest = self.largest_load * self.weights.of_element(element);
-            (state.load[element] - largest) * self.problem.convolution.self_influence
-        }
-    }
-
-    /// Counts the elements that violate the conditions of the saturated set.
-    fn find_violations(&self, state: &ContactState, test: GapTest) -> SaturationViolations {
-        let mut violations = SaturationViolations {
-            count: 0,
-            last: 0,
-            largest: 0.0,
+    /// Saturated elements whose gap opens, and other elements whose load exceeds the largest one; as displacements, \[m].
+    fn violations(&self, state: &ContactState, test: GapTest) -> Vec<Violation> {
+        let convolution = self.problem.convolution;
+        let columns = convolution.grid().shape()[1];
+        let violation = |element: usize| {
+            let size = if self.is_saturated[element] {
+                let displacement = state.displacement[element] + self.displacement[element];
+                self.problem.separation[element] + displacement - test.depth - test.allowed
+            } else {
+                let largest = self.largest_load * self.weights.of_element(element);
+                (state.load[element] - largest) * convolution.self_influence
+            };
+            (size > 0.0).then(|| Violation {
+                element,
+                place: [element / columns, element % columns],
+                size,
+            })
         };
-        for element in 0..self.is_saturated.len() {
-            let violation = self.violation(state, element, test);
-            if violation > 0.0 {
-                violations.count += 1;
-                violations.last = element;
-                violations.largest = violation.max(violations.largest);
-            }
-        }
-        violations
-    }
-
-    /// Exchanges the violating elements from the element `first` on.
-    fn exchange(&mut self, state: &mut ContactState, first: usize, test: GapTest) {
-        for element in first..self.is_saturated.len() {
-            if self.violation(state, element, test) > 0.0 {
-                self.is_saturated[element] = !self.is_saturated[element];
-                // For an element that leaves the set this is the first guess of its load.
-                state.load[element] = self.load[element];
-            }
-        }
-        self.update_loads();
+        (0..self.is_saturated.len()).filter_map(violation).collect()
     }
 
     /// Adds loads and displacement of the saturated set to those of the other elements.

@@ -16,6 +16,7 @@
 mod heights;
 
 use crate::contact::active_set::Run;
+use crate::contact::exchange_rule::Stagnation;
 use crate::contact::fields::Fields;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::PreconditionerParameters;
@@ -24,9 +25,6 @@ use crate::contact::{ContactState, Control};
 use crate::parallel::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
-
-/// Number of updates without a new minimum of violations after which single elements are exchanged; chosen.
-pub(super) const MAX_NON_IMPROVING_UPDATES: usize = 10;
 
 /// Ratio of the largest violation to the largest linear residual from which the active set is updated; chosen.
 ///
@@ -64,10 +62,7 @@ pub(super) struct Iteration<'a> {
     displacement_is_exact: bool,
     /// True after the first conjugate-gradient step on the present active set.
     has_stepped: bool,
-    /// Fewest violations at any update so far.
-    fewest_violations: usize,
-    /// Updates left in which all violating elements are exchanged.
-    full_updates_left: usize,
+    stagnation: Stagnation,
 }
 
 impl<'a> Iteration<'a> {
@@ -93,8 +88,7 @@ impl<'a> Iteration<'a> {
             previous_product: 0.0,
             displacement_is_exact: false,
             has_stepped: false,
-            fewest_violations: usize::MAX,
-            full_updates_left: MAX_NON_IMPROVING_UPDATES,
+            stagnation: Stagnation::default(),
         }
     }
 
@@ -143,7 +137,7 @@ impl<'a> Iteration<'a> {
             let set_is_right = violations.tension <= 0.0 && violations.penetration <= allowed;
             let worst = violations.tension.max(violations.penetration);
             let outweighs = worst >= SET_UPDATE_RATIO * violations.gap;
-            let may_be_inexact = self.full_updates_left > 0 && self.has_stepped;
+            let may_be_inexact = self.stagnation.allows_block_updates() && self.has_stepped;
             if !set_is_right && (violations.gap <= allowed || (may_be_inexact && outweighs)) {
                 self.update_active_set(&violations);
             } else {
@@ -209,17 +203,12 @@ impl<'a> Iteration<'a> {
         // Exchange all of them, or only the last one when their number has stagnated.
         let active = &mut self.fields.active;
         let violating = active.find_matches(is_violating);
-        if violating.count < self.fewest_violations {
-            self.fewest_violations = violating.count;
-            self.full_updates_left = MAX_NON_IMPROVING_UPDATES;
-        } else {
-            self.full_updates_left = self.full_updates_left.saturating_sub(1);
-        }
-        let first = if self.full_updates_left == 0 {
-            violating.last
-        } else {
+        let first = if self.stagnation.allows_block_updates() {
             0
+        } else {
+            violating.last
         };
+        self.stagnation.record(violating.count, false);
         active.toggle(|element, inside| element >= first && is_violating(element, inside));
 
         // Clear the fields on the elements that have left; the runs are still those of the previous set.

@@ -12,6 +12,7 @@
 //! Theory: docs/theory/contact.md.
 
 pub(crate) mod active_set;
+pub(crate) mod exchange_rule;
 mod fields;
 mod folded;
 mod hardness;

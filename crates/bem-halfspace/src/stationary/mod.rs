@@ -4,7 +4,6 @@
 
 pub(crate) mod change;
 mod conjugate_residuals;
-mod exchange_rule;
 pub(crate) mod periodic;
 mod search;
 pub mod steady;

@@ -8,7 +8,7 @@
 //!
 //! 1. solves g = 0 on the active set, to a tolerance that follows the residual left by the last exchange (inexact Newton);
 //! 2. collects the KKT violations, p < 0 on the set and g < 0 outside it;
-//! 3. exchanges all violating elements, or fewer while the search does not improve (`exchange_rule.rs`);
+//! 3. exchanges all violating elements, or fewer while the search does not improve (`contact/exchange_rule.rs`);
 //! 4. projects the pressure onto p ≥ 0, and tests for convergence.
 //!
 //! The gaps of step 2 are those of the solution with its tension. Projecting the tension away moves soft waves, and with them everything
@@ -20,8 +20,8 @@
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" for bodies and "Periodic surfaces" for rough ones.
 
 use crate::BemError;
+use crate::contact::exchange_rule::{ExchangeRule, Violation};
 use crate::parallel::reductions::larger;
-use crate::stationary::exchange_rule::{ExchangeRule, Violation};
 
 /// Factor on the inner tolerance per non-improving update of the active set; chosen.
 const INNER_TOLERANCE_REDUCTION: f64 = 0.3;
