@@ -10,7 +10,7 @@ use crate::contact::hardness::solve_with_largest_load;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::LoadProblem;
 use crate::contact::state::ContactBox;
-use crate::contact::{ContactState, LoadSolution, StoppingCriterion, map_force};
+use crate::contact::{LoadSolution, LoadState, StoppingCriterion, map_force};
 use crate::elements::mirror::{Mirror, NO_MIRRORS, n_images};
 use crate::parallel::chunks::in_pool;
 use crate::parallel::row_blocks::RowBlocks;
@@ -21,7 +21,7 @@ use crate::transform::convolution::{Convolution, Surroundings};
 pub(super) fn solve_symmetry_reduced(
     problem: LoadProblem,
     largest_load: f64,
-    state: &mut ContactState,
+    state: &mut LoadState,
     criterion: &StoppingCriterion,
 ) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;

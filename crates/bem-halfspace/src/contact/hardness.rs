@@ -14,7 +14,7 @@ use crate::contact::exchange_rule::{ExchangeRule, Violation};
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::solve::solve_loads;
-use crate::contact::{ContactState, Control, map_force};
+use crate::contact::{Control, LoadState, map_force};
 use crate::{BemError, ConvolutionWorkspace};
 
 /// Loosest relative tolerance of the elastic contacts while the saturated set still changes; chosen, so that few elements
@@ -25,7 +25,7 @@ const INEXACT_TOLERANCE: f64 = 1e-4;
 pub(super) fn solve_with_largest_load(
     largest_load: f64,
     problem: LoadProblem,
-    state: &mut ContactState,
+    state: &mut LoadState,
     criterion: &StoppingCriterion,
 ) -> Result<LoadSolution, BemError> {
     if largest_load.is_infinite() {
@@ -67,7 +67,7 @@ struct GapTest {
 
 impl<'a> SaturatedSet<'a> {
     /// The elements of the first guess that are at the limit, or none if they bear the whole force or more.
-    fn new(largest_load: f64, problem: LoadProblem<'a>, state: &ContactState) -> Self {
+    fn new(largest_load: f64, problem: LoadProblem<'a>, state: &LoadState) -> Self {
         let weights = MirrorWeights::new(problem.convolution);
         let elements = state.load.iter().zip(problem.separation).enumerate();
         let is_saturated = elements.map(|(element, (load, height))| {
@@ -96,7 +96,7 @@ impl<'a> SaturatedSet<'a> {
     /// Exchanges elements between the saturated set and its complement until both satisfy their conditions.
     fn run(
         mut self,
-        state: &mut ContactState,
+        state: &mut LoadState,
         criterion: &StoppingCriterion,
     ) -> Result<LoadSolution, BemError> {
         let (mut tolerance, mut iterations) = (criterion.tolerance.max(INEXACT_TOLERANCE), 0);
@@ -173,7 +173,7 @@ impl<'a> SaturatedSet<'a> {
     }
 
     /// Saturated elements whose gap opens, and other elements whose load exceeds the largest one; as displacements, \[m].
-    fn violations(&self, state: &ContactState, test: GapTest) -> Vec<Violation> {
+    fn violations(&self, state: &LoadState, test: GapTest) -> Vec<Violation> {
         let convolution = self.problem.convolution;
         let columns = convolution.grid().shape()[1];
         let violation = |element: usize| {
@@ -196,7 +196,7 @@ impl<'a> SaturatedSet<'a> {
     /// Adds loads and displacement of the saturated set to those of the other elements.
     fn finish(
         self,
-        state: &mut ContactState,
+        state: &mut LoadState,
         solved: LoadSolution,
         iterations: usize,
     ) -> LoadSolution {

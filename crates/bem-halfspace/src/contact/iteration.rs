@@ -21,7 +21,7 @@ use crate::contact::fields::Fields;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::PreconditionerParameters;
 use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
-use crate::contact::{ContactState, Control};
+use crate::contact::{Control, LoadState};
 use crate::parallel::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
@@ -67,7 +67,7 @@ pub(super) struct Iteration<'a> {
 
 impl<'a> Iteration<'a> {
     /// An iteration that starts from the load in `state`; [`run`](Self::run) sets the tolerance.
-    pub(super) fn new(problem: LoadProblem<'a>, state: &'a mut ContactState) -> Self {
+    pub(super) fn new(problem: LoadProblem<'a>, state: &'a mut LoadState) -> Self {
         let convolution = problem.convolution;
         Self {
             convolution,
@@ -371,7 +371,7 @@ mod tests {
                 separation: &separation,
                 control: Control::NormalForce(100.0),
             };
-            let mut state = ContactState::new(&convolution);
+            let mut state = LoadState::new(n * n);
             state.fields = Some(Box::new(Fields::new(&convolution, weights)));
             let criterion = StoppingCriterion::from(&ContactOptions::default());
             let solved = Iteration::new(problem, &mut state).run(&criterion)?;

@@ -38,6 +38,7 @@ use problem::LoadProblem;
 pub(crate) use problem::{LoadSolution, StoppingCriterion};
 pub(crate) use state::ContactBox;
 pub use state::ContactState;
+use state::LoadState;
 
 /// A contact problem on one grid.
 #[derive(Debug, Clone, Copy)]
@@ -131,23 +132,21 @@ pub fn solve_contact(
         control: map_force(problem.control, |force| force * load_per_pressure / area),
     };
     // Solve for the loads, and convert the solution back to pressures, converged or not.
+    let largest_load = problem.largest_pressure * load_per_pressure;
+    let pressure_per_load = 1.0 / load_per_pressure;
+    let to_pressure = |load: f64| {
+        if load < largest_load {
+            // The product may round to more than the largest pressure.
+            problem.largest_pressure.min(load * pressure_per_load)
+        } else {
+            problem.largest_pressure
+        }
+    };
+    let solve =
+        |state: &mut LoadState| solve_symmetry_reduced(loads, largest_load, state, &options.into());
     let solved = in_pool(grid.n_elements(), || {
-        state.prepare_for(problem.convolution);
-        state.scale_guess(grid, load_per_pressure);
-        let largest_load = problem.largest_pressure * load_per_pressure;
-        let solved = solve_symmetry_reduced(loads, largest_load, state, &options.into());
-        let pressure_per_load = 1.0 / load_per_pressure;
-        state.map_loads(grid, |load| {
-            if load < largest_load {
-                // The product may round to more than the largest pressure.
-                problem.largest_pressure.min(load * pressure_per_load)
-            } else {
-                problem.largest_pressure
-            }
-        });
-        solved
+        state.solve_for_loads(problem.convolution, load_per_pressure, solve, to_pressure)
     });
-    state.list_contact();
     let solution = solved?;
     let at_limit = |&&element: &&usize| state.pressure()[element] >= problem.largest_pressure;
     Ok(Contact {

@@ -5,7 +5,7 @@
 use crate::contact::iteration::Iteration;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
-use crate::contact::state::{ContactBox, ContactState};
+use crate::contact::state::{ContactBox, LoadState};
 use crate::contact::{Control, map_force};
 use crate::elements::bounds::Bounds;
 use crate::parallel::chunks::in_pool;
@@ -23,7 +23,7 @@ const MIN_EDGE_FOR_COARSENING: usize = 32;
 /// Solves the contact from the load in the state, or by nested iteration if that is zero.
 pub(super) fn solve_loads(
     problem: LoadProblem,
-    state: &mut ContactState,
+    state: &mut LoadState,
     criterion: &StoppingCriterion,
 ) -> Result<LoadSolution, BemError> {
     let shape = problem.convolution.grid().shape();
@@ -43,7 +43,7 @@ pub(super) fn solve_loads(
 fn solve_around(
     bounds: Option<Bounds>,
     problem: LoadProblem,
-    state: &mut ContactState,
+    state: &mut LoadState,
     criterion: &StoppingCriterion,
 ) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
@@ -81,7 +81,7 @@ fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
 fn grow_if_penetrating(
     bounds: &Bounds,
     problem: LoadProblem,
-    state: &mut ContactState,
+    state: &mut LoadState,
     solved: LoadSolution,
     criterion: &StoppingCriterion,
 ) -> Result<LoadSolution, BemError> {
@@ -135,7 +135,7 @@ impl ContactBox {
 
 /// Prolongs the solution on elements of twice the edges to the load of the state, which stays zero if the grid cannot be
 /// coarsened.
-fn prolong_coarse_solution(problem: LoadProblem, state: &mut ContactState) {
+fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
     let convolution = problem.convolution;
     let grid = convolution.grid();
     let [rows, columns] = grid.shape();
@@ -147,7 +147,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut ContactState) {
         return;
     }
     let coarse_convolution = convolution.between_blocks();
-    let mut coarse = ContactState::new(&coarse_convolution);
+    let mut coarse = LoadState::new(coarse_convolution.grid().n_elements());
     let problem = LoadProblem {
         convolution: &coarse_convolution,
         separation: &restrict_heights(problem.separation, [rows, columns]),

@@ -1,4 +1,4 @@
-//! Pressure and buffers of a contact solve, on a grid and on a part of it.
+//! Pressure, scaled pressure and buffers of a contact solve, on a grid and on a part of it.
 
 use crate::contact::fields::Fields;
 use crate::elements::area;
@@ -14,14 +14,23 @@ use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 /// threads of the pool of the first solve.
 #[derive(Debug, Clone)]
 pub struct ContactState {
-    /// Pressure, \[Pa]; within a solve the load `x = α P / (4π)`, \[m].
-    pub(super) load: Vec<f64>,
-    /// Displacement under the pressure of the last solve, \[m].
-    pub(super) displacement: Vec<f64>,
+    /// Pressure, \[Pa]; empty within a solve.
+    pressure: Vec<f64>,
     /// Elements in contact, increasing.
     contact: Vec<usize>,
     /// Grid and surroundings for which the buffers below were made; `None` before the first solve.
     buffers_for: Option<(Grid, Surroundings)>,
+    /// Displacement and buffers of the last solve; its loads have a meaning within a solve only.
+    loads: LoadState,
+}
+
+/// Loads, which are scaled pressures x = α P/(4π), and buffers of a solve for them.
+#[derive(Debug, Clone)]
+pub(crate) struct LoadState {
+    /// Load of each element, \[m].
+    pub(crate) load: Vec<f64>,
+    /// Displacement K x under the loads of the last solve, \[m].
+    pub(crate) displacement: Vec<f64>,
     /// Buffers for applying the operator on the whole grid.
     pub(super) workspace: Option<ConvolutionWorkspace>,
     /// Buffers of the iteration on the whole grid.
@@ -32,15 +41,12 @@ pub struct ContactState {
     pub(super) front: Option<Box<ContactBox>>,
 }
 
-impl ContactState {
-    /// A state without pressure for the grid of `convolution`.
-    pub fn new(convolution: &Convolution) -> Self {
-        let n = convolution.grid().n_elements();
+impl LoadState {
+    /// Zero loads on a number of elements.
+    pub(super) fn new(n_elements: usize) -> Self {
         Self {
-            load: vec![0.0; n],
-            displacement: vec![0.0; n],
-            contact: Vec::new(),
-            buffers_for: None,
+            load: vec![0.0; n_elements],
+            displacement: vec![0.0; n_elements],
             workspace: None,
             fields: None,
             inner: None,
@@ -48,9 +54,31 @@ impl ContactState {
         }
     }
 
+    /// Replaces every load by a function of it.
+    fn map(&mut self, columns: usize, replace: impl Fn(f64) -> f64 + Sync) {
+        for_each_row(&mut self.load, columns, |_, row| {
+            for load in row {
+                *load = replace(*load);
+            }
+        });
+    }
+}
+
+impl ContactState {
+    /// A state without pressure for the grid of `convolution`.
+    pub fn new(convolution: &Convolution) -> Self {
+        let n_elements = convolution.grid().n_elements();
+        Self {
+            pressure: vec![0.0; n_elements],
+            contact: Vec::new(),
+            buffers_for: None,
+            loads: LoadState::new(n_elements),
+        }
+    }
+
     /// Pressure P ≥ 0, \[Pa], row-major.
     pub fn pressure(&self) -> &[f64] {
-        &self.load
+        &self.pressure
     }
 
     /// First guess of the pressure, \[Pa], row-major.
@@ -58,7 +86,7 @@ impl ContactState {
     /// Anything but a positive finite number is taken as zero. Without any pressure the solver starts from solutions on
     /// coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
-        &mut self.load
+        &mut self.pressure
     }
 
     /// Indices of the elements in contact after a solve, increasing.
@@ -68,43 +96,40 @@ impl ContactState {
 
     /// Displacement that the pressure of the last solve adds to the separation, \[m], row-major.
     pub fn displacement(&self) -> &[f64] {
-        &self.displacement
+        &self.loads.displacement
     }
 
-    /// Drops the buffers that were made for another convolution.
-    pub(super) fn prepare_for(&mut self, convolution: &Convolution) {
+    /// Solves for loads, from those of the first guess of the pressure, and turns the solution into the pressure.
+    ///
+    /// Loads are pressures times `load_per_pressure` \[m/Pa]; those that are not positive and finite become zero. `to_pressure`
+    /// converts them back. Buffers that were made for another convolution are dropped.
+    pub(super) fn solve_for_loads<R>(
+        &mut self,
+        convolution: &Convolution,
+        load_per_pressure: f64,
+        solve: impl FnOnce(&mut LoadState) -> R,
+        to_pressure: impl Fn(f64) -> f64 + Sync,
+    ) -> R {
+        let [_, columns] = convolution.grid().shape();
         let needed = Some((*convolution.grid(), convolution.surroundings));
         if self.buffers_for != needed {
             self.buffers_for = needed;
-            (self.workspace, self.fields) = (None, None);
-            (self.inner, self.front) = (None, None);
+            self.loads = LoadState::new(convolution.grid().n_elements());
         }
-    }
-
-    /// Multiplies the first guess of the caller by a factor; loads that are not positive and finite become zero.
-    pub(super) fn scale_guess(&mut self, grid: &Grid, factor: f64) {
-        self.map_loads(grid, |load| {
-            let guess = load * factor;
-            let is_load = guess > 0.0 && guess.is_finite();
-            if is_load { guess } else { 0.0 }
+        self.loads.load = std::mem::take(&mut self.pressure);
+        self.loads.map(columns, |pressure| {
+            let load = pressure * load_per_pressure;
+            let is_load = load > 0.0 && load.is_finite();
+            if is_load { load } else { 0.0 }
         });
-    }
-
-    /// Replaces every load by a function of it.
-    pub(super) fn map_loads(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
-        for_each_row(&mut self.load, grid.shape()[1], |_, row| {
-            for load in row {
-                *load = replace(*load);
-            }
-        });
-    }
-
-    /// Lists the loaded elements.
-    pub(super) fn list_contact(&mut self) {
+        let solved = solve(&mut self.loads);
+        self.loads.map(columns, to_pressure);
+        self.pressure = std::mem::take(&mut self.loads.load);
         self.contact.clear();
-        let elements = self.load.iter().enumerate();
-        let loaded = elements.filter(|(_, load)| **load > 0.0);
+        let elements = self.pressure.iter().enumerate();
+        let loaded = elements.filter(|(_, pressure)| **pressure > 0.0);
         self.contact.extend(loaded.map(|(element, _)| element));
+        solved
     }
 }
 
@@ -115,8 +140,8 @@ pub(crate) struct ContactBox {
     pub(crate) bounds: Bounds,
     /// Operator on the part.
     pub(super) convolution: Convolution,
-    /// Pressure and buffers of the part.
-    pub(crate) state: ContactState,
+    /// Loads and buffers of the part.
+    pub(crate) state: LoadState,
     /// Initial gap of its elements, \[m].
     pub(crate) separation: Vec<f64>,
 }
@@ -126,7 +151,7 @@ impl ContactBox {
     fn new(convolution: Convolution, bounds: Bounds) -> Self {
         Self {
             bounds,
-            state: ContactState::new(&convolution),
+            state: LoadState::new(bounds.n_elements()),
             separation: vec![0.0; bounds.n_elements()],
             convolution,
         }

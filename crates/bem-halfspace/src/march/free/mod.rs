@@ -390,7 +390,7 @@ impl<'a> March<'a> {
         self.time_step = time_step;
         // Loads are α P / (4π), so the same pressure has another load.
         let ratio = self.creep_step.response() / before;
-        for load in self.contact_box.state.pressure_mut() {
+        for load in &mut self.contact_box.state.load {
             *load *= ratio;
         }
         Ok(())
