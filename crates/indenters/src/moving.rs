@@ -197,12 +197,6 @@ impl MovingLoad {
         let ends = self.stages.iter().map(|stage| stage.end.control.value());
         first.with(ends.fold(first.value(), f64::max))
     }
-
-    /// Whether the force or depth is constant.
-    pub fn is_held(&self) -> bool {
-        let first = self.stages[0].start.control;
-        self.stages.iter().all(|stage| stage.end.control == first)
-    }
 }
 
 impl Stage {
@@ -250,7 +244,7 @@ impl Stage {
     }
 
     /// Ratio of the largest to the mean speed: π/2 for a sinusoidal stage, else 1.
-    pub const fn peak_to_mean_speed(&self) -> f64 {
+    pub(crate) const fn peak_to_mean_speed(&self) -> f64 {
         match self.shape {
             Shape::Sinusoidal => std::f64::consts::FRAC_PI_2,
             Shape::Triangular => 1.0,

@@ -120,7 +120,7 @@ impl CreepSpectrum {
     }
 
     /// Rate 1/η_f + Σ J_k/λ_k of the creep compliance at t = 0, [1/(Pa s)].
-    pub fn initial_fluidity(&self) -> f64 {
+    pub(crate) fn initial_fluidity(&self) -> f64 {
         let rates = self.elements.iter().map(RetardationElement::fluidity);
         self.fluidity + rates.sum::<f64>()
     }

@@ -30,11 +30,11 @@ pub struct MotionRow {
     /// Force F_h along −x on the indenter, \[N]: the pressure of the step times the slope at the time level.
     pub tangential_force: f64,
     /// Tangential force with the slope at the end of the step, \[N].
-    pub tangential_force_end_of_step: f64,
+    pub(crate) tangential_force_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
     /// Discretization error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
-    pub contact_area_uncertainty: f64,
+    pub(crate) contact_area_uncertainty: f64,
     /// Rear and front of the contact relative to the lowest point, \[m]; `None` without contact.
     pub contact_x: Option<[f64; 2]>,
     /// Sides of the contact relative to the lowest point, \[m]; `None` without contact.

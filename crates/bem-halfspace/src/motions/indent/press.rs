@@ -55,9 +55,9 @@ pub struct PressSolution {
     /// [Area](PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
     /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
-    pub contact_area_uncertainty: f64,
+    pub(crate) contact_area_uncertainty: f64,
     /// How singular the pressure is along the outline of the contact: 1 under a flat punch, and near 0 where it ends like a root.
-    pub edge_singularity: f64,
+    pub(crate) edge_singularity: f64,
     /// Ends of the contact along x relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
     /// Ends of the contact along y relative to the lowest point, \[m].

@@ -28,7 +28,7 @@ pub struct SlideRow {
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
     /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
-    pub contact_area_uncertainty: f64,
+    pub(crate) contact_area_uncertainty: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
     /// Sides of the contact relative to the lowest point, \[m].

@@ -67,7 +67,7 @@ impl SteadySliding {
     }
 
     /// Error of the friction coefficient by the remaining residual.
-    pub fn iteration_error(&self) -> f64 {
+    pub(crate) fn iteration_error(&self) -> f64 {
         self.residual * self.mean_slope
     }
 
