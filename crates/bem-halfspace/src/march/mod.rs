@@ -16,8 +16,10 @@
 pub(crate) mod free;
 pub(crate) mod periodic;
 
+use indenters::Surface;
 use rheology::CreepSpectrum;
 
+use crate::GridOptions;
 pub use free::{March, Motion, MotionRow};
 
 /// Number of steps above which a march, or one cycle of it, is refused; chosen.
@@ -25,9 +27,31 @@ pub(crate) const MAX_STEPS: f64 = 1e5;
 /// Power of the elements along the contact with which the work of a march grows: elements along x and y, times as many steps.
 pub(crate) const MARCH_WORK_EXPONENT: f64 = 3.0;
 /// Memory per followed element without its history variables, \[bytes].
-pub(crate) const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
+const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
 /// Memory per step of a march, \[bytes].
-pub(crate) const BYTES_PER_STEP: f64 = 600.0;
+const BYTES_PER_STEP: f64 = 600.0;
+
+/// Extent of a march along the surface, for an estimate of its memory.
+pub(crate) struct MarchExtent {
+    /// Length of the surface behind the footprint whose history is stored, \[m].
+    pub(crate) passed_length: f64,
+    /// Numbers stored for each element: history variables, and copies of them.
+    pub(crate) numbers_per_element: usize,
+    pub(crate) n_steps: f64,
+}
+
+impl MarchExtent {
+    /// Upper bound of the memory of the march on a grid, \[bytes].
+    pub(crate) fn memory(&self, surface: &dyn Surface, options: &GridOptions) -> f64 {
+        let ([dx, dy], footprint) = (options.spacing, &options.footprint);
+        let across = (footprint.y[1] - footprint.y[0]) / dy;
+        let n_elements = footprint.n_elements([dx, dy]) + self.passed_length / dx * across;
+        let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
+        let history = (self.numbers_per_element * size_of::<f64>()) as f64;
+        (BYTES_PER_FOLLOWED_ELEMENT + history) * (followed * n_elements)
+            + BYTES_PER_STEP * self.n_steps
+    }
+}
 
 /// Number of history variables of an element under loads that are held over each step: one per retardation element, and one for free
 /// flow.

@@ -18,8 +18,7 @@ use crate::estimate::bars::order_of_friction;
 use crate::estimate::plan::GridPlan;
 use crate::march::free::{Schedule, TimedMotion};
 use crate::march::{
-    BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT, MAX_STEPS,
-    largest_retardation_time, n_history_variables,
+    MARCH_WORK_EXPONENT, MAX_STEPS, MarchExtent, largest_retardation_time, n_history_variables,
 };
 use crate::motions::any_motion::{
     LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, refine_motion,
@@ -115,25 +114,21 @@ pub fn move_along_memory(
 ) -> Result<f64, BemError> {
     let problem = MovingBody::new(surface, elastomer, load, Accuracy::Elements(elements))?;
     let options = problem.options(elements);
-    let [dx, dy] = options.spacing;
-    let max_step_length = dx / STEPS_PER_ELEMENT as f64;
-    let n_steps = load.n_steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?;
-    // The last load is stored beside the history variables.
-    let n_fields = n_history_variables(&problem.creep) + 1;
-    // Elements of the footprint, and of the rows that it passes.
+    let max_step_length = options.spacing[0] / STEPS_PER_ELEMENT as f64;
     let [rear, front] = load.range();
-    let across = (options.footprint.y[1] - options.footprint.y[0]) / dy;
-    let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
-    let passed = (front - rear) / dx * across;
-    let n_elements = followed * (options.footprint.n_elements(options.spacing) + passed);
     // The fixed-point iteration stores several states of the history variables.
     let copies = if problem.limit_cycle.is_some() {
         MAX_STORED_STATES
     } else {
         1
     };
-    let per_element = BYTES_PER_FOLLOWED_ELEMENT + (copies * n_fields * size_of::<f64>()) as f64;
-    Ok(per_element * n_elements + BYTES_PER_STEP * n_steps)
+    let extent = MarchExtent {
+        passed_length: front - rear,
+        // The last load is stored beside the history variables.
+        numbers_per_element: copies * (n_history_variables(&problem.creep) + 1),
+        n_steps: load.n_steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?,
+    };
+    Ok(extent.memory(surface, &options))
 }
 
 /// A motion that can be solved on any number of elements.

@@ -14,7 +14,9 @@ use crate::estimate::bars::{
 };
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
-use crate::march::{BYTES_PER_FOLLOWED_ELEMENT, BYTES_PER_STEP, MARCH_WORK_EXPONENT};
+use crate::march::{
+    MARCH_WORK_EXPONENT, MarchExtent, largest_retardation_time, n_history_variables,
+};
 use crate::motions::slide::stationary_limit::slide_until_stationary;
 use crate::motions::slide::{
     March, PressureField, SlideRow, StationaryOptions, Transient, follow_march,
@@ -91,22 +93,15 @@ pub fn slide_memory(
         load,
         Accuracy::Elements(elements).into(),
     )?;
-    let options = problem.options(elements);
-    let (spacing, footprint) = (options.spacing, options.footprint);
-    let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
+    let n_fields = n_history_variables(&problem.creep);
     let PlannedDistance { distance, step, .. } = problem.planned;
-    let steps = distance / step * elements as f64;
-    // Without history variables the elements of the footprint are enough.
-    let behind = if n_fields > 0 {
-        distance / spacing[0]
-    } else {
-        0.0
+    let extent = MarchExtent {
+        // Without history variables the elements of the footprint are enough.
+        passed_length: if n_fields > 0 { distance } else { 0.0 },
+        numbers_per_element: n_fields,
+        n_steps: distance / step * elements as f64,
     };
-    let across = (footprint.y[1] - footprint.y[0]) / spacing[1];
-    let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
-    let n_elements = followed * (footprint.n_elements(spacing) + behind * across);
-    let per_element = BYTES_PER_FOLLOWED_ELEMENT + (n_fields * size_of::<f64>()) as f64;
-    Ok(per_element * n_elements + BYTES_PER_STEP * steps)
+    Ok(extent.memory(surface, &problem.options(elements)))
 }
 
 /// End of one march.
@@ -378,9 +373,7 @@ fn remaining_change(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
 /// felt ahead of it. 0 on an elastic material and on a half space with flow alone.
 fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     let creep = elastomer.material().creep();
-    let elements = creep.elements().iter();
-    let times = elements.map(|element| element.retardation_time);
-    let memory = load.velocity() * times.fold(0.0, f64::max);
+    let memory = load.velocity() * largest_retardation_time(&creep);
     let base = elastomer.base();
     if creep.fluidity() > 0.0 && base.is_rigid() {
         memory.max(base.thickness())
