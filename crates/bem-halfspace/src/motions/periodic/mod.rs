@@ -25,8 +25,9 @@ use crate::motions::any_motion::{
     LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, refine_motion,
 };
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
+use crate::stationary::periodic::grid_sizes::MIN_EDGE_ELEMENTS;
 use crate::stationary::periodic::nested::interpolated;
-use crate::stationary::periodic::refinement::{MIN_CONTACT_ELEMENTS, MIN_EDGE_ELEMENTS};
+use crate::stationary::periodic::refinement::MIN_CONTACT_ELEMENTS;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 use full_contact::{Closed, value_of_row};
 use stresses::{Spectra, WaveMotion, WaveStates};

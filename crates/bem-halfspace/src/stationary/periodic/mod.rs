@@ -25,6 +25,8 @@ mod contact;
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
+#[cfg(feature = "rough")]
+pub(crate) mod grid_sizes;
 pub(crate) mod kernel;
 mod load;
 pub(crate) mod nested;
@@ -52,10 +54,10 @@ use equations::Equations;
 pub use estimate::{
     PeriodicEstimate, indent, indent_on_coarse_grid, slide, steady, steady_on_coarse_grid,
 };
+#[cfg(feature = "rough")]
+pub use grid_sizes::{elements_for_bars, fewest_elements, largest_grid, memory};
 use kernel::{Sliding, mean};
 pub use load::{PeriodicControl, PeriodicLoad};
-#[cfg(feature = "rough")]
-pub use refinement::{elements_for_bars, fewest_elements, largest_grid, memory};
 
 /// Stopping criteria of the solver.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,30 +6,16 @@ use std::borrow::Cow;
 
 use indenters::rough::PeriodicSurface;
 use numerics::{
-    Accuracy, Estimate, Level, LevelForecast, NotReached, Request, between_zero_and_one,
-    refine_levels,
+    Estimate, Level, LevelForecast, NotReached, Request, between_zero_and_one, refine_levels,
 };
 
 use crate::elements::grid::MAX_ELEMENTS;
 use crate::estimate::bars::reached_or_error;
-use crate::stationary::periodic::equations::{
-    BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID, MAX_BASIS_FLOATS_ON_SMALL_GRID,
-};
+use crate::stationary::periodic::grid_sizes::{FINEST_OVER_COARSEST, MAX_USUAL_GRID, first_shape};
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
-use crate::transform::fast_length::fast_length;
 use crate::{BemError, Grid, Reached};
 
-/// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
-const FIRST_ELEMENTS_PER_WAVE: usize = 4;
-/// Fewest elements along an edge with waves; chosen.
-pub(crate) const MIN_EDGE_ELEMENTS: usize = 32;
-/// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]; chosen.
-///
-/// Above it the first grid has one element per shortest wave, and contains only the modes that it resolves.
-const MAX_USUAL_GRID: f64 = 4_194_304.0;
-/// The edges of such a first grid are multiples of this number of elements; chosen.
-const COARSE_EDGE_MULTIPLE: usize = 8;
 /// Convergence rate of each stationary friction: the error is at most the last change, or a fraction of the change before it, in
 /// case the last one is small by chance.
 ///
@@ -65,18 +51,6 @@ const RESIDUAL_AMPLIFICATION: f64 = 10.0;
 const CLOSED_FORM_ROUNDING: f64 = 1e-12;
 /// Maximum number of elements times steps of a march: about half an hour of one thread.
 const MAX_ELEMENT_STEPS: f64 = 2e9;
-
-/// Memory per element without the GCR basis, at most, \[bytes].
-const BYTES_PER_ELEMENT: f64 = 186.0;
-/// Memory of the GCR basis per element on a small grid, \[bytes].
-const BASIS_BYTES_PER_ELEMENT: f64 =
-    (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
-/// Memory that a direct solve may take besides, \[bytes].
-const DIRECT_SOLVE_BYTES: f64 = 33_554_432.0;
-/// Largest memory of the GCR basis on a small grid, \[bytes].
-const MAX_SMALL_BASIS_BYTES: f64 = (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64;
-/// Ratio of the elements along an edge on the last of three grids to those on the first.
-const FINEST_OVER_COARSEST: usize = 4;
 
 /// Assumed convergence of a quantity from grid to grid.
 #[derive(Clone, Copy)]
@@ -115,101 +89,6 @@ pub(super) struct GridResult {
     pub(super) mean_depth: f64,
     /// Relative residual of the contact.
     pub(super) residual: f64,
-}
-
-/// The shape of the first grid. For a number of elements it is proportional to the smallest first grid of the surface.
-pub(super) fn first_shape(
-    surface: &PeriodicSurface,
-    request: &Request,
-) -> Result<[usize; 2], BemError> {
-    let usual = surface.largest_numbers().map(first_elements);
-    let finest_edge = |first: [usize; 2]| FINEST_OVER_COARSEST * first[0].max(first[1]);
-    let fits = match request.accuracy {
-        Accuracy::RelativeError(_) => {
-            finest_elements(usual) <= MAX_USUAL_GRID && request.watch.may_refine(finest_edge(usual))
-        }
-        Accuracy::Elements(elements) => elements >= finest_edge(usual),
-    };
-    let first = if fits { usual } else { coarsest(surface) };
-    let Accuracy::Elements(elements) = request.accuracy else {
-        return Ok(first);
-    };
-    let needed = finest_edge(first);
-    if elements < needed {
-        return Err(BemError::PeriodTooCoarse { elements, needed });
-    }
-    // A product that overflows is too large for a grid anyway.
-    Ok(first.map(|edge| edge.saturating_mul(elements).div_ceil(needed)))
-}
-
-/// Elements along an edge of the usual first grid, for the largest number of waves along it.
-fn first_elements(number: usize) -> usize {
-    match number {
-        0 => 2,
-        _ => (FIRST_ELEMENTS_PER_WAVE * number)
-            .next_power_of_two()
-            .max(MIN_EDGE_ELEMENTS),
-    }
-}
-
-/// The coarsest first grid: its refinement resolves all waves. If it resolves no wave itself, that refinement.
-fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
-    let first = surface.largest_numbers().map(|number| match number {
-        0 => 2,
-        _ => (COARSE_EDGE_MULTIPLE * fast_length((number + 1).div_ceil(COARSE_EDGE_MULTIPLE)))
-            .max(MIN_EDGE_ELEMENTS),
-    });
-    match surface.told_by(first) {
-        Some(_) => first,
-        None => first.map(|edge| 2 * edge),
-    }
-}
-
-/// Smallest number of elements of the finest grid for an error bar.
-pub fn elements_for_bars(surface: &PeriodicSurface) -> f64 {
-    finest_elements(coarsest(surface))
-}
-
-/// Smallest number of elements of the finest grid for a surface with waves of these largest numbers along x and y.
-pub fn fewest_elements(largest_numbers: [usize; 2]) -> f64 {
-    finest_elements(largest_numbers.map(|number| number.max(1)))
-}
-
-/// Number of elements of the last of three grids that begin with the shape `first`.
-fn finest_elements(first: [usize; 2]) -> f64 {
-    let edges = first.map(|edge| (FINEST_OVER_COARSEST * edge) as f64);
-    edges[0] * edges[1]
-}
-
-/// Number of elements of the largest grid that fits into a memory \[bytes]; of the largest grid of all for `None`.
-pub fn largest_grid(memory: Option<f64>) -> f64 {
-    memory.map_or(MAX_ELEMENTS, |bytes| {
-        // The basis grows with the grid between the memory of a direct solve and that of the largest basis of a small grid.
-        let with_direct_solve = (bytes - DIRECT_SOLVE_BYTES) / BYTES_PER_ELEMENT;
-        let with_largest_basis = (bytes - MAX_SMALL_BASIS_BYTES) / BYTES_PER_ELEMENT;
-        let with_growing_basis = bytes / (BYTES_PER_ELEMENT + BASIS_BYTES_PER_ELEMENT);
-        with_growing_basis
-            .max(with_largest_basis)
-            .min(with_direct_solve)
-            .floor()
-            .clamp(0.0, MAX_ELEMENTS)
-    })
-}
-
-/// Upper bound of the memory of a grid with a number of elements, \[bytes].
-fn bytes_on(elements: f64) -> f64 {
-    let basis = BASIS_BYTES_PER_ELEMENT * elements;
-    basis.clamp(DIRECT_SOLVE_BYTES, MAX_SMALL_BASIS_BYTES) + BYTES_PER_ELEMENT * elements
-}
-
-/// Upper bound of the memory of [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide), \[bytes], for a
-/// number of elements along the edge of the period that has more of them.
-///
-/// # Errors
-/// [`BemError::PeriodTooCoarse`].
-pub fn memory(surface: &PeriodicSurface, elements: usize) -> Result<f64, BemError> {
-    let first = first_shape(surface, &Accuracy::Elements(elements).into())?;
-    Ok(bytes_on(finest_elements(first)))
 }
 
 /// A surface sampled on one grid.
@@ -463,6 +342,7 @@ impl<S> PeriodicEstimate<S> {
 #[cfg(test)]
 mod tests {
     use indenters::rough::Wave;
+    use numerics::Accuracy;
 
     use super::*;
     use crate::{PeriodicTransient, PressureField};
@@ -495,19 +375,6 @@ mod tests {
     fn bars_of(frictions: [(f64, f64); 3]) -> PeriodicEstimate<()> {
         let estimate = goal().estimate(&frictions.map(found), ());
         estimate.expect("three grids")
-    }
-
-    /// The memory of the largest grid that fits is no more than is allowed, and that of the next one is.
-    #[test]
-    fn the_largest_grid_is_the_one_that_fits() {
-        for bytes in [4e7, 5e7, 6e7, 7e7, 7.83e7, 1e8, 1e9] {
-            let elements = largest_grid(Some(bytes));
-            assert!(bytes_on(elements) <= bytes, "{bytes} bytes, {elements}");
-            assert!(
-                bytes_on(elements + 1.0) > bytes,
-                "{bytes} bytes, {elements}"
-            );
-        }
     }
 
     /// What coarser grids know, with its error, where the contact of a finer one is not found.
