@@ -1,0 +1,491 @@
+//! The motion of a periodic surface on one grid: in closed form in full contact, or by a march.
+//!
+//! The elements are fixed in the material, and the surface is shifted over them by any distance, since the grids resolve all its
+//! waves. The pressure is constant in each step, as in [`crate::march::periodic`], and exact in full contact; a cycle in full contact
+//! has a closed form. In partial contact the error is of the first order in the spacing, and so is that of the steps, which are
+//! refined with the elements.
+//!
+//! Theory: docs/theory/transient-half-space.md, "Motions".
+
+use std::cell::RefCell;
+use std::f64::consts::TAU;
+
+use indenters::rough::PeriodicSurface;
+use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep};
+use numerics::Accuracy;
+use rheology::{Material as _, check_spectra};
+use rustfft::num_complex::Complex;
+
+use super::full_contact::{Closed, value_of_row};
+use super::stresses::{Spectra, WaveMotion, WaveStates};
+use super::{CONTACT_TOLERANCE, edges, elements_of_motion};
+use crate::march::MAX_STEPS;
+use crate::march::periodic::PeriodicMarch;
+use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO};
+use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
+use crate::stationary::periodic::nested::interpolated;
+use crate::{BemError, ContactOptions, Elastomer, Grid};
+
+/// Maximum number of elements times steps of a cycle or path: a few minutes.
+const MAX_ELEMENT_STEPS: f64 = 6e7;
+
+/// A motion of a surface over a material.
+pub(super) struct MovingSurface<'a> {
+    surface: &'a PeriodicSurface,
+    elastomer: &'a dyn Elastomer,
+    load: &'a MovingLoad,
+    pub(super) spectra: Spectra,
+    /// q_x by the number of waves in the period, \[rad/m].
+    wave_numbers: Vec<f64>,
+    /// Search for the limit cycle; `None` for a motion through points.
+    pub(super) limit_cycle: Option<LimitCycle>,
+    /// Shape of the last grid with a limit cycle, and the history variables at its end.
+    last_cycle: RefCell<Option<([usize; 2], Vec<f64>)>>,
+}
+
+/// A motion on one grid.
+struct MotionOnGrid {
+    grid: Grid,
+    /// Heights at the centres of the elements, \[m].
+    heights: Vec<f64>,
+    steps: Vec<MovingStep>,
+    waves: WaveMotion,
+}
+
+/// The state at the end of a step.
+#[derive(Clone, Copy)]
+struct StepEnd {
+    tangential_force: f64,
+    normal_force: f64,
+    depth: f64,
+    n_contact: usize,
+}
+
+impl<'a> MovingSurface<'a> {
+    pub(super) fn new(
+        surface: &'a PeriodicSurface,
+        elastomer: &'a dyn Elastomer,
+        load: &'a MovingLoad,
+        accuracy: Accuracy,
+    ) -> Result<Self, BemError> {
+        let (relaxation, creep) = {
+            let material = elastomer.material();
+            check_spectra(&material)?;
+            (material.relaxation(), material.creep())
+        };
+        let limit_cycle = LimitCycle::new(load, &creep, accuracy)?;
+        if matches!(load.largest_control(), Control::IndentationDepth(_)) {
+            return Err(BemError::DepthFromRest);
+        }
+        elastomer.base().check_flow(creep.fluidity())?;
+        let unit = TAU / surface.period()[0];
+        let numbers = 0..=surface.largest_numbers()[0];
+        let problem = Self {
+            surface,
+            elastomer,
+            load,
+            spectra: Spectra { relaxation, creep },
+            wave_numbers: numbers.map(|number| number as f64 * unit).collect(),
+            limit_cycle,
+            last_cycle: RefCell::default(),
+        };
+        if let Accuracy::Elements(elements) = accuracy {
+            problem.check_coarsest(elements)?;
+        }
+        Ok(problem)
+    }
+
+    /// Fails for a number of elements whose coarsest grid, with three eighths of them, does not resolve all waves.
+    fn check_coarsest(&self, elements: usize) -> Result<(), BemError> {
+        let resolves_all_waves = |elements: usize| {
+            let coarsest = (3 * elements).div_ceil(8);
+            let numbers = self.surface.largest_numbers();
+            let mut pairs = self.shape(coarsest).into_iter().zip(numbers);
+            pairs.all(|(elements, number)| elements > 2 * number)
+        };
+        if resolves_all_waves(elements) {
+            return Ok(());
+        }
+        let most = elements_of_motion(self.surface);
+        let needed = (elements..=most).find(|elements| resolves_all_waves(*elements));
+        Err(BemError::PeriodTooCoarse {
+            elements,
+            needed: needed.unwrap_or(most),
+        })
+    }
+
+    /// Shape of a grid for a number of elements along its longer edge; both numbers are even.
+    pub(super) fn shape(&self, elements: usize) -> [usize; 2] {
+        let edges = edges(self.surface);
+        let longest = edges[0].max(edges[1]);
+        edges.map(|edge| 2 * edge.saturating_mul(elements).div_ceil(2 * longest))
+    }
+
+    /// Edges of an element, \[m].
+    fn spacing(&self, shape: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64)
+    }
+
+    /// Number of steps above which a grid is refused: elements times steps are limited.
+    fn max_steps(shape: [usize; 2]) -> f64 {
+        let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
+        MAX_STEPS.min(MAX_ELEMENT_STEPS / n_elements)
+    }
+
+    /// Number of steps on a grid; fails for too many.
+    pub(super) fn n_steps(&self, elements: usize, shape: [usize; 2]) -> Result<f64, BemError> {
+        let [spacing, _] = self.spacing(shape);
+        Ok(self
+            .load
+            .n_steps(elements, spacing, Self::max_steps(shape))?)
+    }
+
+    /// The largest number of elements in the sequence of doublings whose elements times steps are not too many.
+    pub(super) fn largest(&self, first: usize) -> usize {
+        let mut elements = first;
+        while self.n_steps(2 * elements, self.shape(2 * elements)).is_ok() {
+            elements *= 2;
+        }
+        elements
+    }
+
+    fn area(&self) -> f64 {
+        self.surface.period().iter().product()
+    }
+
+    fn on_grid(&self, elements: usize) -> Result<MotionOnGrid, BemError> {
+        let shape = self.shape(elements);
+        let spacing = self.spacing(shape);
+        let max_steps = Self::max_steps(shape);
+        let steps = self.load.steps(elements, spacing[0], max_steps)?;
+        let waves = WaveMotion::new(self.load, &steps, &self.wave_numbers, &self.spectra)?;
+        Ok(MotionOnGrid {
+            heights: self.surface.heights(shape)?,
+            grid: Grid::new(shape, spacing)?,
+            steps,
+            waves,
+        })
+    }
+
+    /// True for a cycle in full contact, tested on a grid fine enough to exclude gaps between its elements.
+    pub(super) fn is_full(&self) -> bool {
+        let elements = 2 * elements_of_motion(self.surface);
+        let fine = || self.on_grid(elements).ok();
+        let found = self.load.is_cycle().then(fine).flatten();
+        found.is_some_and(|fine| self.closed_on(&fine).is_full(&fine.waves))
+    }
+
+    /// The record of the motion on a grid, in closed form or by a march.
+    pub(super) fn solve_on_grid(
+        &self,
+        elements: usize,
+        is_full: bool,
+        report: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
+        let on_grid = self.on_grid(elements)?;
+        let spacing = on_grid.grid.spacing();
+        let record = if is_full {
+            self.closed(&on_grid)
+        } else {
+            self.march(&on_grid, report)?
+        };
+        Ok(MotionRecord {
+            spacing: spacing[0],
+            steepness: self.surface.rms_slope(),
+            ..record
+        })
+    }
+
+    fn closed_on<'b>(&self, on_grid: &'b MotionOnGrid) -> Closed<'b> {
+        Closed {
+            grid: &on_grid.grid,
+            heights: &on_grid.heights,
+            waves: FourierMultiplier::new(&on_grid.grid, &self.elastomer.base()),
+            factor: 0.5 * self.elastomer.material().half_space_factor(),
+            mean_pressure: self.load.largest_control().value() / self.area(),
+            largest_numbers: self.surface.largest_numbers(),
+        }
+    }
+
+    /// A cycle in which the contact is full all the time.
+    fn closed(&self, on_grid: &MotionOnGrid) -> MotionRecord {
+        let closed = self.closed_on(on_grid);
+        let compliance = closed.factor * self.spectra.creep.equilibrium_compliance();
+        let depth =
+            closed.mean_pressure * (compliance * self.elastomer.base().uniform_compliance());
+        let found = closed.cycle(&on_grid.waves, &self.wave_numbers);
+        let (normal_force, area) = (self.load.largest_control().value(), self.area());
+        let end = |stress: &f64| StepEnd {
+            tangential_force: stress * area,
+            normal_force,
+            depth,
+            n_contact: on_grid.grid.n_elements(),
+        };
+        // A cycle begins with the state in which it ends.
+        let last = found.stresses.last();
+        let ends: Vec<StepEnd> = last.into_iter().chain(&found.stresses).map(end).collect();
+        let mut record = self.record(&ends, &on_grid.steps);
+        record.work = found.work * area;
+        record
+    }
+
+    /// Follows the motion on a grid, from the first touch.
+    fn march(
+        &self,
+        on_grid: &MotionOnGrid,
+        report: &dyn Fn(f64),
+    ) -> Result<MotionRecord, BemError> {
+        let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
+        let touch = TOUCH_DURATION_RATIO * steps[0].duration;
+        let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
+        let start = self.load.stages()[0].start.control;
+        let touched = self.step(&mut march, touch, start, &on_grid.waves.states[0])?;
+        let Some(limit_cycle) = &self.limit_cycle else {
+            let mut ends = vec![touched];
+            ends.extend(self.steps(&mut march, on_grid, report)?);
+            return Ok(self.record(&ends, steps));
+        };
+
+        // Cycles follow the first touch.
+        let first = self.before_cycles(&march.history, grid.shape());
+        let cycle = |from: &[f64], report: &dyn Fn(f64)| {
+            march.history.copy_from_slice(from);
+            let mut ends = self.steps(&mut march, on_grid, report)?;
+            // A cycle begins with the state in which it ends.
+            ends.insert(0, ends[ends.len() - 1]);
+            Ok((self.record(&ends, steps), march.history.clone()))
+        };
+        let record = limit_cycle.find(first, cycle, report)?;
+        self.last_cycle.replace(Some((grid.shape(), march.history)));
+        Ok(record)
+    }
+
+    /// History variables before the first cycle on a grid: those interpolated from the limit cycle of the previous grid, so that a
+    /// slow material has nearly reached its limit cycle; on the first grid those of the first touch.
+    fn before_cycles(&self, touched: &[f64], shape: [usize; 2]) -> Vec<f64> {
+        let last_cycle = self.last_cycle.borrow();
+        let Some((from, history)) = &*last_cycle else {
+            return touched.to_vec();
+        };
+        let fields = history.chunks_exact(from[0] * from[1]);
+        fields
+            .flat_map(|field| interpolated(field, *from, shape))
+            .collect()
+    }
+
+    /// Follows all steps of the path, or of one cycle.
+    fn steps(
+        &self,
+        march: &mut PeriodicMarch<'_>,
+        MotionOnGrid { steps, waves, .. }: &MotionOnGrid,
+        report: &dyn Fn(f64),
+    ) -> Result<Vec<StepEnd>, BemError> {
+        let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
+        let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
+            report(index as f64 / steps.len() as f64);
+            self.step(march, step.duration, step.end.control, state)
+        };
+        pairs.map(end).collect()
+    }
+
+    fn step(
+        &self,
+        march: &mut PeriodicMarch<'_>,
+        duration: f64,
+        control: Control,
+        state: &WaveStates,
+    ) -> Result<StepEnd, BemError> {
+        let rows = march.rows();
+        let waves = state.displacement.iter().zip(&self.wave_numbers);
+        let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
+        march.set_step(duration, |row| {
+            [&state.held, &slopes].map(|values| value_of_row(values, row, rows))
+        })?;
+        let options = ContactOptions {
+            tolerance: CONTACT_TOLERANCE,
+            ..ContactOptions::default()
+        };
+        let normal_force = control.value();
+        let row = march.step(normal_force / self.area(), &options)?;
+        let presses = normal_force > 0.0;
+        Ok(StepEnd {
+            tangential_force: if presses {
+                row.friction_coefficient * normal_force
+            } else {
+                0.0
+            },
+            normal_force,
+            depth: row.mean_depth,
+            n_contact: march.state.contact().len(),
+        })
+    }
+
+    /// Means over the steps, from the states before the first step and after each.
+    fn record(&self, ends: &[StepEnd], steps: &[MovingStep]) -> MotionRecord {
+        let mut record = MotionRecord::default();
+        let mut begin = self.load.stages()[0].start.position;
+        for (step, ends) in steps.iter().zip(ends.windows(2)) {
+            let mean = |of: fn(&StepEnd) -> f64| 0.5 * (of(&ends[0]) + of(&ends[1]));
+            let distance = step.end.position - begin;
+            let of_step = MotionStep {
+                stage: step.stage,
+                time: step.end.time - 0.5 * step.duration,
+                position: begin + 0.5 * distance,
+                tangential_force: mean(|end| end.tangential_force),
+                normal_force: mean(|end| end.normal_force),
+                indentation_depth: mean(|end| end.depth),
+                contact: None,
+                n_contact: ends[1].n_contact,
+            };
+            record.push(of_step, distance);
+            begin = step.end.position;
+        }
+        record
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::rough::Wave;
+    use indenters::{Shape, Stroke};
+    use numerics::Estimate;
+    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+
+    use super::super::move_along;
+    use super::*;
+    use crate::march::largest_retardation_time;
+
+    /// Retardation times of the slowest element after which the first touch has relaxed.
+    const MEMORIES: f64 = 8.0;
+
+    fn surface() -> PeriodicSurface {
+        let wave = |(numbers, amplitude, phase)| Wave {
+            numbers,
+            amplitude,
+            phase,
+        };
+        let waves = [
+            ([1, 0], 0.01, 0.2),
+            ([2, -1], 0.01, 1.0),
+            ([0, 2], 0.006, 2.0),
+        ];
+        PeriodicSurface::new([1.0; 2], waves.map(wave).to_vec()).expect("a surface")
+    }
+
+    fn rubber() -> Prony {
+        let branch = |(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        };
+        let branches = [(2.0, 0.1), (4.0, 0.02)].map(branch).to_vec();
+        Prony::new(RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum"))
+            .expect("a solid")
+    }
+
+    /// The test also covers the points between its elements and between its steps.
+    #[test]
+    fn a_cycle_is_full_where_none_of_its_pressures_is_a_tension() {
+        let (surface, rubber) = (surface(), rubber());
+        let stroke = Stroke {
+            length: 0.3,
+            frequency: 2.0,
+            shape: Shape::Sinusoidal,
+        };
+        let is_full = |mean_pressure: f64, elements: Option<usize>| {
+            let load = MovingLoad::reciprocating(Control::NormalForce(mean_pressure), stroke);
+            let load = load.expect("a motion");
+            let accuracy = Accuracy::RelativeError(0.1);
+            let problem =
+                MovingSurface::new(&surface, &rubber, &load, accuracy).expect("a problem");
+            let Some(elements) = elements else {
+                return problem.is_full();
+            };
+            let fine = problem.on_grid(elements).expect("a grid");
+            problem.closed_on(&fine).is_full(&fine.waves)
+        };
+        let [mut low, mut high] = [0.1, 10.0];
+        while high > 1.001 * low {
+            let middle = f64::midpoint(low, high);
+            let end = if is_full(middle, None) {
+                &mut high
+            } else {
+                &mut low
+            };
+            *end = middle;
+        }
+        let finest = 8 * elements_of_motion(&surface);
+        assert!(is_full(high, Some(finest)), "{high}");
+        assert!(!is_full(0.95 * high, Some(finest)), "{high}");
+    }
+
+    /// What the dashpots take in the last cycle of many, as in `tests/it/dissipated_energy.rs`, \[J].
+    fn heat(load: &MovingLoad, elements: usize) -> f64 {
+        let (surface, rubber) = (surface(), rubber());
+        let accuracy = Accuracy::Elements(elements);
+        let problem = MovingSurface::new(&surface, &rubber, load, accuracy).expect("a problem");
+        let MotionOnGrid {
+            grid,
+            heights,
+            steps,
+            waves,
+        } = problem.on_grid(elements).expect("a grid");
+        let mut march = PeriodicMarch::new(&grid, &heights, &rubber, 1e-4).expect("a march");
+        let mut kernel = FourierMultiplier::new(&grid, &rubber.base());
+        let creep = &problem.spectra.creep;
+        let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
+        let mut moved = vec![0.0; heights.len()];
+        let count = MEMORIES * largest_retardation_time(creep) / load.duration() + 2.0;
+        let mut heat = 0.0;
+        for _ in 0..numerics::whole_part(count) {
+            heat = 0.0;
+            for (step, state) in steps.iter().zip(&waves.states[1..]) {
+                let _end = problem
+                    .step(&mut march, step.duration, step.end.control, state)
+                    .expect("a contact");
+                let pressure = march.state.pressure();
+                for (element, springs) in creep.elements().iter().zip(&mut springs) {
+                    let pairs = pressure.iter().zip(springs.iter());
+                    let dashpot: Vec<f64> = pairs.map(|(all, spring)| all - spring).collect();
+                    // Displaced as an incompressible half space of the modulus 1.
+                    kernel.apply(&dashpot, &mut moved, |_, [_, q]| (0.5 / q).into());
+                    let work: f64 = dashpot.iter().zip(&moved).map(|(p, u)| p * u).sum();
+                    let times = step.duration / element.retardation_time;
+                    let passed = -(-2.0 * times).exp_m1();
+                    heat += 0.5 * passed * element.compliance * work * grid.element_area();
+                    for (spring, rest) in springs.iter_mut().zip(dashpot) {
+                        *spring -= (-times).exp_m1() * rest;
+                    }
+                }
+            }
+        }
+        heat
+    }
+
+    /// The bar of the work is that of the motion, that of the dashpots what half the elements change.
+    #[test]
+    fn the_work_of_a_cycle_is_dissipated_by_the_dashpots() {
+        for (length, frequency, shape) in [
+            (0.3, 2.0, Shape::Sinusoidal),
+            (0.02, 5.0, Shape::Sinusoidal),
+            (0.5, 3.0, Shape::Triangular),
+        ] {
+            let stroke = Stroke {
+                length,
+                frequency,
+                shape,
+            };
+            let load = MovingLoad::reciprocating(Control::NormalForce(0.2), stroke);
+            let load = load.expect("a motion");
+            let [coarse, fine] = [20, 40].map(|elements| heat(&load, elements));
+            let heat = Estimate::new(2.0 * fine - coarse, (fine - coarse).abs());
+            let cycle = move_along(&surface(), &rubber(), &load, Accuracy::Elements(36));
+            let energy = cycle.expect("a cycle").dissipated_energy.expect("energy");
+            let (apart, bars) = ((energy.value - heat.value).abs(), energy.error + heat.error);
+            assert!(apart <= bars, "{stroke:?}: {energy:?}, {heat:?}");
+            assert!(
+                bars < 0.15 * energy.value,
+                "{stroke:?}: {energy:?}, {heat:?}"
+            );
+        }
+    }
+}
