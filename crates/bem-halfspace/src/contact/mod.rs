@@ -28,6 +28,7 @@ mod state;
 use std::f64::consts::PI;
 
 use crate::parallel::chunks::in_pool;
+use crate::parallel::reductions::mean;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Convolution};
 use folded::solve_symmetry_reduced;
@@ -204,7 +205,7 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
     if let Control::IndentationDepth(value) = problem.control
         && problem.convolution.surroundings == Surroundings::Periodic
     {
-        let is_allowed = value < heights.iter().sum::<f64>() / heights.len() as f64;
+        let is_allowed = value < mean(heights);
         let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
         in_range("indentation_depth", value, is_allowed, allowed)?;
     }

@@ -21,7 +21,7 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::area;
 use crate::elements::grid::elements_along;
-use crate::parallel::reductions::{add_scaled, dot};
+use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
@@ -191,7 +191,7 @@ impl<'a> PeriodicMarch<'a> {
             creep,
             waves: FourierMultiplier::new(grid, &Base::default()),
             heights: vec![0.0; n],
-            mean_height: heights.iter().sum::<f64>() / n as f64,
+            mean_height: mean(heights),
             slopes: vec![0.0; n],
             state: ContactState::new(&convolution),
             workspace: convolution.workspace(),

@@ -49,6 +49,11 @@ pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
     pairs.map(|(left, right)| left * right).sum()
 }
 
+/// Mean of a vector, summed in its order.
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 /// Adds `factor` times `values` to `sum` (axpy).
 pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, values: &[T]) {
     for (sum, value) in sum.iter_mut().zip(values) {

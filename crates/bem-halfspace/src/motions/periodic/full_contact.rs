@@ -10,7 +10,7 @@ use rustfft::num_complex::Complex;
 
 use super::stresses::WaveMotion;
 use crate::Grid;
-use crate::parallel::reductions::dot;
+use crate::parallel::reductions::{dot, mean};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::transform::plane_transform::ZERO;
 
@@ -49,7 +49,6 @@ impl Closed<'_> {
 
     /// True if the pressure is positive everywhere, also between elements and between steps.
     pub(super) fn is_full(&mut self, motion: &WaveMotion) -> bool {
-        let n = self.grid.n_elements() as f64;
         let rows = self.grid.shape()[0];
         let allowed = self.sampling_ratio() * self.mean_pressure;
         let mut field = vec![0.0; self.heights.len()];
@@ -58,7 +57,7 @@ impl Closed<'_> {
             let stress = |row: usize| value_of_row(&state.stress, row, rows);
             let symbol = |row: usize, [_, q]: [f64; 2]| -stress(row) * q / factor;
             self.waves.apply(heights, &mut field, symbol);
-            let mean = field.iter().sum::<f64>() / n;
+            let mean = mean(&field);
             field.iter().all(|p| (p - mean).abs() < allowed)
         })
     }

@@ -4,9 +4,9 @@
 
 use numerics::{InvalidParameter, in_range};
 
-use crate::parallel::reductions::larger;
+use crate::parallel::reductions::{larger, mean};
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::kernel::{Sliding, mean};
+use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};

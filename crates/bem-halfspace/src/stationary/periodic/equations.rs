@@ -23,7 +23,7 @@ use rustfft::num_complex::Complex;
 
 use crate::contact::active_set::ActiveSet;
 use crate::dense;
-use crate::parallel::reductions::{add_scaled, larger, sum};
+use crate::parallel::reductions::{add_scaled, larger, mean, sum};
 use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
 use crate::stationary::periodic::PeriodicControl;
@@ -153,7 +153,7 @@ impl Equations {
     /// Sets the packed gap. In its own unit single precision suffices, however small the residual is.
     fn set_gap(&mut self, mut gap: Vec<f64>) {
         if self.depth_is_free {
-            let mean = gap.iter().sum::<f64>() / gap.len() as f64;
+            let mean = mean(&gap);
             gap.iter_mut().for_each(|gap| *gap -= mean);
         }
         let unit = gap.iter().fold(0.0, |top, gap| larger(top, gap.abs()));

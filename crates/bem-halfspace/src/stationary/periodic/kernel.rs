@@ -17,6 +17,7 @@ use numerics::positive;
 use rheology::{CreepSpectrum, Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
+use crate::parallel::reductions::mean;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::{Base, BemError, Elastomer, Grid};
 
@@ -222,11 +223,6 @@ impl PeriodicKernel {
             |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);
         self.waves.apply(pressure, result, symbol);
     }
-}
-
-/// Mean of a field.
-pub(super) fn mean(field: &[f64]) -> f64 {
-    field.iter().sum::<f64>() / field.len() as f64
 }
 
 /// Shifts a field to the given mean.

@@ -46,7 +46,7 @@ use numerics::{InvalidParameter, in_range, positive};
 use crate::contact::check_length;
 use crate::elements::area;
 use crate::parallel::chunks::in_pool;
-use crate::parallel::reductions::dot;
+use crate::parallel::reductions::{dot, mean};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use contact::PeriodicContact;
 use equations::Equations;
@@ -56,7 +56,7 @@ pub use estimate::{
 };
 #[cfg(feature = "rough")]
 pub use grid_sizes::{elements_for_bars, fewest_elements, largest_grid, memory};
-use kernel::{Sliding, mean};
+use kernel::Sliding;
 pub use load::{PeriodicControl, PeriodicLoad};
 
 /// Stopping criteria of the solver.

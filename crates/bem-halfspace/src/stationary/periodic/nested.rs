@@ -6,10 +6,10 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::parallel::reductions::mean;
 use crate::stationary::periodic::contact::{self, PeriodicContact, PeriodicSolution};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::stationary::periodic::kernel::mean;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 use indenters::rough::PeriodicSurface;
 
+use crate::parallel::reductions::mean;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::{Base, PressureField};
 
@@ -47,7 +48,7 @@ impl SubgridGapBound {
             return Self::default();
         }
         let n = pressure.len() as f64;
-        let mean = pressure.iter().sum::<f64>() / n;
+        let mean = mean(pressure);
         let deviations = pressure.iter().map(|pressure| (pressure - mean).abs());
         let (numbers, shape) = (surface.largest_numbers(), field.grid.shape());
         let [x, y] = [0, 1].map(|axis| PI * numbers[axis] as f64 / shape[axis] as f64);

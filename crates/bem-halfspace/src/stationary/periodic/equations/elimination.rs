@@ -9,9 +9,9 @@ use numerics::transforms::Real as _;
 use super::{Equations, unit_response};
 use crate::contact::active_set::Run;
 use crate::dense;
-use crate::parallel::reductions::add_scaled;
+use crate::parallel::reductions::{add_scaled, mean};
 use crate::parallel::row_blocks::copies;
-use crate::stationary::periodic::kernel::{PeriodicKernel, mean};
+use crate::stationary::periodic::kernel::PeriodicKernel;
 
 impl Equations {
     /// Number of unknowns of a direct solve: elements in contact or open elements, whichever are fewer.
@@ -142,9 +142,10 @@ fn translation_invariant(
 mod tests {
     use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum};
 
+    use crate::parallel::reductions::mean;
     use crate::stationary::periodic::PeriodicControl;
     use crate::stationary::periodic::equations::Equations;
-    use crate::stationary::periodic::kernel::{Sliding, mean};
+    use crate::stationary::periodic::kernel::Sliding;
     use crate::{Grid, Layer};
 
     const SIDE: usize = 24;

@@ -7,7 +7,7 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::area;
 use crate::elements::contact_boundary::{BoundaryField, ContactBoundary};
-use crate::parallel::reductions::{add_scaled, dot};
+use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::change::Change;
 use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::equations::Equations;
@@ -148,7 +148,7 @@ impl<'a> Adjoint<'a> {
     /// Displacements under loads less their mean, for a compliance of 1 in each row.
     fn unit_compliance_response(&mut self, loads: &[f64]) -> Vec<f64> {
         let mut lifted = vec![0.0; loads.len()];
-        let mean = loads.iter().sum::<f64>() / loads.len() as f64;
+        let mean = mean(loads);
         let without_mean: Vec<f64> = loads.iter().map(|load| load - mean).collect();
         self.waves
             .apply(&without_mean, &mut lifted, |_, [_, q]| q.recip().into());

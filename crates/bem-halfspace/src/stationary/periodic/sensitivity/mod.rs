@@ -25,10 +25,10 @@ use rustfft::num_complex::Complex;
 
 use crate::contact::check_length;
 use crate::parallel::chunks::in_pool;
-use crate::parallel::reductions::{add_scaled, dot};
+use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::change;
 use crate::stationary::periodic::contact::PeriodicContact;
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding, mean};
+use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};

@@ -4,6 +4,7 @@
 
 use numerics::Estimate;
 
+use crate::parallel::reductions::mean;
 use crate::stationary::steady::sensitivity::Change;
 
 /// A mean over shifted grids, and the largest deviation of a grid from it.
@@ -18,7 +19,7 @@ pub(super) struct MeanAndSpread {
 impl MeanAndSpread {
     /// Mean and spread of the values on all shifts.
     fn over(values: Vec<f64>) -> Self {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let mean = mean(&values);
         let deviations = values.iter().map(|value| (value - mean).abs());
         Self {
             mean,
