@@ -10,6 +10,11 @@ use crate::{Control, MovingLoad, Stage};
 
 /// Weights of the remaining changes in the test for a limit cycle (chosen): friction coefficient, forces and depth of steps.
 const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
+/// Weight of the remaining change of the history variables in this test, like that of forces (chosen).
+const HISTORY_WEIGHT: f64 = 0.1;
+/// Elements along the contact on which nothing is known of the friction. On N of them its relative error is taken to be at least the cube
+/// of their ratio to N, which is 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear loads").
+const UNRESOLVED_CONTACT_ELEMENTS: f64 = 2.0;
 /// Approximate number of points at which a motion is reported (chosen).
 const POINTS_PER_MOTION: usize = 64;
 /// Rounding error of the friction coefficient, relative to the mean slope (chosen).
@@ -94,6 +99,8 @@ pub struct MotionRecord {
     pub n_cycles: usize,
     /// Estimated remaining changes up to the limit cycle: friction coefficient, tangential force, normal force, depth.
     pub rest: [f64; 4],
+    /// Largest change of a history variable by the last cycle, relative to the largest of them; 0 if they were not compared.
+    pub history_change: f64,
     /// Work less the energy dissipated by the elements, \[J].
     pub imbalance: f64,
     /// Length of an element, \[m].
@@ -159,12 +166,38 @@ impl MotionRecord {
     }
 
     /// Updates [`rest`](Self::rest) from the previous cycle and returns the largest weighted relative remaining change.
+    ///
+    /// The history variables count too, because a surface that rises towards the body changes no force until they touch. For the same
+    /// reason a cycle without contact is never the limit cycle, and its remaining change is infinite.
     pub fn rest_after(&mut self, before: &Self, slowness: f64) -> f64 {
         self.rest = self.remaining_change(before, slowness);
+        if self.steps.iter().all(|step| step.normal_force <= 0.0) {
+            return f64::INFINITY;
+        }
+        let history = HISTORY_WEIGHT * slowness * self.history_change;
         let weighted = self.rest.iter().zip(self.scales()).zip(LIMIT_CYCLE_WEIGHTS);
         weighted
             .map(|((rest, scale), weight)| weight * rest / scale)
-            .fold(0.0, f64::max)
+            .fold(history, f64::max)
+    }
+
+    /// Relative error below which the friction on so few elements along the contact cannot be known; 0 if the contact is not known.
+    ///
+    /// The number of elements is the mean over the steps, weighted with their normal force.
+    fn resolution_error(&self) -> f64 {
+        let (mut force, mut force_times_elements) = (0.0, 0.0);
+        for step in &self.steps {
+            if let Some([rear, front]) = step.contact {
+                force += step.normal_force;
+                force_times_elements += step.normal_force * ((front - rear) / self.spacing + 1.0);
+            }
+        }
+        let ratio = UNRESOLVED_CONTACT_ELEMENTS * force / force_times_elements;
+        if ratio.is_finite() {
+            ratio.powi(3)
+        } else {
+            0.0
+        }
     }
 
     /// Largest |F_t|/F_N of the steps.
@@ -257,6 +290,7 @@ impl MotionView<'_> {
         let steepness = self.steepness(record);
         let is_cycle = self.load.is_cycle();
         let imbalance = record.imbalance / record.normal_work;
+        let resolution_error = record.resolution_error();
         [
             Quantity {
                 scale: if self.is_elastic {
@@ -266,21 +300,26 @@ impl MotionView<'_> {
                 } else {
                     peak
                 },
-                error_floor: if is_cycle { imbalance.abs() } else { 0.0 },
+                error_floor: (resolution_error * friction.abs()).max(if is_cycle {
+                    imbalance.abs()
+                } else {
+                    0.0
+                }),
                 rounding_error: FRICTION_ROUNDING * steepness,
                 extrapolation_order: self.extrapolation_order,
                 ..Quantity::from(friction)
             },
             Quantity {
+                error_floor: resolution_error * peak,
                 controls_refinement: false,
                 ..Quantity::from(peak)
             },
             Quantity {
-                error_floor: if is_cycle {
+                error_floor: (resolution_error * record.work.abs()).max(if is_cycle {
                     record.imbalance.abs()
                 } else {
                     0.0
-                },
+                }),
                 rounding_error: FRICTION_ROUNDING * steepness * record.normal_work,
                 extrapolation_order: self.extrapolation_order,
                 controls_refinement: false,

@@ -57,11 +57,23 @@ pub fn anderson_fixed_point<T, E>(
     let mut evaluated: Vec<Evaluation> = Vec::new();
     let mut previous: Option<T> = None;
     let mut remaining = f64::INFINITY;
+    let mut is_combination = false;
     for evaluations in 1..=max_evaluations {
         // Evaluate, and start the next evaluation from the value.
         let (mut result, value) = map(&state)?;
         let start = std::mem::replace(&mut state, value.clone());
-        evaluated.push(Evaluation { start, value });
+        let evaluation = Evaluation { start, value };
+
+        // A combination that increases the residual is outside the range in which g is nearly linear: return to the last value, and
+        // forget the evaluations that were combined.
+        let last_residual = evaluated.last().map_or(f64::INFINITY, Evaluation::residual);
+        if std::mem::take(&mut is_combination) && evaluation.residual() > last_residual {
+            evaluated.drain(..evaluated.len() - 1);
+            state.clone_from(&evaluated[0].value);
+            previous = None;
+            continue;
+        }
+        evaluated.push(evaluation);
         let Some(last) = previous.take() else {
             previous = Some(result);
             continue;
@@ -77,12 +89,13 @@ pub fn anderson_fixed_point<T, E>(
         }
 
         // Start the next evaluation from a combination; it cannot be compared with this one, hence no previous result.
-        if evaluations < PLAIN_EVALUATIONS {
+        if evaluated.len() < PLAIN_EVALUATIONS {
             previous = Some(result);
         } else {
             let excess = evaluated.len().saturating_sub(MAX_COMBINED);
             evaluated.drain(..excess);
             combine(&evaluated, &mut state);
+            is_combination = true;
         }
     }
     Ok(FixedPoint::NotConverged {
@@ -96,6 +109,14 @@ struct Evaluation {
     start: Vec<f64>,
     /// g(x).
     value: Vec<f64>,
+}
+
+impl Evaluation {
+    /// Euclidean norm of g(x) − x.
+    fn residual(&self) -> f64 {
+        let change = minus(&self.value, &self.start);
+        dot(&change, &change).sqrt()
+    }
 }
 
 /// Replaces the last value, which is the state, by the combination with the smallest residual.

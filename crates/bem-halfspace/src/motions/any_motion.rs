@@ -111,9 +111,11 @@ impl LimitCycle {
         let next_cycle = |from: &[f64]| {
             let begun = f64::from(n_cycles);
             n_cycles += 1;
-            follow_cycle(from, &|part| {
+            let (mut record, to) = follow_cycle(from, &|part| {
                 report(convergence.get().max((begun + part) / MAX_CYCLES as f64));
-            })
+            })?;
+            record.history_change = relative_change(from, &to);
+            Ok::<_, BemError>((record, to))
         };
         let remaining_change = |now: &mut MotionRecord, before: &MotionRecord| {
             let change = now.rest_after(before, slowness);
@@ -144,4 +146,13 @@ impl LimitCycle {
             }),
         }
     }
+}
+
+/// Largest change from one vector to the other, relative to the largest element; 0 if both vanish.
+fn relative_change(from: &[f64], to: &[f64]) -> f64 {
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+    };
+    let change = largest(&mut from.iter().zip(to).map(|(from, to)| to - from));
+    change / largest(&mut from.iter().chain(to).copied()).max(f64::MIN_POSITIVE)
 }
