@@ -181,15 +181,12 @@ fn a_cycle_without_contact_is_not_the_limit() {
 }
 
 /// On eight elements along the stationary contact, fewer are in contact with the groove, and coarse grids agree by chance to 0.8 %.
+/// This function on 32 elements gives 0.03393 ± 0.00016.
 #[test]
 fn bars_hold_on_few_elements_in_contact() {
-    let profile = (2.0, 1.5);
-    let (coarse, fine) = (
-        groove(profile, 1.2, 1.6e-3, 8),
-        groove(profile, 1.2, 1.6e-3, 24),
-    );
-    let deviation = (coarse.value - fine.value).abs();
-    assert!(deviation <= coarse.error, "{coarse:?}, expected {fine:?}");
+    let coarse = groove((2.0, 1.5), 1.2, 1.6e-3, 8);
+    let deviation = (coarse.value - 0.03393).abs();
+    assert!(deviation <= coarse.error, "{coarse:?}");
     assert!(coarse.error < 0.2 * coarse.value, "{coarse:?}");
 }
 
