@@ -1,4 +1,4 @@
-//! One power profile on a viscous half space, solved by all three methods.
+//! One power profile on a viscous half space, solved by theory, chain and half space.
 
 use anyhow::Result;
 use bem_halfspace::slide::{Transient, slide_on_grid};
@@ -8,8 +8,7 @@ use bem_halfspace::steady::{
 use bem_halfspace::{BemError, Footprint, GridOptions};
 use casebook::standard_solid;
 use friction_analytic::{StationarySliding, power_sliding};
-use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
-use mdr_core::slide_on_grid as slide_line;
+use indenters::{PowerProfile, SlidingLoad};
 use numerics::Estimate;
 use rheology::{StandardSolid, Viscous};
 
@@ -34,17 +33,6 @@ impl Scene {
     /// The closed form of the one-dimensional model.
     pub(crate) fn theory(&self) -> Result<StationarySliding> {
         Ok(power_sliding(&self.body, &self.material, &self.load)?)
-    }
-
-    /// The chain of dashpots.
-    pub(crate) fn chain(&self, spacing: f64) -> Result<mdr_core::Transient> {
-        let options = mdr_core::SlideOptions {
-            spacing,
-            drift_tolerance: 1e-9,
-            max_sliding_distance: 100.0 * self.theory()?.contact_length(),
-        };
-        let line = EquivalentLine(&self.body);
-        Ok(slide_line(&line, &self.material, &self.load, &options)?)
     }
 
     /// The half space with square elements of the given edge, slid over `lengths` contact lengths of the

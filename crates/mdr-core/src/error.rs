@@ -6,7 +6,7 @@ use numerics::{Estimate, InvalidParameter, MessageNumber, NotReached, Rounded};
 use rheology::RheologyError;
 use thiserror::Error;
 
-use crate::{CurvePoint, SlideRow, Sliding, SteadySliding};
+use crate::{CurvePoint, Sliding, SlidingStep, SteadySliding};
 
 /// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -132,7 +132,7 @@ pub enum MdrError {
         /// The result, with its errors.
         reached: Vec<CurvePoint>,
     },
-    /// The friction coefficient of a march has a larger error than asked for on the finest resolution allowed.
+    /// The friction coefficient of sliding has a larger error than asked for on the finest resolution allowed.
     #[error("the friction coefficient {missed}")]
     SlidingNotReached {
         /// The quantity, its value and its error.
@@ -242,8 +242,8 @@ pub enum MdrError {
         drift_tolerance: f64,
         /// Distance slid, \[m].
         sliding_distance: f64,
-        /// The transient up to there.
-        rows: Vec<SlideRow>,
+        /// The steps up to there.
+        steps: Vec<SlidingStep>,
     },
     /// A quantity left the range of floating-point numbers.
     #[error("{quantity} became {} at time {} s", MessageNumber(*value), Rounded(*time))]

@@ -4,8 +4,7 @@
 //!
 //! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the approach to it from first contact. [`indent`](indent())
 //! is pressing for a time, [`indent_along`] pressing along a history, [`press`](press()) the contact at rest, and [`move_along`]
-//! any motion, also reciprocating. All results have error estimates.
-//! [`slide_on_grid`] marches with a stated spacing. A body of revolution is given by its
+//! any motion, also reciprocating. All results have error estimates. A body of revolution is given by its
 //! [`EquivalentLine`](indenters::EquivalentLine), or any other [`RigidLine`](indenters::RigidLine) as it is.
 //!
 //! The cone of Fig. 7 has the friction coefficient μ = (π/2) c₁, (21), at every speed:
@@ -35,8 +34,6 @@ mod history;
 mod line;
 mod march;
 mod press;
-mod refinement;
-mod slide;
 mod steady;
 
 /// The program of the README compiles.
@@ -50,8 +47,9 @@ pub use error::MdrError;
 pub use history::{
     CurvePoint, ForceDerivatives, HistoryOptions, force_derivatives, indent_along, work_along,
 };
-pub use march::{elements_of_motion, move_along, move_along_memory};
+pub use march::{
+    Sliding, SlidingStep, elements_of_motion, move_along, move_along_memory, slide, slide_memory,
+};
 pub use numerics::InvalidParameter;
 pub use press::{indent, press};
-pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};
 pub use steady::{SteadySliding, steady};

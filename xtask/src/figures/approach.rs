@@ -1,11 +1,11 @@
 //! The transition zone: friction over the sliding distance, by chain and half space.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use bem_halfspace::slide::PressureField;
 use serde::Serialize;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Series};
 
-use crate::figures::{Part, factors};
+use crate::figures::{Part, chain, factors};
 use crate::output::points;
 use crate::picture::{chart, guide};
 use crate::scene::Scene;
@@ -51,20 +51,16 @@ fn approach(factor: &factors::Row) -> Result<Approach> {
     let theory = scene.theory()?;
     let contact_length = theory.contact_length();
     let spacing = contact_length / ELEMENTS;
-    let chain = scene.chain(spacing)?;
-    let last = chain.rows.last().context("a chain that did not move")?;
+    let chain = chain::slide(&scene, spacing)?;
     let transient = scene.half_space(spacing, LENGTHS)?;
-    let rows = transient.rows.iter().enumerate().map(|(step, row)| {
-        // The chain stops when it is stationary, and stays as it is.
-        let chain = chain.rows.get(step).unwrap_or(last);
-        Row {
-            exponent: factor.exponent,
-            sliding_distance_over_contact_length: row.sliding_distance / contact_length,
-            chain: chain.friction_coefficient / theory.friction_coefficient,
-            half_space: row.friction_coefficient / theory.friction_coefficient,
-            chain_depth: chain.indentation_depth / theory.indentation_depth,
-            half_space_depth: row.indentation_depth / theory.indentation_depth,
-        }
+    let steps = chain.iter().zip(&transient.rows);
+    let rows = steps.map(|(chain, row)| Row {
+        exponent: factor.exponent,
+        sliding_distance_over_contact_length: row.sliding_distance / contact_length,
+        chain: chain.friction_coefficient / theory.friction_coefficient,
+        half_space: row.friction_coefficient / theory.friction_coefficient,
+        chain_depth: chain.indentation_depth / theory.indentation_depth,
+        half_space_depth: row.indentation_depth / theory.indentation_depth,
     });
     let rows = rows.collect();
     Ok(Approach {

@@ -1,12 +1,12 @@
 //! Figs. 7 and 8: friction over sliding speed by theory, chain and half space.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use indenters::{IndenterError, PowerProfile, SlidingLoad};
 use rheology::Viscous;
 use serde::Serialize;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-use crate::figures::{Part, factors};
+use crate::figures::{Part, chain, factors};
 use crate::output::points;
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
@@ -102,13 +102,14 @@ pub(super) fn row(indenter: &Indenter, speed: u32, factor: f64) -> Result<Row> {
     };
     let theory = scene.theory()?;
     let spacing = spacing(theory.contact_length());
-    let chain = scene.chain(spacing)?;
+    let chain = chain::slide(&scene, spacing)?;
+    let last = chain.last().context("a chain that did not move")?;
     let transient = scene.half_space(spacing, SLIDING_LENGTHS)?;
     let stationary = transient.stationary(DRIFT_TOLERANCE)?;
     Ok(Row {
         velocity_m_per_s: velocity,
         theory: theory.friction_coefficient,
-        chain: chain.last.friction_coefficient,
+        chain: last.friction_coefficient,
         half_space: stationary.friction_coefficient,
         half_space_distance_error: stationary.distance_error,
         half_space_plain: transient.last().friction_coefficient_end_of_step,

@@ -1,6 +1,7 @@
 //! `reproduce-figures`: everything the paper shows, from computations by three methods.
 
 mod approach;
+mod chain;
 mod check;
 mod contact_maps;
 mod factors;

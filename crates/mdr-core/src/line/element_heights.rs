@@ -54,54 +54,12 @@ impl ElementHeights {
         }
     }
 
-    /// Enough elements that an `area` \[m²] can be displaced below the ceiling, or all of a finite line.
-    pub(crate) fn holding(line: &dyn RigidLine, spacing: f64, area: f64) -> Result<Self, MdrError> {
-        let mut sampled = Self::below(line, spacing, 0.0)?;
-        let mut reach = 1;
-        while reach < MAX_ELEMENTS {
-            reach *= 2;
-            let level = sampled.rise_within(line, reach);
-            sampled = Self::below(line, spacing, level)?;
-            if level.is_infinite() || sampled.area_below(level) >= area {
-                return Ok(sampled);
-            }
-        }
-        Err(MdrError::TooManyElements {
-            allowed: MAX_ELEMENTS,
-            spacing,
-            height: sampled.rise_within(line, reach),
-        })
-    }
-
     /// Position of an element on the line, \[m].
     pub(crate) fn position(&self, element: usize) -> f64 {
         // One of the two differences is zero; their signs differ, and indices have none.
         let ahead = element.saturating_sub(self.anchor_index) as f64;
         let behind = self.anchor_index.saturating_sub(element) as f64;
         self.anchor + (ahead - behind) * self.spacing
-    }
-
-    /// The error for a contact that reaches the last element of the line.
-    pub(crate) fn reached(&self, element: usize, indentation_depth: f64, time: f64) -> MdrError {
-        MdrError::ContactReachesEdge {
-            position: self.position(element),
-            indentation_depth,
-            time,
-        }
-    }
-
-    /// Σ max(0, level − h_i) Δx, \[m²].
-    fn area_below(&self, level: f64) -> f64 {
-        let sum: f64 = self.heights.iter().map(|h| (level - h).max(0.0)).sum();
-        sum * self.spacing
-    }
-
-    /// Height above the lowest element of the lower of the two points `n_elements` away from it, \[m]; `+∞` beyond the
-    /// ends.
-    fn rise_within(&self, line: &dyn RigidLine, n_elements: usize) -> f64 {
-        let distance = n_elements as f64 * self.spacing;
-        let [rear, front] = [-distance, distance].map(|offset| line.height(self.anchor + offset));
-        rear.min(front) - self.lowest_height
     }
 
     /// The elements around an anchor, up to a height above it.

@@ -12,10 +12,15 @@ const CELLS_PER_ELEMENT: usize = 4;
 /// a cell. It is far below the error of the elements.
 const CUBIC_TOLERANCE: f64 = 1e-10;
 
+/// Rounding of positions, relative to the length of a cell.
+const POSITION_ROUNDING: f64 = 1e-9;
+
 /// Table of the heights above the lowest point, \[m].
 pub(crate) struct HeightTable<'a> {
     line: &'a dyn RigidLine,
     lowest: f64,
+    /// Position of the lowest point, \[m].
+    anchor: f64,
     start: f64,
     cells_per_metre: f64,
     /// Heights at the nodes, one list per position of a node in its element: the elements of a row all have the same one.
@@ -53,6 +58,7 @@ impl<'a> HeightTable<'a> {
         Ok(Self {
             line,
             lowest,
+            anchor: sampled.position(sampled.anchor_index),
             start,
             cells_per_metre,
             is_smooth: split_by_subcell(&is_smooth),
@@ -60,9 +66,14 @@ impl<'a> HeightTable<'a> {
         })
     }
 
-    /// Height at a position on the line, \[m].
+    /// Height at a position on the line, \[m]; within rounding of an end or the lowest point of the line, that of the
+    /// point: no rounding is small at a cusp, or beyond an end.
     pub(crate) fn height_at(&self, x: f64) -> Result<f64, MdrError> {
-        Ok(checked_height(self.line, x)? - self.lowest)
+        let rounding = POSITION_ROUNDING / self.cells_per_metre;
+        let [rear, front] = self.line.domain();
+        let mut points = [rear, self.anchor, front].into_iter();
+        let point = points.find(|point| (x - point).abs() <= rounding);
+        Ok(checked_height(self.line, point.unwrap_or(x))? - self.lowest)
     }
 
     /// Heights over a row of elements, of which the first is at a position on the line, \[m].

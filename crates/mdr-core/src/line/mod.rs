@@ -8,7 +8,7 @@ mod range;
 mod segment;
 mod steep_kinks;
 
-pub(crate) use element_heights::{ElementHeights, MAX_ELEMENTS, checked_height, lowest_candidate};
+pub(crate) use element_heights::{ElementHeights, MAX_ELEMENTS};
 pub(crate) use height_table::{HeightRow, HeightTable};
 pub(crate) use legendre::{DEGREE, derivative, end_value, square_integral, start_value, value};
 pub(crate) use profile::{Piece, Profile, Resolution};

@@ -131,6 +131,15 @@ impl<'a> Elements<'a> {
                 let work = step.compress(displacement, compression, event.history);
                 (loaded, work)
             }
+            // The edge of the body has passed the element.
+            ElementState::Loaded { .. } if under[1] == f64::NEG_INFINITY => {
+                let lost = self.separate_instantly(element, end_time - step.duration);
+                return Some(ElementStep {
+                    work: StepWork { impulse: 0.0, lost },
+                    was_loaded: true,
+                    is_loaded: false,
+                });
+            }
             ElementState::Loaded { displacement } => {
                 let (limit, work) = event.separate([displacement, under[1]]);
                 (free(limit), work)
@@ -152,6 +161,15 @@ impl<'a> Elements<'a> {
             was_loaded: matches!(state, ElementState::Loaded { .. }),
             is_loaded,
         })
+    }
+
+    /// Discards the first element, and appends an undeformed one.
+    pub(super) fn replace_rearmost(&mut self) {
+        self.states.rotate_left(1);
+        self.history.rotate_left(self.n_history);
+        let last = self.states.len() - 1;
+        self.states[last] = ElementState::Untouched;
+        self.history_of(last).fill(0.0);
     }
 
     /// Separates a loaded element instantly; returns the energy that was stored in it.

@@ -15,6 +15,7 @@ mod element_means;
 mod elements;
 mod force_balance;
 mod motion_problem;
+mod slide;
 mod winkler;
 
 use std::collections::BTreeMap;
@@ -26,11 +27,21 @@ use rheology::Material;
 
 use crate::MdrError;
 use crate::line::has_steep_kinks;
-use crate::refinement::{MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, MIN_ORDER, WORK_EXPONENT};
 use crate::steady::LineProblem;
-pub(crate) use compensated::CompensatedSum;
-pub(crate) use force_balance::ForceBalance;
 use motion_problem::MotionProblem;
+pub use slide::{Sliding, SlidingStep, slide, slide_memory};
+
+/// Elements along the contact beyond which a refinement stops. Chosen.
+const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
+/// Power of the number of elements with which the work grows: the number of steps grows in proportion to it.
+const WORK_EXPONENT: f64 = 2.0;
+/// Smallest order of convergence that is assumed; below it nothing converges.
+const MIN_ORDER: f64 = 0.1;
+/// Largest order of convergence that is assumed. Smooth bodies have a better one, but the place of their contact boundary
+/// between the elements makes it unsafe to assume more.
+const MAX_ORDER: f64 = 1.0;
+/// Elements of a foundation per element of the contact, about and at most, for the estimate of memory.
+const FOUNDATION_PER_CONTACT: f64 = 4.0;
 
 /// Elements times steps of all cycles that a refinement does not exceed to reach an error: about a minute of one
 /// thread.
@@ -215,7 +226,7 @@ fn contact_length(
     load: &MovingLoad,
 ) -> Result<f64, MdrError> {
     let steady = LineProblem::new(line, material, load.fastest())?;
-    let length = steady.contact_span(load.largest_control())?;
+    let length = steady.contact(load.largest_control())?.length;
     Ok(positive("contact length", length)?)
 }
 

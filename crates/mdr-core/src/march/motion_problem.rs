@@ -7,6 +7,7 @@ use std::cell::{Cell, RefCell};
 use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep, RigidLine};
 use rheology::Material;
 
+use super::FOUNDATION_PER_CONTACT;
 use super::cycle::find_limit_cycle;
 use super::element_means::average_tangential_forces;
 use super::winkler::{FoundationStep, Prescribed, SavedRecovery, WinklerFoundation};
@@ -14,12 +15,11 @@ use crate::MdrError;
 use crate::branches::{Foundation, n_history};
 use crate::error::enough_elements;
 use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
-use crate::refinement::FOUNDATION_PER_CONTACT;
 
 /// Steps of a motion, or of one cycle, beyond which it is refused. Chosen.
 const MAX_STEPS: f64 = 4e6;
 /// Duration of the first pressing, at rest, relative to that of the first step. Measured by `evidence tuning`.
-const FIRST_PRESSING_DURATION: f64 = 1e-3;
+pub(super) const FIRST_PRESSING_DURATION: f64 = 1e-3;
 
 /// Relative difference between the force and its mean over a step up to which the next step corrects it. Forces that
 /// begin or end differ by more. Measured by `evidence tuning`.
@@ -30,7 +30,7 @@ const MAX_FORCE_CORRECTION: f64 = 0.25;
 const FIRST_CONTACT_REACH: f64 = 0.75;
 
 /// Memory of an element besides its history variables, about and at most, \[bytes].
-const MOTION_BYTES_PER_ELEMENT: f64 = 200.0;
+pub(super) const MOTION_BYTES_PER_ELEMENT: f64 = 200.0;
 /// Copies of all history variables that the search for a limit cycle holds, about and at most.
 const N_STORED_STATES: f64 = 8.0;
 
@@ -233,10 +233,8 @@ impl<'a> MotionProblem<'a> {
             };
             dissipated += force_unit * stepped.sums.lost;
             let step = step_of(scheduled, &stepped, &before, force_unit);
-            force_factor += force_correction(
-                &step,
-                force_unit * stepped.sums.normal_impulse / scheduled.duration,
-            );
+            let mean = force_unit * stepped.sums.normal_load;
+            force_factor += force_correction(1.0 - mean / step.normal_force);
             record.push(step, scheduled.end.position - before.position);
             before = StepEnd {
                 position: scheduled.end.position,
@@ -250,13 +248,13 @@ impl<'a> MotionProblem<'a> {
     }
 }
 
-/// Correction of the relative force at the end of the next step, from the mean force over this step.
+/// Correction of the relative force at the end of the next step, from the part of the force that the mean over this step
+/// lacks.
 ///
 /// The chord of a step lies below the path of an element under a round body. With the prescribed force at the ends of all
 /// steps their mean is therefore too small, by the square of the step. Half of the difference is corrected, because a step
 /// of much flow has its mean immediately.
-fn force_correction(step: &MotionStep, mean: f64) -> f64 {
-    let missing = 1.0 - mean / step.normal_force;
+pub(super) fn force_correction(missing: f64) -> f64 {
     if missing.abs() < MAX_FORCE_CORRECTION {
         0.5 * missing
     } else {
@@ -278,16 +276,15 @@ fn step_of(
     start: &StepEnd,
     force_unit: f64,
 ) -> MotionStep {
-    let force = |impulse: f64| force_unit * impulse / step.duration;
     let normal_force = match start.control {
         Control::NormalForce(force) => force.midpoint(step.end.control.value()),
-        Control::IndentationDepth(_) => force(stepped.sums.normal_impulse),
+        Control::IndentationDepth(_) => force_unit * stepped.sums.normal_load,
     };
     MotionStep {
         stage: step.stage,
         time: step.end.time - 0.5 * step.duration,
         position: start.position.midpoint(step.end.position),
-        tangential_force: force(stepped.sums.tangential_impulse),
+        tangential_force: force_unit * stepped.sums.tangential_load,
         normal_force,
         indentation_depth: start.depth.midpoint(stepped.depth),
         contact: stepped.contact,

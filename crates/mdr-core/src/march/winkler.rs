@@ -19,7 +19,7 @@ use super::contact_history::ContactHistory;
 use super::elements::{ElementState, Elements};
 use super::force_balance::ForceBalance;
 use crate::MdrError;
-use crate::branches::{Foundation, StepWork, TimeStep};
+use crate::branches::{Foundation, TimeStep};
 use crate::error::finite;
 use crate::line::{ElementHeights, HeightRow, HeightTable};
 
@@ -81,10 +81,10 @@ pub(super) struct WinklerFoundation<'a> {
 /// Sums over the elements in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepSums {
-    /// ∫ Σ w dt.
-    pub(super) normal_impulse: f64,
-    /// ∫ Σ w h̃' dt.
-    pub(super) tangential_impulse: f64,
+    /// Mean of Σ w over the step.
+    pub(super) normal_load: f64,
+    /// Mean of Σ w h̃' over the step.
+    pub(super) tangential_load: f64,
     /// Energy that the dashpots dissipate, also after the separation of an element.
     pub(super) lost: f64,
     /// The rearmost and the foremost loaded element at the end.
@@ -180,10 +180,11 @@ impl<'a> WinklerFoundation<'a> {
             self.advance_element(index, to, &mut sums);
         }
         self.contact_history.end_step(duration);
+        let moved = position - self.body.position;
         self.body = to;
         std::mem::swap(&mut self.heights, &mut self.heights_before.heights);
         self.heights_before.first = self.window[0];
-        self.check_edge(&sums)?;
+        self.check_edge(&sums, moved)?;
         Ok(Some(FoundationStep {
             depth,
             sums,
@@ -208,8 +209,10 @@ impl<'a> WinklerFoundation<'a> {
         (self.first + element as f64) * self.sampled.spacing - self.body.position
     }
 
-    /// Refuses a contact beside an element over which there is no body.
-    fn check_edge(&self, sums: &StepSums) -> Result<(), MdrError> {
+    /// Refuses a contact beside an element over which there is no body, after a motion by `moved` \[m].
+    ///
+    /// At the trailing end elements pass the edge of the body, and are free.
+    fn check_edge(&self, sums: &StepSums, moved: f64) -> Result<(), MdrError> {
         let Some([rear, front]) = sums.ends else {
             return Ok(());
         };
@@ -217,8 +220,12 @@ impl<'a> WinklerFoundation<'a> {
             let index = element.checked_sub(self.heights_before.first)?;
             self.heights_before.heights.get(index).copied()
         };
-        for (end, beyond) in [(rear, rear.wrapping_sub(1)), (front, front + 1)] {
-            if height(beyond) == Some(f64::INFINITY) {
+        let rest = REST_DISPLACEMENT * self.sampled.spacing;
+        for (end, beyond, is_trailing) in [
+            (rear, rear.wrapping_sub(1), moved > rest),
+            (front, front + 1, moved < -rest),
+        ] {
+            if !is_trailing && height(beyond) == Some(f64::INFINITY) {
                 return Err(MdrError::ContactReachesEdge {
                     position: self.along(end),
                     indentation_depth: self.body.depth,
@@ -307,7 +314,10 @@ impl<'a> WinklerFoundation<'a> {
         // Add its work, and record its contact for the search of a limit cycle.
         self.contact_history
             .record(element, &step, self.step.duration);
-        sums.add(step.work, self.slope(element, heights, to.position));
+        let load = step.work.impulse / self.step.duration;
+        sums.normal_load += load;
+        sums.tangential_load += load * self.slope(element, heights, to.position);
+        sums.lost += step.work.lost;
         if step.is_loaded {
             sums.n_loaded += 1;
             sums.ends = Some([sums.ends.map_or(element, |[rear, _]| rear), element]);
@@ -319,7 +329,9 @@ impl<'a> WinklerFoundation<'a> {
         let moved = position - self.body.position;
         let spacing = self.sampled.spacing;
         if moved.abs() > REST_DISPLACEMENT * spacing {
-            return (heights[0] - heights[1]) / moved;
+            let rise = heights[0] - heights[1];
+            // An element that passes the edge of the body carries nothing afterwards.
+            return if rise.is_finite() { rise / moved } else { 0.0 };
         }
         let x = self.along(element);
         let height = |x: f64| self.line.height_at(x).unwrap_or(f64::NAN);
@@ -372,6 +384,34 @@ impl<'a> WinklerFoundation<'a> {
         Ok(stored)
     }
 
+    /// Moves the frame with the line by one element, so that the line is at `position` \[m] again: discards the rearmost
+    /// element, and adds an undeformed one in front.
+    ///
+    /// No part of the line may be over the rearmost element.
+    pub(super) fn follow(&mut self, position: f64) {
+        self.elements.replace_rearmost();
+        self.heights_before.first -= 1;
+        self.body.position = position;
+    }
+
+    /// Positions of the elements from the rearmost loaded one to the foremost \[m], with a free one on each side, and their
+    /// loads per length \[N/m] at the end of the last step.
+    pub(super) fn loads_per_length(&self) -> Vec<[f64; 2]> {
+        let (heights, first) = (&self.heights_before.heights, self.window[0]);
+        let unit = 4.0 * self.foundation.unit * self.step.stiffness;
+        let rows = heights.iter().zip(&self.unloaded_displacements).enumerate();
+        let loads: Vec<[f64; 2]> = rows
+            .map(|(index, (height, unloaded))| {
+                let compression = self.body.depth - height - unloaded;
+                [self.along(first + index), unit * compression.max(0.0)]
+            })
+            .collect();
+        let is_loaded = |[_, load]: &[f64; 2]| *load > 0.0;
+        let rear = loads.iter().position(is_loaded).unwrap_or(0);
+        let front = loads.iter().rposition(is_loaded).unwrap_or(0);
+        loads[rear.saturating_sub(1)..=(front + 1).min(loads.len() - 1)].to_vec()
+    }
+
     /// Records the contacts of the elements from now on.
     pub(super) fn start_recording(&mut self) {
         self.contact_history = ContactHistory::new(self.elements.states.len());
@@ -388,13 +428,5 @@ impl<'a> WinklerFoundation<'a> {
             self.elements.recover_until(element, self.body.time);
         }
         &mut self.elements.history
-    }
-}
-
-impl StepSums {
-    fn add(&mut self, work: StepWork, slope: f64) {
-        self.normal_impulse += work.impulse;
-        self.tangential_impulse += work.impulse * slope;
-        self.lost += work.lost;
     }
 }

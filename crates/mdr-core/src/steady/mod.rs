@@ -24,7 +24,7 @@ use numerics::{Estimate, between_zero_and_one};
 use rheology::Material;
 
 use crate::MdrError;
-pub(crate) use problem::LineProblem;
+pub(crate) use problem::{LineProblem, SteadyContact};
 
 /// The contact of a rigid line that slides, in the stationary state, or is pressed.
 #[derive(Debug, Clone, PartialEq)]

@@ -42,6 +42,14 @@ pub(crate) struct LineProblem<'a> {
     pub(super) track: Option<f64>,
 }
 
+/// Size of the stationary contact.
+pub(crate) struct SteadyContact {
+    /// Indentation depth d, \[m].
+    pub(crate) depth: f64,
+    /// Distance between the rear and the front of the contact, \[m].
+    pub(crate) length: f64,
+}
+
 impl<'a> LineProblem<'a> {
     pub(crate) fn new(
         line: &'a dyn RigidLine,
@@ -109,11 +117,12 @@ impl<'a> LineProblem<'a> {
         })
     }
 
-    /// Distance between the rear and the front of the contact, \[m], also where friction diverges.
-    pub(crate) fn contact_span(&self, control: Control) -> Result<f64, MdrError> {
+    /// Depth and length of the contact, also where friction diverges.
+    pub(crate) fn contact(&self, control: Control) -> Result<SteadyContact, MdrError> {
         let depth = self.depth(control, LENGTH_TOLERANCE)?;
         let [rear, front] = self.solve(depth, LENGTH_TOLERANCE)?.ends();
-        Ok(positive("contact length", front - rear)?)
+        let length = positive("contact length", front - rear)?;
+        Ok(SteadyContact { depth, length })
     }
 
     /// The depth that is prescribed, or that carries the force.

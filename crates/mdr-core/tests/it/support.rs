@@ -9,8 +9,8 @@ use indenters::{
     Axisymmetric, Control, FlatCone, HistoryPoint, Hyperboloid, PowerProfile, RigidLine,
     RoundTippedCone, SlidingLoad, Sphere, TruncatedParaboloid, stretch,
 };
-use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
-use numerics::Estimate;
+use mdr_core::{MdrError, Sliding, SlidingStep, SteadySliding, slide, steady};
+use numerics::{Accuracy, Estimate};
 use rheology::{Material, Prony, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
@@ -124,34 +124,29 @@ pub(crate) fn power_friction(body: &PowerProfile, depth: f64) -> f64 {
     stationary.expect("a closed form").friction_coefficient
 }
 
-/// Stationary sliding on [`VISCOSITY`] at the depth (12), by marching.
+/// Sliding from first touch on [`VISCOSITY`] to the depth (12), with a number of elements along the contact.
 pub(crate) fn slide_to(
     line: &dyn RigidLine,
     depth: f64,
-    spacing: f64,
-    drift_tolerance: f64,
-) -> Result<Transient, MdrError> {
-    let options = SlideOptions {
-        spacing,
-        drift_tolerance,
-        max_sliding_distance: 1e5 * spacing,
-    };
-    slide_on_grid(line, &material(VISCOSITY), &load_for_depth(depth), &options)
+    elements: usize,
+) -> Result<Sliding, MdrError> {
+    let (dashpot, load) = (material(VISCOSITY), load_for_depth(depth));
+    slide(line, &dashpot, &load, Accuracy::Elements(elements))
 }
 
-/// A march with a number of elements along the stationary contact.
+/// Sliding from first touch into the stationary state, with a number of elements along the contact.
 pub(crate) fn march(
     line: &dyn RigidLine,
     material: &dyn Material,
     load: &SlidingLoad,
     elements: usize,
-    drift_tolerance: f64,
-) -> Transient {
-    let options = SlideOptions {
-        drift_tolerance,
-        ..SlideOptions::with_elements(elements, line, material, load).expect("a contact")
-    };
-    slide_on_grid(line, material, load, &options).expect("a stationary state")
+) -> Sliding {
+    slide(line, material, load, Accuracy::Elements(elements)).expect("a stationary state")
+}
+
+/// The last step of a motion.
+pub(crate) fn last(sliding: &Sliding) -> SlidingStep {
+    *sliding.steps.last().expect("a step")
 }
 
 /// The stationary state, directly.

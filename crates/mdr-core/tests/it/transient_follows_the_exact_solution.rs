@@ -2,17 +2,9 @@
 //! to 40 %.
 
 use indenters::EquivalentLine;
-use mdr_core::{SlideRow, Transient};
+use mdr_core::SlidingStep;
 
 use crate::support::{DEPTH, assert_close, body_of, line_power, load, march, material, slide_to};
-
-/// A march with n elements along the stationary contact, and the length of that.
-fn marched(exponent: f64, n: f64) -> (Transient, f64) {
-    let body = line_power(2.5, exponent);
-    let length = body.line_position(DEPTH);
-    let transient = slide_to(&EquivalentLine(&body), DEPTH, length / n, 1e-8);
-    (transient.expect("a stationary state"), length)
-}
 
 /// Every row of the casebook, with 320 elements along the stationary contact: the depth to 1/n_c², the friction to the
 /// half step by which its mean lags plus one element of the contact, the trailing end to one element and one step; and
@@ -22,21 +14,22 @@ fn casebook_rows_come_out() {
     for case in casebook::group("MDR-02") {
         if !case.has_input("t") {
             for (exponent, name) in [(1.0, "cone_vt_over_xd"), (2.0, "paraboloid_vt_over_xd")] {
-                let (transient, length) = marched(exponent, 160.0);
-                let reached = |row: &&SlideRow| row.indentation_depth >= 0.99 * DEPTH;
-                let row = transient.rows.iter().find(reached).expect("99 %");
+                let body = line_power(2.5, exponent);
+                let sliding = slide_to(&EquivalentLine(&body), DEPTH, 160).expect("a state");
+                let reached = |row: &&SlidingStep| row.indentation_depth >= 0.99 * DEPTH;
+                let row = sliding.steps.iter().find(reached).expect("99 %");
                 let expected = case.expected(name).expect("a distance");
-                let actual = row.sliding_distance / length;
+                let actual = row.sliding_distance / body.line_position(DEPTH);
                 assert_close([actual, expected], 1.0 / 160.0 / expected, 0.0, &name);
             }
             continue;
         }
         let (body, dashpot) = (body_of(&case), material(case.input("eta")));
         let load = load(case.input("F"), case.input("v"));
-        let transient = march(&EquivalentLine(&*body), &dashpot, &load, 320, 1e-9);
-        let spacing = transient.rows[0].sliding_distance;
-        let at_time = |row: &&SlideRow| row.time >= case.input("t") * (1.0 - 1e-9);
-        let row = transient.rows.iter().find(at_time).expect("the row");
+        let sliding = march(&EquivalentLine(&*body), &dashpot, &load, 320);
+        let spacing = sliding.spacing;
+        let at_time = |row: &&SlidingStep| row.time >= case.input("t") * (1.0 - 1e-9);
+        let row = sliding.steps.iter().find(at_time).expect("the row");
         let n_contact = row.n_contact as f64;
         case.check_within("d", row.indentation_depth, n_contact.powi(-2));
         let lag = 0.5 * spacing / row.sliding_distance;

@@ -5,8 +5,8 @@ use indenters::{
     SlidingLoad,
 };
 use mdr_core::{
-    CurvePoint, HistoryOptions, MdrError, SlideRow, Sliding, SteadySliding, indent, indent_along,
-    move_along, slide, steady,
+    CurvePoint, HistoryOptions, MdrError, Sliding, SlidingStep, SteadySliding, indent,
+    indent_along, move_along, slide, steady,
 };
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
@@ -64,18 +64,18 @@ pub(crate) fn of_march(state: Sliding) -> Answer {
         indentation_depth: Some(state.indentation_depth),
         error_parts: state.error_parts,
         contact_box: Some(contact_box(state.ends)),
-        unknowns: state.finest.last.n_contact,
-        iterations: state.finest.rows.len(),
+        unknowns: state.steps.last().map_or(0, |step| step.n_contact),
+        iterations: state.steps.len(),
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)
     };
-    let row = |row: &SlideRow| HistoryRow {
-        sliding_distance_m: row.sliding_distance,
-        time_s: row.time,
-        indentation_depth_m: row.indentation_depth,
-        friction_coefficient: row.friction_coefficient,
+    let row = |step: &SlidingStep| HistoryRow {
+        sliding_distance_m: step.sliding_distance,
+        time_s: step.time,
+        indentation_depth_m: step.indentation_depth,
+        friction_coefficient: step.friction_coefficient,
     };
-    answer.fields.history = state.finest.rows.iter().map(row).collect();
-    answer.fields.line_load = state.finest.load;
+    answer.fields.history = state.steps.iter().map(row).collect();
+    answer.fields.line_load = state.load;
     answer
 }
 
