@@ -1,6 +1,7 @@
 //! Scenes solved for arrays of loads, and the points of sweeps.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -8,11 +9,11 @@ use pyo3::types::{PyDict, PyList};
 use viscofriction::numerics::SilentProgress;
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, SceneError, Source};
 use viscofriction::solve::{
-    BodyOfScene, Budget, Sensitivity, body, body_of_heights, spectral_sensitivity, with_fields,
-    with_sensitivity,
+    Budget, Parts, Sensitivity, body, body_of_heights, half_space, spectral_sensitivity,
+    with_fields, with_sensitivity,
 };
 use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
-use viscofriction::{Answer, Body, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
+use viscofriction::{Answer, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
 
 use crate::background;
 use crate::reading::read_file;
@@ -26,8 +27,8 @@ type Column = fn(&mut Scene, f64);
 struct Scenes {
     scene: Scene,
     folder: PathBuf,
-    /// Body read once for all scenes; `None` for bodies that are quickly built.
-    surface: Option<BodyOfScene>,
+    /// Body and elastomer of all scenes.
+    parts: Parts,
     columns: Vec<(Column, Vec<f64>)>,
 }
 
@@ -45,25 +46,11 @@ impl Scenes {
     /// Problem number `index`, with one of `parts` equal parts of the memory.
     fn problem(&self, index: usize, parts: u64) -> PyResult<Problem> {
         let scene = self.scene(index, parts).map_err(wrong)?;
-        let problem = match self.surface.as_ref().and_then(copy) {
-            Some(body) => Problem::with_body(&scene, body, &self.folder, read_file),
-            None => Problem::new(&scene, &self.folder, read_file),
-        };
+        let problem = Problem::with_parts(&scene, self.parts.clone(), &self.folder, read_file);
         let problem = problem.map_err(wrong)?;
         plan(&problem).map_err(wrong)?;
         Ok(problem)
     }
-}
-
-/// A copy of a height map or periodic surface; `None` for other bodies.
-fn copy(of: &BodyOfScene) -> Option<BodyOfScene> {
-    let body = match &of.body {
-        Body::HeightMap(map) => Body::HeightMap(map.clone()),
-        Body::Periodic(waves) => Body::Periodic(waves.clone()),
-        _ => return None,
-    };
-    let warnings = of.warnings.clone();
-    Some(BodyOfScene { body, warnings })
 }
 
 /// The setter of a column by its name.
@@ -125,22 +112,21 @@ impl Loads<'_> {
             };
             scene.load.history = Some(times.iter().zip(values).map(point).collect());
         }
-        let surface = match (&self.heights, &scene.indenter) {
+        let files = Files::of(&scene, &self.folder, read_file).map_err(wrong)?;
+        let body = match (&self.heights, &scene.indenter) {
             (Some(heights), Indenter::HeightMap(table)) => {
-                Some(body_of_heights(table, topography(heights, table)?))
+                body_of_heights(table, topography(heights, table)?)
             }
-            (None, Indenter::HeightMap(_) | Indenter::SelfAffine(_) | Indenter::Spectrum(_)) => {
-                Some(
-                    Files::of(&scene, &self.folder, read_file)
-                        .and_then(|files| body(&scene.indenter, &files)),
-                )
-            }
-            _ => None,
+            _ => body(&scene.indenter, &files),
+        };
+        let parts = Parts {
+            body: Arc::new(body.map_err(wrong)?),
+            half_space: Arc::new(half_space(&scene.material, &files).map_err(wrong)?),
         };
         Ok(Scenes {
             scene,
             folder: self.folder.clone(),
-            surface: surface.transpose().map_err(wrong)?,
+            parts,
             columns: columns.collect::<PyResult<_>>()?,
         })
     }
@@ -161,18 +147,14 @@ pub(crate) fn solve_loads<'py>(
     let spectral = loads.spectral_sensitivity;
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
     let threads = scenes.scene.solve.threads;
-    let problems = (0..count).map(|index| {
-        let problem = scenes.problem(index, 1)?;
-        // Height maps and periodic surfaces would take memory for each scene.
-        Ok(matches!(problem.body(), Body::Revolution(_)).then_some(problem))
-    });
-    let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
+    let problems = (0..count).map(|index| scenes.problem(index, 1));
+    let problems: Vec<Problem> = problems.collect::<PyResult<_>>()?;
     // A history in closed form may take seconds, so it runs in the background.
     let is_quick = |problem: &Problem| {
         let is_closed = plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);
         is_closed && problem.history().is_empty()
     };
-    let is_quick = count == 1 && problems[0].as_ref().is_some_and(is_quick);
+    let is_quick = count == 1 && is_quick(&problems[0]);
     let has_limit = scenes.scene.solve.max_memory.is_some();
     let work = move |index: usize, parts: u64| {
         let solve = |problem: &Problem| -> Result<Answer, SolveError> {
@@ -192,15 +174,13 @@ pub(crate) fn solve_loads<'py>(
                 answer
             })
         };
-        match &problems[index] {
-            Some(problem) if parts == 1 || !has_limit => Some(solve(problem)),
-            // With all of the memory the problem was already built without an error.
-            _ => {
-                let problem = scenes.problem(index, parts).ok()?;
-                let answer = solve(&problem);
-                (parts == 1 || !problem.is_short_of_memory()).then_some(answer)
-            }
+        if parts == 1 || !has_limit {
+            return Some(solve(&problems[index]));
         }
+        // With all of the memory the problem was already built without an error.
+        let problem = scenes.problem(index, parts).ok()?;
+        let answer = solve(&problem);
+        (!problem.is_short_of_memory()).then_some(answer)
     };
     let answers = if is_quick {
         // Faster than starting a thread.
@@ -420,7 +400,8 @@ impl Sweep<'_> {
 #[pyfunction]
 pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, usize)> {
     let plan = sweep.plan()?;
-    plan.validate().map_err(wrong)?;
+    let points: Vec<usize> = (0..plan.n_points()).collect();
+    plan.validate(&points).map_err(wrong)?;
     Ok((header(&plan), plan.n_points()))
 }
 

@@ -83,16 +83,16 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
-    // Plan and validate all points.
+    // Plan the sweep and validate the points of this shard.
     let vary = options.vary.iter().chain(&options.samples);
     let vary: Vec<Vary> = vary.cloned().collect();
     let mut plan = Plan::new(read_scene(scene)?, &vary, read_input)?;
     plan.sensitivity = options.sensitivity || options.samples.is_some();
     plan.max_memory = half_of_free_memory();
-    let threads = plan.validate()?.unwrap_or(0);
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
-    // Compute the points of this shard.
+    let threads = plan.validate(&points)?.unwrap_or(0);
+    // Compute them.
     let Computed {
         rows,
         n_failed_before,

@@ -44,6 +44,16 @@ impl Body {
         }
     }
 
+    /// Memory of heights and waves, \[bytes]; 0 for other bodies.
+    pub(crate) fn memory(&self) -> f64 {
+        let bytes = match self {
+            Self::HeightMap(map) => size_of_val(map.heights()),
+            Self::Periodic(surface) => size_of_val(surface.waves()),
+            Self::Revolution(_) | Self::Cylinder(_) => 0,
+        };
+        bytes as f64
+    }
+
     /// Area of one period, \[m²]; `None` if the body is not periodic.
     pub(crate) fn period_area(&self) -> Option<f64> {
         match self {

@@ -12,7 +12,8 @@ use rheology::{Material, RheologyError};
 use super::body::{Body, BodyOfScene, body};
 use super::error::SolveError;
 use super::expansion::Expansion;
-use super::half_space::{Simple, half_space, simple};
+use super::half_space::{Simple, simple};
+use super::parts::Parts;
 use super::sensitivity::check_uncertainties;
 use crate::files::{Files, ReadFile};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
@@ -29,12 +30,8 @@ use crate::text::WrongInput;
 /// ```
 #[derive(Debug)]
 pub struct Problem {
-    body: Body,
-    warnings: Vec<String>,
-    material: Box<dyn Material>,
+    parts: Parts,
     thickness: f64,
-    expansion: Option<Expansion>,
-    window: Option<[f64; 2]>,
     motion: Motion,
     history: Vec<HistoryPoint>,
     moving: Option<MovingLoad>,
@@ -100,22 +97,22 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
-        let files = Files::of(scene, folder, read)?;
-        let body = body(&scene.indenter, &files)?;
-        Self::with_body(scene, body, folder, read)
+        let parts = Parts::new(scene, &Files::of(scene, folder, read)?)?;
+        Self::with_parts(scene, parts, folder, read)
     }
 
-    /// The problem of a scene with another body in the place of its indenter.
+    /// The problem of a scene with the given body and elastomer in the place of its own.
     ///
     /// # Errors
     /// As for [`Self::new`].
-    pub fn with_body(
+    pub fn with_parts(
         scene: &Scene,
-        BodyOfScene { body, warnings }: BodyOfScene,
+        parts: Parts,
         folder: &Path,
         read: ReadFile,
     ) -> Result<Self, SceneError> {
         let files = Files::of(scene, folder, read)?;
+        let body = &parts.body.body;
         // Validate load and motion.
         let history = scene.load.checked_history(&files)?;
         let history = history.unwrap_or_default();
@@ -123,10 +120,8 @@ impl Problem {
         let motion = match (history.last(), &moving) {
             (Some(last), _) => ended(scene, Motion::History(last.control))?,
             (_, Some(moving)) => ended(scene, Motion::Moving(moving.largest_control()))?,
-            _ => motion(scene, &body)?,
+            _ => motion(scene, body)?,
         };
-        // Build the material and its reduction to one with closed forms.
-        let elastomer = half_space(&scene.material, &files)?;
         let thickness = match scene.layer {
             Some(layer) => positive("layer.thickness", layer.thickness)?,
             None => f64::INFINITY,
@@ -142,13 +137,9 @@ impl Problem {
             read,
         });
         let problem = Self {
-            body,
-            warnings,
-            simple: simple(&*elastomer.material).map_err(not_reduced)?,
-            material: elastomer.material,
+            simple: simple(&*parts.half_space.material).map_err(not_reduced)?,
+            parts,
             thickness,
-            expansion: elastomer.expansion,
-            window: elastomer.window,
             motion,
             history,
             moving,
@@ -213,7 +204,12 @@ impl Problem {
         let mut scene = of.scene.clone();
         scene.indenter = indenter;
         scene.solve.limit_memory(self.max_memory, parts)?;
-        let mut problem = Self::new(&scene, &of.folder, of.read)?;
+        let files = Files::of(&scene, &of.folder, of.read)?;
+        let with_surface = Parts {
+            body: Arc::new(body(&scene.indenter, &files)?),
+            ..self.parts.clone()
+        };
+        let mut problem = Self::with_parts(&scene, with_surface, &of.folder, of.read)?;
         problem.accuracy = self.accuracy;
         if parts == 1 {
             problem.is_short_of_memory = Arc::clone(&self.is_short_of_memory);
@@ -229,7 +225,7 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] if no wave remains, and for any other body.
     pub fn without_waves_below(mut self, shortest: f64) -> Result<Self, SceneError> {
-        let Body::Periodic(surface) = &self.body else {
+        let Body::Periodic(surface) = self.body() else {
             let problem = "only a surface that repeats itself is a sum of waves: a self-affine one, one of a spectrum, and a height map \
                            with edges = \"periodic\" or \"mirrored\"";
             return Err(SceneError::at("indenter", problem));
@@ -238,24 +234,32 @@ impl Problem {
             let problem = format!("it has no wave of {shortest:e} m or longer");
             SceneError::at("indenter", problem)
         })?;
-        self.body = Body::Periodic(kept);
+        self.parts.body = Arc::new(BodyOfScene {
+            body: Body::Periodic(kept),
+            warnings: self.warnings().to_vec(),
+        });
         self.shortest_wavelength = Some(shortest);
         Ok(self)
     }
 
     /// The rigid body.
-    pub const fn body(&self) -> &Body {
-        &self.body
+    pub fn body(&self) -> &Body {
+        &self.parts.body.body
+    }
+
+    /// Body and elastomer, for problems with another load.
+    pub const fn parts(&self) -> &Parts {
+        &self.parts
     }
 
     /// Warnings about the files of the body, repeated by every answer.
     pub fn warnings(&self) -> &[String] {
-        &self.warnings
+        &self.parts.body.warnings
     }
 
     /// The elastomer.
     pub fn material(&self) -> &dyn Material {
-        &*self.material
+        &*self.parts.half_space.material
     }
 
     /// Thickness of the elastomer, \[m]; infinite for a half space.
@@ -264,13 +268,13 @@ impl Problem {
     }
 
     /// Accuracy of the Prony series that approximates the material; `None` if the material is exact.
-    pub const fn expansion(&self) -> Option<Expansion> {
-        self.expansion
+    pub fn expansion(&self) -> Option<Expansion> {
+        self.parts.half_space.expansion
     }
 
     /// Range of angular frequencies covered by measurements, \[rad/s]; `None` if the scene states none.
-    pub const fn window(&self) -> Option<[f64; 2]> {
-        self.window
+    pub fn window(&self) -> Option<[f64; 2]> {
+        self.parts.half_space.window
     }
 
     /// Load and motion of the body.
@@ -360,12 +364,12 @@ impl Problem {
 
     /// The viscoelastic layer or half space.
     pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
-        Ok(Layer::new(&*self.material, self.thickness).map_err(BemError::from)?)
+        Ok(Layer::new(&*self.parts.half_space.material, self.thickness).map_err(BemError::from)?)
     }
 
     /// Rejects sliding at a given depth over an approximated half space: its force depends on times beyond every range.
     fn check_control(&self) -> Result<(), SceneError> {
-        if self.expansion.is_some()
+        if self.expansion().is_some()
             && self.model == Model::HalfSpace
             && matches!(self.motion, Motion::Sliding(_))
             && matches!(self.motion.control(), Control::IndentationDepth(_))
@@ -389,8 +393,8 @@ impl Problem {
     /// Rejects a track of a periodic surface or on a material that flows.
     fn check_track(&self) -> Result<(), SceneError> {
         let problem = match self.track() {
-            Some(_) if matches!(self.body, Body::Periodic(_)) => OWN_PERIOD,
-            Some(_) if self.material.creep().fluidity() > 0.0 => NO_PASS,
+            Some(_) if matches!(self.body(), Body::Periodic(_)) => OWN_PERIOD,
+            Some(_) if self.material().creep().fluidity() > 0.0 => NO_PASS,
             _ => return Ok(()),
         };
         Err(SceneError::at("load.track", problem))

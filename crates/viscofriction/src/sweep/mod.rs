@@ -1,5 +1,6 @@
 //! Parameter sweeps: a scene for many values of its keys.
 
+mod cache;
 mod plan;
 mod row;
 mod vary;

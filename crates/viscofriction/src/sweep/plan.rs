@@ -1,10 +1,12 @@
 //! The points of a sweep, the scene of each, and the row of its answer.
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use numerics::{SilentProgress, whole_part};
 use toml::{Table, Value};
 
+use super::cache::PartsCache;
 use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
 use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
@@ -29,6 +31,7 @@ pub struct Plan {
     /// Memory limit for all points computed concurrently, if the scene gives none, \[bytes]; `None` for no limit.
     pub max_memory: Option<u64>,
     read: ReadFile,
+    parts: PartsCache,
 }
 
 impl Plan {
@@ -54,7 +57,11 @@ impl Plan {
             memory: memory(&table),
         };
         let mut hash = hashed(EMPTY, format!("{scene}\n{vary:?}").as_bytes());
-        for file in named_files(&table).into_iter().chain(varied_files(vary)) {
+        let mut names = named_files(&table);
+        names.extend(varied_files(vary));
+        let mut known = BTreeSet::new();
+        names.retain(|name| known.insert(*name));
+        for file in names {
             // An unreadable file is reported by the first point, with the key that names it.
             let contents = files.contents(file.as_ref(), files.memory());
             hash = hashed(hash, &contents.unwrap_or_default());
@@ -67,6 +74,7 @@ impl Plan {
             sensitivity: false,
             max_memory: None,
             read,
+            parts: PartsCache::default(),
         })
     }
 
@@ -98,14 +106,14 @@ impl Plan {
         values
     }
 
-    /// Validates every point before the first is computed. Returns the number of threads; `None` for all.
+    /// Validates points before the first of them is computed. Returns the number of threads; `None` for all.
     ///
     /// # Errors
     /// [`WrongInput`] with the place in the scene and the values of the point.
-    pub fn validate(&self) -> Result<Option<usize>, WrongInput> {
+    pub fn validate(&self, points: &[usize]) -> Result<Option<usize>, WrongInput> {
         let mut threads = None;
         self.check_samples()?;
-        for point in 0..self.n_points() {
+        for &point in points {
             let problem = self.problem(point)?;
             plan_of(&self.source, &problem)?;
             threads = problem.threads();
@@ -270,8 +278,14 @@ impl Plan {
                 let sample = whole(SAMPLE, sample)?;
                 scene = sampled(&scene, (self.source.folder(), self.read), sample)?;
             }
-            scene.solve.limit_memory(self.max_memory, parts)?;
-            let problem = Problem::new(&scene, self.source.folder(), self.read)?;
+            // Body and elastomer are shared, so all of the memory is available to read them.
+            scene.solve.limit_memory(self.max_memory, 1)?;
+            let (folder, read) = (self.source.folder(), self.read);
+            let shared = self
+                .parts
+                .parts(&scene, &Files::of(&scene, folder, read)?)?;
+            scene.solve.limit_memory(None, parts)?;
+            let problem = Problem::with_parts(&scene, shared, folder, read)?;
             Ok((scene, problem))
         };
         build().map_err(|error| {

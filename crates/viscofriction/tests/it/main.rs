@@ -22,6 +22,7 @@ mod sensitivities;
 mod sensitivities_of_more_scenes;
 mod shared;
 mod support;
+mod sweeps_share_bodies;
 mod windows;
 
 /// Cases of the tests.

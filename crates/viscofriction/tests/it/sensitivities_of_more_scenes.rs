@@ -10,7 +10,7 @@ use viscofriction::{Answer, Problem, Scene, WrongInput, solve};
 use crate::sensitivities::{answered, no_file, of};
 
 /// Bumps of two sizes, 24 × 24 heights in micrometres; the last row and column are not the first ones.
-fn bumps(_: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+pub(crate) fn bumps(_: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     let wave =
         |index: usize, number: f64| (number * index as f64 * std::f64::consts::TAU / 24.0).sin();
     let height = |row: usize, column: usize| {

@@ -33,7 +33,7 @@ pub(super) fn sensitivities(
 ) -> Result<Vec<Sensitivity>> {
     let contact = Contact::new(problem, load, answer)?;
     let of = |number: &Number| {
-        let ends = neighbours(numbers, number)?;
+        let ends = neighbours(numbers, problem, number)?;
         let change = change(&contact, number, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
         progress.add(1.0);
@@ -125,10 +125,14 @@ impl Contact {
 }
 
 /// The problems on both sides of a number, with its values. At the end of the allowed range one of them is the number itself.
-fn neighbours(numbers: &Numbers, number: &Number) -> Result<[(Problem, f64); 2], SceneError> {
+fn neighbours(
+    numbers: &Numbers,
+    problem: &Problem,
+    number: &Number,
+) -> Result<[(Problem, f64); 2], SceneError> {
     let at = |factor: f64| {
         let value = factor * number.value;
-        Ok::<_, SceneError>((numbers.problem(number, value)?, value))
+        Ok::<_, SceneError>((numbers.problem(problem, number, value)?, value))
     };
     match (at(1.0 - STEP), at(1.0 + STEP)) {
         (Err(error), Err(_)) => Err(error),

@@ -8,6 +8,7 @@ use crate::scene::{Method, SceneError};
 use crate::solve::answer::Answer;
 use crate::solve::error::Result;
 use crate::solve::plan::Plan;
+use crate::solve::problem::Problem;
 use crate::solve::work::work;
 
 /// Step of the logarithm of a number (chosen: truncation of sixth order is then below the effect of rounding, 1e-11 in closed
@@ -51,12 +52,13 @@ const LARGEST_OMITTED_POWER: f64 = 4.0;
 /// Derivatives by each number, from differences of answers.
 pub(super) fn sensitivities(
     (numbers, all): (&Numbers, &[Number]),
+    problem: &Problem,
     values: Values,
     answer: &Answer,
     mut progress: WorkProgress,
 ) -> Result<Vec<Sensitivity>> {
     let of = |number: &Number| {
-        let found = sensitivity(numbers, number, values, answer);
+        let found = sensitivity(numbers, problem, number, values, answer);
         progress.add(1.0);
         found
     };
@@ -66,6 +68,7 @@ pub(super) fn sensitivities(
 /// Derivatives by one number: central differences, or one-sided ones at the end of its allowed range.
 fn sensitivity(
     numbers: &Numbers,
+    problem: &Problem,
     number: &Number,
     values: Values,
     answer: &Answer,
@@ -74,7 +77,8 @@ fn sensitivity(
         let solved = |&(steps, weights): &Point| {
             let value = number.value * (side * STEP * f64::from(steps)).exp();
             let weights = weights.map(|weight| side * weight);
-            Ok((solved(numbers, number, answer.method, value)?, weights))
+            let near = numbers.problem(problem, number, value)?;
+            Ok((solved(&near, answer.method, number)?, weights))
         };
         points.iter().rev().map(solved).collect()
     };
@@ -120,13 +124,12 @@ fn difference(
     Some(Estimate::new(sixth, error + (sixth - fourth).abs()))
 }
 
-/// The answer of the same method with another value of a number.
-fn solved(numbers: &Numbers, number: &Number, method: Method, value: f64) -> Result<Answer> {
-    let problem = numbers.problem(number, value)?;
-    let work = work(&problem, method);
+/// The answer of a method to a problem with another value of a number.
+fn solved(problem: &Problem, method: Method, number: &Number) -> Result<Answer> {
+    let work = work(problem, method);
     let work = work.map_err(|why| SceneError::at(number.path(), why.to_owned()))?;
     Plan {
-        problem: &problem,
+        problem,
         method,
         work,
     }

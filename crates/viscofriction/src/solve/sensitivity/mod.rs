@@ -114,10 +114,12 @@ fn sensitivities(
         }
         (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
         (Method::Analytic | Method::MdrSteady, _) if is_exact => {
-            differences::sensitivities((numbers, all), Values::Exact, answer, progress)
+            let values = Values::Exact;
+            differences::sensitivities((numbers, all), problem, values, answer, progress)
         }
         (Method::Analytic, Motion::Sliding(_)) if is_series => {
-            differences::sensitivities((numbers, all), Values::TruncatedSeries, answer, progress)
+            let values = Values::TruncatedSeries;
+            differences::sensitivities((numbers, all), problem, values, answer, progress)
         }
         (method, _) => Err(SolveError::NoSensitivity { method }),
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use numerics::in_range;
 use rheology::KELVIN_AT_ZERO_CELSIUS;
@@ -9,7 +10,8 @@ use toml::{Table, Value};
 
 use crate::files::{Files, ReadFile};
 use crate::scene::{MaterialTable, Scene, SceneError, quoted};
-use crate::solve::half_space::of_file;
+use crate::solve::body::body;
+use crate::solve::half_space::{half_space, of_file};
 use crate::solve::problem::Problem;
 
 /// Tables of the scene that contain moduli, times, loads, speeds and lengths.
@@ -151,9 +153,22 @@ impl<'a> Numbers<'a> {
         numbers
     }
 
-    /// The problem with another value of a number.
-    pub(super) fn problem(&self, number: &Number, value: f64) -> Result<Problem, SceneError> {
-        Problem::new(&self.scene_with(number, value)?, self.folder, self.read)
+    /// A problem with another value of one of its numbers. It shares the body or the elastomer that the number does not belong to.
+    pub(super) fn problem(
+        &self,
+        problem: &Problem,
+        number: &Number,
+        value: f64,
+    ) -> Result<Problem, SceneError> {
+        let scene = self.scene_with(number, value)?;
+        let files = Files::of(&scene, self.folder, self.read)?;
+        let mut parts = problem.parts().clone();
+        match number.ends() {
+            ["indenter", _] => parts.body = Arc::new(body(&scene.indenter, &files)?),
+            ["material", _] => parts.half_space = Arc::new(half_space(&scene.material, &files)?),
+            _ => {}
+        }
+        Problem::with_parts(&scene, parts, self.folder, self.read)
     }
 
     /// The scene with another value of a number.
