@@ -13,7 +13,7 @@ use viscofriction::solve::{
     with_fields, with_sensitivity,
 };
 use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
-use viscofriction::{Answer, Files, Problem, ReadFile, Scene, SolveError, plan, solve};
+use viscofriction::{Answer, Files, Motion, Problem, ReadFile, Scene, SolveError, plan, solve};
 
 use crate::background;
 use crate::reading::read_file;
@@ -152,7 +152,7 @@ pub(crate) fn solve_loads<'py>(
     // A history in closed form may take seconds, so it runs in the background.
     let is_quick = |problem: &Problem| {
         let is_closed = plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);
-        is_closed && problem.history().is_empty()
+        is_closed && !matches!(problem.motion(), Motion::History { .. })
     };
     let is_quick = count == 1 && is_quick(&problems[0]);
     let has_limit = scenes.scene.solve.max_memory.is_some();

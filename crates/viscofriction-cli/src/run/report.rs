@@ -69,7 +69,7 @@ fn title(scene: &Table, problem: &Problem) -> String {
     let does = match problem.motion() {
         Motion::Sliding(_) => "slides over",
         Motion::Pressing(_) => "is pressed into",
-        Motion::History(_) => "is pressed along a history into",
+        Motion::History { .. } => "is pressed along a history into",
         Motion::Moving(_) => "moves over",
     };
     let body = kind("indenter", "body");

@@ -298,7 +298,7 @@ impl Answer {
     ///
     /// Before the stationary state, a surface without mirror symmetry may have negative friction.
     pub(crate) fn physical(mut self, problem: &Problem) -> Result<Self> {
-        if matches!(problem.motion(), Motion::History(_) | Motion::Moving(_)) {
+        if matches!(problem.motion(), Motion::History { .. } | Motion::Moving(_)) {
             return Ok(self);
         }
         let may_be_pulled = matches!(problem.body(), Body::HeightMap(_) | Body::Periodic(_));

@@ -9,7 +9,9 @@ use bem_halfspace::{
 };
 use friction_analytic::{EnergyFactor, PerssonSliding, RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
-use indenters::{Control, Cylinder, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface};
+use indenters::{
+    Control, Cylinder, HistoryPoint, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface,
+};
 use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer, StationaryGrid};
@@ -406,12 +408,13 @@ fn of_press(estimate: PressEstimate) -> Result<Answer> {
 pub(crate) fn followed(
     problem: &Problem,
     surface: &dyn Surface,
+    points: &[HistoryPoint],
     request: Request,
 ) -> Result<Answer> {
     of_curve(&indent_along(
         surface,
         &problem.elastomer()?,
-        problem.history(),
+        points,
         request,
     )?)
 }

@@ -13,11 +13,16 @@ use super::problem::Problem;
 use crate::scene::Method;
 
 /// The answer along a history; `None` without points. An error means that the theory does not cover contact or material.
-pub(super) fn followed(problem: &Problem, body: &Revolution, asked: f64) -> Result<Option<Answer>> {
-    let profile = profile(problem, body)?;
+pub(super) fn followed(
+    problem: &Problem,
+    body: &Revolution,
+    points: &[HistoryPoint],
+    asked: f64,
+) -> Result<Option<Answer>> {
+    let profile = profile(problem, body, points)?;
     let mut options = following(problem, asked);
     options.modulus_error += profile.relative_error();
-    let mut curve = indent_along(&profile, problem.material(), problem.history(), &options)?;
+    let mut curve = indent_along(&profile, problem.material(), points, &options)?;
     for point in &mut curve {
         point.contact_radius = profile.contact_radius(point.contact_radius);
     }
@@ -25,14 +30,14 @@ pub(super) fn followed(problem: &Problem, body: &Revolution, asked: f64) -> Resu
 }
 
 /// The equivalent profile whose Winkler foundation has the force of the body, tabulated to the largest depth of the history.
-fn profile(problem: &Problem, body: &Revolution) -> Result<LayerProfile> {
+fn profile(problem: &Problem, body: &Revolution, points: &[HistoryPoint]) -> Result<LayerProfile> {
     let material = problem.material();
     let layer = BondedLayer::new(problem.thickness(), material.poisson_ratio())
         .map_err(FrictionError::from)?;
     let value = |point: &HistoryPoint| match point.control {
         Control::IndentationDepth(value) | Control::NormalForce(value) => value,
     };
-    let largest = problem.history().iter().map(value).fold(0.0, f64::max);
+    let largest = points.iter().map(value).fold(0.0, f64::max);
     let mut depth = largest;
     if let Control::NormalForce(_) = problem.motion().control() {
         let duration = problem.durations().into_iter().fold(0.0, f64::max);
@@ -67,9 +72,10 @@ fn depth_of(body: &dyn Axisymmetric, layer: &BondedLayer, impulse: f64) -> Resul
 pub(super) fn equivalent<'a>(
     problem: &Problem,
     body: &'a Revolution,
+    points: &[HistoryPoint],
 ) -> Result<Box<dyn EquivalentProfile + 'a>> {
     if problem.thickness().is_finite() {
-        return Ok(Box::new(profile(problem, body)?));
+        return Ok(Box::new(profile(problem, body, points)?));
     }
     Ok(Box::new(&**body))
 }

@@ -12,7 +12,7 @@ use Motion::{Pressing, Sliding};
 
 impl Omission {
     /// The method that does the omitted work; `None` if no other method does.
-    const fn done_by(self, model: Model, motion: Motion) -> Option<Method> {
+    const fn done_by(self, model: Model, motion: &Motion) -> Option<Method> {
         match (self, model, motion) {
             (Self::NumericalSolution, Model::Line, Sliding(_)) => Some(MdrSteady),
             (Self::NumericalSolution, Model::HalfSpace, Sliding(_)) => Some(BemSteady),
@@ -106,7 +106,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
         // A history or a motion leaves nothing out.
-        (_, Motion::History(_) | Motion::Moving(_)) => Vec::new(),
+        (_, Motion::History { .. } | Motion::Moving(_)) => Vec::new(),
         (MdrSteady, _) => vec![Some(Omission::TimeSteps)],
         (Analytic | MdrTransient, Pressing(_)) => vec![Some(Omission::HalfSpace)],
         (BemSteady, Sliding(load)) => {

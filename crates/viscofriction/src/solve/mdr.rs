@@ -1,8 +1,8 @@
 //! Solutions of the one-dimensional model (method of dimensionality reduction) as answers.
 
 use indenters::{
-    Axisymmetric, EquivalentLine, EquivalentProfile, Moved, MovedPoint, MovingLoad, PressingLoad,
-    SlidingLoad,
+    Axisymmetric, EquivalentLine, EquivalentProfile, HistoryPoint, Moved, MovedPoint, MovingLoad,
+    PressingLoad, SlidingLoad,
 };
 use mdr_core::{
     CurvePoint, HistoryOptions, MdrError, Sliding, SlidingStep, SteadySliding, indent,
@@ -140,11 +140,12 @@ pub(crate) fn pressed(
 pub(crate) fn followed(
     problem: &Problem,
     body: &dyn EquivalentProfile,
+    points: &[HistoryPoint],
     method: Method,
     relative_error: f64,
 ) -> Result<Answer> {
     let options = following(problem, relative_error);
-    let curve = indent_along(body, problem.material(), problem.history(), &options)?;
+    let curve = indent_along(body, problem.material(), points, &options)?;
     let found = of_curve(problem, method, &curve);
     Ok(found.ok_or(MdrError::Empty { list: "history" })?)
 }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use bem_halfspace::indent::{indent_along_memory, indent_memory};
 use bem_halfspace::{move_along_memory, periodic, slide::slide_memory, steady::steady_memory};
 use indenters::rough::PeriodicSurface;
-use indenters::{EquivalentLine, Surface};
+use indenters::{EquivalentLine, MovingLoad, Surface};
 use mdr_core::elements_of_motion;
 use numerics::{FIRST_ELEMENTS, Progress, whole_part};
 
@@ -34,8 +34,8 @@ pub(super) fn check_first_grid(problem: &Problem, method: Method) -> Result<()> 
             (periodic::elements_of_motion(surface), change)
         }
         (_, Body::Periodic(surface), _) => return Ok(check_waves(problem, surface)?),
-        (_, body, Moving(_)) if method == MdrTransient => {
-            (elements_of_line_motion(problem, body)?, OTHERWISE)
+        (_, body, Moving(load)) if method == MdrTransient => {
+            (elements_of_line_motion(problem, body, load)?, OTHERWISE)
         }
         _ => (FIRST_ELEMENTS, OTHERWISE),
     };
@@ -43,9 +43,8 @@ pub(super) fn check_first_grid(problem: &Problem, method: Method) -> Result<()> 
 }
 
 /// Elements of the first grid of a motion in the one-dimensional model.
-fn elements_of_line_motion(problem: &Problem, body: &Body) -> Result<usize> {
-    let surface = body.surface().and_then(Surface::as_axisymmetric);
-    let Some((surface, load)) = surface.zip(problem.moving()) else {
+fn elements_of_line_motion(problem: &Problem, body: &Body, load: &MovingLoad) -> Result<usize> {
+    let Some(surface) = body.surface().and_then(Surface::as_axisymmetric) else {
         return Ok(FIRST_ELEMENTS);
     };
     let line = EquivalentLine(surface);
@@ -194,9 +193,9 @@ impl Progress for Limited<'_> {
 pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
     let elastomer = problem.elastomer()?;
     if let Body::Periodic(surface) = problem.body() {
-        let needed = match problem.moving() {
-            Some(load) => periodic::move_along_memory(surface, &elastomer, load, elements),
-            None => periodic::memory(surface, elements),
+        let needed = match problem.motion() {
+            Moving(load) => periodic::move_along_memory(surface, &elastomer, load, elements),
+            _ => periodic::memory(surface, elements),
         };
         return Ok(Some(needed?));
     }
@@ -204,18 +203,13 @@ pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Resu
         return Ok(None);
     };
     let half_space = match (method, problem.motion()) {
-        (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, &load, elements),
-        (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, &load, elements),
-        (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, &load, elements),
-        (BemTransient, History(_)) => {
-            indent_along_memory(surface, &elastomer, problem.history(), elements)
+        (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, load, elements),
+        (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, load, elements),
+        (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, load, elements),
+        (BemTransient, History { points, .. }) => {
+            indent_along_memory(surface, &elastomer, points, elements)
         }
-        (BemTransient, Moving(_)) => {
-            let Some(load) = problem.moving() else {
-                return Ok(None);
-            };
-            move_along_memory(surface, &elastomer, load, elements)
-        }
+        (BemTransient, Moving(load)) => move_along_memory(surface, &elastomer, load, elements),
         _ => return of_line(problem, method, elements),
     };
     Ok(Some(half_space?))
@@ -229,11 +223,11 @@ fn of_line(problem: &Problem, method: Method, elements: usize) -> Result<Option<
         return Ok(None);
     };
     let material = problem.material();
-    Ok(match (method, problem.motion(), problem.moving()) {
-        (MdrTransient, Sliding(load), _) => {
-            Some(mdr_core::slide_memory(&line, material, &load, elements)?)
+    Ok(match (method, problem.motion()) {
+        (MdrTransient, Sliding(load)) => {
+            Some(mdr_core::slide_memory(&line, material, load, elements)?)
         }
-        (MdrTransient, Moving(_), Some(load)) => Some(mdr_core::move_along_memory(
+        (MdrTransient, Moving(load)) => Some(mdr_core::move_along_memory(
             &line, material, load, elements,
         )?),
         _ => None,

@@ -191,13 +191,15 @@ mod tests {
         );
         let scene: Scene = text.parse().expect("a scene");
         let problem = Problem::try_from(&scene).expect("a problem");
-        let Body::Revolution(body) = problem.body() else {
-            panic!("a body of revolution");
+        let (Body::Revolution(body), Motion::History { points, .. }) =
+            (problem.body(), problem.motion())
+        else {
+            panic!("a body of revolution and a history");
         };
         let reached = indent_along(
             &&**body,
             problem.material(),
-            problem.history(),
+            points,
             &HistoryOptions::default(),
         );
         let missed = NotReached {

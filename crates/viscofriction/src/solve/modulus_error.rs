@@ -52,7 +52,7 @@ impl Problem {
         };
         self.check_times(&answer, expansion.time_range)?;
         let relative = PER_MODULUS * expansion.relative_error;
-        if let Motion::History(_) = self.motion() {
+        if let Motion::History { .. } = self.motion() {
             return Ok(match answer.method {
                 Method::BemTransient => answer.curve_widened(relative),
                 // The one-dimensional model includes the modulus error already.
@@ -102,7 +102,8 @@ impl Problem {
         let series = self.expansion()?.relative_error;
         match self.accuracy() {
             Accuracy::RelativeError(asked)
-                if !matches!(self.motion(), Motion::History(_)) && error > asked * value.abs() =>
+                if !matches!(self.motion(), Motion::History { .. })
+                    && error > asked * value.abs() =>
             {
                 Some(SolveError::SeriesTooCoarse {
                     asked,
@@ -124,7 +125,7 @@ impl Problem {
                 let lengths = [length, load.sliding_distance()].into_iter().flatten();
                 lengths.map(|length| length / load.velocity()).collect()
             }
-            Motion::Pressing(_) | Motion::History(_) | Motion::Moving(_) => self.durations(),
+            Motion::Pressing(_) | Motion::History { .. } | Motion::Moving(_) => self.durations(),
         };
         let is_outside = |time: &f64| !(shortest..=longest).contains(time);
         match times.into_iter().find(is_outside) {

@@ -33,8 +33,6 @@ pub struct Problem {
     parts: Parts,
     thickness: f64,
     motion: Motion,
-    history: Vec<HistoryPoint>,
-    moving: Option<MovingLoad>,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -60,25 +58,31 @@ struct Realisations {
 }
 
 /// Load and motion of the body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Motion {
     /// Sliding under a force or at a depth, to the stationary state or over a distance.
     Sliding(SlidingLoad),
     /// Indentation with a force or to a depth for a duration, without sliding.
     Pressing(PressingLoad),
-    /// Indentation along [`Problem::history`]; the control is that of its last point.
-    History(Control),
-    /// Motion along [`Problem::moving`]; the control is its largest.
-    Moving(Control),
+    /// Indentation along a history.
+    History {
+        /// Forces or depths over time.
+        points: Vec<HistoryPoint>,
+        /// Force or depth of the last point.
+        last: Control,
+    },
+    /// Reciprocating motion, or motion through given positions.
+    Moving(MovingLoad),
 }
 
 impl Motion {
-    /// The given force or depth.
-    pub const fn control(&self) -> Control {
+    /// The given force or depth: of a history the last, of a motion the largest.
+    pub fn control(&self) -> Control {
         match self {
             Self::Sliding(load) => load.control(),
             Self::Pressing(load) => load.control(),
-            Self::History(control) | Self::Moving(control) => *control,
+            Self::History { last, .. } => *last,
+            Self::Moving(load) => load.largest_control(),
         }
     }
 
@@ -86,7 +90,7 @@ impl Motion {
     pub fn sliding_distance(&self) -> Option<f64> {
         match self {
             Self::Sliding(load) => load.sliding_distance(),
-            Self::Pressing(_) | Self::History(_) | Self::Moving(_) => None,
+            Self::Pressing(_) | Self::History { .. } | Self::Moving(_) => None,
         }
     }
 }
@@ -114,13 +118,12 @@ impl Problem {
         let files = Files::of(scene, folder, read)?;
         let body = &parts.body.body;
         // Validate load and motion.
-        let history = scene.load.checked_history(&files)?;
-        let history = history.unwrap_or_default();
+        let points = scene.load.checked_history(&files)?.unwrap_or_default();
         let moving = scene.load.checked_motion(body.period_area(), &files)?;
-        let motion = match (history.last(), &moving) {
-            (Some(last), _) => ended(scene, Motion::History(last.control))?,
-            (_, Some(moving)) => ended(scene, Motion::Moving(moving.largest_control()))?,
-            _ => motion(scene, body)?,
+        let motion = match (points.last().map(|last| last.control), moving) {
+            (Some(last), _) => ended(scene, Motion::History { points, last })?,
+            (None, Some(moving)) => ended(scene, Motion::Moving(moving))?,
+            (None, None) => motion(scene, body)?,
         };
         let thickness = match scene.layer {
             Some(layer) => positive("layer.thickness", layer.thickness)?,
@@ -141,8 +144,6 @@ impl Problem {
             parts,
             thickness,
             motion,
-            history,
-            moving,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
@@ -278,23 +279,13 @@ impl Problem {
     }
 
     /// Load and motion of the body.
-    pub const fn motion(&self) -> Motion {
-        self.motion
-    }
-
-    /// Points of the indentation history; empty for other loads.
-    pub fn history(&self) -> &[HistoryPoint] {
-        &self.history
-    }
-
-    /// Reciprocating motion, or motion through given positions; `None` for other loads.
-    pub const fn moving(&self) -> Option<&MovingLoad> {
-        self.moving.as_ref()
+    pub const fn motion(&self) -> &Motion {
+        &self.motion
     }
 
     /// Length of the closed track, after which the body returns to the same place, \[m]; `None` without a track.
     pub const fn track(&self) -> Option<f64> {
-        match self.motion {
+        match &self.motion {
             Motion::Sliding(load) => load.track(),
             _ => None,
         }
@@ -303,19 +294,17 @@ impl Problem {
     /// Time scales of the load, \[s]: the holding time, or the stages of a history or motion and its total duration. Empty for
     /// sliding at constant speed.
     pub(super) fn durations(&self) -> Vec<f64> {
-        match self.motion {
+        match &self.motion {
             Motion::Sliding(_) => Vec::new(),
             Motion::Pressing(load) => vec![load.duration()],
-            Motion::Moving(_) => {
-                let stages = self.moving.iter().flat_map(MovingLoad::stages);
-                let each = stages.map(indenters::Stage::duration);
-                let all = self.moving.iter().map(MovingLoad::duration);
-                each.chain(all).collect()
+            Motion::Moving(load) => {
+                let each = load.stages().iter().map(indenters::Stage::duration);
+                each.chain([load.duration()]).collect()
             }
-            Motion::History(_) => {
-                let between = self.history.windows(2);
+            Motion::History { points, .. } => {
+                let between = points.windows(2);
                 let between = between.map(|pair| pair[1].time - pair[0].time);
-                let all = self.history.last().zip(self.history.first());
+                let all = points.last().zip(points.first());
                 let all = all.map(|(last, first)| last.time - first.time);
                 between.filter(|time| *time > 0.0).chain(all).collect()
             }
@@ -423,7 +412,7 @@ fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
         ("solve.sliding_distance", scene.solve.sliding_distance),
     ];
     let problem = match motion {
-        Motion::History(_) => "a history ends with its last point; leave this out",
+        Motion::History { .. } => "a history ends with its last point; leave this out",
         _ => {
             "a motion ends with its last point, or goes on until its cycles are alike; leave this out"
         }

@@ -45,14 +45,14 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     if let Some(pressure) = pressure {
         answer.fields.line_pressure = pressure;
     }
-    if let (Motion::History(_), Body::Revolution(body)) = (problem.motion(), problem.body())
+    if let (Motion::History { points, .. }, Body::Revolution(body)) =
+        (problem.motion(), problem.body())
         && answer.method != Method::BemTransient
     {
         let options = mdr::following(problem, WORK);
-        let profile = layer::equivalent(problem, body).ok();
-        let work = profile.and_then(|profile| {
-            work_along(&*profile, problem.material(), problem.history(), &options).ok()
-        });
+        let profile = layer::equivalent(problem, body, points).ok();
+        let work = profile
+            .and_then(|profile| work_along(&*profile, problem.material(), points, &options).ok());
         let column = work.map(|values| CurveColumn {
             name: curve::WORK,
             values,

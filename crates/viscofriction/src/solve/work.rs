@@ -3,7 +3,7 @@
 use bem_halfspace::PeriodicLoad;
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::rough::PeriodicSurface;
-use indenters::{Axisymmetric, Cylinder, MovingLoad, SlidingLoad, Surface};
+use indenters::{Axisymmetric, Cylinder, HistoryPoint, MovingLoad, SlidingLoad, Surface};
 use numerics::{Progress, Request};
 
 use super::analytic::{cylinder_pressed, without_friction};
@@ -69,18 +69,18 @@ const NOTHING_SLIDES: Refusal =
 /// The computation of `method`, also if the problem names another method or model.
 pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     let accuracy = problem.of_the_method();
-    let is_history = matches!(problem.motion(), History(_));
+    let is_history = matches!(problem.motion(), History { .. });
     let has_layers =
         matches!(method, BemSteady | BemTransient) || (is_history && method == Analytic);
     require(has_layers || !problem.thickness().is_finite(), NO_LAYER)?;
-    if is_history {
-        return followed(problem, method, accuracy);
+    if let History { points, .. } = problem.motion() {
+        return followed(problem, points, method, accuracy);
     }
     if problem.track().is_some() {
         require_track(problem, method)?;
     }
     let is_elastic = problem.simple() == Some(&Simple::Elastic);
-    if let Some(load) = problem.moving() {
+    if let Moving(load) = problem.motion() {
         require(is_elastic || has_front(problem.body()), NO_FRONT)?;
         return moved(problem, load, method, accuracy);
     }
@@ -146,23 +146,30 @@ fn has_force(problem: &Problem) -> bool {
 
 /// Indentation along a history. For a body of revolution the one-dimensional model is exact on the half space, and on a layer if
 /// the contact grows once and shrinks once.
-fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Offer<'_> {
+fn followed<'a>(
+    problem: &'a Problem,
+    points: &'a [HistoryPoint],
+    method: Method,
+    accuracy: Accuracy,
+) -> Offer<'a> {
     match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
         (BemTransient, body) => {
             let surface = body.surface().ok_or(HISTORY_WITHOUT_END)?;
-            ready(move |watch| elements::followed(problem, surface, Request { accuracy, watch }))
+            ready(move |watch| {
+                elements::followed(problem, surface, points, Request { accuracy, watch })
+            })
         }
         (_, Body::Revolution(body)) => {
             let Accuracy::RelativeError(asked) = accuracy else {
                 return Err(NO_ELEMENTS);
             };
             if problem.thickness().is_finite() {
-                let answer = layer::followed(problem, body, asked);
+                let answer = layer::followed(problem, body, points, asked);
                 let answer = answer.ok().flatten().ok_or(ONCE)?;
                 return ready(move |_| Ok(answer));
             }
-            ready(move |_| mdr::followed(problem, &&**body, method, asked))
+            ready(move |_| mdr::followed(problem, &&**body, points, method, asked))
         }
         _ => Err("it needs a body of revolution; bem-transient follows a history with others"),
     }
@@ -237,7 +244,7 @@ fn line_contact<'a>(
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
             ready(move |watch| {
-                elements::line_contact(problem, cylinder, &load, Request { accuracy, watch })
+                elements::line_contact(problem, cylinder, load, Request { accuracy, watch })
             })
         }
         (BemSteady, _) => Err(NOTHING_SLIDES),
@@ -289,7 +296,7 @@ fn periodic<'a>(
             let request = Request { accuracy, watch };
             elements::periodic_pressed(problem, rough, load.duration(), request)
         }),
-        (_, Pressing(_) | History(_) | Moving(_)) => Err(NOTHING_SLIDES),
+        (_, Pressing(_) | History { .. } | Moving(_)) => Err(NOTHING_SLIDES),
         (BemSteady, Sliding(load)) => {
             require(load.sliding_distance().is_none(), STATIONARY)?;
             ready(move |watch| elements::periodic(problem, rough, Request { accuracy, watch }))
@@ -316,10 +323,10 @@ fn boundary_elements<'a>(
         Sliding(load) => load,
         Pressing(load) if !is_stationary => {
             return ready(move |watch| {
-                elements::pressed(problem, surface, &load, Request { accuracy, watch })
+                elements::pressed(problem, surface, load, Request { accuracy, watch })
             });
         }
-        Pressing(_) | History(_) | Moving(_) => return Err(NOTHING_SLIDES),
+        Pressing(_) | History { .. } | Moving(_) => return Err(NOTHING_SLIDES),
     };
     let has_distance = load.sliding_distance().is_some();
     require(!(is_stationary && has_distance), STATIONARY)?;
@@ -338,7 +345,7 @@ fn boundary_elements<'a>(
     } else {
         elements::transient
     };
-    ready(move |watch| slid(problem, surface, &load, Request { accuracy, watch }))
+    ready(move |watch| slid(problem, surface, load, Request { accuracy, watch }))
 }
 
 /// A body of revolution in the one-dimensional model, by elements or polynomials.
@@ -357,18 +364,18 @@ fn one_dimensional<'a>(
                     "it chooses its polynomials itself; give relative_error instead of elements",
                 );
             };
-            ready(move |_| mdr::stationary(body, material, &load, error))
+            ready(move |_| mdr::stationary(body, material, load, error))
         }
-        (MdrSteady, Pressing(_)) | (_, History(_) | Moving(_)) => Err(NOTHING_SLIDES),
+        (MdrSteady, Pressing(_)) | (_, History { .. } | Moving(_)) => Err(NOTHING_SLIDES),
         (_, Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
-            ready(move |watch| mdr::transient(body, material, &load, Request { accuracy, watch }))
+            ready(move |watch| mdr::transient(body, material, load, Request { accuracy, watch }))
         }
         (_, Pressing(load)) => {
             let Accuracy::RelativeError(error) = accuracy else {
                 return Err("where nothing slides it has no elements; give relative_error instead");
             };
-            ready(move |_| mdr::pressed(body, material, &load, error))
+            ready(move |_| mdr::pressed(body, material, load, error))
         }
     }
 }
@@ -381,7 +388,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     let (control, material) = (problem.motion().control(), problem.material());
     let pressed = move |duration| analytic::pressed(body, material, control, duration);
     match (problem.motion(), problem.simple(), problem.model()) {
-        (History(_) | Moving(_), _, _) => Err(NOTHING_SLIDES),
+        (History { .. } | Moving(_), _, _) => Err(NOTHING_SLIDES),
         (Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
         // An elastic material dissipates nothing: the pressure is even and the slope odd.
         (Sliding(_), Some(Simple::Elastic), _) => {
@@ -390,7 +397,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
         (Sliding(load), _, Model::HalfSpace) => closed_half_space(problem, body, load, asked),
         (Sliding(load), _, Model::Line) => {
             require(problem.window().is_none(), NO_SHARE)?;
-            closed_line(problem.simple(), body, load)
+            closed_line(problem.simple(), body, *load)
         }
     }
 }
@@ -438,13 +445,13 @@ pub(crate) fn closed_line<'a>(
 fn closed_half_space<'a>(
     problem: &'a Problem,
     body: &'a Revolution,
-    load: SlidingLoad,
+    load: &'a SlidingLoad,
     asked: f64,
 ) -> Offer<'a> {
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, problem.simple())
     else {
         require(load.sliding_distance().is_none(), STATIONARY)?;
-        let slow = analytic::slow_half_space(body, problem.material(), &load, asked);
+        let slow = analytic::slow_half_space(body, problem.material(), load, asked);
         let slow = slow.ok_or(
             "on the half space it knows the friction of powers on a viscous material, and that of smooth bodies that slide slowly over a solid; this scene is neither, or slides faster",
         )?;
@@ -458,5 +465,5 @@ fn closed_half_space<'a>(
     )?;
     require(load.sliding_distance().is_none(), STATIONARY)?;
     require(has_force(problem), UNDER_FORCE)?;
-    ready(move |_| analytic::viscous_half_space(profile, material, &load))
+    ready(move |_| analytic::viscous_half_space(profile, material, load))
 }

@@ -34,7 +34,7 @@ pub(super) fn has_coarse_grids(problem: &Problem) -> bool {
     match problem.motion() {
         Motion::Sliding(load) => load.sliding_distance().is_none(),
         Motion::Pressing(_) => true,
-        Motion::History(_) | Motion::Moving(_) => false,
+        Motion::History { .. } | Motion::Moving(_) => false,
     }
 }
 

@@ -110,9 +110,9 @@ fn sensitivities(
         answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;
     match (method, problem.motion()) {
         (Method::BemSteady, Motion::Sliding(load)) => {
-            adjoint::sensitivities((numbers, all), problem, (&load, answer), progress)
+            adjoint::sensitivities((numbers, all), problem, (load, answer), progress)
         }
-        (method, Motion::History(_)) => Err(SolveError::NoSensitivity { method }),
+        (method, Motion::History { .. }) => Err(SolveError::NoSensitivity { method }),
         (Method::Analytic | Method::MdrSteady, _) if is_exact => {
             let values = Values::Exact;
             differences::sensitivities((numbers, all), problem, values, answer, progress)
@@ -159,7 +159,9 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
     };
     match (method, problem.motion()) {
         (Method::BemSteady, Motion::Sliding(_)) => adjoint::check_surfaces(problem),
-        (Method::Analytic | Method::MdrSteady, motion) if !matches!(motion, Motion::History(_)) => {
+        (Method::Analytic | Method::MdrSteady, motion)
+            if !matches!(motion, Motion::History { .. }) =>
+        {
             Ok(())
         }
         _ => Err(none()),

@@ -63,7 +63,7 @@ pub fn spectral_sensitivity(
     let ends = wave_numbers.map(|wave_number| load.velocity() * wave_number);
     // The adjoint solutions take about as long as all bands.
     let mut progress = WorkProgress::new(watch, 2.0);
-    let contact = Contact::new(problem, &load, answer)?;
+    let contact = Contact::new(problem, load, answer)?;
     progress.add(1.0);
     let edges = edges(ends, problem.window());
     let n_bands = edges.len() - 1;
