@@ -199,6 +199,6 @@ mod tests {
                 assert_eq!(kind, Some(ErrorKind::MissingRequiredArgument), "--{name}");
             }
         }
-        assert_eq!(n_options, 6, "options that are lengths");
+        assert_eq!(n_options, 7, "options that are lengths");
     }
 }

@@ -2,7 +2,7 @@
 
 mod picture;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
@@ -69,8 +69,7 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
         track_radius: options.track_radius,
         run_in: options.run_in,
     };
-    let table = friction_points(&options.table, &read_table(&options.table)?, &read);
-    let FrictionTable { points, notes } = table.map_err(wrong_table)?;
+    let FrictionTable { points, notes } = read_points(&options.table, &read)?;
     let source = read_scene(&options.scene)?;
     let scene = scene_of(&source, None)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
@@ -103,6 +102,14 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
         Some(out) => print_line(&format!("written into {}", out.path().display())),
         None => Ok(()),
     }
+}
+
+/// Reads and protects a table of measured friction.
+pub(crate) fn read_points(
+    path: &Path,
+    options: &FrictionTableOptions,
+) -> Result<FrictionTable, WrongInput> {
+    friction_points(path, &read_table(path)?, options).map_err(wrong_table)
 }
 
 impl FitFriction {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fs::{self, File, OpenOptions};
 use std::io::{Seek as _, SeekFrom, Write as _};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -156,6 +157,23 @@ pub(crate) struct RowTable {
 }
 
 impl RowTable {
+    /// Index of a column; `None` if the table has no such column.
+    pub(super) fn place(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|column| column == name)
+    }
+
+    /// Columns of the varied keys; `None` if the columns are not those of a sweep.
+    pub(super) fn keys(&self) -> Option<Range<usize>> {
+        Some(self.place("points")? + 1..self.place("check")?)
+    }
+
+    /// Numbers of a column; `None` for a text or an empty cell. Empty if the table has no such column.
+    pub(super) fn numbers(&self, name: &str) -> Vec<Option<f64>> {
+        let rows = self.rows.iter();
+        let number = |place: usize| rows.map(move |row| row.fields[place].parse().ok());
+        self.place(name).map(number).into_iter().flatten().collect()
+    }
+
     /// Contents of the CSV file.
     pub(super) fn text(&self) -> Result<String> {
         let rows = self.rows.iter().map(|row| &row.fields);

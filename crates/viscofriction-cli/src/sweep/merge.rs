@@ -8,22 +8,29 @@ use viscofriction::WrongInput;
 use viscofriction::sweep::SweepRow;
 
 use super::file::{RowTable, TableFile, insert};
+use super::measured::Measured;
 use super::picture::PictureFiles;
 use super::{say_samples, say_warnings, wrong_row};
 use crate::input::read_table;
 use crate::output::{OutputFile, print_text, say};
 
 /// Merges the files of one sweep in the order of the points; an error names missing points.
-pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> Result<()> {
+pub(super) fn merge(
+    paths: &[PathBuf],
+    out: Option<&Path>,
+    overwrite: bool,
+    measured: Option<&Measured>,
+) -> Result<()> {
     let table = joined(paths)?;
+    measured.map_or(Ok(()), |measured| measured.check(&table))?;
     let files = out.map(|out| {
-        let pictures = PictureFiles::new(out, overwrite)?;
+        let pictures = PictureFiles::new(out, measured, overwrite)?;
         Ok::<_, WrongInput>((OutputFile::new(out, overwrite)?, pictures))
     });
     let files = files.transpose()?;
     if let Some((out, pictures)) = files {
         out.write(table.text()?.as_bytes())?;
-        pictures.draw(&table, None)?;
+        pictures.draw(&table, measured, None)?;
         let n_rows = table.rows.len();
         say(&format!("{n_rows} points in {}", out.path().display()));
     } else {

@@ -3,6 +3,7 @@
 //! Each row identifies its sweep and point, so an interrupted run can be resumed, and files of several machines can be merged.
 
 mod file;
+mod measured;
 mod merge;
 mod picture;
 mod report;
@@ -15,14 +16,16 @@ use std::sync::mpsc;
 
 use anyhow::{Result, bail};
 use clap::Args;
+use measurements::friction::FrictionTableOptions;
 use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Shard, SweepRow, Vary, each_once, header};
 
-use crate::input::{half_of_free_memory, read_input, read_scene};
+use crate::input::{half_of_free_memory, metres, read_input, read_scene};
 use crate::output::{ABOUT_WARNINGS, print_text, say};
 use crate::progress;
 pub(crate) use file::TableFile;
 use file::{Existing, RowTable, SweepFile, checked, line};
+use measured::Measured;
 use picture::PictureFiles;
 pub(crate) use picture::{beside, labelled};
 use samples::Samples;
@@ -73,6 +76,16 @@ pub(crate) struct Sweep {
     /// The CSV file, beside which a picture is drawn [default: the standard output].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
+    /// Measured friction over speed, drawn with its error bars over the computed friction; residuals are in FILE.measured.csv
+    /// beside the CSV file. A table as of fit-friction: v (or rpm) and mu, and perhaps T, normal force and standard error.
+    #[arg(long, value_name = "TABLE.csv", requires = "out")]
+    measured: Option<PathBuf>,
+    /// Radius of the circular track in m or with a unit, as "30 mm", for rotational speeds in the table without a column of radii.
+    #[arg(long, value_name = "RADIUS", value_parser = metres, requires = "measured")]
+    track_radius: Option<f64>,
+    /// Time in s at the beginning of every run at constant speed that is left out of its mean, for a table over time; 0 for none.
+    #[arg(long, value_name = "SECONDS", requires = "measured")]
+    run_in: Option<f64>,
     /// Begin anew if the file is there.
     #[arg(long, requires = "out", conflicts_with = "resume")]
     overwrite: bool,
@@ -80,8 +93,18 @@ pub(crate) struct Sweep {
 
 /// Runs the command: computes the points of a sweep, or merges files.
 pub(crate) fn sweep(options: &Sweep) -> Result<()> {
+    let read = FrictionTableOptions {
+        track_radius: options.track_radius,
+        run_in: options.run_in,
+    };
+    let measured = options.measured.as_deref();
+    let measured = measured
+        .map(|path| Measured::new(path, &read))
+        .transpose()?;
+    let measured = measured.as_ref();
     let Some(scene) = &options.scene else {
-        return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
+        let out = options.out.as_deref();
+        return merge::merge(&options.merge, out, options.overwrite, measured);
     };
     // Plan the sweep and validate the points of this shard.
     let vary = options.vary.iter().chain(&options.samples);
@@ -91,13 +114,23 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     plan.max_memory = half_of_free_memory();
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
+    measured.map_or(Ok(()), |measured| measured.check(&points_of(&plan)))?;
     let threads = plan.validate(&points)?.unwrap_or(0);
     // Compute them.
     let Computed {
         rows,
         n_failed_before,
     } = match &options.out {
-        Some(out) => into_file(&plan, points, threads, (out, options))?,
+        Some(out) => into_file(
+            &plan,
+            points,
+            threads,
+            Output {
+                path: out,
+                options,
+                measured,
+            },
+        )?,
         None => printed(&plan, &points, threads)?,
     };
     // Report warnings, the distribution of samples, and failures.
@@ -117,6 +150,25 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// The output file of a sweep, and what is written beside it.
+struct Output<'a> {
+    path: &'a Path,
+    options: &'a Sweep,
+    measured: Option<&'a Measured>,
+}
+
+/// The points of a plan as rows without results.
+fn points_of(plan: &Plan) -> RowTable {
+    let row = |point| SweepRow {
+        point,
+        fields: plan.identity(point),
+    };
+    RowTable {
+        header: header(plan),
+        rows: (0..plan.n_points()).map(row).collect(),
+    }
 }
 
 /// Reports the distribution of the answers of samples.
@@ -186,7 +238,11 @@ fn into_file(
     plan: &Plan,
     mut points: Vec<usize>,
     threads: usize,
-    (out, options): (&Path, &Sweep),
+    Output {
+        path: out,
+        options,
+        measured,
+    }: Output<'_>,
 ) -> Result<Computed> {
     let existing = options.existing();
     let path = checked(out, existing)?;
@@ -194,10 +250,11 @@ fn into_file(
     let (mut file, pictures) = match existing {
         // Report rows of another sweep before their picture.
         Existing::GoOn if path.exists() => {
-            (open()?, PictureFiles::resumed(out, &plan.fingerprint)?)
+            let fingerprint = &plan.fingerprint;
+            (open()?, PictureFiles::resumed(out, measured, fingerprint)?)
         }
         _ => {
-            let pictures = PictureFiles::new(out, existing == Existing::Replace)?;
+            let pictures = PictureFiles::new(out, measured, existing == Existing::Replace)?;
             (open()?, pictures)
         }
     };
@@ -213,7 +270,7 @@ fn into_file(
     points.retain(|point| !there.contains_key(point));
     compute(plan, &points, threads, |row| file.append(&row))?;
     let table = file.finish()?;
-    pictures.draw(&table, Some(plan.scene_text()))?;
+    pictures.draw(&table, measured, Some(plan.scene_text()))?;
     let n_rows = table.rows.len();
     let (n_computed, path) = (points.len(), path.display());
     say(&format!("{n_computed} points computed, {n_rows} in {path}"));

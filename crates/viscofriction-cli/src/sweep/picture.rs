@@ -9,6 +9,7 @@ use viscofriction::numerics::MessageNumber;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
+use super::measured::{Measured, Residuals};
 use super::report::page;
 use super::samples::Samples;
 use crate::input::read_rows;
@@ -17,12 +18,12 @@ use crate::run::around;
 
 /// Quantities that may be drawn, as column and axis label, in order of preference: friction, depth, force.
 pub(super) const QUANTITIES: [(&str, &str); 3] = [
-    ("friction_coefficient", "friction coefficient μ"),
+    (FRICTION, "friction coefficient μ"),
     ("indentation_depth", "depth d [m]"),
     ("normal_force", "normal force F [N]"),
 ];
-/// Names of the columns before and after the varied keys.
-pub(super) const AROUND_KEYS: [&str; 2] = ["points", "check"];
+/// Column of the friction coefficient.
+pub(super) const FRICTION: &str = "friction_coefficient";
 /// Largest relative deviation of equal steps or factors (chosen, above rounding).
 const EQUAL: f64 = 1e-6;
 /// Smallest ratio of the last to the first value of an irregular list for a logarithmic axis (chosen).
@@ -33,29 +34,41 @@ pub(super) struct PictureFiles {
     svg: OutputFile,
     png: OutputFile,
     html: OutputFile,
+    /// Residuals of measured points; `None` without `--measured`.
+    residuals: Option<OutputFile>,
 }
 
 impl PictureFiles {
     /// Validates the paths beside that of the rows.
-    pub(super) fn new(rows: &Path, overwrite: bool) -> Result<Self, WrongInput> {
+    pub(super) fn new(
+        rows: &Path,
+        measured: Option<&Measured>,
+        overwrite: bool,
+    ) -> Result<Self, WrongInput> {
         let file = |extension| OutputFile::new(&beside(rows, extension), overwrite);
         Ok(Self {
             svg: file("svg")?,
             png: file("png")?,
             html: file("html")?,
+            residuals: measured.map(|_| file(RESIDUALS)).transpose()?,
         })
     }
 
     /// Files of a resumed sweep: its own picture may be replaced, another one may not.
-    pub(super) fn resumed(rows: &Path, fingerprint: &str) -> Result<Self, WrongInput> {
+    pub(super) fn resumed(
+        rows: &Path,
+        measured: Option<&Measured>,
+        fingerprint: &str,
+    ) -> Result<Self, WrongInput> {
         let drawn = read_rows(&beside(rows, "svg")).unwrap_or_default();
-        Self::new(rows, drawn.ends_with(signature(fingerprint).as_bytes()))
+        let is_own = drawn.ends_with(signature(fingerprint).as_bytes());
+        Self::new(rows, measured, is_own)
     }
 
     /// Marks existing pictures as those of this sweep, so that a resumed run may replace them. The caller holds the lock of the
     /// rows.
     pub(super) fn claim(&self, fingerprint: &str) -> Result<()> {
-        if !self.all().iter().any(|file| file.path().exists()) {
+        if !self.all().any(|file| file.path().exists()) {
             return Ok(());
         }
         let empty = format!("{EMPTY}{}", signature(fingerprint));
@@ -64,9 +77,10 @@ impl PictureFiles {
         self.html.remove()
     }
 
-    /// All three files.
-    const fn all(&self) -> [&OutputFile; 3] {
-        [&self.svg, &self.png, &self.html]
+    /// All files.
+    fn all(&self) -> impl Iterator<Item = &OutputFile> {
+        let pictures = [&self.svg, &self.png, &self.html];
+        pictures.into_iter().chain(&self.residuals)
     }
 
     /// Removes temporary files of interrupted runs. The caller holds the lock of the rows.
@@ -76,9 +90,15 @@ impl PictureFiles {
         }
     }
 
-    /// Writes the picture, or reports why there is none, and the report page, with the scene if it is known.
-    pub(super) fn draw(&self, table: &RowTable, scene: Option<&str>) -> Result<()> {
-        let drawn = figure(table).and_then(|figure| Ok((picture(&figure)?, figure)));
+    /// Writes the picture, or reports why there is none, the residuals of measured points, and the report page, with the scene if it
+    /// is known.
+    pub(super) fn draw(
+        &self,
+        table: &RowTable,
+        measured: Option<&Measured>,
+        scene: Option<&str>,
+    ) -> Result<()> {
+        let drawn = figure(table, measured).and_then(|figure| Ok((picture(&figure)?, figure)));
         let figure = match drawn {
             Ok(((svg, png), figure)) => {
                 let fingerprint = table.rows.first().map_or("", |row| &row.fields[0]);
@@ -91,6 +111,11 @@ impl PictureFiles {
                 None
             }
         };
+        if let (Some(measured), Some(file)) = (measured, &self.residuals) {
+            let Residuals { csv, summary } = measured.residuals(table)?;
+            file.write(csv.as_bytes())?;
+            say(&format!("{summary}, in {}", file.path().display()));
+        }
         let page = page(table, figure.as_ref(), scene)?;
         self.html.write(page.as_bytes())
     }
@@ -106,6 +131,8 @@ pub(crate) fn beside(rows: &Path, extension: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
+/// Extension of the file of residuals.
+const RESIDUALS: &str = "measured.csv";
 /// An empty SVG picture.
 const EMPTY: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n";
 
@@ -115,23 +142,13 @@ fn signature(fingerprint: &str) -> String {
 }
 
 /// The figure of the rows, or the reason why there is none.
-fn figure(table: &RowTable) -> Result<Figure> {
+fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
     if let Some(samples) = Samples::of(table) {
         return Ok(samples.figure());
     }
-    let place = |name: &str| table.header.iter().position(|column| column == name);
-    let [before, behind] = AROUND_KEYS.map(place);
-    let keys = before.zip(behind);
-    let (before, behind) = keys.context("the columns are not those of a sweep")?;
-    let cells = |place: usize| table.rows.iter().map(move |row| &*row.fields[place]);
-    let column = |place: usize| cells(place).map(|cell| cell.parse().ok()).collect();
-    let values = |name: &str| -> Vec<Option<f64>> { place(name).map(column).unwrap_or_default() };
+    let values = |name: &str| table.numbers(name);
     let is_known = |name: &str| values(name).iter().any(Option::is_some);
-    let key = |place: usize| Key {
-        name: &table.header[place],
-        cells: cells(place).collect(),
-    };
-    let mut keys: Vec<Key> = (before + 1..behind).map(key).collect();
+    let mut keys = keys(table)?;
     let is_drawn = |name: &str| match name {
         "indentation_depth" => {
             let forces = sorted(values("normal_force").into_iter().flatten());
@@ -142,6 +159,9 @@ fn figure(table: &RowTable) -> Result<Figure> {
     let mut quantities = QUANTITIES.into_iter();
     let drawn = quantities.find(|(name, _)| is_known(name) && is_drawn(name));
     let (name, label) = drawn.context("no point has a result")?;
+    if measured.is_some() && name != FRICTION {
+        bail!("no point has a friction coefficient, which was measured");
+    }
     let drawn = Drawn {
         label,
         values: values(name),
@@ -150,23 +170,42 @@ fn figure(table: &RowTable) -> Result<Figure> {
         // Only friction has a column of theory.
         theory: values(&format!("persson_{name}_2006")),
     };
-    // Draw over the key with the most numbers, the first of several.
-    let most = (0..keys.len())
-        .rev()
-        .max_by_key(|key| keys[*key].n_numbers());
-    let over = keys.remove(most.context("no key varies")?);
-    if over.n_numbers() == 0 {
-        bail!("no key that varies has numbers");
-    }
+    let over = keys.remove(abscissa(&keys).context("no key that varies has numbers")?);
     let curves = Curves::new(&keys, table.rows.len());
     match &keys[..] {
-        _ if curves.labels.len() <= MOST_CURVES => Ok(chart(&over, &curves, &drawn)),
+        _ if curves.labels.len() <= MOST_CURVES => {
+            let points = measured.map_or(Vec::new(), |measured| {
+                measured_series(measured, &keys, &curves)
+            });
+            Ok(chart(&over, &curves, &drawn, points))
+        }
+        _ if measured.is_some() => {
+            bail!("measured points are drawn over at most {MOST_CURVES} curves")
+        }
         [other] if other.n_numbers() > 0 => map([&over, other], &drawn),
         _ => bail!(
             "the keys beside {} have more than {MOST_CURVES} combinations",
             over.name
         ),
     }
+}
+
+/// The varied keys of a sweep.
+pub(super) fn keys(table: &RowTable) -> Result<Vec<Key<'_>>> {
+    let keys = table.keys();
+    let keys = keys.context("the columns are not those of a sweep")?;
+    let key = |place: usize| Key {
+        name: &table.header[place],
+        cells: table.rows.iter().map(|row| &*row.fields[place]).collect(),
+    };
+    Ok(keys.map(key).collect())
+}
+
+/// Index of the key over which a sweep is drawn, the first of those with the most numbers; `None` if no key has numbers only.
+pub(super) fn abscissa(keys: &[Key<'_>]) -> Option<usize> {
+    let n_numbers = |key: &usize| keys[*key].n_numbers();
+    let most = (0..keys.len()).rev().max_by_key(n_numbers);
+    most.filter(|key| n_numbers(key) > 0)
 }
 
 /// Smallest number of decimals of a number in a legend, in scientific notation (chosen).
@@ -178,14 +217,14 @@ const MOST_DECIMALS: usize = 16;
 const MOST_CURVES: usize = 6;
 
 /// A varied key with its cell in each row.
-struct Key<'a> {
-    name: &'a str,
-    cells: Vec<&'a str>,
+pub(super) struct Key<'a> {
+    pub(super) name: &'a str,
+    pub(super) cells: Vec<&'a str>,
 }
 
 impl Key<'_> {
     /// The cells as numbers; `None` for texts.
-    fn numbers(&self) -> Vec<Option<f64>> {
+    pub(super) fn numbers(&self) -> Vec<Option<f64>> {
         self.cells.iter().map(|cell| cell.parse().ok()).collect()
     }
 
@@ -297,10 +336,45 @@ impl Drawn<'_> {
     }
 }
 
-/// A chart of all curves over a key.
-fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
+/// Markers of the measured points of each curve; of all curves together if they have the same points.
+fn measured_series(measured: &Measured, keys: &[Key<'_>], curves: &Curves) -> Vec<Series> {
+    let of_curve = |curve: usize| {
+        let row = curves.of.iter().position(|of| *of == curve);
+        let points = row
+            .into_iter()
+            .flat_map(|row| measured.points_at(keys, row));
+        points.copied().collect::<Vec<_>>()
+    };
+    let mut points: Vec<_> = (0..curves.labels.len()).map(of_curve).collect();
+    points.dedup();
+    let is_shared = points.len() == 1;
+    let mut series: Vec<Series> = Vec::new();
+    for (curve, points) in points.into_iter().enumerate() {
+        let places = points
+            .iter()
+            .map(|point| [point.velocity, point.friction_coefficient]);
+        let colour = if is_shared {
+            Colour::Black
+        } else {
+            COLOURS[curve % COLOURS.len()]
+        };
+        let marker = Marker::open(SHAPES[curve % SHAPES.len()]);
+        series.push(Series {
+            errors: points
+                .iter()
+                .filter_map(|point| point.standard_error)
+                .collect(),
+            label: (curve == 0).then(|| "measured".to_owned()),
+            ..Series::markers(places.collect(), marker, colour)
+        });
+    }
+    series
+}
+
+/// A chart of all curves over a key, and of measured points.
+fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> Figure {
     let numbers = over.numbers();
-    let has_theory = drawn.theory.iter().any(Option::is_some);
+    let is_labelled = !measured.is_empty() || drawn.theory.iter().any(Option::is_some);
     let mut series = Vec::new();
     for (curve, name) in curves.labels.iter().enumerate() {
         let rows = (0..numbers.len()).filter(|row| curves.of[*row] == curve);
@@ -313,13 +387,24 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
         theory.colour = computed.colour;
         computed.marker = Some(Marker::filled(SHAPES[curve % SHAPES.len()]));
         computed.label = match &name[..] {
-            "" => has_theory.then(|| "computed".to_owned()),
+            "" => is_labelled.then(|| "computed".to_owned()),
             name => Some(name.to_owned()),
         };
         theory.label = (curve + 1 == curves.labels.len()).then(|| "Persson (2006)".to_owned());
         let is_seen = |one: &Series| one.points.len() > usize::from(one.marker.is_none());
         series.extend([computed, theory].into_iter().filter(is_seen));
     }
+    let of_axis: Vec<f64> = series.iter().flat_map(abscissae).collect();
+    let all = of_axis
+        .iter()
+        .copied()
+        .chain(measured.iter().flat_map(abscissae));
+    let x = axis(
+        over.name,
+        &sorted(of_axis.iter().copied()),
+        ends_of(&sorted(all)),
+    );
+    series.extend(measured);
     let ends = series.iter().flat_map(|one| {
         let or_none = |lengths: &[f64], place: usize| lengths.get(place).copied().unwrap_or(0.0);
         let length = move |place| or_none(&one.errors, place).max(or_none(&one.band, place));
@@ -328,8 +413,6 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
     });
     let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
     let y = Axis::linear(drawn.label, around(ends));
-    let points = series.iter().flat_map(|one| &one.points);
-    let x = axis(over.name, &sorted(points.map(|point| point[0])));
     let has_band = series.iter().any(|one| !one.band.is_empty());
     Figure::single(Chart {
         title: has_band.then(|| "bars: computation; band: 95 % by the moduli".to_owned()),
@@ -340,16 +423,22 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
 /// Half width of the central 95 % interval of a normal distribution, in standard deviations.
 pub(super) const OF_95_PERCENT: f64 = 1.96;
 
-/// An axis with a margin, so that no marker is cut; logarithmic for geometric or wide ranges.
-fn axis(key: &str, places: &[f64]) -> Axis {
+/// Abscissae of a series.
+fn abscissae(series: &Series) -> impl Iterator<Item = f64> {
+    series.points.iter().map(|point| point[0])
+}
+
+/// An axis between two ends with a margin, so that no marker is cut; logarithmic for computed places with equal factors or in a
+/// wide range.
+fn axis(key: &str, places: &[f64], [low, high]: [f64; 2]) -> Axis {
     let [first, last] = ends_of(places);
     let is_wide = first > 0.0 && last / first >= WIDE;
     if last >= 2.0 * first && !is_arithmetic(places) && (is_geometric(places) || is_wide) {
-        let room = (last / first).powf(ROOM);
-        return Axis::log10(labelled(key), [first / room, last * room]);
+        let room = (high / low).powf(ROOM);
+        return Axis::log10(labelled(key), [low / room, high * room]);
     }
-    let room = ROOM * (last - first);
-    Axis::linear(labelled(key), [first - room, last + room])
+    let room = ROOM * (high - low);
+    Axis::linear(labelled(key), [low - room, high + room])
 }
 
 /// Margin at each end of an axis, as a fraction of its length (chosen).

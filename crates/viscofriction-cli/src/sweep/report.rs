@@ -5,7 +5,7 @@ use viscofriction::sweep::each_once;
 use viscofriction_plot::Figure;
 
 use super::file::RowTable;
-use super::picture::{AROUND_KEYS, labelled};
+use super::picture::labelled;
 use super::samples::Samples;
 use crate::output::markdown;
 use crate::page::Page;
@@ -27,9 +27,7 @@ pub(super) fn page(
     figure: Option<&Figure>,
     scene: Option<&str>,
 ) -> Result<String> {
-    let place = |name: &str| table.header.iter().position(|column| column == name);
-    let [before, behind] = AROUND_KEYS.map(|name| place(name).unwrap_or(0));
-    let keys = before + 1..behind.max(before + 1);
+    let keys = table.keys().unwrap_or(0..0);
     let names: Vec<&str> = keys.clone().map(|key| &*table.header[key]).collect();
     let mut page = Page::new(&format!("A sweep over {}", names.join(" and ")));
     page.paragraph(&format!("{} points.", table.rows.len()));
@@ -57,7 +55,7 @@ pub(super) fn page(
 
 /// Table of the varied keys and results of each point, and of the failures if there are any.
 fn rows(table: &RowTable, keys: std::ops::Range<usize>) -> comfy_table::Table {
-    let place = |name: &str| table.header.iter().position(|column| column == name);
+    let place = |name: &str| table.place(name);
     let is_known = |column: usize| table.rows.iter().any(|row| !row.fields[column].is_empty());
     let columns = COLUMNS.into_iter().filter_map(|(name, label)| {
         let column = place(name).filter(|&column| is_known(column))?;

@@ -7,7 +7,7 @@ use viscofriction::sweep::SAMPLE;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
 
 use super::file::RowTable;
-use super::picture::{AROUND_KEYS, OF_95_PERCENT, QUANTITIES};
+use super::picture::{OF_95_PERCENT, QUANTITIES};
 use crate::output::markdown;
 use crate::run::around;
 
@@ -23,10 +23,8 @@ pub(super) struct Samples {
 impl Samples {
     /// The samples of a sweep; `None` for other sweeps, and for fewer than two answers.
     pub(super) fn of(table: &RowTable) -> Option<Self> {
-        let place = |name: &str| table.header.iter().position(|column| column == name);
-        let [before, behind] = AROUND_KEYS.map(place);
-        let key =
-            place(SAMPLE).filter(|key| before == key.checked_sub(1) && behind == Some(key + 1))?;
+        let place = |name: &str| table.place(name);
+        let key = place(SAMPLE).filter(|&key| table.keys() == Some(key..key + 1))?;
         let number = |row: usize, column: usize| table.rows[row].fields[column].parse::<f64>().ok();
         let is_nominal = |row: &usize| number(*row, key) == Some(0.0);
         let row = (0..table.rows.len()).find(is_nominal)?;

@@ -7,17 +7,18 @@ use serde_json::Value;
 use crate::support::{Folder, assert_close, number};
 
 /// A body and a material with a closed form in the one-dimensional model.
-const SCENE: &str = "[indenter.paraboloid]\ncurvature = 100.0\n[material.kelvin-voigt]\nshear_modulus = 3e6\nviscosity = 2e3\n\
+pub(crate) const SCENE: &str = "[indenter.paraboloid]\ncurvature = 100.0\n[material.kelvin-voigt]\nshear_modulus = 3e6\nviscosity = 2e3\n\
      [load]\nnormal_force = 1.0\n[solve]\nmodel = \"line\"\n";
 
 /// Speeds and friction coefficients with 1 MPa and 10 kPa s.
-fn points(folder: &Folder) -> Vec<[f64; 2]> {
+pub(crate) fn points(folder: &Folder, count: usize) -> Vec<[f64; 2]> {
     let truth = SCENE.replace("3e6", "1e6").replace("2e3", "1e4");
     folder.write(
         "true.toml",
         truth.replace("[solve]", "velocity = 1.0\n[solve]"),
     );
-    folder.done("sweep true.toml --vary load.velocity=1e-3:1:8:log --out true.csv");
+    let speeds = format!("--vary load.velocity=1e-3:1:{count}:log");
+    folder.done(format!("sweep true.toml {speeds} --out true.csv"));
     let columns = ["load.velocity", "friction_coefficient"].map(|name| {
         let table = csv::Reader::from_path(folder.path("true.csv"));
         let mut table = table.expect("a table");
@@ -43,7 +44,7 @@ fn points(folder: &Folder) -> Vec<[f64; 2]> {
 #[test]
 fn the_material_may_be_that_of_a_file() {
     let folder = Folder::new("friction-of-file");
-    let rows = points(&folder)
+    let rows = points(&folder, 8)
         .into_iter()
         .map(|[v, mu]| format!("{v},{mu},{}\n", 0.02 * mu));
     let table = format!("v (m/s),mu,standard error\n{}", rows.collect::<String>());
@@ -70,7 +71,7 @@ fn the_material_may_be_that_of_a_file() {
 fn names_and_units_are_found_and_the_files_are_those_of_the_fit() {
     let folder = Folder::new("friction");
     folder.write("scene.toml", SCENE);
-    let points = points(&folder);
+    let points = points(&folder, 8);
     let table = |head: &str, row: &dyn Fn(f64, f64) -> String| {
         let rows = points.iter().map(|&[v, mu]| row(v, mu) + "\n");
         format!("{head}\n{}", rows.collect::<String>())
@@ -179,7 +180,7 @@ fn runs(points: &[[f64; 2]], row: &dyn Fn(f64, f64, f64) -> String) -> String {
 fn runs_over_time_are_read_as_their_means() {
     let folder = Folder::new("friction-over-time");
     folder.write("scene.toml", SCENE);
-    let points = points(&folder);
+    let points = points(&folder, 8);
     // A track of 30 mm, and a sensor whose normal force is negative.
     let of_disc = |time: f64, v: f64, mu: f64| {
         let turns = v / 0.03 * 60.0 / std::f64::consts::TAU;

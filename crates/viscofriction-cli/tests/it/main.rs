@@ -9,6 +9,7 @@ mod fit_material;
 mod fuzzed_inputs;
 mod limits;
 mod malformed;
+mod measured_friction;
 mod moduli_change_with_temperature;
 mod scenes;
 mod support;
