@@ -11,9 +11,8 @@
 //! * [`slide()`]: sliding in time from first touch;
 //! * [`steady()`]: stationary sliding, solved directly; [`steady_line`] in plane strain.
 //!
-//! The variants on one grid are [`press_on_grid`], [`indent_on_grid`], [`slide_on_grid`], [`steady_on_grid`],
-//! [`steady_line_on_grid`]. Histories of force and depth are in [`mod@indent`], arbitrary motions in [`mod@slide`], single
-//! contacts on given heights in [`contact`].
+//! The variants on one grid are [`slide_on_grid`], [`steady_on_grid`] and [`steady_line_on_grid`]. Histories of force and depth are
+//! in [`mod@indent`], arbitrary motions in [`mod@slide`], single contacts on given heights in [`contact`].
 //!
 //! Theory: docs/theory/contact.md (one contact), transient-half-space.md (in time) and stationary-half-space.md.
 //!
@@ -78,7 +77,7 @@ pub use elements::resolution::GridOptions;
 pub use error::BemError;
 pub use estimate::bars::ContactEstimate;
 pub use estimate::reached::Reached;
-pub use indent::{indent_along, indent_on_grid, press, press_on_grid};
+pub use indent::{indent_along, press};
 pub use indenters::{Control, HistoryPoint, PressingLoad, SlidingLoad};
 pub use motions::{indent, move_along, move_along_memory, slide};
 pub use numerics::InvalidParameter;

@@ -18,9 +18,7 @@ use crate::{BemError, Elastomer, GridOptions};
 pub use follow::{IndentCurve, IndentPoint, indent_along, indent_along_memory};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
 pub(crate) use press::footprint_after;
-pub use press::{
-    PressEstimate, PressSolution, indent, indent_memory, indent_on_grid, press, press_on_grid,
-};
+pub use press::{PressEstimate, PressSolution, indent, indent_memory, press};
 
 /// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid; what controls the end of
 /// a step holds from the step before, so that a change of it is a jump.

@@ -91,8 +91,10 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 /// ```
 ///
 /// # Errors
-/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`]
-/// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
+/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::InvalidParameter`] for numbers out of range;
+/// [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`] with what was reached on the finest grid
+/// allowed; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when the contact covers fewer than three elements along x or y;
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
 pub fn press<'w>(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -155,35 +157,6 @@ pub(super) fn n_followed(surface: &dyn Surface, options: &GridOptions) -> f64 {
 pub(super) fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
     let spacing = 2.0 * plan.length() / elements as f64;
     GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
-}
-
-/// Like [`press`], on one grid.
-///
-/// # Errors
-/// [`BemError::NoEquilibrium`]; [`BemError::InvalidParameter`] for numbers out of range; [`BemError::GridTooLarge`];
-/// [`BemError::GridTooCoarse`] when the contact covers fewer than three elements along x or y;
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
-/// [`BemError::Material`].
-pub fn press_on_grid(
-    surface: &dyn Surface,
-    elastomer: &dyn Elastomer,
-    control: Control,
-    options: &GridOptions,
-) -> Result<PressSolution, BemError> {
-    Spring::at_rest(elastomer)?.solve(surface, control, options)
-}
-
-/// Like [`indent`], on one grid.
-///
-/// # Errors
-/// As for [`press_on_grid`], and [`BemError::InvalidParameter`] where a depth was held for so long that no force is left.
-pub fn indent_on_grid(
-    surface: &dyn Surface,
-    elastomer: &dyn Elastomer,
-    load: &PressingLoad,
-    options: &GridOptions,
-) -> Result<PressSolution, BemError> {
-    Spring::after(elastomer, load)?.solve(surface, load.control(), options)
 }
 
 /// The rectangle around the contact of a body that was pressed a time ago.
