@@ -45,7 +45,7 @@ pub(crate) struct Evidence {
         default_value = "target/evidence"
     )]
     out: PathBuf,
-    /// A few cheap cases only; of `stability` all but the slowest.
+    /// A few cheap cases only; of `stability` all.
     #[arg(long, global = true)]
     quick: bool,
 }
@@ -102,7 +102,7 @@ impl Experiment {
     fn run(&self, out: &Path, quick: bool) -> Result<Report> {
         match self {
             Self::WorkPrecision => work_precision::report(quick),
-            Self::Stability(options) => stability::report(options, quick),
+            Self::Stability(options) => stability::report(options),
             Self::Agreement(options) => agreement::report(options, out, quick),
             Self::Calibration(options) => calibration::report(options, quick),
             Self::FrictionFit => friction_fit::report(quick),

@@ -19,18 +19,15 @@ pub(super) struct Family {
     /// First and last power of ten, and the step of the exponent.
     decades: Vec<(i32, i32, usize)>,
     values: Vec<f64>,
-    /// Values that take seconds, which a quick run leaves out.
-    slow: Vec<f64>,
 }
 
 impl Family {
     /// Values of the parameter; powers of ten are the nearest numbers, because `powi` rounds more than once.
-    pub(super) fn values(&self, quick: bool) -> impl Iterator<Item = f64> {
+    pub(super) fn values(&self) -> impl Iterator<Item = f64> {
         let powers = self.decades.iter();
         let powers = powers.flat_map(|&(first, last, step)| (first..=last).step_by(step));
         let powers = powers.map(|power| format!("1e{power}").parse().unwrap_or(f64::NAN));
-        let slow = self.slow.iter().filter(move |_| !quick);
-        powers.chain(self.values.iter().chain(slow).copied())
+        powers.chain(self.values.iter().copied())
     }
 
     pub(super) fn case(&self, value: f64) -> String {

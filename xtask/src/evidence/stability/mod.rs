@@ -29,10 +29,10 @@ pub(super) struct Options {
 /// Part of the tolerance at which smaller ones are drawn.
 const MIN_DRAWN_PART: f64 = 1e-9;
 
-/// Runs all cases, in a quick run all but the slowest.
-pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+/// Runs all cases, also in a quick run.
+pub(super) fn report(options: &Options) -> Result<Report> {
     let families = families::all()?;
-    report_of(&case::judge(&chosen(&families, options, quick)?)?)
+    report_of(&case::judge(&chosen(&families, options)?)?)
 }
 
 fn report_of(rows: &[Row]) -> Result<Report> {
@@ -50,16 +50,12 @@ fn report_of(rows: &[Row]) -> Result<Report> {
 }
 
 /// The cases that are asked for.
-fn chosen<'a>(
-    families: &'a [(Family, Run)],
-    options: &Options,
-    quick: bool,
-) -> Result<Vec<Case<'a, Run>>> {
+fn chosen<'a>(families: &'a [(Family, Run)], options: &Options) -> Result<Vec<Case<'a, Run>>> {
     let text = options.only.as_deref().unwrap_or_default();
     let mut cases = Vec::new();
     for (family, run) in families {
         let is_asked = |value: &f64| family.case(*value).contains(text);
-        let values = family.values(quick).filter(is_asked);
+        let values = family.values().filter(is_asked);
         let run = *run;
         cases.extend(values.map(|value| Case { family, run, value }));
     }
