@@ -18,6 +18,7 @@ mod speed_range;
 mod stability;
 mod stationary;
 mod tuning;
+mod unit;
 mod work_precision;
 
 use std::path::{Path, PathBuf};

@@ -4,7 +4,6 @@ mod agreement;
 mod bars;
 mod calibration;
 mod commands;
-mod kinds;
 mod pages;
 mod rough;
 mod speed_range;

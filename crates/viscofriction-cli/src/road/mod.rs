@@ -121,7 +121,11 @@ impl Road {
             };
             *given = Some(count);
             scene.indenter.realisations().map_err(|error| match error {
-                SceneError::Value { value, allowed, .. } => {
+                SceneError::Value {
+                    key,
+                    value,
+                    allowed,
+                } if key.ends_with(".realisations") => {
                     let parameter = "--realisations";
                     WrongInput(
                         InvalidParameter {

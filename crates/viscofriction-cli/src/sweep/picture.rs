@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use viscofriction::WrongInput;
 use viscofriction::numerics::MessageNumber;
+use viscofriction::scene::units;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
@@ -455,22 +456,15 @@ const COLOURS: [Colour; 5] = [
 /// Markers of successive curves.
 const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
-/// Last part of a key, with name, symbol and unit of its quantity.
-const NAMES: [(&str, &str); 25] = [
+/// Last part of a key, with name, symbol and unit of a quantity that has a symbol.
+const NAMES: [(&str, &str); 18] = [
     ("velocity", "speed v [m/s]"),
     ("normal_force", "normal force F [N]"),
     ("mean_pressure", "mean pressure p [Pa]"),
     ("indentation_depth", "depth d [m]"),
     ("radius", "radius R [m]"),
-    ("slope", "slope"),
-    ("curvature", "curvature [1/m]"),
-    ("rms_slope", "rms slope"),
     ("hurst_exponent", "Hurst exponent H"),
-    ("shortest_wavelength", "shortest wavelength [m]"),
-    ("longest_wavelength", "longest wavelength [m]"),
-    ("roll_off_wavelength", "roll-off wavelength [m]"),
     ("direction", "direction [°]"),
-    ("exponent", "exponent"),
     ("sliding_distance", "sliding distance s [m]"),
     ("duration", "duration t [s]"),
     ("viscosity", "viscosity η [Pa s]"),
@@ -484,14 +478,18 @@ const NAMES: [(&str, &str); 25] = [
     ("temperature", "temperature T [°C]"),
 ];
 
-/// Axis label of a key: its quantity, or the key itself if it is unknown.
+/// Axis label of a key: its quantity and unit, or the key itself if it is unknown, or one of a list.
 pub(crate) fn labelled(key: &str) -> String {
     let name = key.rsplit('.').next().unwrap_or(key);
-    let mut names = NAMES.iter();
-    match names.find(|(known, _)| *known == name) {
-        Some((_, label)) => (*label).to_owned(),
-        None if name.ends_with("modulus") => format!("{key} [Pa]"),
-        None => key.to_owned(),
+    if let Some((_, label)) = NAMES.iter().find(|(known, _)| *known == name) {
+        return (*label).to_owned();
+    }
+    let quantity = name.replace('_', " ");
+    let quantity = if key.contains('[') { key } else { &quantity };
+    match units().get(name) {
+        Some(Some("")) => quantity.to_owned(),
+        Some(Some(unit)) => format!("{quantity} [{unit}]"),
+        _ => key.to_owned(),
     }
 }
 

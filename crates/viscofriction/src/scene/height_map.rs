@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use indenters::topography::{LateralUnit, Topography, TopographyError};
-use numerics::{MessageNumber, in_range, positive, whole_part};
+use numerics::{MessageNumber, positive, whole_part};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
 use super::indenter::Edges;
+use super::schema::check_ranges;
 use super::source::problem_of;
 
 /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
@@ -46,7 +47,7 @@ pub struct HeightMapTable {
     /// What is beyond the grid.
     #[serde(default)]
     pub edges: Edges,
-    /// Waves shorter than this are left out of a periodic surface, \[m]; without it none that the grid knows.
+    /// Wave length > 0 below which waves are left out of a periodic surface, \[m]; without it none that the grid knows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shortest_wavelength: Option<f64>,
 }
@@ -145,10 +146,7 @@ impl HeightMapTable {
             let key = "indenter.height-map.shortest_wavelength";
             return Err(SceneError::at(key, problem));
         }
-        let key = "indenter.height-map.direction";
-        let quarters = self.direction / 90.0;
-        let is_known = [0.0, 1.0, 2.0, 3.0].contains(&quarters);
-        in_range(key, self.direction, is_known, "0, 90, 180 or 270")?;
+        check_ranges("indenter.height-map", self)?;
         // Convert to metres, and reject implausible sizes.
         let mut surface = self.in_metres(surface)?;
         positive("indenter.height-map.spacing[0]", surface.spacing[0])?;
@@ -163,7 +161,7 @@ impl HeightMapTable {
             surface = surface.levelled();
         }
         self.check_relief(&surface, largest)?;
-        Ok(surface.turned(whole_part(quarters)))
+        Ok(surface.turned(whole_part(self.direction / 90.0)))
     }
 
     /// Converts to metres; units in the file take precedence over those of the table.

@@ -3,13 +3,15 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use numerics::{between_zero_and_one, in_range};
+use numerics::in_range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 
 use super::SceneError;
 use super::height_map::HeightMapTable;
+use super::schema::check_ranges;
+use super::source::checked;
 
 /// The rigid body; its lowest point is the origin, lengths in metres.
 #[derive(
@@ -125,11 +127,11 @@ pub struct SelfAffineSurface {
     pub hurst_exponent: f64,
     /// Root mean square of the slope, > 0.
     pub rms_slope: f64,
-    /// Longest wave length, \[m].
+    /// Longest wave length > 0, \[m].
     pub longest_wavelength: f64,
-    /// Shortest wave length, \[m].
+    /// Shortest wave length > 0, \[m].
     pub shortest_wavelength: f64,
-    /// Wave length above which the spectrum is constant, \[m]; without it there is none.
+    /// Wave length > 0 above which the spectrum is constant, \[m]; without it there is none.
     pub roll_off_wavelength: Option<f64>,
     /// Another seed draws another surface.
     pub seed: u64,
@@ -154,7 +156,7 @@ pub struct SpectrumSurface {
     pub convention: SpectrumConvention,
     /// Periods along x and y, > 0, \[m].
     pub period: [f64; 2],
-    /// Waves shorter than this are left out, \[m]; without it none of the table.
+    /// Wave length > 0 below which waves are left out, \[m]; without it none of the table.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shortest_wavelength: Option<f64>,
     /// Another seed draws another surface.
@@ -189,7 +191,7 @@ impl SpectrumConvention {
     }
 }
 
-/// Largest number of random surfaces of a scene (chosen).
+/// Largest number of random surfaces of a scene (chosen), as in their range.
 const MOST_REALISATIONS: u64 = 1000;
 /// Smallest number of surfaces whose scatter gives a standard error of their mean (chosen: its own relative error is 1/√18, 24 %).
 pub(crate) const FEWEST_REALISATIONS: usize = 10;
@@ -211,6 +213,14 @@ impl Indenter {
         format!("indenter.{name}")
     }
 
+    /// Checks every number against its range.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first number out of range.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check_ranges("indenter", self)
+    }
+
     /// Largest number of random surfaces, and the relative standard error of the mean at which sampling stops; 1 and `None` for a
     /// body that is not random.
     ///
@@ -230,16 +240,13 @@ impl Indenter {
         else {
             return Ok((1, None));
         };
-        let within = |refused| SceneError::within(&self.key(), refused);
-        let asked = standard_error.map(|asked| between_zero_and_one("standard_error", asked));
-        let asked = asked.transpose().map_err(within)?;
-        let count = realisations.unwrap_or(asked.map_or(1, |_| MOST_REALISATIONS));
-        let holds = (1..=MOST_REALISATIONS).contains(&count);
-        in_range("realisations", count as f64, holds, "from 1 to 1000").map_err(within)?;
-        let holds = asked.is_none() || count >= FEWEST_REALISATIONS as u64;
+        self.check()?;
+        let count = realisations.unwrap_or(standard_error.map_or(1, |_| MOST_REALISATIONS));
+        let holds = standard_error.is_none() || count >= FEWEST_REALISATIONS as u64;
         let allowed = "from 10 to 1000 with a standard_error, which fewer do not tell";
-        in_range("realisations", count as f64, holds, allowed).map_err(within)?;
-        Ok((count, asked))
+        in_range("realisations", count as f64, holds, allowed)
+            .map_err(|refused| SceneError::within(&self.key(), refused))?;
+        Ok((count, *standard_error))
     }
 
     /// One of the random surfaces, counted from 0, with its seed; `None` if the body is not random.
@@ -265,4 +272,20 @@ impl Indenter {
         let seed = *seed;
         Some((one, seed))
     }
+}
+
+/// Reads a body from keys and values, with one table `[indenter.…]`.
+impl TryFrom<toml::Table> for Indenter {
+    type Error = SceneError;
+
+    fn try_from(table: toml::Table) -> Result<Self, SceneError> {
+        checked(table, &["indenter"]).map(|scene: BodyTable| scene.indenter)
+    }
+}
+
+/// The part of a scene that is its body.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BodyTable {
+    indenter: Indenter,
 }

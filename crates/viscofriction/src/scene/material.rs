@@ -8,149 +8,147 @@ use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 use toml::{Table, Value};
 
+use super::schema::check_ranges;
 use super::source::checked;
 use super::{Covariance, SceneError};
 
-/// The half space; every kind may have a Poisson ratio.
-#[derive(
-    Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr, EnumDiscriminants,
-)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-#[strum(serialize_all = "kebab-case")]
-#[strum_discriminants(
-    name(MaterialKind),
-    derive(EnumIter, IntoStaticStr),
-    strum(serialize_all = "kebab-case"),
-    doc = "The kinds of materials, for whoever goes through all of them."
-)]
-pub enum MaterialTable {
+/// Defines the table of a material: each kind with its own keys, and the keys that all kinds have.
+macro_rules! materials {
+    ($($(#[$sentence:meta])+ $kind:ident { $($keys:tt)* })+) => {
+        /// The half space; every kind may have a Poisson ratio.
+        #[derive(
+            Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr, EnumDiscriminants,
+        )]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+        #[strum(serialize_all = "kebab-case")]
+        #[strum_discriminants(
+            name(MaterialKind),
+            derive(EnumIter, IntoStaticStr),
+            strum(serialize_all = "kebab-case"),
+            doc = "The kinds of materials, for whoever goes through all of them."
+        )]
+        pub enum MaterialTable {
+            $(
+                $(#[$sentence])+
+                $kind {
+                    $($keys)*
+                    /// Poisson ratio, −1 < ν ≤ 1/2.
+                    #[serde(default = "incompressible")]
+                    poisson_ratio: f64,
+                    /// Lowest and highest frequency > 0 at which it was measured, \[rad/s].
+                    valid_frequencies: Option<[f64; 2]>,
+                },
+            )+
+            /// The material of another file.
+            File {
+                /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
+                path: PathBuf,
+                /// Another temperature of the material than that of the file, by its shift law, \[°C].
+                temperature: Option<f64>,
+                /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
+                poisson_ratio: Option<f64>,
+                /// Lowest and highest frequency > 0 at which it was measured, \[rad/s]; without them those of the file.
+                valid_frequencies: Option<[f64; 2]>,
+            },
+        }
+
+        impl MaterialTable {
+            /// Poisson ratio ν; `None` for a file whose own ratio is kept.
+            pub const fn poisson_ratio(&self) -> Option<f64> {
+                match self {
+                    $(Self::$kind { poisson_ratio, .. })|+ => Some(*poisson_ratio),
+                    Self::File { poisson_ratio, .. } => *poisson_ratio,
+                }
+            }
+
+            /// Measured range of angular frequencies, \[rad/s]; `None` if this table states none.
+            pub const fn valid_frequencies(&self) -> Option<[f64; 2]> {
+                match self {
+                    $(Self::$kind { valid_frequencies, .. })|+
+                    | Self::File { valid_frequencies, .. } => *valid_frequencies,
+                }
+            }
+        }
+    };
+}
+
+materials! {
     /// A dashpot.
     Viscous {
-        /// Shear viscosity η > 0, [Pa s].
+        /// Shear viscosity η > 0, \[Pa s].
         viscosity: f64,
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
     /// A spring.
     Elastic {
         /// Shear modulus G > 0, \[Pa].
         shear_modulus: f64,
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
     /// Spring and dashpot in parallel.
     KelvinVoigt {
         /// Shear modulus G > 0, \[Pa].
         shear_modulus: f64,
-        /// Shear viscosity η > 0, [Pa s].
+        /// Shear viscosity η > 0, \[Pa s].
         viscosity: f64,
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
     /// Spring and dashpot in series.
     Maxwell {
         /// Shear modulus G > 0, \[Pa].
         shear_modulus: f64,
-        /// Shear viscosity η > 0, [Pa s].
+        /// Shear viscosity η > 0, \[Pa s].
         viscosity: f64,
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
     /// A spring in parallel with a Maxwell element.
     StandardSolid {
         /// Shear modulus of the spring > 0, \[Pa].
         equilibrium_modulus: f64,
         /// Shear modulus of the Maxwell element > 0, \[Pa].
         maxwell_modulus: f64,
-        /// Viscosity of the Maxwell element > 0, [Pa s].
+        /// Viscosity of the Maxwell element > 0, \[Pa s].
         viscosity: f64,
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
     /// Spring, dashpot and Maxwell branches in parallel.
     Prony {
         /// Shear modulus of the lone spring ≥ 0, \[Pa].
         equilibrium_modulus: f64,
-        /// Viscosity of the lone dashpot ≥ 0, [Pa s].
+        /// Viscosity of the lone dashpot ≥ 0, \[Pa s].
         #[serde(default)]
         viscosity: f64,
         /// Maxwell branches.
         branches: Vec<Branch>,
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
         /// How its times and moduli change with temperature, for scenes that name this material as a file.
         shift: Option<Shift>,
         /// How well it stands for another law, where it does; the error is then in all bars.
         approximation: Option<Approximation>,
         /// How well its moduli are known, where that was found.
         covariance: Option<Covariance>,
-    },
+    }
     /// Between spring and dashpot: G* = K (iω)^a.
     Springpot {
-        /// K > 0, [Pa s^a].
+        /// K > 0, \[Pa s^a].
         coefficient: f64,
-        /// a, from 0.01 (almost a spring) to 0.99 (almost a dashpot).
+        /// a, from 0.01 to 0.99: almost a spring, and almost a dashpot.
         exponent: f64,
         /// Shear modulus ≥ 0 of a spring in parallel, \[Pa].
         #[serde(default)]
         equilibrium_modulus: f64,
-        /// Shortest and longest time for which the material is needed, \[s]: the time of a contact length and those of a
+        /// Shortest and longest time > 0 for which the material is needed, \[s]: the time of a contact length and those of a
         /// history are within it.
         time_range: [f64; 2],
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
     /// Spring and springpot in series: G* = G z/(1 + z), z = (iωτ)^a.
     FractionalMaxwell {
         /// Shear modulus G > 0 of the spring in series, \[Pa].
         shear_modulus: f64,
-        /// Time τ > 0 at which both give way alike, \[s].
+        /// Relaxation time τ > 0, at which spring and springpot have the same modulus |G*|, \[s].
         relaxation_time: f64,
         /// a, from 0.01 to 0.99.
         exponent: f64,
         /// Shear modulus ≥ 0 of a spring in parallel, \[Pa].
         #[serde(default)]
         equilibrium_modulus: f64,
-        /// Shortest and longest time for which the material is needed, \[s], as of a springpot.
+        /// Shortest and longest time > 0 for which the material is needed, \[s], as of a springpot.
         time_range: [f64; 2],
-        /// Poisson ratio, −1 < ν ≤ 1/2.
-        #[serde(default = "incompressible")]
-        poisson_ratio: f64,
-        /// Lowest and highest frequency at which it was measured, \[rad/s].
-        valid_frequencies: Option<[f64; 2]>,
-    },
-    /// The material of another file.
-    File {
-        /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
-        path: PathBuf,
-        /// Another temperature of the material than that of the file, by its shift law, \[°C].
-        temperature: Option<f64>,
-        /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
-        poisson_ratio: Option<f64>,
-        /// Lowest and highest frequency at which it was measured, \[rad/s]; without them those of the file.
-        valid_frequencies: Option<[f64; 2]>,
-    },
+    }
 }
 
 /// Contents of a material file.
@@ -176,7 +174,7 @@ pub struct Branch {
 pub struct Approximation {
     /// Largest relative error of its moduli, from 0 to 0.1, at the times of `time_range` and at the frequencies 1/t.
     pub relative_error: f64,
-    /// Shortest and longest time for which that holds, \[s], as of a springpot.
+    /// Shortest and longest time > 0 for which that holds, \[s], as of a springpot.
     pub time_range: [f64; 2],
 }
 
@@ -216,19 +214,12 @@ impl MaterialTable {
         format!("material.{name}")
     }
 
-    /// Poisson ratio ν; `None` for a file whose own ratio is kept.
-    pub const fn poisson_ratio(&self) -> Option<f64> {
-        match self {
-            Self::Viscous { poisson_ratio, .. }
-            | Self::Elastic { poisson_ratio, .. }
-            | Self::KelvinVoigt { poisson_ratio, .. }
-            | Self::Maxwell { poisson_ratio, .. }
-            | Self::StandardSolid { poisson_ratio, .. }
-            | Self::Prony { poisson_ratio, .. }
-            | Self::Springpot { poisson_ratio, .. }
-            | Self::FractionalMaxwell { poisson_ratio, .. } => Some(*poisson_ratio),
-            Self::File { poisson_ratio, .. } => *poisson_ratio,
-        }
+    /// Checks every number against its range.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first number out of range.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check_ranges("material", self)
     }
 
     /// Temperature dependence of times and moduli; `None` if it is not known.
@@ -310,38 +301,6 @@ impl MaterialTable {
         }
         *shift = shift.about(celsius).map_err(wrong)?;
         Ok(self)
-    }
-
-    /// Measured range of angular frequencies, \[rad/s]; `None` if this table states none.
-    pub const fn valid_frequencies(&self) -> Option<[f64; 2]> {
-        let (Self::Viscous {
-            valid_frequencies, ..
-        }
-        | Self::Elastic {
-            valid_frequencies, ..
-        }
-        | Self::KelvinVoigt {
-            valid_frequencies, ..
-        }
-        | Self::Maxwell {
-            valid_frequencies, ..
-        }
-        | Self::StandardSolid {
-            valid_frequencies, ..
-        }
-        | Self::Prony {
-            valid_frequencies, ..
-        }
-        | Self::Springpot {
-            valid_frequencies, ..
-        }
-        | Self::FractionalMaxwell {
-            valid_frequencies, ..
-        }
-        | Self::File {
-            valid_frequencies, ..
-        }) = self;
-        *valid_frequencies
     }
 }
 

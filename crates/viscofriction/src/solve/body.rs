@@ -8,7 +8,7 @@ use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
-use numerics::{MessageNumber, in_range, positive};
+use numerics::MessageNumber;
 
 use super::heights::{STEEPEST, body_of_heights};
 use super::memory::check_waves_to_draw;
@@ -121,6 +121,7 @@ impl Revolution {
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
+    indenter.check()?;
     indenter.realisations()?;
     let power = |profile| Body::Revolution(Revolution::Power(profile));
     let sphere = |sphere| Body::Revolution(Revolution::Sphere(sphere));
@@ -237,22 +238,14 @@ fn other(shape: impl Axisymmetric + 'static) -> Body {
     Body::Revolution(Revolution::Other(Box::new(shape)))
 }
 
-/// A sum of powers; an error names the term.
+/// A sum of powers.
 fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
-    let table = "indenter.superposition.terms";
-    for (index, term) in terms.iter().enumerate() {
-        let wrong = |refused| SceneError::within(&format!("{table}[{index}]"), refused);
-        let coefficient = term.coefficient;
-        let holds = coefficient.is_finite() && coefficient != 0.0;
-        in_range("coefficient", coefficient, holds, "finite and not 0").map_err(wrong)?;
-        positive("exponent", term.exponent).map_err(wrong)?;
-    }
     let term = |term: &Term| PowerTerm {
         coefficient: term.coefficient,
         exponent: term.exponent,
     };
     Superposition::new(terms.iter().map(term).collect())
-        .map_err(|error| SceneError::at(table, error.to_string()))
+        .map_err(|error| SceneError::at("indenter.superposition.terms", error.to_string()))
 }
 
 /// A body of revolution from a table of radii and heights.

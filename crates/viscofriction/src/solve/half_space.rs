@@ -30,6 +30,7 @@ pub struct HalfSpace {
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
+    table.check()?;
     if let MaterialTable::Prony {
         branches,
         covariance: Some(covariance),
@@ -41,17 +42,13 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     let mut found = in_shear(table, files)?;
     let ratio = table.poisson_ratio();
     let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
-    let material = Compressible::new(&*found.material, ratio).map(boxed);
-    found.material = material.map_err(|error| refused(&table.key(), error))?;
+    let material = Compressible::new(&*found.material, ratio);
+    found.material = Box::new(material.map_err(|error| refused(&table.key(), error))?);
     if let Some([lowest, highest]) = table.valid_frequencies() {
-        let key = |place| format!("{}.valid_frequencies[{place}]", table.key());
-        let checked = |place, value, holds, allowed| {
-            in_range("", value, holds, allowed)
-                .map_err(|refused| SceneError::value(key(place), refused))
-        };
-        checked(0, lowest, lowest > 0.0, "greater than 0")?;
+        let key = format!("{}.valid_frequencies[1]", table.key());
         let allowed = "finite and greater than valid_frequencies[0]";
-        checked(1, highest, highest > lowest, allowed)?;
+        in_range("", highest, highest > lowest, allowed)
+            .map_err(|refused| SceneError::value(key, refused))?;
         found.window = Some([lowest, highest]);
     }
     Ok(found)
@@ -99,19 +96,19 @@ fn no_file(file: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
 
 /// The material without the Poisson ratio of the scene.
 fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
-    let material = match table {
-        &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
-        &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(boxed),
+    let found = match table {
+        &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(exact),
+        &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(exact),
         &MaterialTable::KelvinVoigt {
             shear_modulus,
             viscosity,
             ..
-        } => KelvinVoigt::new(shear_modulus, viscosity).map(boxed),
+        } => KelvinVoigt::new(shear_modulus, viscosity).map(exact),
         &MaterialTable::Maxwell {
             shear_modulus,
             viscosity,
             ..
-        } => Maxwell::new(shear_modulus, viscosity).map(boxed),
+        } => Maxwell::new(shear_modulus, viscosity).map(exact),
         &MaterialTable::StandardSolid {
             equilibrium_modulus,
             maxwell_modulus,
@@ -122,7 +119,7 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
             maxwell_modulus,
             viscosity,
         })
-        .map(boxed),
+        .map(exact),
         MaterialTable::Prony {
             equilibrium_modulus,
             viscosity,
@@ -135,19 +132,54 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
             return series(&table.key(), spectrum, *approximation);
         }
-        MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
-            return fractional(table).map_err(|error| refused(&table.key(), error));
-        }
+        &MaterialTable::Springpot {
+            coefficient,
+            exponent,
+            equilibrium_modulus,
+            time_range,
+            ..
+        } => Springpot::new(coefficient, exponent).and_then(|element| {
+            let expand = |band, error| element.expand(band, error);
+            expanded(expand, exponent, equilibrium_modulus, time_range).map(approximate)
+        }),
+        &MaterialTable::FractionalMaxwell {
+            shear_modulus,
+            relaxation_time,
+            exponent,
+            equilibrium_modulus,
+            time_range,
+            ..
+        } => FractionalMaxwell::new(FractionalMaxwellParameters {
+            shear_modulus,
+            relaxation_time,
+            exponent,
+        })
+        .and_then(|element| {
+            let expand = |band, error| element.expand(band, error);
+            expanded(expand, exponent, equilibrium_modulus, time_range).map(approximate)
+        }),
         MaterialTable::File {
             path, temperature, ..
         } => return half_space(&of_file(path, *temperature, files)?, files),
     };
-    let material = material.map_err(|error| refused(&table.key(), error))?;
-    Ok(HalfSpace {
-        material,
+    found.map_err(|error| refused(&table.key(), error))
+}
+
+/// A material without an error of its own.
+fn exact(material: impl Material + 'static) -> HalfSpace {
+    HalfSpace {
+        material: Box::new(material),
         expansion: None,
         window: None,
-    })
+    }
+}
+
+/// The Prony series of another law.
+fn approximate((material, expansion): (Prony, Expansion)) -> HalfSpace {
+    HalfSpace {
+        expansion: Some(expansion),
+        ..exact(material)
+    }
 }
 
 /// A Prony series, which may approximate another law.
@@ -161,88 +193,20 @@ fn series(
     let expansion = expansion.map_err(|error| refused(&format!("{key}.approximation"), error))?;
     let material = Prony::new(spectrum).map_err(|error| refused(key, error))?;
     Ok(HalfSpace {
-        material: Box::new(material),
         expansion,
-        window: None,
+        ..exact(material)
     })
 }
 
-/// The Prony series of a fractional element.
-fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
-    let (material, expansion) = match *table {
-        MaterialTable::Springpot {
-            coefficient,
-            exponent,
-            equilibrium_modulus,
-            time_range,
-            ..
-        } => {
-            let element = Springpot::new(coefficient, exponent)?;
-            let expand = |band, error| element.expand(band, error);
-            expanded(expand, exponent, equilibrium_modulus, time_range)?
-        }
-        MaterialTable::FractionalMaxwell {
-            shear_modulus,
-            relaxation_time,
-            exponent,
-            equilibrium_modulus,
-            time_range,
-            ..
-        } => {
-            let element = FractionalMaxwell::new(FractionalMaxwellParameters {
-                shear_modulus,
-                relaxation_time,
-                exponent,
-            })?;
-            let expand = |band, error| element.expand(band, error);
-            expanded(expand, exponent, equilibrium_modulus, time_range)?
-        }
-        // Unreachable: `in_shear` passes fractional elements only.
-        _ => return Err(RheologyError::NoStiffness),
-    };
-    Ok(HalfSpace {
-        material: Box::new(material),
-        expansion: Some(expansion),
-        window: None,
-    })
-}
-
-fn boxed(material: impl Material + 'static) -> Box<dyn Material> {
-    Box::new(material)
-}
-
-/// Attributes an error of the library to its key; a derived parameter is attributed to the table.
+/// Attributes an error of the library to the key of a range of times, or to the table.
 fn refused(table: &str, error: RheologyError) -> SceneError {
     match error {
-        RheologyError::InvalidParameter(refused) if KEYS.contains(&refused.parameter) => {
+        RheologyError::InvalidParameter(refused) if refused.parameter.starts_with("time_range") => {
             SceneError::within(table, refused)
-        }
-        RheologyError::InvalidElement {
-            list,
-            index,
-            refused,
-        } if KEYS.contains(&refused.parameter) => {
-            SceneError::within(&format!("{table}.{list}[{index}]"), refused)
         }
         other => SceneError::at(table, other.to_string()),
     }
 }
-
-/// Parameters of the library that have the name of a key.
-const KEYS: [&str; 12] = [
-    "viscosity",
-    "shear_modulus",
-    "equilibrium_modulus",
-    "maxwell_modulus",
-    "modulus",
-    "relaxation_time",
-    "poisson_ratio",
-    "coefficient",
-    "exponent",
-    "relative_error",
-    "time_range[0]",
-    "time_range[1]",
-];
 
 /// The four materials with closed forms, reduced to the incompressible material with the same surface displacement.
 ///

@@ -1,6 +1,10 @@
 //! Every malformed scene, and every malformed file that one names, is refused with one line that names the file and the place
 //! in it, and says what is needed.
 
+use serde_json::Value;
+use viscofriction::numerics::MessageNumber;
+use viscofriction::scene::{Key, keys, kinds, number, schema};
+
 use crate::support::{Case, Folder, cases, npy, scene, table};
 
 /// A scene that is right.
@@ -29,34 +33,109 @@ fn replaced(lines: &str, text: &str) -> String {
     parts.concat().join("\n")
 }
 
-/// Every number that must be positive, replaced by all that is none, misspelt and left out.
-fn numbers() -> Vec<Case> {
+/// Every number of every body and material out of its range, and every other value in its place; every key misspelt and left out.
+fn wrong_keys() -> Vec<Case> {
     let mut cases = Vec::new();
-    for [section, keys] in table("numbers") {
-        let is_body = section.starts_with("indenter");
-        let (place, first) = if is_body { ("1-3", 1) } else { ("5-6", 5) };
-        let keys: Vec<&str> = keys.split(' ').collect();
-        for (index, key) in keys.iter().enumerate() {
-            let wrong = table("no numbers").into_iter();
-            let wrong = wrong.map(|[value, why]| (format!("{key} = {value}"), why));
-            let unknown = (
-                format!("{key}s = 0.5"),
-                format!("s: unknown field `{key}s`"),
-            );
-            let missing = (String::new(), format!(": missing field `{key}`"));
-            for (line, why) in wrong.chain([unknown, missing]) {
+    for (table, definition, lines) in [
+        ("indenter", "Indenter", "1-3"),
+        ("material", "MaterialTable", "5-6"),
+    ] {
+        for kind in kinds(definition) {
+            let first: usize = lines[..1].parse().expect("a line");
+            let mut add = |key: Key, line: Option<String>, said: String| {
+                let others = required_but(kind.keys.iter().copied(), key.name);
+                let text: Vec<String> = line.iter().cloned().chain(others).collect();
+                let table = format!("{table}.{}", kind.name);
+                let scene = replaced(lines, &format!("[{table}]\n{}", text.join("\n")));
                 // A key that is missing is missing in its table.
-                let named = if line.is_empty() { 0 } else { 1 + index };
-                let right = |key: &&str| format!("{key} = 0.5");
-                let mut lines: Vec<String> = keys.iter().map(right).collect();
-                lines[index] = line;
-                let scene = replaced(place, &format!("[{section}]\n{}", lines.join("\n")));
-                let named = format!("scene.toml:{}", first + named);
-                cases.push((scene.into(), named, format!("{section}.{key}{why}")));
+                let named = format!("scene.toml:{}", first + line.iter().count());
+                cases.push((scene.into(), named, format!("{table}.{}{said}", key.name)));
+            };
+            for &key in &kind.keys {
+                let name = key.name;
+                for (value, said) in wrong_values(key.words) {
+                    add(key, Some(format!("{name} = {value}")), said);
+                }
+                let unknown = format!("s: unknown field `{name}s`");
+                add(key, Some(format!("{name}s = 0.5")), unknown);
+                if key.is_required {
+                    add(key, None, format!(": missing field `{name}`"));
+                }
             }
         }
     }
     cases
+}
+
+/// Values of the keys that a table needs, without one of them.
+fn required_but(keys: impl Iterator<Item = Key>, name: &str) -> Vec<String> {
+    let others = keys.filter(|key| key.is_required && key.name != name);
+    let line = |key: Key| format!("{} = {}", key.name, example(key.words));
+    others.map(line).collect()
+}
+
+/// A value in every range; two numbers that increase.
+fn example(words: &'static Value) -> String {
+    match words["type"].as_str() {
+        Some("number") => "0.5".to_owned(),
+        Some("integer") => "1".to_owned(),
+        Some("string") => "\"file\"".to_owned(),
+        Some("array") if words["minItems"] == 2 => "[0.5, 0.75]".to_owned(),
+        Some("array") => format!("[{{ {} }}]", required_but(keys(words), "").join(", ")),
+        other => panic!("no example of the type {other:?}"),
+    }
+}
+
+/// Values that a number, or a number of a list, must not have, and what is said behind the key.
+fn wrong_values(words: &'static Value) -> Vec<(String, String)> {
+    let mut wrong = Vec::new();
+    if let Some(allowed) = words["x-allowed"].as_str() {
+        let mut ranges = table("ranges").into_iter();
+        let range = ranges.find(|[range, _]| range == allowed);
+        let [_, values] = range.unwrap_or_else(|| panic!("no values out of {allowed:?}"));
+        for value in values.split(' ') {
+            let number = MessageNumber(value.parse().expect("a number"));
+            wrong.push((
+                value.to_owned(),
+                format!(" must be {allowed}, but is {number}"),
+            ));
+        }
+        let types = table("no numbers").into_iter();
+        wrong.extend(types.map(|[value, said]| (value, said)));
+    }
+    if words["minItems"] == 2 {
+        let second = |(value, said)| (format!("[0.5, {value}]"), format!("[1]{said}"));
+        // A list in a list is refused as one of tables.
+        let values = wrong_values(&words["items"]).into_iter();
+        let values = values.filter(|(value, _)| !value.starts_with('['));
+        wrong.extend(values.map(second));
+    } else if words["type"] == "array" {
+        for key in keys(words) {
+            let others = required_but(keys(words), key.name).join(", ");
+            for (value, said) in wrong_values(key.words) {
+                let entry = format!("[{{ {} = {value}, {others} }}]", key.name);
+                wrong.push((entry, format!("[0].{}{said}", key.name)));
+            }
+        }
+    }
+    wrong
+}
+
+/// A doc comment that does not state a range as the others do leaves the number without one.
+#[test]
+fn numbers_of_bodies_and_materials_have_a_range() {
+    let of_kinds = ["Indenter", "MaterialTable"]
+        .map(kinds)
+        .into_iter()
+        .flatten();
+    let of_lists = ["Term", "Branch", "Approximation"].map(|name| &schema()["$defs"][name]);
+    let all = of_kinds
+        .flat_map(|kind| kind.keys)
+        .chain(of_lists.into_iter().flat_map(keys));
+    let numbers = all.filter_map(|key| Some((key.name, number(key.words)?)));
+    let without = numbers.filter(|(_, words)| words["x-allowed"].is_null());
+    let without: Vec<&str> = without.map(|(name, _)| name).collect();
+    assert_eq!(without, ["temperature"], "of any sign");
 }
 
 #[test]
@@ -66,7 +145,7 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     folder.write("hole.csv", "0;0;0\n0;1;\n0;0;0\n");
     folder.write("flat.csv", "1,1,1\n1,1,1\n1,1,1\n");
     folder.write("spectrum.csv", "wave_number,density\n4,1e-6\n25,1e-9\n");
-    let mut cases = numbers();
+    let mut cases = wrong_keys();
     let place = |line: &str| format!("scene.toml:{line}");
     for [lines, named, needed, text] in table("scenes") {
         let scene = replaced(&lines, &text.replace("\\0", "\0"));
@@ -75,7 +154,7 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     for [parts, named, needed] in table("unanswered") {
         cases.push((scene(&parts).into(), place(&named), needed));
     }
-    assert!(cases.len() >= 280, "only {} scenes", cases.len());
+    assert!(cases.len() >= 800, "only {} scenes", cases.len());
     assert_refused(&folder, "scene.toml", cases);
     folder.write("scene.toml", SCENE);
     folder.solved("scene.toml");

@@ -1,7 +1,7 @@
 //! A scene whose lengths, stresses and times are multiplied by powers of two: the same scene in other units.
 //!
-//! `units.csv` holds the powers of length, stress and time that every number of scenes and answers has, and the power of the
-//! extent: of an area, or of a length of a body that is infinite across.
+//! The units of the numbers of a scene are those of its schema. `units.csv` holds the powers of length, stress and time of the numbers of
+//! answers, and the power of the extent: of an area, or of a length of a body that is infinite across.
 
 use std::collections::BTreeMap;
 
@@ -11,14 +11,14 @@ use toml::Value;
 use viscofriction::scene::Indenter;
 
 use crate::evidence::sample::Case;
+use crate::evidence::unit::Unit;
 
+/// A row of `units.csv`.
 #[derive(Deserialize)]
-struct Unit {
+struct Row {
     quantity: String,
-    length: i32,
-    stress: i32,
-    time: i32,
-    extent: i32,
+    #[serde(flatten)]
+    unit: Unit,
 }
 
 /// Powers of two by which lengths, stresses and times are multiplied.
@@ -36,14 +36,25 @@ impl Powers {
     /// Factors of the quantities of a body, which may be infinite across.
     pub(super) fn factors(self, is_per_length: bool) -> Result<Factors> {
         let extent = if is_per_length { 1 } else { 2 };
+        let mut units = BTreeMap::new();
+        // Without coefficients, whose unit depends on the exponent beside them.
+        for (key, unit) in viscofriction::scene::units() {
+            if let Some(unit) = unit {
+                units.insert(key.to_owned(), Unit::parse(unit)?);
+            }
+        }
+        let answers = csv::Reader::from_reader(include_bytes!("units.csv").as_slice());
+        for row in answers.into_deserialize() {
+            let Row { quantity, unit } = row?;
+            units.insert(quantity, unit);
+        }
         let factor = |unit: Unit| {
             let length = (unit.length + unit.extent * extent) * self.length;
             let power = length + unit.stress * self.stress + unit.time * self.time;
-            (unit.quantity, 2.0_f64.powi(power))
+            2.0_f64.powi(power)
         };
-        let units = csv::Reader::from_reader(include_bytes!("units.csv").as_slice());
-        let factors = units.into_deserialize().map(|unit| Ok(factor(unit?)));
-        factors.collect()
+        let factors = units.into_iter();
+        Ok(factors.map(|(key, unit)| (key, factor(unit))).collect())
     }
 
     /// Multiplies every number of the scene; those of its files too.

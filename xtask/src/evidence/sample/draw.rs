@@ -7,12 +7,13 @@ use anyhow::Result;
 use toml::{Table, Value};
 use viscofriction::Files;
 use viscofriction::scene::{
-    Branch, Edges, LoadPoint, Model, MotionPoint, Scene, Shift, ShiftLaw, StrokeShape, Term,
+    Branch, Edges, Key, LoadPoint, Model, MotionPoint, Scene, Shift, ShiftLaw, StrokeShape, Term,
     VerticalLaw,
 };
 use viscofriction::solve::{Body, body, half_space};
 
-use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, read};
+use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, keys_of, read};
+use crate::evidence::unit::Unit;
 use crate::random::Random;
 
 /// Relative error that is asked of a motion on the half space.
@@ -70,6 +71,35 @@ impl Sample<'_> {
             }
             "spectrum" => self.draw_spectrum(slope),
             _ => {}
+        }
+        Ok(())
+    }
+
+    /// Draws the numbers of a kind that nothing else draws: within their bounds, or of about the size 1 in the units of the scene.
+    pub(super) fn draw_numbers(&mut self, kind: &str, recipes: &Table) -> Result<()> {
+        let own = recipes.get(kind).and_then(Value::as_table);
+        for Key { name, words, .. } in keys_of(kind).filter(|key| key.is_required) {
+            let is_known = [own, Some(&self.drawn)]
+                .into_iter()
+                .flatten()
+                .any(|known| known.contains_key(name));
+            if is_known || words["type"] != "number" {
+                continue;
+            }
+            let bound = |word: &str| words[word].as_f64();
+            let least = bound("minimum").or(bound("exclusiveMinimum"));
+            let most = bound("maximum").or(bound("exclusiveMaximum"));
+            let value = match [least, most] {
+                [Some(least), Some(most)] => self.random.between([least, most]),
+                _ => {
+                    let unit = Unit::parse(words["x-unit"].as_str().unwrap_or_default())?;
+                    let scale = self.length.powi(unit.length)
+                        * self.stress.powi(unit.stress)
+                        * self.time.powi(unit.time);
+                    scale * self.random.decades(0.5)
+                }
+            };
+            self.draw(name, [value]);
         }
         Ok(())
     }

@@ -1,5 +1,5 @@
-//! Random scenes over all that a scene can be: every kind of body and material of the scene file, as `recipes.toml` describes it; a
-//! kind that is forgotten there ends the command.
+//! Random scenes over all that a scene can be: every kind of body and material of the scene file, with numbers within the ranges of its
+//! keys, or as `recipes.toml` describes it.
 
 mod draw;
 
@@ -14,7 +14,9 @@ use strum::IntoEnumIterator as _;
 use toml::{Table, Value};
 use viscofriction::WrongInput;
 use viscofriction::npy::to_npy;
-use viscofriction::scene::{IndenterKind, Layer, Load, MaterialKind, MaterialTable, Scene, Solve};
+use viscofriction::scene::{
+    IndenterKind, Key, Layer, Load, MaterialKind, MaterialTable, Scene, Solve, kinds,
+};
 use viscofriction::solve::{Problem, plan};
 
 use crate::output::write_atomically;
@@ -234,12 +236,28 @@ impl Source {
     }
 }
 
-/// The one table of this kind, with the numbers of these names.
+/// The one table of this kind, with the numbers of these names. Keys that its recipe leaves out have the number of their own name.
 pub(super) fn made<T: DeserializeOwned>(recipes: &Table, kind: &str, drawn: &Table) -> Result<T> {
-    let recipe = recipes.get(kind);
-    let recipe = recipe.with_context(|| format!("no recipe of {kind}"))?;
-    let value = filled(recipe, drawn).with_context(|| format!("an empty recipe of {kind}"))?;
+    let mut recipe: Table = keys_of(kind)
+        .map(|key| (key.name.to_owned(), format!("${}", key.name).into()))
+        .collect();
+    if let Some(own) = recipes.get(kind).and_then(Value::as_table) {
+        recipe.extend(own.clone());
+    }
+    let value = filled(&recipe.into(), drawn).context("a table is filled")?;
     Ok(Value::from(Table::from_iter([(kind.to_owned(), value)])).try_into()?)
+}
+
+/// The keys of a body or a material that must be given, or have a number unless they are.
+pub(super) fn keys_of(kind: &str) -> impl Iterator<Item = Key> {
+    let all = ["Indenter", "MaterialTable"]
+        .map(kinds)
+        .into_iter()
+        .flatten();
+    let keys = all
+        .filter(move |one| one.name == kind)
+        .flat_map(|one| one.keys);
+    keys.filter(|key| key.is_required || key.words["default"].is_number())
 }
 
 /// A value with what was drawn in the place of names; none where that was not.
@@ -281,8 +299,10 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
         drawn: Table::new(),
     };
     sample.draw_body(kind)?;
+    sample.draw_numbers(kind, &recipes.indenter)?;
     let indenter = made(&recipes.indenter, kind, &sample.drawn)?;
     sample.draw_material(material_kind)?;
+    sample.draw_numbers(material_kind, &recipes.material)?;
     let material = made(&recipes.material, material_kind, &sample.drawn)?;
     let is_of_file = material_kind == "file";
     let of_file = is_of_file.then(|| made(&recipes.material, "prony", &sample.drawn));

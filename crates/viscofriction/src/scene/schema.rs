@@ -1,0 +1,254 @@
+//! The JSON Schema of the scene file, from which everything that lists bodies and materials follows.
+//!
+//! The doc comment of a number states quantity, range and unit, as "Radius > 0, \[m]". Here the range becomes words of the schema,
+//! against which the numbers of bodies and materials are checked, and the unit the word `x-unit`.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use numerics::in_range;
+use schemars::transform::{RecursiveTransform, Transform};
+use schemars::{JsonSchema, Schema};
+use serde::Serialize;
+use serde_json::{Value as Json, json};
+use toml::Value;
+
+use super::{Scene, SceneError};
+
+/// Ranges as doc comments state them, with their words in the schema; `x-allowed` is the range in messages.
+fn ranges() -> [(&'static str, Json); 9] {
+    [
+        (
+            "> 0",
+            json!({ "x-allowed": "finite and greater than 0", "exclusiveMinimum": 0 }),
+        ),
+        (
+            "≥ 0",
+            json!({ "x-allowed": "finite and at least 0", "minimum": 0 }),
+        ),
+        (
+            "≠ 0",
+            json!({ "x-allowed": "finite and not 0", "not": { "const": 0 } }),
+        ),
+        (
+            "between 0 and 1",
+            json!({ "exclusiveMinimum": 0, "exclusiveMaximum": 1 }),
+        ),
+        ("from 0 to 0.1", json!({ "minimum": 0, "maximum": 0.1 })),
+        (
+            "from 0.01 to 0.99",
+            json!({ "minimum": 0.01, "maximum": 0.99 }),
+        ),
+        ("from 1 to 1000", json!({ "minimum": 1, "maximum": 1000 })),
+        (
+            "0, 90, 180 or 270",
+            json!({ "minimum": 0, "maximum": 270, "multipleOf": 90 }),
+        ),
+        (
+            "−1 < ν ≤ 1/2",
+            json!({ "x-allowed": "greater than -1 and at most 0.5", "exclusiveMinimum": -1, "maximum": 0.5 }),
+        ),
+    ]
+}
+
+/// The schema of a scene with its units and ranges.
+static SCHEMA: LazyLock<Schema> = LazyLock::new(|| {
+    let ranges = ranges();
+    let mut schema = schemars::schema_for!(Scene);
+    RecursiveTransform(|schema: &mut Schema| add_range_and_unit(schema, &ranges))
+        .transform(&mut schema);
+    schema
+});
+
+/// The JSON Schema of the scene file. Numbers, also those of a list, have their unit as the word `x-unit`, and their range as messages
+/// state it as `x-allowed`.
+pub fn schema() -> &'static Json {
+    SCHEMA.as_value()
+}
+
+/// The text of the JSON Schema of the scene file.
+///
+/// # Errors
+/// If the schema cannot be written as JSON.
+pub fn json_schema() -> Result<String, serde_json::Error> {
+    let mut text = serde_json::to_string_pretty(&*SCHEMA)?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Adds the words of range and unit that the description states to a number, or to the numbers of a list.
+fn add_range_and_unit(schema: &mut Schema, ranges: &[(&str, Json)]) {
+    let description = schema.get("description").and_then(Json::as_str);
+    let description = description.unwrap_or_default().to_owned();
+    let words = match schema.get_mut("items") {
+        Some(items) => items.as_object_mut(),
+        None => schema.as_object_mut(),
+    };
+    let Some(words) = words.filter(|words| {
+        is_of_type(words.get("type"), "number") || is_of_type(words.get("type"), "integer")
+    }) else {
+        return;
+    };
+    if let Some((stated, range)) = ranges
+        .iter()
+        .find(|(stated, _)| description.contains(stated))
+    {
+        words.insert("x-allowed".to_owned(), (*stated).into());
+        words.extend(range.as_object().cloned().into_iter().flatten());
+    }
+    let behind = description.split_once('[').map(|(_, behind)| behind);
+    if let Some((unit, _)) = behind.and_then(|behind| behind.split_once(']')) {
+        words.insert("x-unit".to_owned(), unit.into());
+    }
+}
+
+/// True if a value of this type is allowed; a value that may be left out has two types.
+fn is_of_type(kind: Option<&Json>, name: &str) -> bool {
+    kind.is_some_and(|kind| kind == name || kind[0] == name)
+}
+
+/// The words of a number, or of the numbers of a list; `None` for other values.
+pub fn number(words: &Json) -> Option<&Json> {
+    if is_of_type(words.get("type"), "number") {
+        return Some(words);
+    }
+    words.get("items").and_then(number)
+}
+
+/// Units of all numbers of a scene by their keys: an empty text without a unit, `None` if numbers of this key have different ones.
+pub fn units() -> BTreeMap<&'static str, Option<&'static str>> {
+    let mut units = BTreeMap::new();
+    add_units(schema(), &mut units);
+    units
+}
+
+fn add_units(words: &'static Json, units: &mut BTreeMap<&'static str, Option<&'static str>>) {
+    for (key, words) in words["properties"].as_object().into_iter().flatten() {
+        if let Some(number) = number(words) {
+            let unit = Some(number["x-unit"].as_str().unwrap_or_default());
+            let known = units.entry(key).or_insert(unit);
+            *known = known.filter(|known| Some(*known) == unit);
+        }
+    }
+    match words {
+        Json::Object(words) => words.values().for_each(|words| add_units(words, units)),
+        Json::Array(words) => words.iter().for_each(|words| add_units(words, units)),
+        _ => {}
+    }
+}
+
+/// A body or a material.
+#[derive(Debug, Clone)]
+pub struct Kind {
+    /// Its name in a scene.
+    pub name: &'static str,
+    /// What it is, in one sentence.
+    pub sentence: &'static str,
+    /// The keys that it needs, in their order, and after them those that may be left out.
+    pub keys: Vec<Key>,
+}
+
+/// A key of a body or a material, or of a table in it.
+#[derive(Debug, Clone, Copy)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// Its words in the schema: description, default, and its type, or a reference to that.
+    pub words: &'static Json,
+    /// False if it may be left out.
+    pub is_required: bool,
+}
+
+/// All bodies (`Indenter`) or all materials (`MaterialTable`).
+pub fn kinds(definition: &str) -> Vec<Kind> {
+    let kinds = schema()["$defs"][definition]["oneOf"].as_array();
+    let kind = |words: &'static Json| {
+        let kind = keys(words).next()?;
+        Some(Kind {
+            name: kind.name,
+            sentence: words["description"].as_str()?,
+            keys: keys(kind.words).collect(),
+        })
+    };
+    kinds.into_iter().flatten().filter_map(kind).collect()
+}
+
+/// The keys of a table, or of each table of a list: those that it needs, in their order, and after them the others.
+pub fn keys(words: &'static Json) -> impl Iterator<Item = Key> {
+    let words = resolved(words);
+    let words = words.get("items").map_or(words, resolved);
+    let all = words["properties"].as_object();
+    let required = words["required"].as_array().into_iter().flatten();
+    let required: Vec<&str> = required.filter_map(Json::as_str).collect();
+    let others = all.into_iter().flatten().map(|(key, _)| &**key);
+    let others: Vec<&str> = others.filter(|key| !required.contains(key)).collect();
+    let key = move |(name, is_required)| Key {
+        name,
+        words: &words["properties"][name],
+        is_required,
+    };
+    let required = required.into_iter().map(|name| (name, true));
+    let others = others.into_iter().map(|name| (name, false));
+    required.chain(others).map(key)
+}
+
+/// The words of a type instead of a reference to it, also of one that may be left out.
+pub fn resolved(words: &'static Json) -> &'static Json {
+    let mut types = [words, &words["anyOf"][0]].into_iter();
+    let reference = types.find_map(|words| words["$ref"].as_str());
+    let name = reference.and_then(|path| path.strip_prefix("#/$defs/"));
+    name.map_or(words, |name| &schema()["$defs"][name])
+}
+
+/// Checks all numbers of a table of the scene against their ranges.
+pub(super) fn check_ranges<T: JsonSchema + Serialize>(
+    table: &str,
+    value: &T,
+) -> Result<(), SceneError> {
+    let words = &schema()["$defs"][&*T::schema_name()];
+    let value = Value::try_from(value);
+    let value = value.map_err(|error| SceneError::at(table, error.to_string()))?;
+    check(words, &value, table)
+}
+
+/// Checks the numbers of a value; `path` is its key.
+fn check(words: &'static Json, value: &Value, path: &str) -> Result<(), SceneError> {
+    let words = resolved(words);
+    match value {
+        Value::Table(table) => table.iter().try_for_each(|(key, value)| {
+            let kinds = words["oneOf"].as_array().into_iter().flatten();
+            let mut tables = std::iter::once(words).chain(kinds);
+            let words = tables.find_map(|table| table["properties"].get(key));
+            check(
+                words.unwrap_or(&Json::Null),
+                value,
+                &format!("{path}.{key}"),
+            )
+        }),
+        Value::Array(items) => items.iter().enumerate().try_for_each(|(index, item)| {
+            check(&words["items"], item, &format!("{path}[{index}]"))
+        }),
+        Value::Float(number) => check_number(words, *number, path),
+        Value::Integer(number) => check_number(words, *number as f64, path),
+        _ => Ok(()),
+    }
+}
+
+/// Checks a number; one without a range may have any value.
+fn check_number(words: &'static Json, value: f64, path: &str) -> Result<(), SceneError> {
+    let Some(allowed) = words["x-allowed"].as_str() else {
+        return Ok(());
+    };
+    let bound = |word: &str| words[word].as_f64();
+    let holds = value.is_finite()
+        && bound("minimum").is_none_or(|least| value >= least)
+        && bound("exclusiveMinimum").is_none_or(|least| value > least)
+        && bound("maximum").is_none_or(|most| value <= most)
+        && bound("exclusiveMaximum").is_none_or(|most| value < most)
+        && bound("multipleOf").is_none_or(|step| value % step == 0.0)
+        && (words["not"].is_null() || value != 0.0);
+    let refused = in_range("", value, holds, allowed);
+    refused
+        .map_err(|refused| SceneError::value(path.to_owned(), refused))
+        .map(drop)
+}
