@@ -31,4 +31,6 @@ mod native {
     use super::roughness::{check_height_map, surface_numbers};
     #[pymodule_export]
     use super::solving::{shared_warnings, solve_loads, sweep_plan, sweep_points, sweep_problem};
+    #[pymodule_export]
+    use super::tables::check_table;
 }

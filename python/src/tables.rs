@@ -4,6 +4,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 use toml::{Table, Value};
+use viscofriction::scene::{Indenter, MaterialTable};
 
 /// A `ValueError` with a message.
 pub(crate) fn wrong(problem: impl std::fmt::Display) -> PyErr {
@@ -28,6 +29,18 @@ pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Tabl
         }
     }
     Ok(table)
+}
+
+/// Checks a table `indenter` or `material`: its keys, the types of their values, and the ranges of its numbers.
+#[pyfunction]
+pub(crate) fn check_table(dictionary: &Bound<'_, PyDict>) -> PyResult<()> {
+    let table = table(dictionary, "")?;
+    if table.contains_key("indenter") {
+        Indenter::try_from(table).and_then(|body| body.check())
+    } else {
+        MaterialTable::try_from(table).and_then(|material| material.check())
+    }
+    .map_err(wrong)
 }
 
 /// Converts an object to a value of a scene.

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -37,13 +39,8 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("threads", {"threads": 0}),
     ("method", {"method": "guess"}),
     ("model", {"model": "line", "method": "bem-steady"}),
-    ("radius", {"body": vf.Sphere(-1.0)}),
-    ("radius", {"body": vf.Sphere("large")}),  # type: ignore[arg-type]
-    ("exponent", {"body": vf.Superposition([(1.0, -1.0)])}),
     ("indenter", {"body": "ball"}),
     ("indenter must be a Body of this package, but is 5e-06", {"body": 5e-6}),
-    ("poisson_ratio", {"material": vf.Elastic(1e6, poisson_ratio=0.6)}),
-    ("branches[0].relaxation_time", {"material": vf.Prony(1e6, [(1e6, 0.0)])}),
     ("no-such-file", {"material": vf.MaterialFile("no-such-file.toml")}),
     ("material", {"material": None}),
 ]
@@ -54,6 +51,34 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
     given: dict[str, Any] = {"body": BALL, "material": RUBBER, "normal_force": 2.0, "velocity": 1.0} | change
     with pytest.raises(ValueError, match=name.replace("[", r"\[")):
         vf.slide(given.pop("body"), given.pop("material"), **given)
+
+
+MAKERS: list[tuple[str, Callable[[], Any]]] = [
+    ("indenter.sphere.radius must be finite and greater than 0, but is -1", lambda: vf.Sphere(-1.0)),
+    ("indenter.sphere.radius: invalid type: string \"large\"", lambda: vf.Sphere("large")),  # type: ignore[arg-type]
+    ("indenter.cone.slope must be finite and greater than 0, but is 0", lambda: vf.Pyramid(0.0)),
+    ("indenter.superposition.terms[0].exponent must be finite and greater than 0", lambda: vf.Superposition([(1.0, -1.0)])),
+    ("indenter.superposition.terms[0]: a table is needed", lambda: vf.Superposition([(1.0,)])),  # type: ignore[list-item]
+    ("indenter.height-map.direction must be 0, 90, 180 or 270, but is 45", lambda: vf.HeightMapFile("map.csv", direction=45)),
+    ("indenter.height-map.unit.inch: unknown variant", lambda: vf.HeightMapFile("map.csv", unit="inch")),  # type: ignore[arg-type]
+    ("material.elastic.poisson_ratio must be greater than -1 and at most 0.5", lambda: vf.Elastic(1e6, poisson_ratio=0.6)),
+    ("material.prony.branches[0].relaxation_time must be finite", lambda: vf.Prony(1e6, [(1e6, 0.0)])),
+    ("material.file.poisson_ratio must be greater than -1", lambda: vf.MaterialFile("rubber.toml", poisson_ratio=1.0)),
+    ("material.elastic.valid_frequencies[0] must be finite", lambda: vf.Elastic(1e6, valid_frequencies=(-1.0, 1.0))),
+]
+
+
+@pytest.mark.parametrize(("message", "make"), MAKERS, ids=lambda value: value if isinstance(value, str) else "")
+def test_a_wrong_number_is_named_where_the_object_is_made(message: str, make: Callable[[], Any]) -> None:
+    with pytest.raises(ValueError, match=re.escape(message)):
+        make()
+
+
+def test_files_are_those_of_the_folder_where_the_object_is_made(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "rubber.toml").write_text("[material.elastic]\nshear_modulus = 2.0\n")
+    monkeypatch.chdir(tmp_path)
+    rubber = vf.MaterialFile(Path("rubber.toml"))
+    assert rubber.path == "rubber.toml" and rubber.storage_modulus([1.0])[0] == 2.0
 
 
 @pytest.mark.parametrize(
@@ -207,5 +232,3 @@ def test_friction_from_outside_of_the_measured_frequencies_is_said() -> None:
     assert share["below_window"][0] > 0.99 and share["outside_window"][1] < 0.1 and share["above_window"][2] > 0.5
     (warning,) = friction.warnings
     assert "was not measured" in warning and warning.endswith("(at 2 of 3 points)")
-    with pytest.raises(ValueError, match=r"valid_frequencies\[0\] must be greater than 0"):
-        vf.slide(BALL, vf.Elastic(1e6, valid_frequencies=(-1.0, 1.0)), normal_force=2.0, velocity=1.0)

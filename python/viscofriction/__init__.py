@@ -12,11 +12,12 @@ NotReached, which holds what was.
 
 from importlib.metadata import version as _version
 
-from . import _bodies, _fitting, _friction, _indentation, _materials, _results, _solving, _sweeping
+from . import _bodies, _fitting, _friction, _indentation, _kinds, _materials, _results, _solving, _sweeping
 from ._bodies import *  # noqa: F403
 from ._fitting import *  # noqa: F403
 from ._friction import *  # noqa: F403
 from ._indentation import *  # noqa: F403
+from ._kinds import *  # noqa: F403
 from ._materials import *  # noqa: F403
 from ._results import *  # noqa: F403
 from ._solving import *  # noqa: F403
@@ -28,6 +29,7 @@ __all__ = [
     *_fitting.__all__,
     *_friction.__all__,
     *_indentation.__all__,
+    *_kinds.__all__,
     *_materials.__all__,
     *_results.__all__,
     *_solving.__all__,

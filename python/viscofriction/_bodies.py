@@ -1,48 +1,27 @@
-"""Rigid bodies. Their lowest point is the origin; lengths are in metres."""
+"""Bodies of arrays, and the pyramid."""
 
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Literal
+from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Compared, as_value, numbers
+from ._arrays import Compared, numbers
+from ._kinds import Cone
+from ._tables import Body
 
-__all__ = [
-    "Body",
-    "Cone",
-    "Cylinder",
-    "FlatCone",
-    "FlatPunch",
-    "HeightMap",
-    "HeightMapFile",
-    "Hyperboloid",
-    "Paraboloid",
-    "Power",
-    "ProfileFile",
-    "Pyramid",
-    "Roughness",
-    "RoundTippedCone",
-    "SelfAffine",
-    "Spectrum",
-    "Sphere",
-    "Superposition",
-    "TruncatedParaboloid",
-]
+__all__ = ["Body", "HeightMap", "Pyramid", "Roughness"]
 
 
 #: What is beyond the edge of a height map: nothing, the same map, or its mirror images.
 Edges = Literal["wall", "periodic", "mirrored"]
 #: Whether heights point out of the body, or are gaps.
 HeightsAre = Literal["surface", "gap"]
-#: What the densities of a power spectrum are.
-Convention = Literal["persson", "surface-topography"]
 #: A unit of heights.
 Unit = Literal["m", "mm", "um", "nm"]
 
@@ -74,38 +53,6 @@ class Roughness(Compared):
     warnings: list[str]
 
 
-class Body:
-    """A rigid body. Numbers are checked when it is pressed or slides."""
-
-    _kind: ClassVar[str]
-
-    def __post_init__(self) -> None:
-        for field in fields(self):  # type: ignore[arg-type]
-            object.__setattr__(self, field.name, as_value(getattr(self, field.name)))
-
-    def _table(self) -> dict[str, Any]:
-        """The table ``[indenter.…]`` of a scene."""
-        keys = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
-        return {self._kind: keys}
-
-
-@dataclass(frozen=True)
-class Power(Body):
-    """h = coefficient r^exponent, coefficient [m^(1 − exponent)] > 0 and exponent > 0."""
-
-    coefficient: float
-    exponent: float
-    _kind = "power"
-
-
-@dataclass(frozen=True)
-class Cone(Body):
-    """h = slope r, slope > 0."""
-
-    slope: float
-    _kind = "cone"
-
-
 @dataclass(frozen=True)
 class Pyramid(Body):
     """A four-sided pyramid whose faces have a slope > 0, for ``indent`` and ``fit_indentation``.
@@ -117,6 +64,9 @@ class Pyramid(Body):
     slope: float
     _kind = "pyramid"
 
+    def __post_init__(self) -> None:
+        Cone(self.slope)
+
     @property
     def cone(self) -> Cone:
         """The cone with the same elastic force."""
@@ -127,176 +77,6 @@ class Pyramid(Body):
             "a Pyramid is a body of indent and fit_indentation only: its .cone has the same elastic force, and another "
             "contact and friction"
         )
-
-
-@dataclass(frozen=True)
-class Paraboloid(Body):
-    """h = curvature r², curvature > 0 [1/m]: half the inverse of the radius of curvature."""
-
-    curvature: float
-    _kind = "paraboloid"
-
-
-@dataclass(frozen=True)
-class Sphere(Body):
-    """The exact sphere of a radius > 0 [m]."""
-
-    radius: float
-    _kind = "sphere"
-
-
-@dataclass(frozen=True)
-class FlatPunch(Body):
-    """A flat end of a radius > 0 [m] with a vertical wall."""
-
-    radius: float
-    _kind = "flat-punch"
-
-
-@dataclass(frozen=True)
-class FlatCone(Body):
-    """A cone of a slope > 0 whose tip is cut off at a radius > 0 [m]."""
-
-    radius: float
-    slope: float
-    _kind = "flat-cone"
-
-
-@dataclass(frozen=True)
-class RoundTippedCone(Body):
-    """A cone of a slope > 0 whose tip is part of a sphere of a radius > 0 [m]."""
-
-    radius: float
-    slope: float
-    _kind = "round-tipped-cone"
-
-
-@dataclass(frozen=True)
-class Hyperboloid(Body):
-    """Round at the tip with a radius > 0 [m], a cone of a slope > 0 far from it."""
-
-    radius: float
-    slope: float
-    _kind = "hyperboloid"
-
-
-@dataclass(frozen=True)
-class TruncatedParaboloid(Body):
-    """h = curvature r² [1/m], whose tip is cut off at a radius > 0 [m]."""
-
-    radius: float
-    curvature: float
-    _kind = "truncated-paraboloid"
-
-
-@dataclass(frozen=True)
-class SelfAffine(Body):
-    """A random self-affine surface that repeats itself without end, all lengths in metres; it takes a mean pressure.
-
-    Waves from the longest to the shortest wavelength, with a constant spectrum above the roll-off wavelength if there is one;
-    0 < hurst_exponent < 1; rms_slope > 0 is that of this surface; another seed draws another one, and with ``realisations`` the
-    answer is the mean of so many; with ``standard_error`` of as many as make it that part of the mean, and ``realisations``
-    at most.
-    """
-
-    period: tuple[float, float]
-    hurst_exponent: float
-    rms_slope: float
-    longest_wavelength: float
-    shortest_wavelength: float
-    seed: int
-    roll_off_wavelength: float | None = None
-    realisations: int | None = None
-    standard_error: float | None = None
-    _kind = "self-affine"
-
-    def _table(self) -> dict[str, Any]:
-        [(kind, keys)] = super()._table().items()
-        return {kind: {key: value for key, value in keys.items() if value is not None}}
-
-
-@dataclass(frozen=True)
-class Spectrum(Body):
-    """A random surface of a power spectrum that repeats itself without end, all lengths in metres; it takes a mean pressure.
-
-    ``file`` is a CSV file with the columns wave_number q = 2π/λ [1/m] and density C [m⁴], such as the spectrum.csv of
-    ``viscofriction surface``. ⟨h²⟩ = 2π ∫ q C dq with ``convention="persson"``; with ``"surface-topography"`` C is 4π² times as
-    large. Waves shorter than ``shortest_wavelength`` are left out, another seed draws another surface, and with ``realisations``
-    the answer is the mean of so many; with ``standard_error`` of as many as make it that part of the mean, and ``realisations``
-    at most.
-    """
-
-    file: str | os.PathLike[str]
-    period: tuple[float, float]
-    seed: int
-    convention: Convention = "persson"
-    shortest_wavelength: float | None = None
-    realisations: int | None = None
-    standard_error: float | None = None
-    _kind = "spectrum"
-
-    def _table(self) -> dict[str, Any]:
-        keys = super()._table()[self._kind]
-        return {self._kind: keys | {"file": os.path.abspath(self.file)}}
-
-
-@dataclass(frozen=True)
-class Cylinder(Body):
-    """The parabola of a cylinder of a radius > 0 [m], infinite along y; forces and areas are per length."""
-
-    radius: float
-    _kind = "cylinder"
-
-
-@dataclass(frozen=True)
-class Superposition(Body):
-    """A sum of powers, h = Σ c r^p, from pairs (c [m^(1 − p)], p > 0); that of the lowest p has c > 0."""
-
-    terms: Sequence[tuple[float, float]]
-    _kind = "superposition"
-
-    def _table(self) -> dict[str, Any]:
-        terms = [{"coefficient": c, "exponent": p} for c, p in self.terms]
-        return {self._kind: {"terms": terms}}
-
-
-@dataclass(frozen=True)
-class ProfileFile(Body):
-    """A body of revolution whose profile is a CSV file with the columns ``radius_m`` and ``height_m``, linear between its points."""
-
-    file: str | os.PathLike[str]
-    _kind = "table"
-
-    def _table(self) -> dict[str, Any]:
-        return {self._kind: {"file": os.path.abspath(self.file)}}
-
-
-@dataclass(frozen=True)
-class HeightMapFile(Body):
-    """A surface from a file, as a scene reads it; see ``HeightMap`` for what the keys mean.
-
-    Beginning and extension say the format: asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), sdf (ISO 25178-71), sur (Digital
-    Surf), x3p (ISO 25178-72) and xyz (points of a grid) have their own spacing; npy (NumPy) and any other, a text of numbers,
-    take ``spacing``. Files of gsf, sdf, sur and x3p, and texts whose head has them, state their units and keep them; in xyz and
-    asc that do not, ``lateral_unit`` is that of x and y (metres, or in xyz ``unit``, unless given). Files of other instruments
-    are read by the package SurfaceTopography: ``HeightMap.from_topography(SurfaceTopography.read_topography(file))``.
-    """
-
-    file: str | os.PathLike[str]
-    fill_missing: bool = False
-    level: bool = False
-    edges: Edges = "wall"
-    shortest_wavelength: float | None = None
-    spacing: tuple[float, float] | None = None
-    unit: Unit | None = None
-    heights_are: HeightsAre = "surface"
-    direction: float = 0
-    lateral_unit: Unit | None = None
-    _kind = "height-map"
-
-    def _table(self) -> dict[str, Any]:
-        keys = super()._table()[self._kind]
-        return {self._kind: keys | {"file": os.path.abspath(self.file)}}
 
 
 class HeightMap(Compared, Body):

@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, columns, count, text_of
-from ._bodies import Body, Cylinder, HeightMap, HeightMapFile, Pyramid, SelfAffine, Spectrum
-from ._materials import Material, Prony
+from ._bodies import HeightMap, Pyramid
+from ._kinds import Cylinder, HeightMapFile, SelfAffine, Spectrum
+from ._materials import Prony
+from ._tables import Body, Material
 from ._results import rounded
 from ._solving import ask, given
 

@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._arrays import columns as checked_columns
 from ._arrays import numbers, text_of, together
-from ._bodies import Body, HeightMap
-from ._materials import Elastic, Material
+from ._bodies import HeightMap
+from ._kinds import Elastic
 from ._results import Answer, not_reached
+from ._tables import Body, Material
 
 __all__ = ["move", "press", "slide", "solve"]
 

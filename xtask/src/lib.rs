@@ -11,6 +11,7 @@
 mod ci;
 mod evidence;
 mod figures;
+mod kinds;
 mod meter;
 mod output;
 mod picture;
@@ -72,6 +73,8 @@ enum Command {
     Evidence(evidence::Evidence),
     /// Count what each library crate pulls in when it is built alone. Markdown.
     Dependencies(ci::Dependencies),
+    /// Write the files that list all bodies and materials: the schema of the scene, tables of docs/scenes.md, Python classes.
+    Kinds,
     /// Make everything that is published, and try each part where nothing of the workspace is installed.
     Release {
         /// A new folder for packed crates, wheel, source distribution and book.
@@ -95,6 +98,7 @@ pub fn execute() -> ExitCode {
         Command::ScalingTable { out } => scaling::generate_table(&out),
         Command::Evidence(options) => evidence::evidence(options),
         Command::Dependencies(options) => ci::write_dependencies(&options),
+        Command::Kinds => kinds::write(),
         Command::Release { out } => ci::release(&out),
         Command::Ci => ci::run(),
     };

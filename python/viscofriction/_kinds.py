@@ -1,0 +1,420 @@
+"""Bodies and materials with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import Literal
+
+from ._tables import Body, Material
+
+__all__ = [
+    "Power",
+    "Cone",
+    "Paraboloid",
+    "Sphere",
+    "Superposition",
+    "FlatPunch",
+    "FlatCone",
+    "RoundTippedCone",
+    "Hyperboloid",
+    "TruncatedParaboloid",
+    "Cylinder",
+    "ProfileFile",
+    "HeightMapFile",
+    "SelfAffine",
+    "Spectrum",
+    "Viscous",
+    "Elastic",
+    "KelvinVoigt",
+    "Maxwell",
+    "StandardSolid",
+    "Springpot",
+    "FractionalMaxwell",
+    "MaterialFile",
+]
+
+
+@dataclass(frozen=True)
+class Power(Body):
+    """h = coefficient r^exponent.
+
+    ``coefficient``: Coefficient c > 0, [m^(1 − p)].
+    ``exponent``: Exponent p > 0.
+    """
+
+    coefficient: float
+    exponent: float
+    _kind = "power"
+
+
+@dataclass(frozen=True)
+class Cone(Body):
+    """h = slope r.
+
+    ``slope``: Slope of the flank, > 0.
+    """
+
+    slope: float
+    _kind = "cone"
+
+
+@dataclass(frozen=True)
+class Paraboloid(Body):
+    """h = curvature r².
+
+    ``curvature``: Coefficient of r², > 0, [1/m]; half the inverse of the radius of curvature.
+    """
+
+    curvature: float
+    _kind = "paraboloid"
+
+
+@dataclass(frozen=True)
+class Sphere(Body):
+    """The exact sphere.
+
+    ``radius``: Radius > 0, [m].
+    """
+
+    radius: float
+    _kind = "sphere"
+
+
+@dataclass(frozen=True)
+class Superposition(Body):
+    """A sum of powers.
+
+    ``terms``: The terms; that of the lowest exponent has a positive coefficient.
+    Each is a pair of coefficient and exponent.
+    """
+
+    terms: Sequence[tuple[float, float]]
+    _kind = "superposition"
+    _lists = {"terms": ("coefficient", "exponent")}
+
+
+@dataclass(frozen=True)
+class FlatPunch(Body):
+    """A flat end with a vertical wall.
+
+    ``radius``: Radius > 0, [m].
+    """
+
+    radius: float
+    _kind = "flat-punch"
+
+
+@dataclass(frozen=True)
+class FlatCone(Body):
+    """A cone whose tip is cut off.
+
+    ``radius``: Radius of the flat end > 0, [m].
+    ``slope``: Slope of the flank, > 0.
+    """
+
+    radius: float
+    slope: float
+    _kind = "flat-cone"
+
+
+@dataclass(frozen=True)
+class RoundTippedCone(Body):
+    """A cone whose tip is part of a sphere.
+
+    ``radius``: Radius of the tip > 0, [m].
+    ``slope``: Slope of the flank, > 0.
+    """
+
+    radius: float
+    slope: float
+    _kind = "round-tipped-cone"
+
+
+@dataclass(frozen=True)
+class Hyperboloid(Body):
+    """A hyperboloid of revolution: round at the tip, a cone far from it.
+
+    ``radius``: Radius of the tip > 0, [m].
+    ``slope``: Slope of the flank, > 0.
+    """
+
+    radius: float
+    slope: float
+    _kind = "hyperboloid"
+
+
+@dataclass(frozen=True)
+class TruncatedParaboloid(Body):
+    """A paraboloid whose tip is cut off.
+
+    ``radius``: Radius of the flat end > 0, [m].
+    ``curvature``: Coefficient of r², > 0, [1/m].
+    """
+
+    radius: float
+    curvature: float
+    _kind = "truncated-paraboloid"
+
+
+@dataclass(frozen=True)
+class Cylinder(Body):
+    """The parabola of a cylinder, infinite along y; loads and areas are per length.
+
+    ``radius``: Radius > 0, [m].
+    """
+
+    radius: float
+    _kind = "cylinder"
+
+
+@dataclass(frozen=True)
+class ProfileFile(Body):
+    """A body of revolution from a table of radii and heights, straight between its rows.
+
+    ``file``: CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
+    """
+
+    file: str | os.PathLike[str]
+    _kind = "table"
+
+
+@dataclass(frozen=True)
+class HeightMapFile(Body):
+    """A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
+
+    ``file``: File beside the scene file: a text of one line of heights for each y, without names; with the extension npy an array of
+    NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sdf, sur, x3p and xyz a measured surface.
+    ``direction``: Direction in which the body moves, from x towards y: 0, 90, 180 or 270 degrees. Results have x along the motion.
+    ``edges``: What is beyond the grid.
+    ``fill_missing``: Fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
+    ``heights_are``: What the heights are.
+    ``lateral_unit``: Unit of x and y in files that have positions and do not state it (xyz, asc): metres, or in xyz `unit`, unless given.
+    ``level``: Take the plane of least squares out.
+    ``shortest_wavelength``: Wave length > 0 below which waves are left out of a periodic surface, [m]; without it none that the grid knows.
+    ``spacing``: Distances of neighbouring heights along x and y, > 0, [m]; not of a measured surface, which has its own, nor of a text
+    that states its size.
+    ``unit``: Unit of the heights, metres unless given; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own.
+    """
+
+    file: str | os.PathLike[str]
+    _: KW_ONLY
+    direction: float = 0.0
+    edges: Literal["wall", "periodic", "mirrored"] = "wall"
+    fill_missing: bool = False
+    heights_are: Literal["surface", "gap"] = "surface"
+    lateral_unit: Literal["m", "mm", "um", "nm"] | None = None
+    level: bool = False
+    shortest_wavelength: float | None = None
+    spacing: tuple[float, float] | None = None
+    unit: Literal["m", "mm", "um", "nm"] | None = None
+    _kind = "height-map"
+
+
+@dataclass(frozen=True)
+class SelfAffine(Body):
+    """A random self-affine surface that repeats itself along x and y without end; it takes load.mean_pressure.
+
+    ``period``: Periods along x and y, > 0, [m].
+    ``hurst_exponent``: Hurst exponent, between 0 and 1.
+    ``rms_slope``: Root mean square of the slope, > 0.
+    ``longest_wavelength``: Longest wave length > 0, [m].
+    ``shortest_wavelength``: Shortest wave length > 0, [m].
+    ``seed``: Another seed draws another surface.
+    ``realisations``: How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
+    ``roll_off_wavelength``: Wave length > 0 above which the spectrum is constant, [m]; without it there is none.
+    ``standard_error``: Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
+    without it.
+    """
+
+    period: tuple[float, float]
+    hurst_exponent: float
+    rms_slope: float
+    longest_wavelength: float
+    shortest_wavelength: float
+    seed: int
+    _: KW_ONLY
+    realisations: int | None = None
+    roll_off_wavelength: float | None = None
+    standard_error: float | None = None
+    _kind = "self-affine"
+
+
+@dataclass(frozen=True)
+class Spectrum(Body):
+    """A random surface of a power spectrum, which repeats itself along x and y without end; it takes load.mean_pressure.
+
+    ``file``: CSV file with the columns wave_number q = 2π/λ, [1/m], and density C, [m⁴], beside the scene file; wave numbers increase,
+    and ln C is straight over ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
+    ``period``: Periods along x and y, > 0, [m].
+    ``seed``: Another seed draws another surface.
+    ``convention``: What the densities are.
+    ``realisations``: How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
+    ``shortest_wavelength``: Wave length > 0 below which waves are left out, [m]; without it none of the table.
+    ``standard_error``: Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
+    without it.
+    """
+
+    file: str | os.PathLike[str]
+    period: tuple[float, float]
+    seed: int
+    _: KW_ONLY
+    convention: Literal["persson", "surface-topography"] = "persson"
+    realisations: int | None = None
+    shortest_wavelength: float | None = None
+    standard_error: float | None = None
+    _kind = "spectrum"
+
+
+@dataclass(frozen=True)
+class Viscous(Material):
+    """A dashpot.
+
+    ``viscosity``: Shear viscosity η > 0, [Pa s].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    viscosity: float
+    _: KW_ONLY
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "viscous"
+
+
+@dataclass(frozen=True)
+class Elastic(Material):
+    """A spring.
+
+    ``shear_modulus``: Shear modulus G > 0, [Pa].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    shear_modulus: float
+    _: KW_ONLY
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "elastic"
+
+
+@dataclass(frozen=True)
+class KelvinVoigt(Material):
+    """Spring and dashpot in parallel.
+
+    ``shear_modulus``: Shear modulus G > 0, [Pa].
+    ``viscosity``: Shear viscosity η > 0, [Pa s].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    shear_modulus: float
+    viscosity: float
+    _: KW_ONLY
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "kelvin-voigt"
+
+
+@dataclass(frozen=True)
+class Maxwell(Material):
+    """Spring and dashpot in series.
+
+    ``shear_modulus``: Shear modulus G > 0, [Pa].
+    ``viscosity``: Shear viscosity η > 0, [Pa s].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    shear_modulus: float
+    viscosity: float
+    _: KW_ONLY
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "maxwell"
+
+
+@dataclass(frozen=True)
+class StandardSolid(Material):
+    """A spring in parallel with a Maxwell element.
+
+    ``equilibrium_modulus``: Shear modulus of the spring > 0, [Pa].
+    ``maxwell_modulus``: Shear modulus of the Maxwell element > 0, [Pa].
+    ``viscosity``: Viscosity of the Maxwell element > 0, [Pa s].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    equilibrium_modulus: float
+    maxwell_modulus: float
+    viscosity: float
+    _: KW_ONLY
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "standard-solid"
+
+
+@dataclass(frozen=True)
+class Springpot(Material):
+    """Between spring and dashpot: G* = K (iω)^a.
+
+    ``coefficient``: K > 0, [Pa s^a].
+    ``exponent``: a, from 0.01 to 0.99: almost a spring, and almost a dashpot.
+    ``time_range``: Shortest and longest time > 0 for which the material is needed, [s]: the time of a contact length and those of a
+    history are within it.
+    ``equilibrium_modulus``: Shear modulus ≥ 0 of a spring in parallel, [Pa].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    coefficient: float
+    exponent: float
+    time_range: tuple[float, float]
+    _: KW_ONLY
+    equilibrium_modulus: float = 0.0
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "springpot"
+
+
+@dataclass(frozen=True)
+class FractionalMaxwell(Material):
+    """Spring and springpot in series: G* = G z/(1 + z), z = (iωτ)^a.
+
+    ``shear_modulus``: Shear modulus G > 0 of the spring in series, [Pa].
+    ``relaxation_time``: Relaxation time τ > 0, at which spring and springpot have the same modulus |G*|, [s].
+    ``exponent``: a, from 0.01 to 0.99.
+    ``time_range``: Shortest and longest time > 0 for which the material is needed, [s], as of a springpot.
+    ``equilibrium_modulus``: Shear modulus ≥ 0 of a spring in parallel, [Pa].
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s].
+    """
+
+    shear_modulus: float
+    relaxation_time: float
+    exponent: float
+    time_range: tuple[float, float]
+    _: KW_ONLY
+    equilibrium_modulus: float = 0.0
+    poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "fractional-maxwell"
+
+
+@dataclass(frozen=True)
+class MaterialFile(Material):
+    """The material of another file.
+
+    ``path``: A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
+    ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
+    ``temperature``: Another temperature of the material than that of the file, by its shift law, [°C].
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s]; without them those of the file.
+    """
+
+    path: str | os.PathLike[str]
+    _: KW_ONLY
+    poisson_ratio: float | None = None
+    temperature: float | None = None
+    valid_frequencies: tuple[float, float] | None = None
+    _kind = "file"
