@@ -2,10 +2,13 @@
 //!
 //! With the feature `dense` faer factorises, else nalgebra. Both work on one thread, so that results do not depend on their number.
 
-/// Largest number of unknowns of a direct solve. Its matrix takes 32 MiB, as the bounds on the memory of periodic contacts assume.
+/// Largest number of unknowns of a direct solve.
 ///
 /// With 4000 unknowns no periodic contact of docs/dependencies.md, "Factorisation or iteration", is solved faster.
 pub(crate) const MAX_UNKNOWNS: usize = 2048;
+/// Memory of the matrix of the largest direct solve, \[bytes].
+#[cfg(feature = "rough")]
+pub(crate) const MAX_MATRIX_BYTES: usize = size_of::<f64>() * MAX_UNKNOWNS * MAX_UNKNOWNS;
 
 /// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular or not finite.
 #[cfg(feature = "dense")]

@@ -25,12 +25,11 @@
 use std::f64::consts::PI;
 
 use indenters::Cylinder;
-use numerics::{in_range, integrate, positive};
+use numerics::{NEGLIGIBLE_EXPONENT, in_range, integrate, positive};
 use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
-use crate::pieces::MAX_EXPONENT;
 
 /// Intervals of a trapezoidal rule of length 0; with both numbers of intervals, Bessel functions have all digits.
 const MIN_INTERVALS: f64 = 64.0;
@@ -147,7 +146,7 @@ impl CylinderSliding {
             z * (-z * distance).exp() * (even(sine) + odd * cosine)
         };
         // The exponential is negligible far ahead of s.
-        let first = (angle.cos() + MAX_EXPONENT / z).min(1.0).acos();
+        let first = (angle.cos() + NEGLIGIBLE_EXPONENT / z).min(1.0).acos();
         self.stress * integrate(integrand, [first, angle], PRESSURE_ACCURACY).value
     }
 }
@@ -158,7 +157,7 @@ fn bessel_i_ratios(z: f64) -> [f64; 2] {
         return [1.0; 2];
     }
     // The integrand e^(z (cos θ − 1)) is negligible beyond this angle.
-    let end = 2.0 * (0.5 * MAX_EXPONENT / z).sqrt().min(1.0).asin();
+    let end = 2.0 * (0.5 * NEGLIGIBLE_EXPONENT / z).sqrt().min(1.0).asin();
     let weight = |theta: f64| (-2.0 * z * (0.5 * theta).sin().powi(2)).exp();
     let integral = |power: i32| trapezoid(end, |theta| weight(theta) * theta.sin().powi(2 * power));
     let zeroth = integral(0);
@@ -174,7 +173,7 @@ fn bessel_k_ratio(k: f64) -> f64 {
         return 1.0;
     }
     // The integrand e^(−k (cosh t − 1)) is negligible beyond this t.
-    let end = 2.0 * (0.5 * MAX_EXPONENT / k).sqrt().asinh();
+    let end = 2.0 * (0.5 * NEGLIGIBLE_EXPONENT / k).sqrt().asinh();
     let weight = |t: f64| (-2.0 * k * (0.5 * t).sinh().powi(2)).exp();
     trapezoid(end, weight) / trapezoid(end, |t| weight(t) * t.cosh())
 }

@@ -12,9 +12,6 @@ const REQUESTED_ACCURACY: f64 = 1e-12;
 /// Largest relative error of an integral that is accepted; chosen (docs/conventions.md, "Errors and tolerances").
 const ACCEPTED_ACCURACY: f64 = 1e-10;
 
-/// Exponent x beyond which e^(−x) is below rounding relative to 1, and left out: e^(−40) = 4e-18.
-pub(crate) const MAX_EXPONENT: f64 = 40.0;
-
 /// The integral over the pieces between successive `ends`.
 pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
     let piece = |ends: &[f64]| integrate(&integrand, [ends[0], ends[1]], REQUESTED_ACCURACY);

@@ -8,12 +8,12 @@
 //! ```
 
 use indenters::PowerProfile;
-use numerics::positive;
+use numerics::{NEGLIGIBLE_EXPONENT, positive};
 use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
-use crate::pieces::{MAX_EXPONENT, accepted, over_pieces};
+use crate::pieces::{accepted, over_pieces};
 
 /// End of a ramp: a depth that has grown at a constant rate since first touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ pub fn ramp_force(
         let rate = time / branch.relaxation_time;
         // M as an integral over 1 − u, from the end of the ramp backwards.
         let integrand = |before: f64| (-rate * before).exp() * (1.0 - before).powf(power - 1.0);
-        let integral = over_pieces(integrand, &[0.0, (MAX_EXPONENT / rate).min(1.0)]);
+        let integral = over_pieces(integrand, &[0.0, (NEGLIGIBLE_EXPONENT / rate).min(1.0)]);
         modulus += branch.modulus * power * accepted("memory of a ramp", integral)?.value;
     }
     let depth_times_radius = depth * profile.line_position(depth);

@@ -197,8 +197,6 @@ fn distance_since_lift_off(y: f64) -> f64 {
     y - y.ln() - 0.5 - LN_2
 }
 
-/// Exponent c from which on e^(−c) is 0: the smallest positive number is e^(−744.4).
-const UNDERFLOW_EXPONENT: f64 = 746.0;
 /// Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
 const NEWTON_STEPS: usize = 8;
 
@@ -208,7 +206,7 @@ const NEWTON_STEPS: usize = 8;
 /// z = −c, which is left of the root, the steps approach it from one side, and neither late nor early times lose digits.
 fn missing_fraction(since_lift_off: f64) -> f64 {
     let c = 0.5 + LN_2 + since_lift_off;
-    if c > UNDERFLOW_EXPONENT {
+    if c.is_infinite() {
         return 0.0;
     }
     // Newton's method from the left of the root.

@@ -12,12 +12,12 @@
 //! The integrals are written so that nothing cancels at any ratio of l and x_r.
 
 use indenters::PowerProfile;
-use numerics::{bracketed_root, positive};
+use numerics::{NEGLIGIBLE_EXPONENT, bracketed_root, positive};
 use rheology::{KelvinVoigt, Maxwell};
 
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
-use crate::pieces::{MAX_EXPONENT, accepted, over_pieces};
+use crate::pieces::{accepted, over_pieces};
 use crate::power::PowerShape;
 
 /// Front and speed of a sliding contact.
@@ -167,7 +167,7 @@ fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
         }
     };
     let square = |zeta: f64| (zeta * difference(zeta) / one).powi(2);
-    let mut ends = vec![0.0, MAX_EXPONENT.min(z), z];
+    let mut ends = vec![0.0, NEGLIGIBLE_EXPONENT.min(z), z];
     ends.dedup();
     let work = accepted("friction work", over_pieces(square, &ends))?;
     // In units of x_r: l = 1/Y, w = 2 G k l² …, so that the friction of slope 2 k x_r is 2 ∫ / (Y load).

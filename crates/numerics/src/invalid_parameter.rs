@@ -55,8 +55,9 @@ impl Display for MessageNumber {
 
 /// Moduli of numbers that are written without a power of ten, as `Debug` does.
 pub(crate) const POSITIONAL_RANGE: Range<f64> = 1e-5..1e16;
-/// Number of significant digits that rounding errors of short decimal numbers do not change; chosen.
-const RELIABLE_DIGITS: usize = 14;
+/// Number of significant digits of a short decimal number that the rounding errors of a few operations do not change:
+/// one less than those that survive reading and writing.
+const RELIABLE_DIGITS: usize = f64::DIGITS as usize - 1;
 /// Largest number of characters of the mantissa, with its point, of a number that counts as a short decimal one; chosen.
 const MAX_SHORT_MANTISSA: usize = 10;
 

@@ -59,10 +59,10 @@ pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
 pub use progress::{
     CappedProgress, MaxElements, PartialProgress, Progress, SilentProgress, WorkProgress,
 };
-pub use quadrature::{integrate, integrate_from_ends};
+pub use quadrature::{NEGLIGIBLE_EXPONENT, integrate, integrate_from_ends};
 pub use refinement::{
-    Accuracy, FIRST_ELEMENTS, Goal, Level, LevelForecast, NotReached, Quantity, Refined, Request,
-    refine, refine_levels,
+    Accuracy, FIRST_ELEMENTS, Goal, ITERATION_SHARE, Level, LevelForecast, MIN_CONVERGENCE_ORDER,
+    NotReached, Quantity, Refined, Request, SUMMATION_ERROR, refine, refine_levels,
 };
 pub use root::{bracketed_root, golden_section, try_bracketed_root};
 pub use whole_part::whole_part;

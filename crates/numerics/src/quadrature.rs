@@ -18,6 +18,9 @@ const MIN_HALVINGS: usize = 3;
 /// Largest |t| of a node: beyond it the weights fall below the smallest normal number.
 const LAST_NODE: f64 = 6.1;
 
+/// Exponent x beyond which a term e^(−x) is left out of sums and integrals of the order 1: e^(−40) = 4e-18 is 1/50 of rounding.
+pub const NEGLIGIBLE_EXPONENT: f64 = 40.0;
+
 /// Integrates `integrand` from `interval[0]` to `interval[1]`.
 ///
 /// The integrand receives its argument as the pair (nearer end, distance from that end with its sign), so that a

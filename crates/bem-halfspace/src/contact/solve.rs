@@ -8,6 +8,7 @@ use crate::contact::problem::{LoadProblem, LoadSolution, StoppingCriterion};
 use crate::contact::state::{ContactBox, LoadState};
 use crate::contact::{Control, map_force};
 use crate::elements::bounds::Bounds;
+use crate::elements::grid::MIN_COARSEST_EDGE;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::row_blocks::for_each_row;
 use crate::transform::convolution::Surroundings;
@@ -17,8 +18,6 @@ use crate::{BemError, Rows};
 ///
 /// A larger box takes as long as the grid, because of the operator application on the whole grid at its end.
 const MAX_BOX_FRACTION: f64 = 0.6;
-/// Fewest elements along an edge of a grid that gets its first guess from a coarser one; chosen.
-const MIN_EDGE_FOR_COARSENING: usize = 32;
 
 /// Solves the contact from the load in the state, or by nested iteration if that is zero.
 pub(super) fn solve_loads(
@@ -142,7 +141,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
     let unfolded = grid.unfolded(convolution.mirrors).shape();
     let is_even = rows.is_multiple_of(2) && columns.is_multiple_of(2);
     let is_periodic = convolution.surroundings == Surroundings::Periodic;
-    let is_small = unfolded.into_iter().any(|n| n < MIN_EDGE_FOR_COARSENING);
+    let is_small = unfolded.into_iter().any(|n| n < 2 * MIN_COARSEST_EDGE);
     if is_small || (is_periodic && !is_even) {
         return;
     }

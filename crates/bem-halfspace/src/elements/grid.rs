@@ -6,6 +6,10 @@ use numerics::{positive, whole_part};
 
 /// Largest number of elements of a grid; chosen, since more would not fit into the memory of a large machine.
 pub(crate) const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
+/// Fewest elements along an edge of the coarsest grid: of a nested iteration, and of a refinement along an edge of a period with waves.
+///
+/// Chosen; from 8 to 32 no answer of `evidence tuning` changes by more than 1e-9 of its bar.
+pub(crate) const MIN_COARSEST_EDGE: usize = 32;
 
 /// A regular grid of rectangular elements, stored row-major with y fastest.
 #[derive(Debug, Clone, Copy, PartialEq)]

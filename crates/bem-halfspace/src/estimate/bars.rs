@@ -1,7 +1,7 @@
 //! Error bars of the quantities of a contact from several resolutions, shared by all methods.
 
 use indenters::{Control, Surface};
-use numerics::{ErrorParts, Estimate, FIRST_ELEMENTS, Goal, NotReached, Quantity, Request};
+use numerics::{ErrorParts, Estimate, Goal, MIN_CONVERGENCE_ORDER, NotReached, Quantity};
 
 use crate::{BemError, Elastomer, Reached};
 use rheology::Material as _;
@@ -11,20 +11,11 @@ use crate::estimate::quantities::{Name, Quantities};
 
 /// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
 const DISSIPATED: usize = Name::ALL.len();
-/// Lower bound of the assumed convergence order of the friction; chosen, since no scene converges more slowly.
-const MIN_FRICTION_ORDER: f64 = 0.1;
 /// Error of each end of a contact, in elements.
 ///
 /// The contact boundary follows the elements, and each outermost element counts as a whole or not at all. The test
 /// `the_bars_of_an_elastic_contact_hold` compares with known contacts.
 const END_ERROR_IN_ELEMENTS: f64 = 1.5;
-
-/// Factor on the discretisation error if a relative error ends the refinement, whose last grid has an error that is small by chance;
-/// chosen.
-const SELECTION_FACTOR: f64 = 2.0;
-/// Exponent of the work of a contact as a function of the elements along it: transforms of all elements along x and y dominate, and finer
-/// grids need hardly more operator applications.
-pub(crate) const GRID_WORK_EXPONENT: f64 = 2.0;
 
 /// A contact with an error bar for every quantity; an error of 0 means that the quantity is prescribed.
 ///
@@ -122,24 +113,6 @@ pub(crate) enum Target {
     Depth,
 }
 
-/// The refinement of a contact up to a number of elements along it.
-pub(crate) const fn contact_goal(
-    request: Request,
-    max_elements: usize,
-    order: f64,
-    work_exponent: f64,
-) -> Goal {
-    Goal {
-        request,
-        initial_elements: FIRST_ELEMENTS,
-        max_elements,
-        order,
-        work_exponent,
-        extra_work: 0.0,
-        selection_factor: SELECTION_FACTOR,
-    }
-}
-
 /// What a refinement aims at.
 pub(crate) struct Resolution<'w> {
     pub(crate) goal: Goal<'w>,
@@ -164,7 +137,7 @@ impl Resolution<'_> {
 
 /// Convergence order of the friction under an apex h ∼ r^p: 2p − 1, at most `smooth`, the order of a smooth body.
 pub(crate) fn order_of_friction(apex_exponent: f64, smooth: f64) -> f64 {
-    (2.0 * apex_exponent - 1.0).clamp(MIN_FRICTION_ORDER, smooth)
+    (2.0 * apex_exponent - 1.0).clamp(MIN_CONVERGENCE_ORDER, smooth)
 }
 
 /// Error of the ends of a contact on elements whose longer edge is `spacing`, \[m].

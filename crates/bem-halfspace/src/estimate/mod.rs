@@ -7,3 +7,4 @@ pub(crate) mod bars;
 pub(crate) mod plan;
 pub(crate) mod quantities;
 pub(crate) mod reached;
+pub(crate) mod refinement_limits;

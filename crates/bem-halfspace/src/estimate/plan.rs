@@ -5,12 +5,14 @@ use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
 use crate::elements::footprint::{Footprint, MAX_HEIGHT_IN_DEPTH_SCALES};
 use crate::elements::grid::whole_elements;
 use crate::stationary::steady::depth_scale_of_surface;
+use crate::substrate::base::MAX_EDGE_OVER_THICKNESS;
 use crate::{BemError, Elastomer};
 
 /// Number of elements along the contact length of the one-dimensional model on the coarsest grids; chosen.
 const ELEMENTS_ON_COARSEST_GRID: f64 = 5.0;
-/// Largest edge of the coarsest elements in thicknesses of a layer; chosen, half of the edge that is refused.
-const MAX_SPACING_OVER_THICKNESS: f64 = 16.0;
+/// Largest edge of the coarsest elements in thicknesses of a layer: half of the edge that is refused, because nested
+/// iteration and error estimates also solve on elements of up to twice the edge.
+const MAX_SPACING_OVER_THICKNESS: f64 = 0.5 * MAX_EDGE_OVER_THICKNESS;
 /// Bound of [`GridPlan::kinks`] below which a surface converges like a smooth one; chosen, so that the small kinks of a tabulated
 /// profile are negligible.
 pub(crate) const NEGLIGIBLE_KINKS: f64 = 0.01;

@@ -24,8 +24,6 @@ pub use free::{March, Motion, MotionRow};
 
 /// Number of steps above which a march, or one cycle of it, is refused; chosen.
 pub(crate) const MAX_STEPS: f64 = 1e5;
-/// Power of the elements along the contact with which the work of a march grows: elements along x and y, times as many steps.
-pub(crate) const MARCH_WORK_EXPONENT: f64 = 3.0;
 /// Memory per followed element without its history variables, \[bytes].
 const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
 /// Memory per step of a march, \[bytes].

@@ -10,28 +10,20 @@ use indenters::{
     Control, MotionRecord, MotionStep, MotionView, Moved, MovingLoad, MovingStep, PressingLoad,
     SlidingLoad, Surface,
 };
-use numerics::{Accuracy, Goal, MAX_STORED_STATES, Request};
+use numerics::{Accuracy, MAX_STORED_STATES, Request};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::elements::footprint::Footprint;
 use crate::estimate::bars::order_of_friction;
 use crate::estimate::plan::GridPlan;
+use crate::estimate::refinement_limits::{MARCH_ORDER, MOTION};
 use crate::march::free::{Schedule, TimedMotion};
-use crate::march::{
-    MARCH_WORK_EXPONENT, MAX_STEPS, MarchExtent, largest_retardation_time, n_history_variables,
-};
-use crate::motions::any_motion::{
-    LimitCycle, MIN_ORDER_OF_MOTION, TOUCH_DURATION_RATIO, refine_motion,
-};
+use crate::march::{MAX_STEPS, MarchExtent, largest_retardation_time, n_history_variables};
+use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO, refine_motion};
 use crate::motions::indent::footprint_after;
 use crate::motions::slide::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Elements along the contact on which a relative error is first sought. The work grows with their third power, and most strokes
-/// reach 2 % on 8 elements (docs/theory/transient-half-space.md, "Linear loads").
-const FIRST_ELEMENTS_OF_MOTION: usize = 8;
-/// Largest number of elements along the contact; a cycle on it takes about a minute.
-const MAX_ELEMENTS_OF_MOTION: usize = 48;
 /// Steps in which the body passes an element at its largest speed. With three, the errors of steps and of elements are about equal
 /// (docs/theory/transient-half-space.md, "Linear loads").
 const STEPS_PER_ELEMENT: usize = 3;
@@ -77,18 +69,11 @@ pub fn move_along<'w>(
 ) -> Result<Moved, BemError> {
     let request = request.into();
     let problem = MovingBody::new(surface, elastomer, load, request.accuracy)?;
-    let goal = Goal {
-        request,
-        initial_elements: FIRST_ELEMENTS_OF_MOTION,
-        max_elements: MAX_ELEMENTS_OF_MOTION,
-        order: order_of_friction(problem.plan.apex_exponent, MIN_ORDER_OF_MOTION),
-        work_exponent: MARCH_WORK_EXPONENT,
-        extra_work: 0.0,
-        selection_factor: 1.0,
-    };
+    let order = order_of_friction(problem.plan.apex_exponent, MARCH_ORDER);
+    let goal = MOTION.goal(request, order);
     let is_elastic = problem.creep.is_elastic();
     // Cusps sharper than a cone converge with an order of their own.
-    let has_known_order = load.is_cycle() && !is_elastic && goal.order >= MIN_ORDER_OF_MOTION;
+    let has_known_order = load.is_cycle() && !is_elastic && order >= MARCH_ORDER;
     let view = MotionView {
         load,
         is_elastic,

@@ -8,23 +8,21 @@
 use std::cell::Cell;
 
 use indenters::{MotionRecord, MotionView, Moved, MovingLoad};
-use numerics::{Accuracy, ErrorParts, FixedPoint, Goal, anderson_fixed_point, refine};
+use numerics::{
+    Accuracy, ErrorParts, FixedPoint, Goal, ITERATION_SHARE, anderson_fixed_point, refine,
+};
 use rheology::CreepSpectrum;
 
 use crate::BemError;
 use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
 
-/// Order of the error in the number of elements that the error bars assume, unless the apex of the body lowers it.
-pub(super) const MIN_ORDER_OF_MOTION: f64 = 1.0;
 /// Duration of the first touch, during which the body rests, over that of the first step; chosen.
 pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
 /// Cycles after which the search for the limit cycle is given up.
 const MAX_CYCLES: usize = 100;
 /// Relative change per cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
 const CYCLE_ROUNDING: f64 = 1e-14;
-/// Remaining change of the limit cycle over the relative error asked for; chosen.
-const CYCLE_TOLERANCE_FRACTION: f64 = 0.1;
 /// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error; chosen.
 const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
 
@@ -80,7 +78,7 @@ impl LimitCycle {
             period: load.duration(),
             slowest: largest_retardation_time(creep),
             tolerance: match accuracy {
-                Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_FRACTION * asked,
+                Accuracy::RelativeError(asked) => ITERATION_SHARE * asked,
                 Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ONE_GRID,
             },
         }))

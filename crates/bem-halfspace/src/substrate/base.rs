@@ -305,7 +305,7 @@ impl Base {
 
 /// Largest edge of an element over the thickness of the layer; a thinner layer is a Winkler foundation or, where it is
 /// incompressible, a film.
-const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
+pub(crate) const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
 /// Half length of the contact over the thickness from which a layer counts as thin in [`Base::pile_up_factor`]. Measured by
 /// `evidence tuning`.
 const THIN_LAYER_RATIO: f64 = 5.0;

@@ -278,7 +278,7 @@ struct ErrorBars {
 
 /// Rounding of a sum of loads or of their rates, relative to the sum of the sizes of its terms: 64 units in the last place.
 /// The tests compare such sums with 40 digits.
-const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub(crate) const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Sums over a contact, and the sizes of their terms, from which their rounding follows.
 #[derive(Debug, Clone, Copy, Default)]

@@ -31,7 +31,7 @@ const MAX_PIECES: usize = 1 << 18;
 const TERM_ROUNDING_FACTOR: f64 = 8.0;
 
 /// Shortest piece, relative to its distance from zero; shorter ones have nodes at the rounding of positions.
-const MIN_PIECE_LENGTH: f64 = 1024.0 * f64::EPSILON;
+pub(super) const MIN_PIECE_LENGTH: f64 = 1024.0 * f64::EPSILON;
 
 /// Criterion for a resolved polynomial.
 #[derive(Debug, Clone, Copy)]

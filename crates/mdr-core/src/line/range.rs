@@ -4,6 +4,7 @@ use indenters::RigidLine;
 use numerics::bracketed_root;
 
 use super::element_heights::{checked_height, lowest_candidate};
+use super::profile::MIN_PIECE_LENGTH;
 use crate::MdrError;
 use crate::error::non_finite;
 
@@ -18,7 +19,7 @@ const OUTWARD_STRIDE: f64 = 8.0;
 
 /// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its
 /// length from the lowest point. Closer to the edge the nodes of a piece are at the rounding of positions.
-const EDGE_INSET: f64 = 1024.0 * f64::EPSILON;
+const EDGE_INSET: f64 = MIN_PIECE_LENGTH;
 
 /// Positions between which all heights below the ceiling lie.
 #[derive(Debug, Clone, Copy)]

@@ -11,35 +11,21 @@ use super::motion_problem::MotionProblem;
 use super::winkler::WinklerFoundation;
 use crate::MdrError;
 use crate::branches::{Mode, n_history};
+use crate::history::SUM_ROUNDING;
 
-/// Cycles that are computed before the search for the limit cycle is given up.
+/// Number of cycles after which the search for the limit cycle is given up: a limit of the time.
 const MAX_CYCLES: usize = 400;
-/// Cycles after which the tolerance is multiplied by [`LENIENT_TOLERANCE_FACTOR`]. Chosen.
-const CYCLES_AT_FULL_TOLERANCE: usize = 100;
-/// Factor on the tolerance after [`CYCLES_AT_FULL_TOLERANCE`]. Chosen.
-const LENIENT_TOLERANCE_FACTOR: f64 = 10.0;
-
 /// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as
 /// many cycles as the last one: `fac` times the tolerance in the step size control of Hairer, Nørsett & Wanner 1993,
-/// Solving Ordinary Differential Equations I, (II.4.13), of first order. Measured by `evidence tuning`.
+/// Solving Ordinary Differential Equations I, (II.4.13), of first order and without limits on the factor. Measured by
+/// `evidence tuning`.
 const TARGET_DEVIATION: f64 = 0.4;
-/// Smallest factor on the cycles that a step covers, `facmin` there. Measured by `evidence tuning`.
-const MIN_CYCLES_FACTOR: f64 = 0.3;
-/// Largest factor on the cycles that a step covers, `facmax` there. Measured by `evidence tuning`.
-const MAX_CYCLES_FACTOR: f64 = 10.0;
-/// Most cycles that a step covers. Measured by `evidence tuning`.
-const MAX_CYCLES_PER_STEP: f64 = 1e16;
-/// Cycles per step with which the next resolution begins, as a part of the last ones on the resolution before.
+/// Largest number of cycles that a step covers; with it a step is the full Newton step for all but the slowest modes.
 /// Measured by `evidence tuning`.
-const CARRIED_OVER_CYCLES: f64 = 1e-3;
+const MAX_CYCLES_PER_STEP: f64 = 1e16;
 /// Safety factor on the change by a step that did what was expected, as a bound of what remains. Measured by
 /// `evidence tuning`.
 const REMAINDER_SAFETY_FACTOR: f64 = 2.0;
-/// Largest deviation that enters the geometric series of what remains, so that the series converges. Measured by
-/// `evidence tuning`.
-const MAX_COUNTED_DEVIATION: f64 = 0.9;
-/// Rounding of the amplitudes of recovery, relative to them: 64 units in the last place.
-const AMPLITUDE_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Finds the limit cycle to the tolerance; `None` if the foundation was not high enough.
 pub(super) fn find_limit_cycle(
@@ -78,20 +64,13 @@ pub(super) fn find_limit_cycle(
         if let Some(before) = before {
             rest = record.rest_after(&before, search.remaining_change_factor(deviation));
             report((rest.ln() / tolerance.ln()).clamp(0.0, 1.0));
-            let lenience = if n_cycles > CYCLES_AT_FULL_TOLERANCE {
-                LENIENT_TOLERANCE_FACTOR
-            } else {
-                1.0
-            };
-            if rest <= lenience * tolerance {
-                problem.cycles_per_step.set(search.cycles_per_step);
+            if rest <= tolerance {
                 return Ok(Some(MotionRecord { n_cycles, ..record }));
             }
 
             // Cover more cycles by the next step if this one did what was expected, fewer if not.
-            let factor = (TARGET_DEVIATION / deviation).clamp(MIN_CYCLES_FACTOR, MAX_CYCLES_FACTOR);
-            search.cycles_per_step =
-                (factor * search.cycles_per_step).clamp(1.0, MAX_CYCLES_PER_STEP);
+            search.cycles_per_step = (TARGET_DEVIATION / deviation * search.cycles_per_step)
+                .clamp(1.0, MAX_CYCLES_PER_STEP);
         }
         search.newton_step(&contact_history);
         before = Some(record);
@@ -126,7 +105,7 @@ impl<'a> CycleSearch<'a> {
             expected_residual: vec![0.0; state.len()],
             residual_before: 0.0,
             state,
-            cycles_per_step: (CARRIED_OVER_CYCLES * problem.cycles_per_step.get()).max(1.0),
+            cycles_per_step: 1.0,
         }
     }
 
@@ -160,7 +139,7 @@ impl<'a> CycleSearch<'a> {
             .modes()
             .iter()
             .map(|mode| {
-                AMPLITUDE_ROUNDING
+                SUM_ROUNDING
                     / self
                         .recovered_fraction(mode)
                         .max(ContactHistory::MAX_PERIODS_FROM_IMPULSE)
@@ -173,15 +152,17 @@ impl<'a> CycleSearch<'a> {
     /// Bound of the remaining change over the change by the last step.
     ///
     /// Cycles that the step does not cover remain in proportion. The deviation from what was expected remains like a geometric
-    /// series.
+    /// series, which has no bound for deviations of 1 or more.
     fn remaining_change_factor(&self, deviation: f64) -> f64 {
         let settling_cycles = self
             .modes()
             .iter()
             .map(|mode| self.recovered_fraction(mode).recip() - 1.0);
         let uncovered = settling_cycles.fold(0.0, f64::max) / self.cycles_per_step;
-        let counted = deviation.min(MAX_COUNTED_DEVIATION);
-        REMAINDER_SAFETY_FACTOR * (counted / (1.0 - counted)).max(1.0) + uncovered
+        if deviation >= 1.0 {
+            return f64::INFINITY;
+        }
+        REMAINDER_SAFETY_FACTOR * (deviation / (1.0 - deviation)).max(1.0) + uncovered
     }
 
     /// Takes the approximate Newton step from the state, and computes the residual that it should leave.

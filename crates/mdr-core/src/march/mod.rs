@@ -22,7 +22,10 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use indenters::{MotionRecord, MotionView, Moved, MovingLoad, RigidLine};
-use numerics::{Accuracy, FIRST_ELEMENTS, Goal, Progress, Request, positive, refine};
+use numerics::{
+    Accuracy, FIRST_ELEMENTS, Goal, ITERATION_SHARE, MIN_CONVERGENCE_ORDER, Progress, Request,
+    positive, refine,
+};
 use rheology::Material;
 
 use crate::MdrError;
@@ -31,12 +34,10 @@ use crate::steady::LineProblem;
 use motion_problem::MotionProblem;
 pub use slide::{Sliding, SlidingStep, slide, slide_memory};
 
-/// Elements along the contact beyond which a refinement stops. Chosen.
+/// Elements along the contact beyond which a refinement stops: a limit of the time.
 const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
 /// Power of the number of elements with which the work grows: the number of steps grows in proportion to it.
 const WORK_EXPONENT: f64 = 2.0;
-/// Smallest order of convergence that is assumed; below it nothing converges.
-const MIN_ORDER: f64 = 0.1;
 /// Largest order of convergence that is assumed. Smooth bodies have a better one, but the place of their contact boundary
 /// between the elements makes it unsafe to assume more.
 const MAX_ORDER: f64 = 1.0;
@@ -58,8 +59,6 @@ const STEEP_KINK_ORDER: f64 = 0.5;
 const MIN_ELEMENTS_PER_STROKE: f64 = 4.0;
 /// Elements along the contact at most on the resolution where a relative error is first sought. Chosen.
 const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
-/// Tolerance of the limit cycle as a part of the relative error asked for. Measured by `evidence tuning`.
-const CYCLE_TOLERANCE_SHARE: f64 = 0.05;
 /// Relative tolerance of the limit cycle on a given number of elements. Chosen.
 const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 
@@ -104,7 +103,7 @@ pub fn move_along<'w>(
     LineProblem::new(line, material, load.fastest())?.check_kinks(load.largest_control())?;
     let length = contact_length(line, material, load)?;
     let tolerance = match request.accuracy {
-        Accuracy::RelativeError(asked) => CYCLE_TOLERANCE_SHARE * asked,
+        Accuracy::RelativeError(asked) => ITERATION_SHARE * asked,
         Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ELEMENTS,
     };
     let problem = MotionProblem::new(line, material, load, length, tolerance)?;
@@ -235,7 +234,7 @@ fn convergence_order(line: &dyn RigidLine) -> f64 {
     if has_steep_kinks(line) {
         STEEP_KINK_ORDER
     } else {
-        (line.apex_exponent() - TIP_ORDER_LOSS).clamp(MIN_ORDER, MAX_ORDER)
+        (line.apex_exponent() - TIP_ORDER_LOSS).clamp(MIN_CONVERGENCE_ORDER, MAX_ORDER)
     }
 }
 

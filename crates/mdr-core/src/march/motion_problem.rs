@@ -45,8 +45,6 @@ pub(super) struct MotionProblem<'a> {
     pub(super) tolerance: f64,
     /// Amplitudes of recovery on the resolution before, with which the next one begins.
     pub(super) saved_recovery: RefCell<Option<SavedRecovery>>,
-    /// Cycles that a step of the search covered last on the resolution before.
-    pub(super) cycles_per_step: Cell<f64>,
     /// Height of the foundation that the cycle on the resolution before needed, \[m].
     height: Cell<f64>,
 }
@@ -70,7 +68,6 @@ impl<'a> MotionProblem<'a> {
             length,
             tolerance,
             saved_recovery: RefCell::new(None),
-            cycles_per_step: Cell::new(1.0),
             height: Cell::new(0.0),
         })
     }

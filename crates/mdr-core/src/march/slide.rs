@@ -15,15 +15,15 @@ mod subgrid;
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::{
-    ErrorParts, Estimate, FIRST_ELEMENTS, Goal, Quantity, Request, in_range, refine, whole_part,
+    ErrorParts, Estimate, FIRST_ELEMENTS, Goal, MIN_CONVERGENCE_ORDER, Quantity, Request, in_range,
+    refine, whole_part,
 };
 use rheology::Material;
 
 use super::motion_problem::{FIRST_PRESSING_DURATION, MOTION_BYTES_PER_ELEMENT, force_correction};
 use super::winkler::{Prescribed, WinklerFoundation};
 use super::{
-    FOUNDATION_PER_CONTACT, MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, MIN_ORDER, STEEP_KINK_ORDER,
-    WORK_EXPONENT,
+    FOUNDATION_PER_CONTACT, MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, STEEP_KINK_ORDER, WORK_EXPONENT,
 };
 use crate::MdrError;
 use crate::branches::{Foundation, n_history};
@@ -148,7 +148,7 @@ pub fn slide<'w>(
         order: if has_steep_kinks(line) {
             STEEP_KINK_ORDER
         } else {
-            (2.0 * apex_exponent - 1.0).clamp(MIN_ORDER, MAX_ORDER)
+            (2.0 * apex_exponent - 1.0).clamp(MIN_CONVERGENCE_ORDER, MAX_ORDER)
         },
         work_exponent: WORK_EXPONENT,
         extra_work: 0.0,

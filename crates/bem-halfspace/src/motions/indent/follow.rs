@@ -6,16 +6,17 @@ use numerics::{in_range, not_negative, positive, refine};
 use rheology::Material as _;
 
 use super::history::refined;
-use super::press::{PRESS_BYTES_PER_ELEMENT, PRESSED_AREA_ORDER, Spring, goal, grid, n_followed};
+use super::press::{
+    PRESS_BYTES_PER_ELEMENT, PRESSED_AREA_ORDER, PRESSED_ORDER, Spring, grid, n_followed,
+};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
 use crate::estimate::bars::{has_instantaneous_compliance, reached_or_error};
 use crate::estimate::quantities::{Name, Quantities};
+use crate::estimate::refinement_limits::HISTORY;
 use crate::march::n_history_variables;
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Elements along the largest contact on the finest grid of a history.
-const MAX_HISTORY_ELEMENTS: usize = 256;
 /// Most steps in time of a history on one grid, unless its points are so many that [`MIN_STEPS_PER_INTERVAL`] needs more.
 const MAX_HISTORY_STEPS: usize = 4096;
 /// Steps between two points that are always allowed: three halvings of one step.
@@ -118,7 +119,7 @@ pub fn indent_along<'w>(
         Ok(quantities.map(of_steps).collect())
     };
     let fine = refine(
-        &goal(request, MAX_HISTORY_ELEMENTS),
+        &HISTORY.goal(request, PRESSED_ORDER),
         solve,
         |(found, _)| path.quantities(found),
         others,

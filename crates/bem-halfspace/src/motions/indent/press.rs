@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
-use numerics::{ErrorParts, Goal, Request, positive};
+use numerics::{ErrorParts, Request, positive};
 use rheology::{Compressible, Elastic, Material as _, check_spectra};
 
 use crate::elements::pressure_field::PressureField;
@@ -15,13 +15,12 @@ use crate::error::check_contact_elements;
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
+use crate::estimate::refinement_limits::PRESS;
 use crate::march::{March, Motion};
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
-/// Elements along the contact on the finest grid of a pressed contact.
-const MAX_PRESS_ELEMENTS: usize = 512;
 /// Convergence order that is assumed of depth and force, which converge faster, under cusps too.
-const MIN_CONVERGENCE_ORDER: f64 = 1.0;
+pub(super) const PRESSED_ORDER: f64 = 1.0;
 /// Convergence order of the counted contact area where nothing slides: the straight runs of a smooth outline of n elements are √n
 /// edges long, and are displaced by up to half an element, of n² elements in all.
 pub(super) const PRESSED_AREA_ORDER: f64 = 1.5;
@@ -287,16 +286,6 @@ impl Spring {
     }
 }
 
-/// The refinement that meets a request on grids of at most `largest` elements along the contact.
-pub(super) const fn goal(request: Request, largest: usize) -> Goal {
-    bars::contact_goal(
-        request,
-        largest,
-        MIN_CONVERGENCE_ORDER,
-        bars::GRID_WORK_EXPONENT,
-    )
-}
-
 fn estimate(
     surface: &dyn Surface,
     spring: &Spring,
@@ -305,7 +294,7 @@ fn estimate(
 ) -> Result<PressEstimate, BemError> {
     let plan = spring.plan(surface, control)?;
     let resolution = Resolution {
-        goal: goal(request, MAX_PRESS_ELEMENTS),
+        goal: PRESS.goal(request, PRESSED_ORDER),
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),

@@ -10,9 +10,10 @@ use indenters::rough::PeriodicSurface;
 use indenters::{MotionRecord, MotionView, Moved, MovingLoad};
 use numerics::{Accuracy, ErrorParts, Goal, MAX_STORED_STATES, Request};
 
-use crate::march::{MARCH_WORK_EXPONENT, n_history_variables};
-use crate::motions::any_motion::{MIN_ORDER_OF_MOTION, refine_motion};
-use crate::stationary::periodic::grid_sizes::MIN_EDGE_ELEMENTS;
+use crate::elements::grid::MIN_COARSEST_EDGE;
+use crate::estimate::refinement_limits::{MARCH_ORDER, MARCH_WORK_EXPONENT};
+use crate::march::n_history_variables;
+use crate::motions::any_motion::refine_motion;
 use crate::stationary::periodic::refinement::MIN_CONTACT_ELEMENTS;
 use crate::{BemError, Elastomer};
 use moving_surface::MovingSurface;
@@ -75,7 +76,7 @@ pub fn move_along<'w>(
         request,
         initial_elements: first,
         max_elements: problem.largest(first),
-        order: MIN_ORDER_OF_MOTION,
+        order: MARCH_ORDER,
         work_exponent: MARCH_WORK_EXPONENT,
         extra_work: 0.0,
         selection_factor: 1.0,
@@ -130,7 +131,7 @@ pub fn elements_of_motion(surface: &PeriodicSurface) -> usize {
 fn edges(surface: &PeriodicSurface) -> [usize; 2] {
     surface.largest_numbers().map(|number| match number {
         0 => 2,
-        _ => (ELEMENTS_PER_SHORTEST_WAVE * number).max(MIN_EDGE_ELEMENTS),
+        _ => (ELEMENTS_PER_SHORTEST_WAVE * number).max(MIN_COARSEST_EDGE),
     })
 }
 

@@ -9,24 +9,17 @@ use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Accuracy, ErrorParts, Request};
 use rheology::{CreepSpectrum, Material as _};
 
-use crate::estimate::bars::{
-    self, ContactEstimate, OnGrid, Resolution, Target, contact_goal, peak_has_limit,
-};
+use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
-use crate::march::{
-    MARCH_WORK_EXPONENT, MarchExtent, largest_retardation_time, n_history_variables,
-};
+use crate::estimate::refinement_limits::{MARCH_ORDER, SLIDE};
+use crate::march::{MarchExtent, largest_retardation_time, n_history_variables};
 use crate::motions::slide::stationary_limit::slide_until_stationary;
 use crate::motions::slide::{
     March, PressureField, SlideRow, StationaryOptions, Transient, follow_march,
 };
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
-/// Largest number of elements along the contact; a march on it takes about a minute.
-const MAX_ELEMENTS_OF_SLIDE: usize = 32;
-/// Order of the error in the number of elements under a smooth body: that of a step with the load held.
-const ORDER_OF_SLIDE: f64 = 1.0;
 /// Sliding distance to the stationary state in contact lengths of the one-dimensional model, if only flow is slow; measured by
 /// `evidence tuning`.
 const FLOW_CONTACT_LENGTHS: f64 = 24.0;
@@ -187,14 +180,9 @@ impl<'a> PlannedSlide<'a> {
 
     /// Refines until the error asked for is reached.
     fn solve(&self) -> Result<SlideEstimate, BemError> {
-        let order = bars::order_of_friction(self.plan.apex_exponent, ORDER_OF_SLIDE);
+        let order = bars::order_of_friction(self.plan.apex_exponent, MARCH_ORDER);
         let resolution = Resolution {
-            goal: contact_goal(
-                self.request,
-                MAX_ELEMENTS_OF_SLIDE,
-                order,
-                MARCH_WORK_EXPONENT,
-            ),
+            goal: SLIDE.goal(self.request, order),
             control: self.load.control(),
             // An elastic half space has no friction to refine by; its depth takes that place.
             target: if self.creep.is_elastic() {

@@ -169,8 +169,8 @@ pub(super) fn slide_until_stationary(
     while let Some(row) = march.step()? {
         rows.extend(SlideRow::in_contact(&row));
         report(march.fraction_done());
-        // Changes below the error of the solver count as zero.
-        let noise = PRESSURE_ERROR_OVER_TOLERANCE * march.tolerance() * march.mean_slope_modulus();
+        // Changes below the tolerance of the contact count as zero.
+        let noise = march.tolerance() * march.mean_slope_modulus();
         limits.push(&rows, flows);
         change = limits.largest_change(stationary.over_distance, noise);
         if change <= stationary.tolerance {
@@ -194,11 +194,9 @@ pub(super) fn slide_until_stationary(
     })
 }
 
-/// √e − 1, lower bound of change over remaining change: a quantity that falls at least e-fold over a distance changes over its
-/// second half by at least this multiple of what remains.
-const CHANGE_OVER_REMAINDER: f64 = 0.6487;
-/// Relative error of the pressure over the tolerance of the contact, about. Measured by `evidence tuning`.
-const PRESSURE_ERROR_OVER_TOLERANCE: f64 = 1e3;
+/// √e − 1, lower bound of the change of a quantity over its second half of a distance, in units of the remaining
+/// change: the quantity falls at least e-fold over the distance, so at least √e-fold over the half.
+const CHANGE_OVER_REMAINDER: f64 = 0.648_721_270_700_128_1;
 
 /// Extrapolated friction coefficient after each step, as [sliding distance \[m], limit].
 #[derive(Debug, Default)]

@@ -5,7 +5,8 @@ use indenters::rough::PeriodicSurface;
 use numerics::{Accuracy, Request};
 
 use crate::BemError;
-use crate::elements::grid::MAX_ELEMENTS;
+use crate::dense::MAX_MATRIX_BYTES;
+use crate::elements::grid::{MAX_ELEMENTS, MIN_COARSEST_EDGE};
 use crate::stationary::periodic::equations::{
     BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID, MAX_BASIS_FLOATS_ON_SMALL_GRID,
 };
@@ -13,8 +14,6 @@ use crate::transform::fast_length::fast_length;
 
 /// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
-/// Fewest elements along an edge with waves; chosen.
-pub(crate) const MIN_EDGE_ELEMENTS: usize = 32;
 /// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]; chosen.
 ///
 /// Above it the first grid has one element per shortest wave, and contains only the modes that it resolves.
@@ -26,8 +25,6 @@ const BYTES_PER_ELEMENT: f64 = 186.0;
 /// Memory of the GCR basis per element on a small grid, \[bytes].
 const BASIS_BYTES_PER_ELEMENT: f64 =
     (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
-/// Memory that a direct solve may take besides, \[bytes].
-const DIRECT_SOLVE_BYTES: f64 = 33_554_432.0;
 /// Largest memory of the GCR basis on a small grid, \[bytes].
 const MAX_SMALL_BASIS_BYTES: f64 = (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64;
 /// Ratio of the elements along an edge on the last of three grids to those on the first.
@@ -64,7 +61,7 @@ fn first_elements(number: usize) -> usize {
         0 => 2,
         _ => (FIRST_ELEMENTS_PER_WAVE * number)
             .next_power_of_two()
-            .max(MIN_EDGE_ELEMENTS),
+            .max(MIN_COARSEST_EDGE),
     }
 }
 
@@ -73,7 +70,7 @@ fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
     let first = surface.largest_numbers().map(|number| match number {
         0 => 2,
         _ => (COARSE_EDGE_MULTIPLE * fast_length((number + 1).div_ceil(COARSE_EDGE_MULTIPLE)))
-            .max(MIN_EDGE_ELEMENTS),
+            .max(MIN_COARSEST_EDGE),
     });
     match surface.told_by(first) {
         Some(_) => first,
@@ -101,7 +98,7 @@ fn finest_elements(first: [usize; 2]) -> f64 {
 pub fn largest_grid(memory: Option<f64>) -> f64 {
     memory.map_or(MAX_ELEMENTS, |bytes| {
         // The basis grows with the grid between the memory of a direct solve and that of the largest basis of a small grid.
-        let with_direct_solve = (bytes - DIRECT_SOLVE_BYTES) / BYTES_PER_ELEMENT;
+        let with_direct_solve = (bytes - MAX_MATRIX_BYTES as f64) / BYTES_PER_ELEMENT;
         let with_largest_basis = (bytes - MAX_SMALL_BASIS_BYTES) / BYTES_PER_ELEMENT;
         let with_growing_basis = bytes / (BYTES_PER_ELEMENT + BASIS_BYTES_PER_ELEMENT);
         with_growing_basis
@@ -115,7 +112,7 @@ pub fn largest_grid(memory: Option<f64>) -> f64 {
 /// Upper bound of the memory of a grid with a number of elements, \[bytes].
 fn bytes_on(elements: f64) -> f64 {
     let basis = BASIS_BYTES_PER_ELEMENT * elements;
-    basis.clamp(DIRECT_SOLVE_BYTES, MAX_SMALL_BASIS_BYTES) + BYTES_PER_ELEMENT * elements
+    basis.clamp(MAX_MATRIX_BYTES as f64, MAX_SMALL_BASIS_BYTES) + BYTES_PER_ELEMENT * elements
 }
 
 /// Upper bound of the memory of [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide), \[bytes], for a

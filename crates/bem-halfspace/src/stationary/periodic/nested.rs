@@ -6,7 +6,9 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::elements::grid::MIN_COARSEST_EDGE;
 use crate::parallel::reductions::mean;
+use crate::stationary::INITIAL_GUESS_TOLERANCE;
 use crate::stationary::periodic::contact::{self, PeriodicContact, PeriodicSolution};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
@@ -14,10 +16,6 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
-/// Fewest elements along an edge of the coarsest grid; chosen.
-const MIN_COARSE_EDGE: usize = 32;
-/// Smallest relative tolerance of a solution that is only a first guess; chosen.
-const COARSE_TOLERANCE: f64 = 1e-4;
 /// Maximum number of operator applications for a first guess; chosen.
 const COARSE_MAX_PRODUCTS: usize = 300;
 /// Largest number of active elements per active element of twice the edges after prolongation; above it the set is restricted to
@@ -54,7 +52,7 @@ fn solve_on_coarser_grids(
     problem: &PeriodicContact,
     pressure: &mut Vec<f64>,
 ) -> Result<(), BemError> {
-    let can_be_coarsened = |n: &usize| n.is_multiple_of(2) && *n >= 2 * MIN_COARSE_EDGE;
+    let can_be_coarsened = |n: &usize| n.is_multiple_of(2) && *n >= 2 * MIN_COARSEST_EDGE;
     if !problem.grid.shape().iter().all(can_be_coarsened) {
         return Ok(());
     }
@@ -64,7 +62,7 @@ fn solve_on_coarser_grids(
         grid: &grid,
         heights: &heights,
         options: PeriodicOptions {
-            tolerance: problem.options.tolerance.max(COARSE_TOLERANCE),
+            tolerance: problem.options.tolerance.max(INITIAL_GUESS_TOLERANCE),
             max_products: problem.options.max_products.min(COARSE_MAX_PRODUCTS),
         },
         ..*problem

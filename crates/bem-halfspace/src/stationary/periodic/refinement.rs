@@ -6,7 +6,8 @@ use std::borrow::Cow;
 
 use indenters::rough::PeriodicSurface;
 use numerics::{
-    Estimate, Level, LevelForecast, NotReached, Request, between_zero_and_one, refine_levels,
+    Estimate, Level, LevelForecast, NotReached, Request, SUMMATION_ERROR, between_zero_and_one,
+    refine_levels,
 };
 
 use crate::elements::grid::MAX_ELEMENTS;
@@ -47,8 +48,6 @@ pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
 /// Relative error of a result per relative residual of the contact; chosen.
 const RESIDUAL_AMPLIFICATION: f64 = 10.0;
-/// Relative rounding error of results in closed form; chosen.
-const CLOSED_FORM_ROUNDING: f64 = 1e-12;
 /// Maximum number of elements times steps of a march: about half an hour of one thread.
 const MAX_ELEMENT_STEPS: f64 = 2e9;
 
@@ -234,7 +233,7 @@ impl RefinementGoal<'_> {
             let change = (value - middle)
                 .abs()
                 .max(rate.min_reduction * previous_change);
-            let solver_error = RESIDUAL_AMPLIFICATION * fine.residual + CLOSED_FORM_ROUNDING;
+            let solver_error = RESIDUAL_AMPLIFICATION * fine.residual + SUMMATION_ERROR;
             Estimate::new(value, rate.safety * change + solver_error * value.abs())
         };
 

@@ -11,8 +11,6 @@ use crate::stationary::steady::plans::Plans;
 
 /// Loosest RMS residual on an active set, over the increase of the gap over one element at the front; chosen.
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
-/// Upper limit of the loosest RMS residual on an active set, in units of the depth scale; chosen.
-const MAX_INNER_TOLERANCE: f64 = 1e-5;
 
 /// A solved contact, in the units of the mesh.
 pub(super) struct Solution {
@@ -72,5 +70,5 @@ pub(super) fn solve(
 /// opens like the power 3/2 of the ratio of its length to the contact length.
 fn inner_tolerance(n_elements: usize) -> f64 {
     let along = (n_elements as f64).sqrt().max(1.0);
-    MAX_INNER_TOLERANCE.min(INNER_TOLERANCE_OVER_OPENING * along.powf(-1.5))
+    INNER_TOLERANCE_OVER_OPENING * along.powf(-1.5)
 }

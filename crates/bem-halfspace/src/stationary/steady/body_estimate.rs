@@ -6,11 +6,11 @@ use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Accuracy, Request, positive};
 use rheology::Material as _;
 
-use crate::estimate::bars::{
-    self, GRID_WORK_EXPONENT, Resolution, Target, contact_goal, peak_has_limit,
-};
+use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::estimate::plan::{GridPlan, NEGLIGIBLE_KINKS};
-use crate::stationary::steady::grid_refinement::{SteadyProblem, refine};
+use crate::estimate::refinement_limits::STATIONARY;
+use crate::stationary::steady::extrapolation::FLAT_END_ORDER;
+use crate::stationary::steady::grid_refinement::{DEFAULT_ASPECT, SteadyProblem, refine};
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::patch_resolution::MIN_ELEMENTS_ACROSS;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
@@ -18,13 +18,9 @@ use crate::stationary::steady::solution::SteadyEstimate;
 use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 use crate::{BemError, Elastomer};
 
-/// Aspect ratio Δy/Δx of a grid with a given number of elements; chosen.
-const BODY_ASPECT: f64 = 0.5;
 /// Convergence order that is assumed under a smooth body. The front leaves 3/2, a boundary that follows the elements less. With 1.1 the
 /// error estimates hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90; with 1 they are wider.
 const BODY_ORDER: f64 = 1.1;
-/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only.
-const FLAT_END_ORDER: f64 = 0.5;
 /// On a given number of elements the friction from dissipation replaces that from slopes if its error is below this fraction of the other;
 /// chosen. The smaller of two error estimates holds less often than either.
 const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
@@ -99,7 +95,7 @@ pub fn steady_grid(
 /// The grid with about `elements` elements along the contact in the footprint of a plan.
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
     let dx = plan.length() / elements as f64;
-    SteadyOptions::new([dx, BODY_ASPECT * dx], plan.footprint.widened(dx))
+    SteadyOptions::new([dx, DEFAULT_ASPECT * dx], plan.footprint.widened(dx))
 }
 
 /// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth. The
@@ -233,7 +229,7 @@ fn with_needed_elements(error: BemError, asked: Accuracy, elements: usize) -> Be
 /// Goal and error model of a solution on a given number of elements, with the convergence order of a smooth body.
 pub(super) fn resolution(request: Request<'_>, control: Control, has_peak: bool) -> Resolution<'_> {
     Resolution {
-        goal: contact_goal(request, usize::MAX, BODY_ORDER, GRID_WORK_EXPONENT),
+        goal: STATIONARY.goal(request, BODY_ORDER),
         control,
         target: Target::Friction,
         has_peak,

@@ -4,11 +4,15 @@
 
 use numerics::Estimate;
 
-/// Range of observed convergence orders that are considered; chosen.
-pub(super) const OBSERVED_ORDERS: [f64; 2] = [0.5, 1.5];
-/// Range of orders where elements hide an edge: 1/2 only, because values may turn around once the edge is resolved, so that no observed
-/// order counts.
-pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [0.5, 0.5];
+/// Convergence order at the singular front, where the pressure begins like the root of the distance.
+pub(super) const FRONT_ORDER: f64 = 1.5;
+/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only: its pressure grows like
+/// the inverse root of the distance.
+pub(super) const FLAT_END_ORDER: f64 = 0.5;
+/// Range of observed convergence orders under edges: from that of a hidden flat end to that of a front without edges.
+pub(super) const OBSERVED_ORDERS: [f64; 2] = [FLAT_END_ORDER, FRONT_ORDER];
+/// Range of orders where elements hide an edge. No observed order counts, because values may turn around once the edge is resolved.
+pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [FLAT_END_ORDER; 2];
 
 /// Convergence orders that are observed for the friction on any material but a dashpot: 2 from the dissipated power, and under cones, up to
 /// 5/2 from slopes.
@@ -72,8 +76,8 @@ pub(super) fn change_at_observed_order(values: &[f64], order: f64, range: [f64; 
 const fn next_order(order: f64) -> f64 {
     if order < 1.0 {
         1.0
-    } else if order < 1.5 {
-        1.5
+    } else if order < FRONT_ORDER {
+        FRONT_ORDER
     } else {
         2.0
     }

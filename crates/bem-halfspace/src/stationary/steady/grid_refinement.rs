@@ -20,7 +20,7 @@ use crate::estimate::bars;
 use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::estimate::quantities::Name;
 use crate::stationary::steady::extrapolation::{
-    ACCEPTED_ERROR_RATIO, CREEPING_ORDERS, HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS,
+    ACCEPTED_ERROR_RATIO, CREEPING_ORDERS, FRONT_ORDER, HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS,
     change_at_observed_order, extrapolate,
 };
 use crate::stationary::steady::loading::Loading;
@@ -36,8 +36,6 @@ const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25
 /// Number of last refinements in plane strain whose largest scatter counts; chosen. On one of them it may be small by chance, and the
 /// extrapolated limit contains the scatter of all values that it eliminates.
 const STRIP_SCATTER_WINDOW: usize = 4;
-/// Convergence order at the singular front.
-const FRONT_ORDER: f64 = 1.5;
 /// Convergence order of the area of the elements in contact.
 const AREA_ORDER: f64 = 1.0;
 /// Safety factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the last
@@ -57,6 +55,9 @@ const LARGE_GRID_ELEMENTS: f64 = 2e6;
 const LARGE_GRID_ELEMENTS_PER_UNKNOWN: f64 = 12.5;
 /// Number of footprint elements up to which a grid is never refused; chosen. Such grids cost next to nothing.
 const MIN_GRID_LIMIT: f64 = 1e5;
+/// Aspect ratio Δy/Δx of the elements under a body unless another is asked for: the contact boundary is steeper across the sliding
+/// direction than along it. Chosen.
+pub(super) const DEFAULT_ASPECT: f64 = 0.5;
 /// Factors on the spacing that are tried in turn where the active set cycles; chosen. The spacing that is reported is that of the grid
 /// that was solved.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
@@ -67,8 +68,6 @@ const RESIDUAL_SHARE: f64 = 1e-4;
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
 /// Smallest tolerance of a contact, relative to the depth scale, that rounding error permits.
 const MIN_TOLERANCE: f64 = 1e-12;
-/// Ratio of friction to mean slope that is assumed on the first grid, on any material but a dashpot; chosen.
-const INITIAL_FRICTION_RATIO: f64 = 1e-3;
 /// Error of the friction over the mean slope below which the friction of an elastic material counts as known, because the rest is
 /// rounding error; chosen.
 const ELASTIC_ROUNDING: f64 = 1e-9;
@@ -91,7 +90,7 @@ impl Default for RefinementOptions {
     fn default() -> Self {
         Self {
             relative_error: 1e-3,
-            aspect: 0.5,
+            aspect: DEFAULT_ASPECT,
             max_unknowns: 160_000,
         }
     }
@@ -496,13 +495,12 @@ impl ShiftedGrids<'_> {
     }
 
     /// Tolerance of a contact that disturbs the friction by less than the requested error. It is proportional to the ratio of friction to
-    /// mean slope, because a small friction is a difference of large slopes.
+    /// mean slope, which is 1 at most and assumed so on the first grid, because a small friction is a difference of large slopes.
     fn tolerance(&self) -> f64 {
-        let friction_ratio = match &self.reuse.solution {
-            Some(last) => last.friction_coefficient.abs() / last.mean_slope,
-            None if self.problem.loading.creep.only_flows() => 1.0,
-            None => INITIAL_FRICTION_RATIO,
-        };
+        let last = self.reuse.solution.as_ref();
+        let friction_ratio = last.map_or(1.0, |last| {
+            last.friction_coefficient.abs() / last.mean_slope
+        });
         let share = match self.problem.loading.strip {
             Some(_) => STRIP_RESIDUAL_SHARE,
             None => RESIDUAL_SHARE,

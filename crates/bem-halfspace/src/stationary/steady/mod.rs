@@ -46,6 +46,7 @@ use numerics::{between_zero_and_one, positive};
 
 pub use crate::estimate::averages::{Average, Refinement};
 use crate::parallel::chunks::in_pool;
+use crate::stationary::INITIAL_GUESS_TOLERANCE;
 use crate::{BemError, Elastomer, Footprint};
 use body_contact::Solution;
 pub use body_estimate::{steady, steady_grid, steady_memory, steady_refined};
@@ -65,8 +66,6 @@ pub use wake_influence::wake_influence;
 const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
 /// Spacing of the coarser mesh of a nested iteration over that of the finer one.
 const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
-/// Smallest tolerance of a solution that serves as initial guess only; chosen.
-const NESTED_ITERATION_TOLERANCE: f64 = 1e-6;
 
 /// One grid for a stationary solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,7 +162,7 @@ fn solve_on_mesh(
     {
         let coarse = SteadyOptions {
             spacing: loading.scaled(options.spacing, NESTED_ITERATION_SPACING_FACTOR),
-            tolerance: options.tolerance.max(NESTED_ITERATION_TOLERANCE),
+            tolerance: options.tolerance.max(INITIAL_GUESS_TOLERANCE),
             ..*options
         };
         // Only the kernel of a dashpot is the same on both grids, so that its tables are shared.

@@ -12,6 +12,8 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
+use numerics::NEGLIGIBLE_EXPONENT;
+
 use crate::Base;
 use crate::parallel::reductions::dot;
 use crate::stationary::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
@@ -58,8 +60,6 @@ const MIN_START_DISTANCE: f64 = 16.0;
 /// Ratio of the distances of the end and the start of a panel from the load, where the panels lie further
 /// ahead than the start of the recursion. They then are shorter than their distance from the load, as the rule of most points requires.
 const PANEL_GROWTH: f64 = 1.9;
-/// Largest exponent x of a term e^(−x) that is included; the neglected terms, below 4e-18, are less than rounding error.
-const MAX_EXPONENT: f64 = 40.0;
 
 /// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
@@ -179,7 +179,9 @@ impl RetardedPotential {
         let mut ends = vec![self.position];
         let mut end = self.position;
         let influence_end = 1.0 + self.base.influence_radius();
-        while slowest * (end - self.position) < MAX_EXPONENT && end < influence_end.min(1e150) {
+        while slowest * (end - self.position) < NEGLIGIBLE_EXPONENT
+            && end < influence_end.min(1e150)
+        {
             end *= PANEL_GROWTH;
             ends.push(end);
         }

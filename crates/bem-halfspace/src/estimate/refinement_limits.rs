@@ -1,0 +1,71 @@
+//! Grids of the refinements of one contact, and of marches: first and finest grid, and how the work grows.
+
+use numerics::{FIRST_ELEMENTS, Goal, Request};
+
+/// Exponent of the work of a contact as a function of the elements along it: transforms of all elements along x and y dominate, and finer
+/// grids need hardly more operator applications.
+const CONTACT_WORK_EXPONENT: f64 = 2.0;
+/// Exponent of the work of a march as a function of the elements along the contact: that of one contact, times as many steps.
+pub(crate) const MARCH_WORK_EXPONENT: f64 = CONTACT_WORK_EXPONENT + 1.0;
+/// Convergence order of a march under a smooth body: that of a step with the load held.
+pub(crate) const MARCH_ORDER: f64 = 1.0;
+/// Factor on the discretisation error if a relative error ends the refinement, whose last grid has an error that is small by chance.
+/// Chosen on the random scenes of docs/calibration.md.
+const SELECTION_FACTOR: f64 = 2.0;
+
+/// Resolution policy of a refinement in elements along the contact.
+pub(crate) struct RefinementLimits {
+    /// Number of elements of the first error estimate.
+    initial_elements: usize,
+    /// Number of elements from which on the refinement stops: a limit of the time, which decides no value.
+    max_elements: usize,
+    work_exponent: f64,
+    selection_factor: f64,
+}
+
+/// A contact under a constant control; minutes on the finest grid.
+pub(crate) const PRESS: RefinementLimits = RefinementLimits {
+    initial_elements: FIRST_ELEMENTS,
+    max_elements: 512,
+    work_exponent: CONTACT_WORK_EXPONENT,
+    selection_factor: SELECTION_FACTOR,
+};
+/// A history of a pressed contact, which takes many contacts on each grid.
+pub(crate) const HISTORY: RefinementLimits = RefinementLimits {
+    max_elements: 256,
+    ..PRESS
+};
+/// A stationary state on a given number of elements.
+pub(crate) const STATIONARY: RefinementLimits = RefinementLimits {
+    max_elements: usize::MAX,
+    ..PRESS
+};
+/// A march from first touch; about a minute on the finest grid.
+pub(crate) const SLIDE: RefinementLimits = RefinementLimits {
+    max_elements: 32,
+    work_exponent: MARCH_WORK_EXPONENT,
+    ..PRESS
+};
+/// Any motion; a cycle takes about a minute on the finest grid. Most strokes reach 2 % on the first one
+/// (docs/theory/transient-half-space.md, "Linear loads").
+pub(crate) const MOTION: RefinementLimits = RefinementLimits {
+    initial_elements: 8,
+    max_elements: 48,
+    selection_factor: 1.0,
+    ..SLIDE
+};
+
+impl RefinementLimits {
+    /// The refinement that meets a request, with a convergence order.
+    pub(crate) const fn goal<'w>(&self, request: Request<'w>, order: f64) -> Goal<'w> {
+        Goal {
+            request,
+            initial_elements: self.initial_elements,
+            max_elements: self.max_elements,
+            order,
+            work_exponent: self.work_exponent,
+            extra_work: 0.0,
+            selection_factor: self.selection_factor,
+        }
+    }
+}
