@@ -35,7 +35,7 @@ use crate::error::representable;
 const MIN_INTERVALS: f64 = 64.0;
 /// Additional intervals of a trapezoidal rule per unit of its length.
 const INTERVALS_PER_UNIT_LENGTH: f64 = 8.0;
-/// Requested relative accuracy of a pressure; chosen.
+/// Requested relative accuracy of a pressure, a few hundred units in the last place.
 const PRESSURE_ACCURACY: f64 = 1e-13;
 
 /// Length and speed of a sliding line contact.

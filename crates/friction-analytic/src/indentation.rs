@@ -269,7 +269,8 @@ fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>,
     bracketed_root(excess, bracket).ok_or(failed).map(Some)
 }
 
-/// Factor between two radii of the search for a bracket; chosen.
+/// Factor between two radii of the search for a bracket. It changes the number of evaluations only: the root is the
+/// same.
 const BRACKET_FACTOR: f64 = 64.0;
 
 /// Two radii \[m] between which the excess of the moment changes its sign.

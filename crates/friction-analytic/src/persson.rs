@@ -228,13 +228,16 @@ pub fn persson_of_spectrum(
 const N_TERMS: usize = 3;
 /// Number of results: the area fraction, the variance of the pressure, and the terms of the friction.
 const N_RESULTS: usize = N_TERMS + 2;
-/// Relative difference up to which the lengths of two wave vectors count as equal, for rounding; chosen.
+/// Relative difference up to which the lengths of two wave vectors count as equal: some thousand units in the last
+/// place, for the rounding of their components.
 const EQUAL_LENGTHS: f64 = 1e-12;
-/// Steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid; chosen.
+/// Steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid; they are
+/// doubled until the requested error is reached.
 const MIN_STEPS: usize = 16;
-/// Steps of Simpson's rule on each of the two ranges from which on they are not doubled; chosen.
+/// Steps of Simpson's rule on each of the two ranges from which on they are not doubled: a limit of the time.
 const MAX_STEPS: usize = 1 << 14;
-/// Requested relative error of the integrals over the angle; chosen.
+/// Requested relative error of the integrals over the angle, a few hundred units in the last place. The error that is
+/// reached is part of the bar.
 const ANGULAR_TOLERANCE: f64 = 1e-13;
 
 impl SelfAffineSpectrum {

@@ -5,12 +5,12 @@ use numerics::{Estimate, integrate};
 
 use crate::FrictionError;
 
-/// Requested relative accuracy of an integral; chosen.
-///
-/// Slopes that are integrals themselves are known to 1e-14, so that a smaller one could not be distinguished from noise.
+/// Requested relative accuracy of an integral. Slopes that are integrals themselves are known to 1e-14, so that a
+/// smaller one could not be distinguished from noise.
 const REQUESTED_ACCURACY: f64 = 1e-12;
-/// Largest relative error of an integral that is accepted; chosen (docs/conventions.md, "Errors and tolerances").
-const ACCEPTED_ACCURACY: f64 = 1e-10;
+/// Largest relative error of an integral that is accepted: a hundred times the requested one, for integrands that are
+/// known less accurately (docs/conventions.md, "Errors and tolerances").
+const ACCEPTED_ACCURACY: f64 = 1e2 * REQUESTED_ACCURACY;
 
 /// The integral over the pieces between successive `ends`.
 pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {

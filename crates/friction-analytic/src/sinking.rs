@@ -16,9 +16,8 @@ use crate::FrictionError;
 use crate::error::{out_of_range, representable};
 use crate::stationary::depth_under_force;
 
-/// Largest difference between the rise of the contact and the depth, relative to the depth, with which they count as equal.
-///
-/// Chosen, because the contact comes from a root search or from a table of the caller.
+/// Largest difference between the rise of the contact and the depth, relative to the depth, with which they count as
+/// equal: the contact comes from a root search, or from a table of the caller with nine digits.
 const HEIGHT_TOLERANCE: f64 = 1e-9;
 
 /// Velocity v_z at which a sliding line sinks while it touches over the `contact` intervals \[m] of its own frame, \[m/s].

@@ -73,7 +73,8 @@ const REAR_BOUND: f64 = 2.0;
 const DEPTH_BOUND: f64 = 0.25;
 /// Upper bound of the relative error of the integrals of the first term.
 const QUADRATURE_ERROR: f64 = 1e-10;
-/// Distance from the apex, over a, beyond which changes of the slope are in the other terms; chosen.
+/// Distance from the apex, over a, beyond which changes of the slope are in the other terms. Chosen; the bounds of
+/// the terms were measured with it.
 const APEX_REGION: f64 = 0.25;
 
 /// Slow sliding over a solid half space, from the elastic contact of the same radius.

@@ -14,15 +14,17 @@ use rheology::StressBand;
 
 use crate::ElasticContact;
 
-/// Number of midpoints of the load on the equivalent line, in the cosine transform; chosen.
+/// Number of midpoints of the load on the equivalent line, in the cosine transform: 25 per wave at the largest of
+/// [`WAVE_NUMBER_DECADES`].
 const LOAD_POINTS: u32 = 400;
-/// Number of angles θ in a quarter turn; chosen.
+/// Number of angles θ in a quarter turn. Chosen: the spectrum weighs frequencies by decades, and is no part of a bar.
 const ANGLES: u32 = 32;
 /// Decadic logarithms of the smallest and the largest wave number times the contact radius.
 ///
 /// Waves outside dissipate a hundredth of all at most.
 const WAVE_NUMBER_DECADES: [f64; 2] = [-2.0, 2.0];
-/// Number of wave numbers, equally spaced in their logarithm; chosen.
+/// Number of wave numbers, equally spaced in their logarithm: 25 per decade. Chosen: the spectrum weighs frequencies
+/// by decades, and is no part of a bar.
 const WAVE_NUMBERS: u32 = 100;
 
 /// Frequencies \[rad/s] at which the elastic contact strains the half space, with weights proportional to |p̂|² dq dθ.

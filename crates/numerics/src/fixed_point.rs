@@ -10,13 +10,14 @@
 //! The evaluation after it starts from the plain value g(x). The difference between the results of both shows how much still
 //! changes. It finds limit cycles of reciprocating motions: docs/tribometer.md, "How it is computed".
 
-/// Number of evaluations before the first combination; chosen.
+/// Number of evaluations before the first combination: two for a difference, and one that checks it. From 2 to 5 no
+/// answer changes by more than 0.2 % of its bar.
 const PLAIN_EVALUATIONS: usize = 3;
-/// Largest number of evaluations that are combined; chosen.
+/// Largest number of evaluations that are combined: a limit of the memory, which holds four states for each.
 const MAX_COMBINED: usize = 8;
-/// Smallest squared norm of a residual difference after orthogonalisation, relative to before; chosen.
-///
-/// A smaller one is rounding: the difference depends linearly on the others and is left out.
+/// Smallest squared norm of a residual difference after orthogonalisation, relative to before. A smaller one is
+/// rounding: the difference depends linearly on the others and is left out. From 1e-20 to 1e-8 no digit of an answer
+/// changes.
 const MIN_INDEPENDENT_PART: f64 = 1e-12;
 
 /// Outcome of a fixed-point iteration.

@@ -7,15 +7,16 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::Estimate;
 
-/// Step in t of the coarsest trapezoidal sum; chosen.
+/// Step in t of the coarsest trapezoidal sum, which is halved at least [`MIN_HALVINGS`] times. Chosen; it moves
+/// integrals by less than their stated error.
 const COARSEST_STEP: f64 = 0.5;
-/// Largest number of times the step is halved; chosen.
+/// Largest number of times the step is halved: a limit of the time, with which a sum has some 12 000 nodes.
 const MAX_HALVINGS: usize = 9;
-/// Number of halvings before the change by a halving is trusted as the error; chosen.
-///
-/// The first sums may agree by chance, for example if both miss a narrow feature.
+/// Number of halvings before the change by a halving is trusted as the error. The first sums may agree by chance, for
+/// example if both miss a narrow feature. Chosen.
 const MIN_HALVINGS: usize = 3;
-/// Largest |t| of a node: beyond it the weights fall below the smallest normal number.
+/// Largest |t| of a node: from asinh(708.4/π) = 6.11 on, the weights e^(−π sinh t) fall below the smallest normal
+/// number, e^(−708.4).
 const LAST_NODE: f64 = 6.1;
 
 /// Exponent x beyond which a term e^(−x) is left out of sums and integrals of the order 1: e^(−40) = 4e-18 is 1/50 of rounding.

@@ -204,10 +204,12 @@ fn relative_to(value: f64, scale: f64) -> String {
     }
 }
 
-/// Number of elements on which a relative error is first sought; chosen.
+/// Number of elements on which a relative error is first sought. Chosen; twice or half as many change which
+/// resolution reaches the error (case of `evidence tuning`).
 pub const FIRST_ELEMENTS: usize = 16;
-/// Smallest number n of elements whose error estimate also uses 3n/8 elements; chosen, because 3/8 of fewer are too few.
-const MIN_ELEMENTS_FOR_THREE_EIGHTHS: usize = 16;
+/// Smallest number n of elements whose error estimate also uses 3n/8 elements: the default of the first error
+/// estimate, with 6 elements on the coarsest resolution.
+const MIN_ELEMENTS_FOR_THREE_EIGHTHS: usize = FIRST_ELEMENTS;
 /// Factors on the error estimates by n/2, 3n/4 and 3n/8 elements; chosen on random scenes (docs/calibration.md, "What was
 /// measured").
 const ESTIMATE_WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];

@@ -17,8 +17,8 @@ use crate::contact::solve::solve_loads;
 use crate::contact::{Control, LoadState, map_force};
 use crate::{BemError, ConvolutionWorkspace};
 
-/// Loosest relative tolerance of the elastic contacts while the saturated set still changes; chosen, so that few elements
-/// are misplaced by the error.
+/// Loosest relative tolerance of the elastic contacts while the saturated set still changes. Chosen, so that few
+/// elements are misplaced by the error: the last contact has the tolerance asked for.
 const INEXACT_TOLERANCE: f64 = 1e-4;
 
 /// Solves the contact with loads of at most `largest_load` per element; infinity means no limit.

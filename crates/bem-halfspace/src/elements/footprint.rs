@@ -12,8 +12,8 @@ use crate::{BemError, Elastomer};
 /// Largest height that may touch, in depth scales. It is reached under a cusp, see [`Footprint::sliding`].
 pub(crate) const MAX_HEIGHT_IN_DEPTH_SCALES: f64 = 2.0;
 
-/// Factor from a footprint to the next one, which is tried if the contact reaches its boundary; chosen, since any factor leads to
-/// the same contact.
+/// Factor from a footprint to the next one, which is tried if the contact reaches its boundary. Chosen; any factor
+/// above 1 leads to the same contact, and this one needs few trials.
 const GROWTH_FACTOR: f64 = 1.5;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].

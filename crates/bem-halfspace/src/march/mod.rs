@@ -22,7 +22,7 @@ use rheology::CreepSpectrum;
 use crate::GridOptions;
 pub use free::{March, Motion, MotionRow};
 
-/// Number of steps above which a march, or one cycle of it, is refused; chosen.
+/// Number of steps above which a march, or one cycle of it, is refused: a limit of the time.
 pub(crate) const MAX_STEPS: f64 = 1e5;
 /// Memory per followed element without its history variables, \[bytes].
 const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;

@@ -17,13 +17,15 @@ use crate::BemError;
 use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
 
-/// Duration of the first touch, during which the body rests, over that of the first step; chosen.
+/// Duration of the first touch, during which the body rests, over that of the first step. Chosen; from 1e-6 to 1 no
+/// answer changes by more than 2e-4 of its bar.
 pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
-/// Cycles after which the search for the limit cycle is given up.
+/// Number of cycles after which the search for the limit cycle is given up: a limit of the time.
 const MAX_CYCLES: usize = 100;
 /// Relative change per cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
 const CYCLE_ROUNDING: f64 = 1e-14;
-/// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error; chosen.
+/// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error. Chosen;
+/// from 1e-5 to 1e-2 bars change by at most 4 %, with 0.1 the remaining change prevails.
 const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
 
 /// Refines a motion until the error asked for is reached.

@@ -16,8 +16,9 @@ use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, ZERO};
 use crate::{Elastomer, PressureField};
 
-/// Period along x and y over the contact's bounding box, in place of an unbounded surface; chosen. A factor of 2 is enough for the
-/// square of the transform. With 8 along x, bands are an eighth of the contact's own wave number wide.
+/// Period along x and y over the contact's bounding box, in place of an unbounded surface. A factor of 2 is enough
+/// for the square of the transform. With 8 along x, bands are an eighth of the contact's own wave number wide, which
+/// is the resolution of the dissipation over frequency.
 const PERIOD_OVER_CONTACT: [usize; 2] = [8, 4];
 
 /// Frequency bands of a line contact that slides at a `velocity` \[m/s]; `pressure` has [position \[m], pressure] at increasing

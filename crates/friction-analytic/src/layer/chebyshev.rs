@@ -6,15 +6,17 @@
 
 use std::f64::consts::PI;
 
-/// Number of nodes of the first interpolation; chosen.
+/// Number of nodes of the first interpolation. It changes the number of evaluations only: nodes are added until the
+/// tail is within the tolerance.
 const INITIAL_NODES: usize = 9;
 /// Factor on the number of nodes per refinement: with 3, the zeros of T_n are among those of T_3n.
 const NODE_GROWTH: usize = 3;
-/// Largest number of nodes; chosen.
+/// Largest number of nodes: a limit of the time, beyond which the caller judges the tail.
 const MAX_NODES: usize = 243;
-/// Number of last coefficients whose largest modulus is the truncation error; chosen.
+/// Number of last coefficients whose largest modulus estimates the truncation error: two may vanish by the symmetry
+/// of a function, three do not. Chosen.
 const TAIL_TERMS: usize = 3;
-/// Coefficients below this fraction of the tolerance are dropped; chosen.
+/// Coefficients below this fraction of the tolerance are dropped; a hundred of them are within it.
 const DROPPED_FRACTION: f64 = 0.01;
 
 /// Chebyshev series of two functions of x from −1 to 1.

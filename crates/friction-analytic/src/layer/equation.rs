@@ -34,7 +34,8 @@ const WAVE_POINTS: PointCount = PointCount::new(45.0, 11.5);
 const CONTACT_POINTS: PointCount = PointCount::new(16.0, 4.0);
 /// Points of the rule over one smooth piece of the equivalent line. Chosen as [`WAVE_POINTS`] are.
 const LINE_POINTS: PointCount = PointCount::new(30.0, 6.0);
-/// Every number of points is a multiple of this one, so that similar radii share a rule; chosen.
+/// Every number of points is a multiple of this one, so that similar radii share a rule. It only raises the numbers
+/// of points.
 const POINT_MULTIPLE: usize = 8;
 
 /// Number of points of a rule as a function of a length.

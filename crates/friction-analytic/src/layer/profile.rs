@@ -23,10 +23,12 @@ use super::chebyshev::ChebyshevPair;
 use super::equation::{ContactDisc, EquivalentLine, WaveQuadrature};
 use crate::FrictionError;
 
-/// Largest modulus of the last coefficients, relative to the radius, at which a Chebyshev series is not refined further; chosen.
+/// Largest modulus of the last coefficients, relative to the radius, at which a Chebyshev series is not refined
+/// further. Chosen at the accuracy of the equations (case of `evidence tuning`).
 const SERIES_TOLERANCE: f64 = 1e-8;
-/// Largest sum of the last coefficients of both series with which a profile is still accepted; chosen.
-const MAX_TAIL: f64 = 5e-8;
+/// Largest sum of the last coefficients of both series with which a profile is still accepted: 1e-6 of the radius
+/// over [`ERROR_OVER_TAIL`], so that radii are known to 1e-6.
+const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
 /// Upper bound of the relative error of a radius, over the sum of the last coefficients of both series behind it.
 ///
 /// The test `the_profile_is_known_within_its_error` compares it with single contacts.
@@ -35,21 +37,23 @@ const ERROR_OVER_TAIL: f64 = 20.0;
 const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
 /// Upper bound of the contact radius on a layer over that on the half space at the same depth; the ratio is largest on a film.
 const MAX_RADIUS_RATIO: f64 = 3.0;
-/// Factor on the radius per step of the search for a depth; chosen.
+/// Factor on the radius per step of the search for a depth. It changes the number of evaluations only: the root is
+/// the same.
 const SEARCH_GROWTH: f64 = 1.25;
-/// Depth that the radius found is to reach, over the depth sought; chosen.
-///
-/// The cost of the equations grows like the cube of the radius, so that the radius is not to exceed the needed one by much.
+/// Depth that the radius found is to reach, over the depth sought. Chosen close to 1: the cost of the equations grows
+/// like the cube of the radius.
 const DEPTH_MARGIN: f64 = 1.02;
-/// Largest parameter σ of a [`GradedMap`], with which it is nearly linear in y; chosen.
+/// Largest parameter σ of a [`GradedMap`], with which it is linear in y to 2e-3, the relative size 1/(6 σ²) of the
+/// next term.
 const MAX_SIGMA: f64 = 10.0;
-/// Grading exponents of the maps that are tried one after the other; chosen.
-///
-/// The second one is needed for bodies of several powers, such as r + r^1.3.
+/// Grading exponents of the maps that are tried one after the other. The first is a plain map; the second is needed
+/// for bodies of several powers, such as r + r^1.3. Chosen; the tail decides which is taken.
 const GRADING_EXPONENTS: [f64; 2] = [1.0, 6.0];
-/// Largest contact radius over that of a vertical edge of the body, such as the equator of a sphere; chosen.
+/// Largest contact radius over that of a vertical edge of the body, such as the equator of a sphere: closer to it the
+/// slope grows without limit, and series converge slowly. Chosen.
 const MAX_RADIUS_OVER_EDGE: f64 = 0.99;
-/// Number of intervals between two kinks at whose ends the depth is checked to increase; chosen.
+/// Number of intervals between two kinks at whose ends the depth is checked to increase. Chosen; it only refuses
+/// bodies.
 const MONOTONICITY_INTERVALS: u8 = 64;
 
 /// The equivalent profile of a body on a layer, up to a depth.

@@ -25,7 +25,8 @@ static TABLE: LazyLock<Vec<(f64, Estimate)>> = LazyLock::new(|| {
     .collect()
 });
 
-/// Number of nodes of one interpolating polynomial, of the fifth degree; chosen.
+/// Number of nodes of one interpolating polynomial of the fifth degree, whose error is below that of the nodes.
+/// Chosen.
 const STENCIL_NODES: usize = 6;
 
 /// Scaling factor s(p) of the profile c r^p: friction of the viscous half space over that of the one-dimensional model.

@@ -73,7 +73,8 @@ const N_PANEL_NODES: usize = 8;
 /// Gaps and loads of the wrong sign that count as rounding: gaps relative to the largest depth, loads to the terms of
 /// a load. Chosen.
 pub(super) const SIGN_TOLERANCE: f64 = 1e-10;
-/// Part of the largest depth by which a body without force is lifted off the surface. Chosen.
+/// Part of the largest depth by which a body without force is lifted off the surface: more than rounding, and less
+/// than any force shows. Chosen.
 const LIFT_OFF_DEPTH: f64 = 1e-12;
 
 impl<'a> Contact<'a> {

@@ -23,7 +23,8 @@ const MAX_PARTS_UNDER_FORCE: usize = 1 << 14;
 /// Rounding of depths and radii that are roots of an equation, relative to them.
 const ROOT_ROUNDING: f64 = 1e-13;
 
-/// Error of a sum over elements by quadrature, as a part of the relative error that the depth may have. Chosen.
+/// Error of a sum over elements by quadrature, as a part of the relative error that the depth may have: negligible
+/// beside it. Chosen.
 const QUADRATURE_SHARE: f64 = 1e-3;
 
 /// A body under a history of the force.
@@ -331,7 +332,7 @@ fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, step: f64, rise: 
 }
 
 /// Equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked; twice as many points halve the
-/// distance to its beginning. Chosen.
+/// distance to the beginning of the interval. Chosen: the integral changes its sign a few times at most.
 const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth, or as far as the line of the body rises; `deepest` is then reduced to that.

@@ -48,7 +48,7 @@ const FOUNDATION_PER_CONTACT: f64 = 4.0;
 /// thread.
 const MAX_WORK: f64 = 5e8;
 /// Elements from which on a friction that changes by more than its own size counts as error of the elements, so that
-/// the refinement stops. Chosen.
+/// the refinement stops: a limit of the time.
 const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
 /// Order of convergence below the exponent of a tip or cusp, because its place between two elements is arbitrary.
 const TIP_ORDER_LOSS: f64 = 0.5;
@@ -59,7 +59,8 @@ const STEEP_KINK_ORDER: f64 = 0.5;
 const MIN_ELEMENTS_PER_STROKE: f64 = 4.0;
 /// Elements along the contact at most on the resolution where a relative error is first sought. Chosen.
 const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
-/// Relative tolerance of the limit cycle on a given number of elements. Chosen.
+/// Relative tolerance of the limit cycle on a given number of elements, below the error of any affordable number of
+/// them. Chosen.
 const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 
 /// Moves a line over an undeformed Winkler foundation, through the points of a motion or reciprocating in its limit cycle.

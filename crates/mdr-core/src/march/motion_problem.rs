@@ -16,7 +16,7 @@ use crate::branches::{Foundation, n_history};
 use crate::error::enough_elements;
 use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
 
-/// Steps of a motion, or of one cycle, beyond which it is refused. Chosen.
+/// Steps of a motion, or of one cycle, beyond which it is refused: a limit of the time.
 const MAX_STEPS: f64 = 4e6;
 /// Duration of the first pressing, at rest, relative to that of the first step. Measured by `evidence tuning`.
 pub(super) const FIRST_PRESSING_DURATION: f64 = 1e-3;

@@ -27,7 +27,7 @@ use crate::line::{ElementHeights, HeightRow, HeightTable};
 const FOUNDATION_MARGIN: f64 = 2.0;
 
 /// Gap, relative to the depth, up to which an element with a dashpot counts as in contact when the foundation is
-/// reloaded. Chosen.
+/// reloaded: the rounding of positions and heights. Chosen.
 const DASHPOT_CONTACT_TOLERANCE: f64 = 1e-9;
 /// Motion in a step, relative to the spacing, up to which the line counts as at rest: rounding of positions.
 const REST_DISPLACEMENT: f64 = 1e-7;

@@ -47,19 +47,23 @@ pub struct Minimum {
     pub model: QuadraticModel,
 }
 
-/// Largest number of steps that lower the sum; chosen.
+/// Largest number of steps that lower the sum: a limit of the time.
 const MAX_STEPS: usize = 100;
-/// Damping λ of the first step; chosen.
+/// Damping λ of the first step, relative to the diagonal: the customary 1e-3. It changes the path to the minimum, not
+/// the minimum.
 const INITIAL_DAMPING: f64 = 1e-3;
-/// Factor on the damping after a step that lowers the sum; chosen.
+/// Factor on the damping after a step that lowers the sum. Chosen; it changes the number of steps, not the minimum.
 const DAMPING_DECREASE: f64 = 0.2;
-/// Factor on the damping after a step that does not lower the sum; chosen.
+/// Factor on the damping after a step that does not lower the sum. Chosen; it changes the number of steps, not the
+/// minimum.
 const DAMPING_INCREASE: f64 = 4.0;
-/// Damping at which the search gives up lowering the sum; chosen.
+/// Damping at which the search gives up lowering the sum: a step is then 1e-9 of that without damping along each
+/// parameter. A limit of the time.
 const MAX_DAMPING: f64 = 1e9;
-/// Damping of a step by the model alone, which keeps a singular matrix positive definite; chosen.
+/// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite:
+/// above rounding, and far below what changes a step.
 const MODEL_STEP_DAMPING: f64 = 1e-9;
-/// Fraction of the sufficient decrease below which a step counts as no decrease; chosen.
+/// Fraction of the sufficient decrease below which a step counts as no decrease, so that the search ends. Chosen.
 const STAGNATION_FRACTION: f64 = 0.1;
 /// Fraction of the largest step above which a step counts as limited by it; below 1 because of rounding.
 const LIMITED_STEP_FRACTION: f64 = 0.999;

@@ -17,16 +17,18 @@ pub struct IntervalEnd {
     pub relative_tolerance: f64,
 }
 
-/// Largest number of points of the search; chosen.
+/// Largest number of points of the search for one end of an interval: a limit of the time.
 const MAX_TRIALS: usize = 20;
-/// Largest number of evaluations of the sum per trial; chosen.
+/// Largest number of evaluations of the sum per trial: a limit of the time.
 ///
-/// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is too small
-/// rather than too large, and the interval becomes wider.
+/// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is
+/// too small rather than too large, and the interval becomes wider.
 const MAX_EVALUATIONS: usize = 12;
-/// Sufficient decrease of the inner minimisation, as a fraction of `rise` times the relative tolerance; chosen.
+/// Sufficient decrease of the inner minimisation, as a fraction of `rise` times the relative tolerance: it moves
+/// √(rise of the minimal sum/`rise`) by 0.15 of the tolerance at most.
 const INNER_TOLERANCE: f64 = 0.3;
-/// Bounds of the relative position of the next trial between the last two, which keep the bracket shrinking; chosen.
+/// Bounds of the relative position of the next trial between the last two, which keep the bracket shrinking by 2 % at
+/// least. Chosen.
 const INTERPOLATION_RANGE: [f64; 2] = [0.02, 0.98];
 
 /// The value of one parameter at which the minimal sum over all others, within their ranges, has risen as required.

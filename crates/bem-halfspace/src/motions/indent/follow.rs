@@ -17,7 +17,8 @@ use crate::estimate::refinement_limits::HISTORY;
 use crate::march::n_history_variables;
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Most steps in time of a history on one grid, unless its points are so many that [`MIN_STEPS_PER_INTERVAL`] needs more.
+/// Largest number of time steps of a history on one grid, unless its points are so many that
+/// [`MIN_STEPS_PER_INTERVAL`] needs more: a limit of the time.
 const MAX_HISTORY_STEPS: usize = 4096;
 /// Steps between two points that are always allowed: three halvings of one step.
 const MIN_STEPS_PER_INTERVAL: usize = 8;

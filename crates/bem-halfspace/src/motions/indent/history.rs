@@ -12,11 +12,11 @@ use crate::{BemError, Elastomer, GridOptions};
 /// Smallest ratio of two successive changes by halving the steps: that of an error of the first order in their length. Changes that
 /// fall faster count as such, because two of them may agree by chance.
 const FIRST_ORDER_RATIO: f64 = 0.5;
-/// Ratio of successive changes where only one is known, so that the error is twice that change. Chosen between the first order and
-/// [`LARGEST_RATIO`].
+/// Ratio of successive changes where only one is known, so that the error is twice that change: between the first
+/// order, 1/2, and [`LARGEST_RATIO`]. Chosen; it decides a bar only where a single halving is affordable.
 const ASSUMED_RATIO: f64 = 2.0 / 3.0;
-/// Largest ratio of successive changes, with which the error is nine times the last one. Chosen: changes that the tolerance of the
-/// contact leaves no longer fall.
+/// Largest ratio r of successive changes, with which the error is r/(1 − r) = 9 times the last one. Chosen: changes
+/// that the tolerance of the contact leaves no longer fall.
 const LARGEST_RATIO: f64 = 0.9;
 
 /// How exactly a history is followed.

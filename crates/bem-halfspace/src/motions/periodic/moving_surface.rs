@@ -26,7 +26,7 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 
-/// Maximum number of elements times steps of a cycle or path: a few minutes.
+/// Largest number of elements times steps of a cycle or path: a limit of the time, a few minutes.
 const MAX_ELEMENT_STEPS: f64 = 6e7;
 
 /// A motion of a surface over a material.

@@ -34,11 +34,14 @@ const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;
 /// On 1024² elements a contact takes an eighth to a third more operator applications with 1e-2, and as much less with 1e-3, of
 /// which each takes longer.
 const INITIAL_TOLERANCE: f64 = 3e-3;
-/// Factor on the tolerance when GCR stagnates; chosen.
+/// Factor on the tolerance of the block equation when GCR stagnates. Chosen; from 0.03 to 0.9 no digit of an answer
+/// changes.
 ///
-/// A dense contact on a solid of many branches takes four times as many operator applications at the initial tolerance.
+/// A dense contact on a solid of many branches takes four times as many operator applications at the initial
+/// tolerance.
 const TOLERANCE_REDUCTION: f64 = 0.3;
-/// Lower bound of the tolerance; chosen.
+/// Lower bound of the tolerance of the block equation, relative to its right side. Chosen above the rounding of
+/// single precision, 6e-8; from 1e-7 to 1e-4 no digit of an answer changes.
 const MIN_TOLERANCE: f64 = 1e-5;
 /// Constant weight of the preconditioner of the block equation, as a fraction of the mean of W. With 1 a contact takes a tenth
 /// longer, with 0.1 as long.

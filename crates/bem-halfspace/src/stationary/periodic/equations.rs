@@ -31,7 +31,7 @@ use crate::stationary::periodic::block_correction::BlockCorrection;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Maximum number of steps if the basis has to be truncated to fit into memory; chosen.
+/// Largest number of GCR steps if the basis has to be truncated to fit into memory: a limit of the time.
 const MAX_STEPS_IF_TRUNCATED: usize = 80;
 /// Maximum number of steps, if the whole basis fits into memory.
 ///
@@ -43,11 +43,14 @@ const MAX_STEPS: usize = 400;
 /// With 57 per cent of 2048² elements in contact and moduli that differ by 1000 there are 146 operator applications, with 12
 /// numbers 274 and with 24 of them 136.
 const BASIS_FLOATS_PER_ELEMENT: usize = 16;
-/// Memory budget of the basis on a small grid, in single-precision numbers per element, up to [`MAX_BASIS_FLOATS_ON_SMALL_GRID`]; chosen.
+/// Memory budget of the basis on a small grid, in single-precision numbers per element, up to
+/// [`MAX_BASIS_FLOATS_ON_SMALL_GRID`]: a limit of the memory.
 pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
-/// Largest basis that may exceed [`BASIS_FLOATS_PER_ELEMENT`], in single-precision numbers: 64 MiB; chosen.
+/// Largest basis that may exceed [`BASIS_FLOATS_PER_ELEMENT`], in single-precision numbers: a limit of the memory, 64
+/// MiB.
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
-/// Ratio of two successive residuals above which the coarse-space correction is solved more accurately; chosen.
+/// Ratio of two successive residuals above which the coarse-space correction is solved more accurately. Chosen; from
+/// 0.5 to 0.99 no answer changes by more than 1e-9 of its bar.
 const STAGNATION_RATIO: f64 = 0.9;
 /// Break-even of direct solve and iteration: cost of a direct solve with n unknowns on a grid of N elements, in GCR steps, divided by
 /// n³/N; measured on one thread. With faer it is 2e-4 to

@@ -14,11 +14,13 @@ use crate::transform::fast_length::fast_length;
 
 /// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
-/// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]; chosen.
+/// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]: a limit of the
+/// time, 2048².
 ///
 /// Above it the first grid has one element per shortest wave, and contains only the modes that it resolves.
-pub(super) const MAX_USUAL_GRID: f64 = 4_194_304.0;
-/// The edges of such a first grid are multiples of this number of elements; chosen.
+pub(super) const MAX_USUAL_GRID: f64 = (1_u64 << 22) as f64;
+/// The edges of a first grid with one element per shortest wave are multiples of this number of elements, so that
+/// nested iteration can coarsen them. From 2 to 32 no digit of an answer changes.
 const COARSE_EDGE_MULTIPLE: usize = 8;
 /// Memory per element without the GCR basis, at most, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 186.0;

@@ -16,7 +16,7 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
-/// Maximum number of operator applications for a first guess; chosen.
+/// Largest number of operator applications for an initial guess: a limit of the time.
 const COARSE_MAX_PRODUCTS: usize = 300;
 /// Largest number of active elements per active element of twice the edges after prolongation; above it the set is restricted to
 /// their children.

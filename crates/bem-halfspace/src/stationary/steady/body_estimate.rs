@@ -21,10 +21,12 @@ use crate::{BemError, Elastomer};
 /// Convergence order that is assumed under a smooth body. The front leaves 3/2, a boundary that follows the elements less. With 1.1 the
 /// error estimates hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90; with 1 they are wider.
 const BODY_ORDER: f64 = 1.1;
-/// On a given number of elements the friction from dissipation replaces that from slopes if its error is below this fraction of the other;
-/// chosen. The smaller of two error estimates holds less often than either.
+/// Ratio of the error of the friction from dissipation to that of the friction from slopes, on a given number of
+/// elements, below which the former replaces the latter. The smaller of two error estimates holds less often than
+/// either. Chosen (case of `evidence tuning`).
 const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
-/// Largest number of footprints; chosen. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
+/// Largest number of footprints: a limit of the time. Each is 1.5 times as long as the one before, so that the last
+/// is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
 /// Memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes].
 const STEADY_BYTES_PER_ELEMENT: f64 = 1000.0;

@@ -24,7 +24,8 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 /// rounding. Beyond it the few steps from a good guess are faster: 0.1 to 0.3 ms against 0.4 ms at 145 unknowns, 0.4 to 0.7 ms against 7 ms
 /// at 557.
 const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
-/// Largest number of GCR steps, and truncation depth of the basis; chosen. A preconditioned contact needs some tens.
+/// Largest number of GCR steps, and truncation depth of the basis: a limit of time and memory. A preconditioned
+/// contact needs some tens.
 pub(super) const MAX_GCR_STEPS: usize = 150;
 /// GCR without truncation: the basis keeps all directions.
 pub(super) const GCR_LIMITS: GcrLimits = GcrLimits {

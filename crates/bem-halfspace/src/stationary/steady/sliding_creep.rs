@@ -19,8 +19,9 @@ use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
 
 use crate::{Base, BemError, Elastomer};
 
-/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence radius is finite;
-/// chosen. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs.
+/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence
+/// radius is finite. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs.
+/// From 1e-200 to 1e-30 no digit of an answer changes.
 pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 
 /// The creep of a material on its base at a sliding speed, on a track if there is one.

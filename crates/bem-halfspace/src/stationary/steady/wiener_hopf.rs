@@ -22,7 +22,8 @@ use crate::stationary::steady::wake_table::WakeTable;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
 
-/// Elements by which the period of the filters exceeds the box; chosen. Few are enough, because the inverse factors decay fast.
+/// Elements by which the period of the filters exceeds the box. Few are enough, because the inverse factors of the
+/// preconditioner decay fast. Chosen; from 0 to 16 no answer changes by more than 8 % of its bar.
 const FILTER_MARGIN: usize = 4;
 
 /// Index of the inverse of the forward factor, which contains the creep filter.

@@ -31,7 +31,8 @@ use workspace::{Buffers, for_each_chunk};
 
 /// Columns that are gathered together (a tile): eight complex numbers fill two cache lines.
 const COLUMNS_PER_TILE: usize = 8;
-/// Rows (a strip) whose pieces of a tile are contiguous, so that columns are gathered from few places of memory; chosen.
+/// Rows (a strip) whose pieces of a tile are contiguous, so that columns are gathered from few places of memory. It
+/// changes the time only.
 const ROWS_PER_STRIP: usize = 8;
 /// The complex number 0.
 pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };

@@ -15,13 +15,16 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::{BemError, Grid};
 
-/// Tolerance of the residual of the adjoint equations, relative to the initial one; chosen.
+/// Tolerance of the residual of the adjoint equations, relative to the initial one: about the rounding of single
+/// precision, in which each step of the iterative refinement is solved.
 const ADJOINT_TOLERANCE: f64 = 1e-7;
-/// Tolerance of each single-precision solve of the iterative refinement, relative to its residual; chosen.
+/// Tolerance of each single-precision solve of the iterative refinement, relative to its residual: far above the
+/// rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`].
 const REFINEMENT_REDUCTION: f64 = 1e-3;
-/// Maximum number of steps of the iterative refinement; chosen.
+/// Largest number of steps of the iterative refinement: a limit of the time.
 const MAX_REFINEMENT_STEPS: usize = 20;
-/// The refinement stagnates if a step leaves more than this fraction of the residual; chosen.
+/// Fraction of the residual above which a step of the iterative refinement that leaves more of it stagnates, and the
+/// refinement ends. Chosen far above [`REFINEMENT_REDUCTION`] and below 1.
 const STAGNATION_RATIO: f64 = 0.7;
 
 /// Derivatives of one quantity under a constant mean pressure.

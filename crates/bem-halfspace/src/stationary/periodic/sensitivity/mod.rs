@@ -35,7 +35,8 @@ use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
-/// Largest relative difference of two periods that count as equal; chosen.
+/// Largest relative difference of two periods that count as equal: above the rounding of numbers of ten digits in a
+/// file.
 const PERIOD_TOLERANCE: f64 = 1e-9;
 /// The elements at edges scatter.
 const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {

@@ -15,7 +15,8 @@ use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
-/// Relative residual of the adjoint equations, ‖r‖ over the norm of the right side; chosen.
+/// Relative residual of the adjoint equations, ‖r‖ over the norm of the right side, far below the error of the
+/// derivatives by the elements. Chosen.
 const ADJOINT_TOLERANCE: f64 = 1e-9;
 
 /// Direction of the motion in the equations.

@@ -23,11 +23,12 @@ use crate::stationary::steady::wake_table::WakeTable;
 /// Relative step of the differences by the memory length of a retardation element, the length of a track or the thickness of a layer:
 /// about the square root of the relative error 1e-11 of kernels, where the truncation and the error of a one-sided difference balance.
 const LENGTH_STEP: f64 = 1e-6;
-/// Wave number that stands for q = 0, over the upper end of a band from 0 on; chosen. Any wave far longer than the contact and all waves
-/// of the band serves.
+/// Wave number that stands for q = 0, over the upper end of a band from 0 on: any wave far longer than the contact
+/// and all waves of the band serves.
 const UNIFORM_WAVE_NUMBER: f64 = 1e-6;
-/// Smallest logarithm of the ratio of two memory lengths in a row for which retardation elements are matched by their order; chosen, far
-/// above the change of a memory length in a derivative. Elements that are closer are not matched, at the cost of whole kernels.
+/// Smallest logarithm of the ratio of two memory lengths in a row for which retardation elements are matched by their
+/// order, a thousand times the change of a memory length in a derivative. Elements that are closer are not matched,
+/// at the cost of whole kernels.
 const MIN_LOG_MEMORY_RATIO: f64 = 1e-3;
 
 /// The derivatives of a quantity by the kernel.

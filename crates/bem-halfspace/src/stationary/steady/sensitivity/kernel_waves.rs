@@ -21,18 +21,22 @@ use rustfft::num_complex::Complex;
 use crate::Base;
 use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
 
-/// Step of u of the trapezoidal rule, for an integrand that does not oscillate; chosen.
+/// Step of u of the trapezoidal rule, for an integrand that does not oscillate: the rule converges exponentially.
+/// Tests compare with a closed form.
 const QUADRATURE_STEP: f64 = 0.25;
-/// Steps of the trapezoidal rule per shortest wave of an oscillating integrand. This wave is at the end of the range, where the integrand
-/// is negligible; chosen.
+/// Steps of the trapezoidal rule per shortest wave of an oscillating integrand, Nyquist's two. This wave is at the
+/// end of the range, where the integrand is negligible.
 const STEPS_PER_WAVE: f64 = 2.0;
 /// Product x of wave number and thickness above which a layer acts like a half space: M − 1, of the order x² e^(−2x), is below 1e-13.
 const MAX_LAYER_WAVE_NUMBER: f64 = 18.0;
-/// Largest length of a panel of the integral over a band, in waves over the longest distance of the correlation; chosen.
+/// Largest length of a panel of the integral over a band, in waves over the longest distance of the correlation:
+/// below half a wave. Chosen.
 const WAVES_PER_PANEL: f64 = 0.4;
-/// Largest ratio of the ends of a panel of the integral over a band; chosen.
+/// Largest ratio of the ends of a panel of the integral over a band, for an integrand that varies with the logarithm
+/// of the wave number. Chosen.
 const PANEL_RATIO: f64 = 1.25;
-/// End of the first panel of a band from 0 on, over the end of the band; chosen.
+/// End of the first panel of a band from 0 on, over the end of the band; the panel carries a thousandth of the band.
+/// Chosen.
 const FIRST_PANEL_END: f64 = 1e-3;
 /// The nodes ±1/√3 of the Gauss rule of two points on [−1, 1].
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];

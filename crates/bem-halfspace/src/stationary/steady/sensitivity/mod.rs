@@ -53,13 +53,16 @@ use two_grid_extrapolation::mean_over_shifts;
 
 /// Spacing of the coarse grids over that of the fine ones.
 const COARSE_SPACING_FACTOR: f64 = 2.0;
-/// Error of ∂ln μ/∂ln F and ∂ln μ/∂ln v above which the spacing is halved; chosen.
+/// Error of ∂ln μ/∂ln F and ∂ln μ/∂ln v above which the spacing is halved. Chosen; from 1e-3 to 0.1 no digit of an
+/// answer changes.
 const LOG_DERIVATIVE_TOLERANCE: f64 = 4e-3;
-/// Largest number of unknown pressures for which the spacing is halved; chosen.
+/// Largest number of unknown pressures for which the spacing is halved: a limit of the time.
 const HALVING_MAX_UNKNOWNS: usize = 2000;
-/// Largest tolerance of a contact; chosen. The gaps behind a rear that opens slowly are small.
+/// Largest tolerance of a contact, because the gaps behind a rear that opens slowly are small. Chosen; with 1e-12 no
+/// answer changes by more than 4 % of its bar, with 1e-7 a bar is 59 times as wide.
 const MAX_CONTACT_TOLERANCE: f64 = 1e-10;
-/// Spacing in plane strain over that of the options; chosen. The options have few elements, so that finer grids still take little time.
+/// Spacing in plane strain over that of the options, whose grids have few elements, so that finer ones still take
+/// little time. Chosen (case of `evidence tuning`).
 const STRIP_SPACING_FACTOR: f64 = 0.25;
 /// Shifts along x and y of the grids that are averaged, in elements.
 const SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
