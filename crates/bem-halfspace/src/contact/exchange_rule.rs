@@ -87,7 +87,7 @@ impl ExchangeRule {
     }
 
     /// Non-improving updates since the last improvement.
-    pub(crate) const fn non_improving(&self) -> i32 {
+    const fn non_improving(&self) -> i32 {
         self.stagnation.non_improving
     }
 

@@ -42,8 +42,7 @@ pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
 /// Of 1135 results the worst erred by 4.2 bars without it, and by 2.6 with it.
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
 /// Fewest elements in contact on the coarsest grid of an error estimate for the bars to hold. With fewer, the active
-/// set decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes,
-/// because their contacts have more.
+/// set decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes.
 pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
 /// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for.
 /// Chosen; from 1e-7 to 1e-4 no answer changes by more than 3 % of its bar.

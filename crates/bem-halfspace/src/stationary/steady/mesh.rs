@@ -22,8 +22,6 @@ use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
-/// Height below which the foot of a steep flank lies, in units of the depth scale; chosen.
-const FLANK_FOOT_HEIGHT: f64 = 0.1;
 /// Height below which elements are in the initial active set, in units of the depth scale: about the height at the sides of the contact of
 /// a paraboloid.
 const GUESSED_HEIGHT: f64 = 0.5;
@@ -311,16 +309,6 @@ impl Mesh {
     /// Height at the collocation point of an element, in units of the depth scale.
     pub(super) fn height(&self, element: usize) -> f64 {
         self.elements[element].height
-    }
-
-    /// True if elements `factor` times as long still resolve the flanks of the body: if none rises from the foot of a flank to the depth scale.
-    pub(super) fn resolves_flanks(&self, factor: f64) -> bool {
-        let dx = factor * self.options.spacing[0];
-        let spans_flank = |element: &Element| {
-            let rise = element.slope * dx / self.loading.depth_scale;
-            element.height < FLANK_FOOT_HEIGHT && element.height + rise > 1.0
-        };
-        !self.elements.iter().any(spans_flank)
     }
 
     /// Initial active set: candidates below [`GUESSED_HEIGHT`], with negligible loads.
