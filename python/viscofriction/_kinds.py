@@ -14,6 +14,7 @@ __all__ = [
     "Cone",
     "Paraboloid",
     "Sphere",
+    "Spheroid",
     "Superposition",
     "FlatPunch",
     "FlatCone",
@@ -80,6 +81,19 @@ class Sphere(Body):
 
     radius: float
     _kind = "sphere"
+
+
+@dataclass(frozen=True)
+class Spheroid(Body):
+    """Half a spheroid: h = height (1 − √(1 − r²/radius²)).
+
+    ``radius``: Semi-axis across > 0, [m].
+    ``height``: Semi-axis along z > 0, [m].
+    """
+
+    radius: float
+    height: float
+    _kind = "spheroid"
 
 
 @dataclass(frozen=True)

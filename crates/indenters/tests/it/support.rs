@@ -3,7 +3,7 @@
 use casebook::superposition;
 use indenters::{
     Axisymmetric, FlatCone, Hyperboloid, IndenterError, PiecewiseLinearProfile, PowerProfile,
-    RoundTippedCone, SampledLine, Sphere, TruncatedParaboloid,
+    RoundTippedCone, SampledLine, Sphere, Spheroid, TruncatedParaboloid,
 };
 
 pub(crate) fn boxed<S: Axisymmetric + 'static>(
@@ -41,6 +41,7 @@ pub(crate) fn all_shapes() -> Vec<(&'static str, Box<dyn Axisymmetric>)> {
         ("paraboloid", boxed(PowerProfile::paraboloid(2.0))),
         ("power 7.3", power(2.0, 7.3)),
         ("sphere", boxed(Sphere::new(1.1))),
+        ("spheroid", boxed(Spheroid::new(1.1, 0.4))),
         ("flat cone", boxed(FlatCone::new(0.5, 0.3))),
         ("worn paraboloid", boxed(TruncatedParaboloid::new(0.5, 0.3))),
         ("round-tipped cone", boxed(RoundTippedCone::new(0.5, 0.3))),

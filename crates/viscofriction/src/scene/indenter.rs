@@ -48,6 +48,13 @@ pub enum Indenter {
         /// Radius > 0, \[m].
         radius: f64,
     },
+    /// Half a spheroid: h = height (1 − √(1 − r²/radius²)).
+    Spheroid {
+        /// Semi-axis across > 0, \[m].
+        radius: f64,
+        /// Semi-axis along z > 0, \[m].
+        height: f64,
+    },
     /// A sum of powers.
     Superposition {
         /// The terms; that of the lowest exponent has a positive coefficient.

@@ -6,7 +6,8 @@ use std::path::Path;
 use indenters::rough::{PeriodicSurface, SelfAffine};
 use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
-    PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
+    PowerProfile, PowerTerm, RoundTippedCone, Sphere, Spheroid, Superposition, Surface,
+    TruncatedParaboloid,
 };
 use numerics::MessageNumber;
 
@@ -133,6 +134,7 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
         &Indenter::Cone { slope } => PowerProfile::cone(slope).map(power),
         &Indenter::Paraboloid { curvature } => PowerProfile::paraboloid(curvature).map(power),
         &Indenter::Sphere { radius } => Sphere::new(radius).map(sphere),
+        &Indenter::Spheroid { radius, height } => Spheroid::new(radius, height).map(other),
         &Indenter::FlatPunch { radius } => FlatPunch::new(radius).map(other),
         &Indenter::FlatCone { radius, slope } => FlatCone::new(radius, slope).map(other),
         &Indenter::RoundTippedCone { radius, slope } => {
